@@ -19,8 +19,10 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.read_file import read
+from vectorplot.scene.item import Item, Pattern
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import default_camera
-from vectorplot.scene.scene import Item, Page, Pattern, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import StageReport
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
 from vectorplot.testing.shapes import box, rotated_boxes

@@ -18,7 +18,11 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
-from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
+from vectorplot.scene.item import Item, Pattern
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.palettes import palette
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.testing.shapes import (

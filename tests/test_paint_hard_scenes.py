@@ -14,7 +14,11 @@ from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
-from vectorplot.scene.scene import Item, Light, Material, Page, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import (
     box,
     cyclic_bars,

@@ -17,7 +17,10 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import Fills
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.paint import paint
-from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import box, random_convex_solids, rotated_boxes
 
 

@@ -9,8 +9,10 @@ from vectorplot.drawing.painted_fills import placement_of_faces
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import FARTHEST_OFF_AXIS_DEG
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.item import Item
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
-from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.shading.raster.screen import picture_placement, pixel_system
 from vectorplot.surfaces.families.torus import Torus

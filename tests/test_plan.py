@@ -16,7 +16,10 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.read_file import read
 from vectorplot.paint import paint
 from vectorplot.render import render
-from vectorplot.scene.scene import Item, Light, Material, Pattern, Scene
+from vectorplot.scene.item import Item, Pattern
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import Stage, StageReport, Walk
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus

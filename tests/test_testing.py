@@ -13,7 +13,8 @@ from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.testing import (
     assert_drawing_is_right,
     assert_drawings_equal,

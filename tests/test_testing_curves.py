@@ -12,7 +12,7 @@ from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.strokes import Strokes
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.quadric import Quadric, implicit_cylinder, implicit_plane, implicit_sphere

@@ -13,7 +13,8 @@ from vectorplot.draw import draw
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder

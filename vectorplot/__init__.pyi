@@ -19,11 +19,15 @@ from .render import render
 from .save import save, save_for_latex
 from .scene.cuts.exploded import exploded
 from .scene.hatching import Hatching, Stippling
+from .scene.item import Item, Pattern
+from .scene.light import Light
+from .scene.material import Material
 from .scene.naming.annotations import arrow, axes
 from .scene.naming.dimensions import angle, centre_line, centre_mark, diameter, dimension, leader, radius
 from .scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
+from .scene.pages.page import Page
 from .scene.plots import graph, surface, tube
-from .scene.scene import Item, Light, Material, Page, Pattern, Scene
+from .scene.scene import Scene
 from .scene.surface_lines import Section, SurfaceLines
 from .shading.raster.image import Image
 from .technical.technical_sheet import technical_sheet

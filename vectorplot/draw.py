@@ -22,8 +22,8 @@ from vectorplot.linework.placed_lines import placed_lines
 from vectorplot.linework.traceable import traceable
 from vectorplot.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
 from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
-from vectorplot.scene.scene import Page
 from vectorplot.scene.view import look
 from vectorplot.stages.around_picture import beside_bar, left_of_bar
 from vectorplot.stages.subject import subject_of

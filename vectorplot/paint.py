@@ -25,12 +25,13 @@ from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.painting.painted_paper import background as background_of
 from vectorplot.painting.painted_paper import paper
 from vectorplot.plan import accuracy_of_paint, plan_paint, with_accuracy
-from vectorplot.scene.fitted_pages import FittedPage
+from vectorplot.scene.coincidence.twins import without_twins
+from vectorplot.scene.light import Light
 from vectorplot.scene.naming.annotations import annotation_points
+from vectorplot.scene.pages.fitted_pages import FittedPage
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import page_of
-from vectorplot.scene.scene import Light, Page
-from vectorplot.scene.twins import without_twins
 from vectorplot.shading.light.face_shades import view_lights
 from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.painted_colours import Lighting

@@ -21,10 +21,11 @@ from vectorplot.io.anything import scene_of
 from vectorplot.linework.finish import Finish
 from vectorplot.linework.lines_in_place import lines_in_place
 from vectorplot.plan import plan_panorama
+from vectorplot.scene.coincidence.seamless_scene import without_seams
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import field_of_vision
 from vectorplot.scene.point_of_view import page_of
-from vectorplot.scene.scene import Page, Scene
-from vectorplot.scene.seamless_scene import without_seams
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.visibility.projected_faces import project_faces

@@ -9,9 +9,11 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import is_annotation
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import box_corners, field_of_vision
-from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import Stage
 from vectorplot.stages.walk import StageReport as StageReport
 from vectorplot.stages.walk import Walk as Walk
@@ -155,7 +157,7 @@ def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: boo
     if not any(light.intensity != 0.0 for light in scene.lights):
         return "none", "no light shines"
     solid = any(item.material.opacity >= 1.0 for item in scene.items)
-    if not any(casts_shadow(item) or (solid and dims_light(item)) for item in scene.items):
+    if not any(item.casts_shadow or (solid and item.dims_light) for item in scene.items):
         return "none", "nothing stops light"
     projection = projection_of(camera, scene.bounds)
     corners = projection.points_of(box_corners(scene.bounds))
@@ -173,16 +175,6 @@ def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: boo
     return "buffer", "everything is about as far away"
 
 
-def casts_shadow(item: Item) -> bool:
-    """Whether an item stops light, as far as it has faces."""
-    return item.hides and item.material.opacity >= 1.0
-
-
-def dims_light(item: Item) -> bool:
-    """Whether light goes through an item, but not all of it."""
-    return item.material.is_clear and item.material.opacity > 0.0
-
-
 def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple[Stage, ...]:
     """The stages that rendering this scene calls for, in their order; nothing else runs. why: of such shadows."""
     stages = []
@@ -193,7 +185,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
     if shadows != "none" and scene.lights:
         how = {"buffer": "shadow buffers", "trapezoid": "trapezoidal shadow maps", "exact": "exactly"}[shadows]
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}" + (why and f", as {why}")))
-        if any(map(dims_light, scene.items)):
+        if any(item.dims_light for item in scene.items):
             stages.append(Stage("transparent shadows", "items are transparent"))
     stages.append(Stage("coplanar", "which of the faces in one plane is seen"))
     stages.append(Stage("depth", "which triangle is in front in every pixel"))

@@ -22,10 +22,12 @@ from vectorplot.rendering.pixel_bands import pixels_in_bands
 from vectorplot.rendering.pixels_beside_bar import PIXELS_PER_MM, pixels_beside_bar, pixels_left_of_bar
 from vectorplot.rendering.render_options import check_lights, check_render_options, check_whole, usual_samples
 from vectorplot.rendering.scene_shadows import ShadowMaps, scene_lighting, tapered_for
+from vectorplot.scene.coincidence.twins import without_twins
+from vectorplot.scene.light import Light
 from vectorplot.scene.naming.annotations import annotation_points
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
-from vectorplot.scene.scene import Light, Page, Scene
-from vectorplot.scene.twins import without_twins
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import view_of
 from vectorplot.shading.depth.coplanar import coplanar_faces
 from vectorplot.shading.light.face_shades import view_lights

@@ -14,8 +14,10 @@ import pytest
 
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.item import Item
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import default_camera
-from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.speed.clock import cpu_seconds
 from vectorplot.testing.curved_meshes import bumpy_icosphere
@@ -127,7 +129,8 @@ def test_peak_memory_at_a_million_triangles(tmp_path: Path) -> None:
 import numpy as np
 from vectorplot.draw import draw
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.item import Item
 mesh = Mesh.from_triangles(np.load({str(vertices)!r}), np.load({str(triangles)!r}))
 draw(Scene((Item("sphere", mesh),)), lines=("contour", "crease"), explain=lambda stage: print(stage.peak_mb))
 """

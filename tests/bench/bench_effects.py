@@ -13,8 +13,11 @@ from vectorplot.effects.mirrors.reflections import mirrors, reflections
 from vectorplot.geometry.bodies_of_revolution import revolution
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
 from vectorplot.scene.point_of_view import default_camera
-from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.speed.clock import cpu_seconds
 from vectorplot.testing.shapes import box, rotated_boxes

@@ -12,7 +12,8 @@ import pytest
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid
 from vectorplot.surfaces.families.torus import Torus

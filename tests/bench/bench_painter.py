@@ -12,8 +12,9 @@ from vectorplot.geometry.convex.convex_hulls import hull_mesh
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
+from vectorplot.scene.item import Item
 from vectorplot.scene.point_of_view import default_camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.speed.clock import cpu_seconds
 from vectorplot.testing.curved_meshes import bumpy_icosphere

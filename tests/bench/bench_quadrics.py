@@ -10,9 +10,10 @@ import pytest
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.added_lines import even_sections, with_lines
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.added_lines import even_sections, with_lines
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, even_cosines
 from vectorplot.speed.clock import cpu_seconds
 from vectorplot.stages.walk import StageReport

@@ -20,7 +20,10 @@ import numpy as np
 from vectorplot.scene.point_of_view import default_camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.render import render
-from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
 from vectorplot.testing.curved_meshes import bumpy_icosphere
 
 levels, shadows, lights, samples = {levels}, {shadows!r}, {lights}, {samples}

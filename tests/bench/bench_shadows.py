@@ -11,7 +11,8 @@ from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Light, Scene
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation

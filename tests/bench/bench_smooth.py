@@ -7,7 +7,9 @@ import pytest
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
 from vectorplot.speed.clock import cpu_seconds
 from vectorplot.stages.walk import StageReport

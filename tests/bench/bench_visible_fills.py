@@ -10,7 +10,9 @@ import pytest
 
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.paint import paint
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import box
 
 pytestmark = pytest.mark.bench

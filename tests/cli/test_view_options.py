@@ -6,8 +6,9 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.view_options import CameraOptions, PageOptions, camera_from, page_from
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import default_camera
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.shading.raster.screen import picture_placement, pixel_system
 from vectorplot.testing.shapes import box, scene_of

@@ -6,7 +6,9 @@ from hypothesis import strategies as st
 from vectorplot.draw import draw
 from vectorplot.effects.halos import outer_zones
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import box
 
 TOP = Camera.view("top", (0.0, 0.0, 0.0), 10.0)

@@ -12,7 +12,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.io.read_file import read
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.words import LineKind
 
 Cells = list[list[int]]

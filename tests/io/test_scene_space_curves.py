@@ -26,7 +26,9 @@ from vectorplot.io.description import describe
 from vectorplot.io.scenes.scene_families import CURVES
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.families.revolution import revolution_surface
 from vectorplot.testing import assert_on_both, assert_same_curve, curves_in_space

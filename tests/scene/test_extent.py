@@ -5,7 +5,8 @@ from vectorplot.curves.function import curve_of_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.cyclide import dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import centred, fitted
-from vectorplot.scene.scene import Page
 
 A4 = Page()
 

@@ -6,8 +6,10 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.pools import pools
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.coincidence.pools import pools
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.shading.shadows.shadow_buffer import aimed_system
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus

@@ -8,7 +8,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.solids import box
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.shading.raster import scene_pixels
 from vectorplot.shading.shadows import shadow_buffer, shadow_map
 from vectorplot.shading.shadows.map_settings import MapSettings

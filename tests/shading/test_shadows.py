@@ -23,7 +23,7 @@ from support.shaded_scenes import (
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.shading.raster.screen import raster_system
 from vectorplot.shading.shadows import shadow_map as maps
 from vectorplot.shading.shadows.seen_region import focus_of_depths, region_in_picture, seen_region

@@ -8,7 +8,8 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.compare import path_segments
 from vectorplot.words import LineKind
 

@@ -8,7 +8,10 @@ from support.top_fills import fills_of
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Light, Page, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import box
 
 CUBE = Scene((Item("CUBE", box((-1, -1, -1), (1, 1, 1)), colour="blue"),))

@@ -13,7 +13,9 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.paint import paint
-from vectorplot.scene.scene import Light, Page, Scene
+from vectorplot.scene.light import Light
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 
 PAGE = Page(160.0, 120.0, 0.0)
 COLUMNS, ROWS = 160, 120

@@ -11,7 +11,8 @@ import numpy as np
 from support.triangle_rays import TriangleRays
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 
 ABOVE = 2e-5
 """Rays start so far above the face they leave, in extents of the scene."""

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing import visible_by_rays
 from vectorplot.visibility.framing import frame_of, in_frame

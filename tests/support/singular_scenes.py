@@ -8,7 +8,8 @@ import numpy as np
 
 from vectorplot.curves.line import Line
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.cylinder import Cone
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus

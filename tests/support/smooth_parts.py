@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.visibility.smooth.sheets.family import StraightLines

@@ -8,7 +8,9 @@ import numpy as np
 
 from vectorplot.curves.circle import Circle
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder

@@ -7,7 +7,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.visibility.framing import frame_of, in_frame
 from vectorplot.visibility.polyhedra.hidden_lines import counted_parts

@@ -3,7 +3,8 @@ import pytest
 
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, cyclic_bars, interpenetrating_boxes, rotated_boxes
 from vectorplot.textbook.erasing_faces import Erased, erasing_edges, interleaved

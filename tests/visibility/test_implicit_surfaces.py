@@ -13,7 +13,9 @@ from support.smooth_seen import Chords, chords_seen
 from vectorplot.draw import draw
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide

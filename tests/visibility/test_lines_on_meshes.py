@@ -15,7 +15,9 @@ from vectorplot.geometry.repair.adjacency import mesh_edges
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.plan import plan_draw
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere

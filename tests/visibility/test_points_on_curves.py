@@ -13,7 +13,9 @@ from support.smooth_scenes import mixed_scenes, views
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.torus import ImplicitTorus
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.testing import assert_on_both, assert_on_surface, curves_in_space

@@ -15,7 +15,8 @@ from vectorplot.curves.line import Line
 from vectorplot.draw import draw
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.cylinder import Cone
 from vectorplot.words import LineKind
 

@@ -18,7 +18,9 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.placed import PlacedSurface
 from vectorplot.testing import assert_drawing_is_right

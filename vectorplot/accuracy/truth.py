@@ -7,8 +7,8 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import box_corners, fitted_picture
-from vectorplot.scene.scene import Page
 from vectorplot.testing.curve_distance import Segments, Tree
 from vectorplot.testing.curve_points import Curves
 

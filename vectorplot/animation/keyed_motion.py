@@ -13,8 +13,10 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera, Point
 from vectorplot.geometry.motions.movable import scale_matrix, shift_matrix, turn_matrix
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 from vectorplot.scene.point_of_view import default_camera
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.scene import Scene
 
 ALL = "all"
 """The name of all items."""

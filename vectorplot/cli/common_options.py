@@ -144,7 +144,7 @@ class Told:
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
         draws them."""
-        from vectorplot.scene.added_lines import line_kinds, with_lines, without_level_lines
+        from vectorplot.scene.lines.added_lines import line_kinds, with_lines, without_level_lines
 
         scene = self.cuts.of_scene(scene)
         keywords = self.keywords(scene)

@@ -157,14 +157,14 @@ class LineOptions:
 
 
 def _sections(planes: Planes, scene: Scene) -> Section:
-    from vectorplot.scene.added_lines import even_sections
+    from vectorplot.scene.lines.added_lines import even_sections
     from vectorplot.scene.surface_lines import Section
 
     return even_sections(scene, planes.normal, planes.count) if planes.count else Section(planes.normal, planes.offsets)
 
 
 def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
-    from vectorplot.scene.added_lines import round_sections
+    from vectorplot.scene.lines.added_lines import round_sections
     from vectorplot.scene.surface_lines import Section
     from vectorplot.scene.terrains.level_lines import USUAL_EVERY, with_index_lines
 

@@ -12,7 +12,7 @@ from vectorplot.errors import InputError
 from vectorplot.words import LINE_WORDS, line_words
 
 if TYPE_CHECKING:
-    from vectorplot.scene.scene import Light
+    from vectorplot.scene.light import Light
 
 Value = TypeVar("Value")
 
@@ -93,7 +93,7 @@ def numbers(text: str) -> tuple[float, ...]:
 
 def length(text: str) -> float:
     """The mm of a length on paper, such as 8cm."""
-    from vectorplot.scene.paper import length_mm
+    from vectorplot.scene.pages.paper import length_mm
 
     try:
         return length_mm(text)
@@ -103,7 +103,7 @@ def length(text: str) -> float:
 
 def page_size(text: str) -> tuple[float, float] | str:
     """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape, or the word FIT."""
-    from vectorplot.scene.paper import FIT, sheet_size
+    from vectorplot.scene.pages.paper import FIT, sheet_size
 
     if text.strip().lower() == FIT:
         return FIT
@@ -142,7 +142,7 @@ def kinds(text: str) -> tuple[str, ...]:
 
 def light(text: str) -> Light:
     """A lamp at X,Y,Z, and after a fourth comma its intensity."""
-    from vectorplot.scene.scene import Light
+    from vectorplot.scene.light import Light
 
     parts = [number(part.strip()) for part in text.split(",")]
     if len(parts) not in (3, 4):

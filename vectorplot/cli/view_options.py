@@ -14,7 +14,8 @@ from vectorplot.cli.options import at_least, between, chosen, direction, exclusi
 
 if TYPE_CHECKING:
     from vectorplot.geometry.cameras.camera import Camera, Point
-    from vectorplot.scene.scene import Page, Scene
+    from vectorplot.scene.pages.page import Page
+    from vectorplot.scene.scene import Scene
 
 Command = Callable[..., None]
 
@@ -149,8 +150,8 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
 def page_from(options: PageOptions, scene: Scene) -> Page:
     """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left."""
     from vectorplot.errors import InputError
-    from vectorplot.scene.fitted_pages import FittedPage, PageOfWidth, fitted_page, page_of_width
-    from vectorplot.scene.scene import Page
+    from vectorplot.scene.pages.fitted_pages import FittedPage, PageOfWidth, fitted_page, page_of_width
+    from vectorplot.scene.pages.page import Page
 
     base = chosen(scene.page, Page())
     own = (base.width_mm, base.height_mm)

@@ -11,8 +11,8 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.duplicates import without_duplicates
 from vectorplot.drawing.strokes.smooth_duplicates import without_smooth_duplicates
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, fitted_picture
-from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility

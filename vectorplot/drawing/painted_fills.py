@@ -9,8 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import Colours, Fills
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
-from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.framed_polygons import framed_faces
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points

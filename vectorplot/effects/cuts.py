@@ -14,7 +14,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 

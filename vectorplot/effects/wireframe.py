@@ -13,7 +13,8 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.layers import PENS, layers_of
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.depth_cueing import MIDDLE, edge_shades
 from vectorplot.shading.light.face_shades import limited_depths

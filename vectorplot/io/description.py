@@ -11,9 +11,9 @@ from vectorplot.geometry.repair.degenerate import without_stutter
 from vectorplot.geometry.repair.mesh_repair import MeshReport, mesh_report, without_loose_vertices
 from vectorplot.io.anything import scene_of
 from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
+from vectorplot.scene.coincidence.seamless_scene import without_seams
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Item
-from vectorplot.scene.seamless_scene import without_seams
+from vectorplot.scene.item import Item
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised

@@ -14,8 +14,9 @@ from vectorplot.drawing.pens.pen_rules import PenRule, frame_pen, pen_of, scaled
 from vectorplot.drawing.pens.sorted_layers import layer_words, not_plotted, sorted_layers
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.stages.around_picture import room_for_labels, titled
 from vectorplot.stages.walk import Walk

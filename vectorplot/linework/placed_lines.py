@@ -8,8 +8,8 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.drawn_lines import fitted_lines, strokes_on_page
 from vectorplot.geometry.budget import Budget
 from vectorplot.linework.traceable import Traceable
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, fitted_picture, mm_per_image
-from vectorplot.scene.scene import Page
 from vectorplot.tolerances.of_extent import FINEST_CHORD_OF_EXTENT
 from vectorplot.visibility.framing import frame_of
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility

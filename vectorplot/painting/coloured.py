@@ -14,7 +14,7 @@ from vectorplot.drawing.painted_fills import Overlay, fills_on_page, stacked
 from vectorplot.geometry.budget import Budget
 from vectorplot.painting.painted_paper import background, paper
 from vectorplot.painting.seen import Seen, finer, shades_of_faces
-from vectorplot.scene.scene import Page
+from vectorplot.scene.pages.page import Page
 from vectorplot.shading.light.face_shades import Shades
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, opacities
 from vectorplot.shading.light.refinement import shade_error

@@ -22,8 +22,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import cross, norm
+from vectorplot.scene.item import Item
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scene import Item
 from vectorplot.surfaces.surface import Surface, is_parametrised
 
 SLOPES: tuple[TangentField, TangentField] = (SteepestSlope(), TurnedField(SteepestSlope(), 0.5 * np.pi))

@@ -14,10 +14,10 @@ from vectorplot.painting.coloured import coloured
 from vectorplot.painting.hatching_lines import followed_lines
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.plan import plan_paint
+from vectorplot.scene.coincidence.twins import without_twins
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.twins import without_twins
 from vectorplot.shading.light.face_shades import view_lights
 from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.illumination import AMBIENT

@@ -14,9 +14,10 @@ from vectorplot.drawing.hatching.followed_lines import FollowedLines
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.painting.flowing_lines import flowing_lines, flows, on_page
 from vectorplot.scene.hatching import Hatching, Stippling
-from vectorplot.scene.integral_lines import KnownCurves
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.integral_lines import KnownCurves
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.capped_quadrics import capped_quadric_of
 from vectorplot.surfaces.surface import Surface, is_parametrised

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.drawing.fills import Colours, Fills
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.palettes import palette as shades_of
 
 PAPER = "white"

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from vectorplot.errors import InputError
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.shading.raster.screen import LARGEST_RASTER_PIXELS, LARGEST_SIDE_PIXELS, raster_size
 from vectorplot.tolerances.of_numbers import LARGEST_VIEW
 from vectorplot.words import check_word

@@ -9,8 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Ints
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.plan import casts_shadow, dims_light
-from vectorplot.scene.scene import Light, Scene
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.lighting import Blocked, Lighting, lighting_of
 from vectorplot.shading.raster.scene_triangles import SceneTriangles
@@ -56,7 +56,7 @@ class ShadowMaps:
         """The same for what light comes through: colours and opacities, and what is dimmed by things that have them."""
         groups: dict[tuple[str, float], Bools] = {}
         for number, item in enumerate(scene.items):
-            if dims_light(item):
+            if item.dims_light:
                 same = (item.colour, item.material.opacity)
                 groups.setdefault(same, np.zeros(len(scene.items), dtype=np.bool_))[number] = True
         return tuple((colour, opacity, self.of_items(casts)) for (colour, opacity), casts in groups.items())
@@ -67,7 +67,7 @@ def scene_lighting(walk: Walk, scene: Scene, view: View, maps: ShadowMaps) -> Li
     blocked: tuple[Blocked, ...] = ()
     clear: tuple[tuple[str, float, tuple[Blocked, ...]], ...] = ()
     if walk.calls_for("shadows"):
-        casts = np.array([casts_shadow(item) for item in scene.items], dtype=np.bool_)
+        casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)
         blocked = walk.run("shadows", maps.of_items, casts)
     if walk.calls_for("transparent shadows"):
         clear = walk.run("transparent shadows", maps.of_clear_items, scene)

@@ -1,12 +1,16 @@
-from .added_lines import even_sections, round_sections, with_lines, without_level_lines
 from .cuts.cut import Cut, CutPlane
 from .hatching import Hatching, Stippling
-from .integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, KnownCurves, ShortestPaths
+from .item import Item, Pattern
+from .light import Light
+from .lines.added_lines import even_sections, round_sections, with_lines, without_level_lines
+from .lines.integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, KnownCurves, ShortestPaths
+from .material import Material
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .naming.scales import BoxAxes, Colouring
-from .paper import sheet_size
+from .pages.page import Page
+from .pages.paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
-from .scene import Item, Light, Material, Page, Pattern, Scene
+from .scene import Scene
 from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
 from .terrains.level_lines import level_sections, round_heights
 from .terrains.terrain import terrain_mesh, terrain_scene

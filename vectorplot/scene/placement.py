@@ -10,7 +10,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.cameras.unit_projection import Projection
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_extent import FLAT_PICTURE
 
 

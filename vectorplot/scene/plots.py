@@ -13,7 +13,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.degenerate import without_stutter
 from vectorplot.geometry.repair.mesh_repair import mended
-from vectorplot.scene.scene import Item
+from vectorplot.scene.item import Item
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.families.tube import tube as tube_surface
 from vectorplot.surfaces.graphs import graph as graph_surface

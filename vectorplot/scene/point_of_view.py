@@ -7,9 +7,10 @@ import math
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.vectors import cross, normalize
-from vectorplot.scene.fitted_pages import FittedPage, PageOfWidth, fitted_page, page_of_width
-from vectorplot.scene.paper import FIT, length_mm, sheet_size
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.pages.fitted_pages import FittedPage, PageOfWidth, fitted_page, page_of_width
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.pages.paper import FIT, length_mm, sheet_size
+from vectorplot.scene.scene import Scene
 from vectorplot.words import unknown
 
 

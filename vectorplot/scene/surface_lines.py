@@ -12,7 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
-from vectorplot.scene.integral_lines import IntegralLines
+from vectorplot.scene.lines.integral_lines import IntegralLines
 from vectorplot.scene.terrains.terrain_lines import TerrainLines
 from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.words import LineKind

@@ -12,7 +12,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import Projection, projection_of
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import next_positions
-from vectorplot.scene.pools import pools
+from vectorplot.scene.coincidence.pools import pools
 from vectorplot.scene.scene import Scene
 
 

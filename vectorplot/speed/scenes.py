@@ -11,7 +11,9 @@ import numpy as np
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.curved_meshes import bumpy_icosphere

@@ -6,9 +6,9 @@ from typing import TYPE_CHECKING
 
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.layers import FRAME_PEN
-from vectorplot.scene.fitted_pages import FittedPage
+from vectorplot.scene.pages.fitted_pages import FittedPage
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scene import Page
 
 if TYPE_CHECKING:
     from vectorplot.drawing.lettering.scene_labels import SceneLabels

@@ -9,11 +9,13 @@ from typing import TYPE_CHECKING
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import plan_cuts
+from vectorplot.scene.coincidence.seamless_scene import without_seams
+from vectorplot.scene.light import Light
 from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.point_of_view import camera_of
-from vectorplot.scene.scene import Light, Page, Scene
-from vectorplot.scene.seamless_scene import without_seams
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.unbounded_items import tell_what_is_cut_off
 from vectorplot.scene.view import View
 from vectorplot.stages.walk import StageReport, Walk

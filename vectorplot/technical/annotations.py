@@ -10,10 +10,11 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import annotation_points, is_annotation
 from vectorplot.scene.naming.dimensions import dimension
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 OFFSET_MM, GAP_MM, BEYOND_MM = 10.0, 1.0, 2.0

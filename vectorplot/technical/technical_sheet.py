@@ -22,8 +22,9 @@ from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
 from vectorplot.scene.naming.joined_scenes import together
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import camera_of, page_of
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import StageReport
 from vectorplot.technical.annotations import (
     TEXT_MM,

@@ -12,8 +12,8 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.anything import scene_of
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
-from vectorplot.scene.scene import Page
 
 MOST = 1000
 """Drawings of one turntable."""

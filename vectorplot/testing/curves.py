@@ -12,7 +12,7 @@ from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.vectors import length, normalize
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.testing.curve_distance import Worst, worst_of_both

@@ -8,7 +8,8 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, moebius_strip, torus_mesh
 
 BOX_FACES = [[0, 2, 3, 1], [4, 5, 7, 6], [0, 1, 5, 4], [2, 6, 7, 3], [0, 4, 6, 2], [1, 3, 7, 5]]

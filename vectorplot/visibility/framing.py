@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision
-from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra.lines import Lines
 

@@ -11,7 +11,7 @@ from vectorplot.drawing import lettered_along
 from vectorplot.drawing.lettering.interrupted import inside_box
 from vectorplot.drawing.lettering.stroke_lengths import StrokeLengths
 from vectorplot.geometry import box
-from vectorplot.scene.fitted_pages import fitted_page
+from vectorplot.scene.pages.fitted_pages import fitted_page
 
 BLOCK = vp.Item("block", box((2, 1, 1)), "red")
 CAMERA = vp.Camera((6, -9, 5), (1, 0.5, 0.5))

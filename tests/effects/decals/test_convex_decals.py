@@ -11,7 +11,7 @@ from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered
 

@@ -10,7 +10,9 @@ from vectorplot.effects.decals.pattern_decals import pattern_decals
 from vectorplot.effects.mirrors.reflections import mirrors, reflections
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Material, Pattern, Scene
+from vectorplot.scene.item import Item, Pattern
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import interpenetrating_boxes
 from vectorplot.visibility.painter.image_faces import image_points

@@ -10,7 +10,8 @@ from vectorplot.features.meshes.patterns import face_frames
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import box
-from vectorplot.scene.scene import Item, Pattern, Scene
+from vectorplot.scene.item import Item, Pattern
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 
 SQUARE = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])

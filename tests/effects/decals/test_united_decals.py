@@ -13,7 +13,7 @@ from vectorplot.effects.shadows.shadow_decals import cast_shadows, shadow_decals
 from vectorplot.effects.shadows.shadow_grades import shadow_decals_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View, look
 from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, numbered, rotated_boxes

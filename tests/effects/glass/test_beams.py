@@ -10,7 +10,8 @@ from vectorplot.effects.glass.refracted_polygons import Soup
 from vectorplot.effects.glass.sight_rays import traced
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_hulls import hull_mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 
 

@@ -13,7 +13,10 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.paint import paint
 from vectorplot.save import write
-from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.palettes import palette
 from vectorplot.testing.shapes import box
 

@@ -12,7 +12,9 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_hulls import hull_mesh
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.painters_order import painters_order

@@ -6,7 +6,8 @@ import numpy as np
 
 from vectorplot.effects.glass.refracted_order import refracted_order
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.image_faces import ImageFaces, polygons_of

@@ -10,7 +10,8 @@ import pytest
 from vectorplot.effects.glass.refracted_polygons import Soup, bent
 from vectorplot.effects.glass.sight_rays import SightWays, traced
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
 

@@ -6,7 +6,8 @@ from hypothesis import strategies as st
 from vectorplot.effects.glass.refraction import plate_shift, seen_in_surface, tangents_of_rays
 from vectorplot.effects.glass.sight_rays import SightWays, traced, virtual_points
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
 

@@ -9,7 +9,10 @@ from vectorplot.effects.mirrors.mirror_lights import MIRRORED_SHARE, LightDouble
 from vectorplot.effects.mirrors.reflections import mirror_faces, mirrors_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.image_faces import drawn_faces

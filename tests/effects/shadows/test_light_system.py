@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.effects.shadows.light_system import FacePlanes, light_boxes, light_system
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, numbered, rotated_boxes
 

@@ -15,7 +15,7 @@ from vectorplot.effects.shadows.shadow_shades import LEVELS
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, numbered
 

@@ -19,7 +19,9 @@ from vectorplot.geometry.bodies_of_revolution import revolution
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.plane_cuts import parts_of, polygon_areas
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.testing.shapes import box, numbered, random_convex_solids, rotated_boxes, rotation

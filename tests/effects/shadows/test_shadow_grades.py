@@ -13,7 +13,8 @@ from vectorplot.effects.shadows.shadow_grades import Shadows, graded, joined_sha
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.plane_cuts import polygon_areas
-from vectorplot.scene.scene import Light, Scene
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, numbered

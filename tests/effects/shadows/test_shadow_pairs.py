@@ -12,7 +12,9 @@ from vectorplot.effects.shadows.shadow_decals import cast_shadows, cast_within
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered
 

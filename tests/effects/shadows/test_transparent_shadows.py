@@ -14,7 +14,10 @@ from vectorplot.effects.decals.decal_polygons import joined_decals
 from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.effects.shadows.transparent_shadows import transparent_shadows
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box
 

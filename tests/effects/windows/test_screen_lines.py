@@ -5,7 +5,9 @@ import shapely
 from vectorplot.effects.windows.screen_lines import item_opacities, screen_door, screen_door_pixels, sparseness
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.scene.scene import Item, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import box
 
 ELL = np.array([(0, 0), (9, 0), (9, 3), (3, 3), (3, 9), (0, 9)], dtype=float).T

@@ -5,7 +5,8 @@ from vectorplot.features.meshes.edges import Edges, Faces, mesh_edges
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.circulation import unbalanced_vertices
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.curved_meshes import bumpy_icosphere, moebius_strip, torus_mesh
 from vectorplot.testing.shapes import box

@@ -11,7 +11,9 @@ from vectorplot.features.meshes.mesh_lines import mesh_isophotes, mesh_point_lig
 from vectorplot.features.meshes.smooth_patches import apart_at_creases
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
 from vectorplot.testing.shapes import box
 from vectorplot.words import LineKind

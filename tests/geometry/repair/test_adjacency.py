@@ -23,7 +23,7 @@ from vectorplot.geometry.repair.adjacency import (
 )
 from vectorplot.geometry.solids import box, polyhedron
 from vectorplot.io.read_file import read
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
 from vectorplot.shading.light.face_shades import face_middles, face_normals, face_shades, view_lights
 from vectorplot.visibility.painter.pairs.face_pairs import BEHIND, IN_FRONT

@@ -16,7 +16,8 @@ from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.geometry.repair.winding import is_closed_oriented
 from vectorplot.geometry.solids import box
 from vectorplot.io.scenes.scene_language import parse_scene, read_scene
-from vectorplot.scene.scene import Light, Page
+from vectorplot.scene.light import Light
+from vectorplot.scene.pages.page import Page
 from vectorplot.words import PALETTES
 
 

@@ -17,7 +17,11 @@ from vectorplot.geometry.solids import box
 from vectorplot.io.scenes.scene_language import parse_scene, read_scene
 from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
 from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
+from vectorplot.scene.item import Item, Pattern
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.words import COLOURS, MATERIALS
 
 

@@ -9,7 +9,9 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.render import render
-from vectorplot.scene.scene import Item, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.shading.depth.coplanar import coplanar_faces
 from vectorplot.testing.shapes import box, rotation

@@ -13,8 +13,9 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import box
+from vectorplot.scene.item import Item
 from vectorplot.scene.point_of_view import default_camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.depth.depth_buffer import depth_buffer, depth_range, strips
 from vectorplot.shading.depth.depth_code import DepthCode
 from vectorplot.shading.raster.screen import front_facing, raster_system, screen_triangles

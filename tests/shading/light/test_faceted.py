@@ -6,7 +6,9 @@ import numpy as np
 
 from vectorplot.curves.circle import Circle
 from vectorplot.features.facets import Within
-from vectorplot.scene.scene import Item, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.faceted import faceted
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box

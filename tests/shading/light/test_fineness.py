@@ -17,9 +17,11 @@ from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.paint import paint
+from vectorplot.scene.item import Item
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import default_camera
-from vectorplot.scene.scene import Item, Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.refinement import SHADE_ERROR
 from vectorplot.surfaces.families.cyclide import dupin_cyclide

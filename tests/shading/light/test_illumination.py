@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.shading.light import illumination as il
 from vectorplot.shading.light.illumination import FINISHES, Finish
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.geometry.solids import box
-from vectorplot.scene.scene import Item
+from vectorplot.scene.item import Item
 from vectorplot.shading.light.nearness import nearby, triangles_of_item
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere

@@ -11,7 +11,10 @@ import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.effects.shadows.shadow_shades import shadow_shades
 from vectorplot.errors import InputError
-from vectorplot.scene.scene import Item, Light, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.face_shades import light_colours
 from vectorplot.shading.light.palettes import palette, shaded_colours
 from vectorplot.surfaces.families.ellipsoid import Sphere

@@ -11,7 +11,10 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.render import render
-from vectorplot.scene.scene import Item, Light, Page, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.shading.light.corner_normals import at_corners, view_normals
 from vectorplot.shading.light.flat_regions import plane_middles, plane_numbers

@@ -11,7 +11,8 @@ from support.painted import nearest, sample_points, top_polygon
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.graph_regions import Disc
 from vectorplot.surfaces.graphs import graph, vertical

@@ -11,7 +11,8 @@ from support.strewn import STREWN, placed
 from vectorplot.geometry.budget import Budget
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import (
     box,

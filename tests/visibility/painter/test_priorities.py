@@ -10,7 +10,7 @@ from support.strewn import STREWN, placed
 from vectorplot.effects.shadows.shadow_decals import cast_shadows
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
 from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import (

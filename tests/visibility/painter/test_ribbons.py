@@ -15,7 +15,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
 from vectorplot.testing.curved_meshes import torus_mesh

@@ -12,7 +12,8 @@ from support.hard_shapes import HARD_SHAPES
 from support.seen import EVERY_EDGE, Seen, seen, wrong_samples
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import hollow_bodies, random_convex_solids, rotated_boxes
 
 

@@ -3,7 +3,8 @@ import pytest
 
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, hollow_bodies, random_convex_solids

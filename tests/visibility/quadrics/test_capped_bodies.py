@@ -12,7 +12,9 @@ from vectorplot.draw import draw
 from vectorplot.drawing.drawing import CurvedStrokes
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.scene.scene import Item, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.capped import Capped, Frustum, rod

@@ -11,7 +11,8 @@ from support.smooth_parts import around, polylines
 from support.smooth_scenes import implicit_surfaces, mixed_scenes, single_surfaces, views
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.visibility.polyhedra.lines import joined_lines

@@ -8,7 +8,8 @@ import pytest
 from vectorplot.geometry.budget import USUAL, unheard
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.solids import box
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.visibility.polyhedra.lines import joined_lines

@@ -8,7 +8,8 @@ import numpy as np
 from support.smooth_parts import polylines
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.surface import Domain

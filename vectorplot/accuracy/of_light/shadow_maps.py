@@ -8,7 +8,9 @@ from vectorplot.accuracy.approximation import Approximation, Study, Way
 from vectorplot.accuracy.wrong_pixels import wrong_share
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.render import render
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.raster.image import Image
 from vectorplot.testing.shapes import box
 

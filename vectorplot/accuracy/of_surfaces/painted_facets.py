@@ -13,7 +13,8 @@ from vectorplot.features.parametric.contour import contour
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.paint import paint
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.curve_distance import hausdorff
 from vectorplot.tolerances.of_measuring import OUTLINE_ACCURACY_MM, TRUE_CONTOUR

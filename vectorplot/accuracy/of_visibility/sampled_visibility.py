@@ -11,7 +11,8 @@ from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.vectors import dot, norm
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.curve_distance import Segments, Tree

@@ -13,7 +13,8 @@ from vectorplot.geometry.budget import unheard
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.winding import edge_uses
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.rays.sight import visible_by_rays
 from vectorplot.tolerances.of_extent import CLEARANCE_OF_EXTENT

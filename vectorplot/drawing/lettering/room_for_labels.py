@@ -9,8 +9,8 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.sheets.sheet import Sheet
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scene import Page
 
 
 def with_room(layers: tuple[Layer, ...], placement: Placement, boxes: Floats) -> tuple[tuple[Layer, ...], Placement]:

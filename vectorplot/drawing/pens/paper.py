@@ -6,7 +6,7 @@ import math
 
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.scene.scene import Page
+from vectorplot.scene.pages.page import Page
 from vectorplot.shading.light.palettes import palette
 
 

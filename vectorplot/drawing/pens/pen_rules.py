@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.layers import ink
 from vectorplot.errors import InputError
-from vectorplot.scene.paper import LENGTH, length_mm
+from vectorplot.scene.pages.paper import LENGTH, length_mm
 from vectorplot.words import COLOURS, LineKind, is_colour, nearest
 
 HIDDEN = "hidden"

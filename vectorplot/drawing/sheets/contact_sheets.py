@@ -10,8 +10,9 @@ import numpy as np
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.sheets.sheet import Sheet
 from vectorplot.errors import InputError
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.scene import Scene
 
 
 def contact_sheet(

@@ -15,7 +15,7 @@ from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.text import lettered
 from vectorplot.drawing.sheets.page_strokes import page_strokes, rectangle
 from vectorplot.errors import InputError
-from vectorplot.scene.scene import Page
+from vectorplot.scene.pages.page import Page
 
 FRAME, RULES = Pen(0.7), Pen(0.35)
 """What draws the border and the centring marks, and what the zones."""

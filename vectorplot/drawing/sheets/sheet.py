@@ -12,8 +12,9 @@ from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.scene import Scene
 
 NO_ITEM = -1
 

@@ -20,8 +20,10 @@ from vectorplot.geometry.cuts.section_faces import PlaneFrame, mesh_of_regions
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.item import Item
+from vectorplot.scene.material import Material
 from vectorplot.scene.point_of_view import camera_of
-from vectorplot.scene.scene import Item, Material, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import is_parametrised
 from vectorplot.surfaces.trims.cut_surface import CutSurface

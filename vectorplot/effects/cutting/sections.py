@@ -22,7 +22,7 @@ from vectorplot.geometry.repair.degenerate import chosen_faces
 from vectorplot.geometry.repair.pieces import pieces_of_faces
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Item
+from vectorplot.scene.item import Item
 from vectorplot.surfaces.parts import smooth_parts
 from vectorplot.surfaces.surface import Surface, is_hole, is_parametrised
 from vectorplot.tolerances.of_extent import CUT_FACE_CHORD_OF_EXTENT, SECTION_ENDS_OF_EXTENT

@@ -11,7 +11,8 @@ from vectorplot.features.meshes.patterns import face_frames
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import newell
 

@@ -10,7 +10,9 @@ from vectorplot.arrays import Bools
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals
 from vectorplot.geometry.budget import USUAL, Budget
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import face_shades, view_lights
 from vectorplot.shading.light.painted_colours import Lighting

@@ -17,7 +17,7 @@ from vectorplot.effects.shadows.light_system import FacePlanes, LightSystem, lig
 from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, cut_by_planes, planes_of
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces

@@ -10,7 +10,8 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals
 from vectorplot.effects.mirrors.reflections import Mirrors, doubled
 from vectorplot.geometry.budget import USUAL, Budget
-from vectorplot.scene.scene import Light, Scene
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.visibility.projected_faces import project_faces

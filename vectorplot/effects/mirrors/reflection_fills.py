@@ -17,8 +17,8 @@ from vectorplot.effects.mirrors.reflections import DIMMED, Mirrors, backwards, d
 from vectorplot.effects.windows.window_fills import mixed, seen_fills
 from vectorplot.effects.windows.window_polygons import SeenThrough
 from vectorplot.geometry.budget import USUAL
+from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scene import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.refinement import SHORTEST_MM, refined

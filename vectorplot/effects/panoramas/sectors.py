@@ -12,7 +12,7 @@ from vectorplot.drawing.drawing import NO_CURVE, Paths
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.panorama import Panorama
-from vectorplot.scene.scene import Page
+from vectorplot.scene.pages.page import Page
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 WIDEST_DEG = 90.0

@@ -18,8 +18,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.panorama import MOST_STRIPS, Panorama
 from vectorplot.geometry.cameras.unit_projection import projection_of
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, fitted_picture
-from vectorplot.scene.scene import Page
 from vectorplot.words import LineKind
 
 LETTERS_MM = 2.5

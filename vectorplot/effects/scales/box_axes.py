@@ -9,10 +9,11 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.line import Line
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import thin_line
 from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.naming.scales import BoxAxes
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.terrains.level_lines import round_heights
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 

@@ -14,7 +14,7 @@ from vectorplot.drawing.lettering.text import lettered
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.effects.scales.coloured_scene import ColourBar
 from vectorplot.geometry import ragged
-from vectorplot.scene.scene import Page
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.terrains.level_lines import round_heights
 from vectorplot.words import LineKind
 

@@ -17,8 +17,9 @@ from vectorplot.features.feature_lines.mesh_bending import mesh_bending, smooth_
 from vectorplot.features.meshes.mesh_curves import face_triangles
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.expressions.expression import parse_expression
+from vectorplot.scene.item import Item
 from vectorplot.scene.naming.scales import Colouring
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances.of_extent import COLOURED_OF_EXTENT

@@ -8,9 +8,10 @@ from vectorplot.arrays import Floats
 from vectorplot.effects.scales.box_axes import with_box
 from vectorplot.effects.scales.coloured_scene import ColourBar, coloured
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, fitted_picture
 from vectorplot.scene.point_of_view import camera_of
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 
 

@@ -15,7 +15,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.convex.plane_cuts import planes_of
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import newell
 

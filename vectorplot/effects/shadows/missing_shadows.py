@@ -10,7 +10,8 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import unresolved
-from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 
 
 def tell_missing_shadows(items: Sequence[Item], lights: Sequence[Light], left_out: Ints) -> None:

@@ -16,7 +16,7 @@ from vectorplot.effects.shadows.shadow_grades import Shadows, graded, joined_sha
 from vectorplot.effects.shadows.shadow_pairs import Receivers, apart, candidates, crowds
 from vectorplot.errors import InputError
 from vectorplot.geometry.convex.plane_cuts import Crossings, crossings_of, parts_of
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.polyhedra.occluders import solid_items

@@ -20,7 +20,9 @@ from vectorplot.effects.shadows.shadow_grades import Shadows
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.regions import corners_of, polygons_of, unions, without_holes, without_splinters
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 

@@ -16,7 +16,8 @@ from vectorplot.geometry.repair.mesh_repair import Mending, is_closed_oriented, 
 from vectorplot.geometry.repair.sound_parts import sound_parts
 from vectorplot.io.meshes.mesh_file import MeshFile, shown
 from vectorplot.scene.extent import check_range
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 
 MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb")
 

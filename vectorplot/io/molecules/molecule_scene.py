@@ -8,7 +8,8 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.io.molecules.elements import COLOURS, OTHER, elements_of
 from vectorplot.io.molecules.molecule import Molecule
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.capped import rod
 from vectorplot.surfaces.families.ellipsoid import Sphere
 

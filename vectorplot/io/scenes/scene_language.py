@@ -30,10 +30,12 @@ from vectorplot.io.scenes.scene_statements import (
 from vectorplot.io.scenes.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
 from vectorplot.io.scenes.statements.annotation_statements import begins_annotation, read_annotation
 from vectorplot.scene.extent import check_range
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.naming.labels import Label
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.scene import Scene
 
 MAX_FILE_BYTES = 64 << 20
 """The largest scene file that is read."""

@@ -9,7 +9,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.scene.cuts.cut import AWAY, Cut
-from vectorplot.scene.fitted_pages import fitted_page, page_of_width
+from vectorplot.scene.light import Light
 from vectorplot.scene.naming.labels import (
     HIDDEN,
     MARKS,
@@ -22,8 +22,9 @@ from vectorplot.scene.naming.labels import (
     capital_height,
 )
 from vectorplot.scene.naming.scales import BoxAxes, Colouring
-from vectorplot.scene.paper import FIT, length_mm, sheet_size
-from vectorplot.scene.scene import Light, Page
+from vectorplot.scene.pages.fitted_pages import fitted_page, page_of_width
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.pages.paper import FIT, length_mm, sheet_size
 from vectorplot.words import COLOURS, is_colour, nearest
 
 _CAMERA_POINTS = ("eye", "target", "up")

@@ -16,8 +16,8 @@ from vectorplot.io.scenes.items.scene_curves import AXES, CurveDraft
 from vectorplot.io.scenes.scene_families import SURFACES
 from vectorplot.io.scenes.scene_slots import read_family
 from vectorplot.io.scenes.scene_words import Words
-from vectorplot.scene.added_lines import evenly_between, least_extent
 from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.lines.added_lines import evenly_between, least_extent
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
 from vectorplot.scene.terrains.level_lines import with_index_lines
 from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface

@@ -22,7 +22,7 @@ from vectorplot.curves.placed import PlacedCurve
 from vectorplot.curves.splines.spline_curve import SplineCurve
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_formulas import Formulas
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCourses
 from vectorplot.surfaces.families.capped import Capped, Frustum

@@ -16,10 +16,14 @@ from vectorplot.io.scenes.items.scene_hatching import hatch_text
 from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_words import bare_word
 from vectorplot.scene.cuts.cut import Cut
-from vectorplot.scene.fitted_pages import FittedPage, PageOfWidth
+from vectorplot.scene.item import Item, Pattern
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from vectorplot.scene.naming.scales import Colouring
-from vectorplot.scene.scene import Item, Light, Material, Page, Pattern, Scene
+from vectorplot.scene.pages.fitted_pages import FittedPage, PageOfWidth
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.words import COLOURS
 

@@ -14,7 +14,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import shift_matrix
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}

@@ -13,8 +13,9 @@ from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.line import Line
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
+from vectorplot.scene.item import Item
 from vectorplot.scene.naming.labels import USUAL_SIZE_MM, Label, OnCurve
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 
 OWN_LINES = ("label", "centre")
 """What annotations are drawn as."""

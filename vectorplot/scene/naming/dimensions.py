@@ -14,9 +14,10 @@ from vectorplot.curves.line import Line
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import cross, normalize
+from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import thin_line
 from vectorplot.scene.naming.labels import USUAL_SIZE_MM, Along, Label, OnCurve
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 
 BEYOND, SHORT = 0.15, 0.05
 """How far extension lines go on beyond the dimension line, and how far from the thing they begin, as parts of the way

@@ -9,8 +9,9 @@ from itertools import chain
 
 import numpy as np
 
+from vectorplot.scene.item import Item
 from vectorplot.scene.naming.labels import Label, renamed
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 
 
 def renamed_labels(scene: Scene, items: Sequence[Item]) -> tuple[Label, ...]:

@@ -10,8 +10,9 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.item import Item
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.scene import Scene
 
 CHORDS = 256
 """Letters along a curve follow so many chords of it."""

@@ -9,7 +9,8 @@ from vectorplot.errors import InputError
 from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import check_range
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.terrains.level_lines import USUAL_EVERY, level_sections, round_heights
 from vectorplot.surfaces.terrains.terrain import Terrain, terrain

@@ -11,7 +11,8 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import number
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 
 TRIANGLE = 3

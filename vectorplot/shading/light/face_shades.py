@@ -15,8 +15,9 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross
-from vectorplot.scene.curve_light import UPPER_LEFT
-from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.lines.curve_light import UPPER_LEFT
 from vectorplot.scene.view import View
 from vectorplot.shading.light.fading import fading_factors, lamp_reach
 from vectorplot.shading.light.illumination import (

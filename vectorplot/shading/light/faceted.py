@@ -12,7 +12,8 @@ from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.features.facets import facets
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.corner_normals import TrueNormals
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.illumination import distance_factor
 

@@ -14,10 +14,12 @@ from vectorplot.features.edge_splitting import LOOKS, NONE, Edges
 from vectorplot.features.facets import INSIDE, JUMP, Allowed, off_chords, turning
 from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.coincidence.twins import fingerprint
 from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 from vectorplot.scene.placement import box_corners
-from vectorplot.scene.scene import Item, Light, Scene
-from vectorplot.scene.twins import fingerprint
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import point_shades, view_eye, view_lights
 from vectorplot.shading.light.faceted import without_curved_mirror

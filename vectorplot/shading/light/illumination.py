@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 AMBIENT = 0.2

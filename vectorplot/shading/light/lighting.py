@@ -11,7 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.corner_normals import face_normals, unit
 from vectorplot.shading.light.face_shades import depth_limits, light_colours, view_eye

@@ -13,7 +13,7 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.features.edge_splitting import Edges
 from vectorplot.features.facets import INSIDE, facets, off_chords
 from vectorplot.geometry import ragged
-from vectorplot.scene.scene import Item
+from vectorplot.scene.item import Item
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
 CLOSENESS = 1.0 / 80.0

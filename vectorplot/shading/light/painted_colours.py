@@ -10,7 +10,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross, dot
-from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import (
     Shades,

@@ -9,7 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.scene.scene import Item, Light
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.corner_normals import TrueNormals, at_corners, view_normals
 from vectorplot.shading.light.face_shades import decal_shades, face_middles, face_normals

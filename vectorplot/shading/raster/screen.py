@@ -13,8 +13,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.cameras.pixel_window import PixelWindow
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
-from vectorplot.scene.scene import Page
 from vectorplot.scene.view import View
 from vectorplot.shading.raster.coverage import GUARD_BAND
 from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE

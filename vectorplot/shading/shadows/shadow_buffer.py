@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.shading.raster.screen import front_facing
 from vectorplot.shading.shadows.map_settings import MapSettings
 from vectorplot.shading.shadows.seen_region import SeenRegion

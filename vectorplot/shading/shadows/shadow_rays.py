@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.scene.scene import Light
+from vectorplot.scene.light import Light
 from vectorplot.shading.raster.screen import ScreenTriangles, screen_triangles
 from vectorplot.shading.shadows.shadow_buffer import SIDES, aimed_system, is_inside
 from vectorplot.shading.shadows.shadow_map import standard_frame

@@ -9,7 +9,7 @@ from vectorplot.features.feature_lines.clear_lines import Detail
 from vectorplot.features.feature_lines.mesh_feature_lines import mesh_feature_lines
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.scene import Item
+from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
 from vectorplot.words import LineKind
 

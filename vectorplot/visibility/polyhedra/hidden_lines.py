@@ -13,7 +13,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.geometry.chunks import mapped, slices
-from vectorplot.scene.twins import first_twins
+from vectorplot.scene.coincidence.twins import first_twins
 from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.cells import covered_cells, entered

@@ -11,7 +11,8 @@ from vectorplot.features.integral.on_meshes.shortest_paths import mesh_shortest_
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.features.meshes.nearest_on_mesh import nearest_on_mesh
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.integral_lines import (
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.integral_lines import (
     ON_MESHES,
     USUAL_APART,
     GeodesicLines,
@@ -21,7 +22,6 @@ from vectorplot.scene.integral_lines import (
     ShortestPaths,
     check_points,
 )
-from vectorplot.scene.scene import Item
 
 
 def item_integral_lines(item: Item, lines: IntegralLines) -> MeshCurves:

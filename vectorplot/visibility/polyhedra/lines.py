@@ -27,10 +27,11 @@ from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.repair.pieces import pieces_of_faces
 from vectorplot.geometry.repair.seams import MANY_FACES
-from vectorplot.scene.curve_light import curve_light
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.coincidence.twins import first_twins
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.curve_light import curve_light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCourses
-from vectorplot.scene.twins import first_twins
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import FEATURE_KINDS, LineKind

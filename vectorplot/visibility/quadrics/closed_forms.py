@@ -13,9 +13,10 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
-from vectorplot.scene.curve_light import curve_light
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.curve_light import curve_light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.balls import Ball, ball_of
 from vectorplot.surfaces.capped_quadrics import capped_quadric_of

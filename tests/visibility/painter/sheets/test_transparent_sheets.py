@@ -13,7 +13,9 @@ from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
-from vectorplot.scene.scene import Item, Material, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.visibility.painter.image_faces import ImageFaces, polygons_of

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.families.cylinder import Cylinder

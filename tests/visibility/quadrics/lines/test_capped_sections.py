@@ -8,7 +8,9 @@ from support.body_rays import body_sight, off_surface, unit_body
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines, even_cosines
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.capped import Capped, Frustum

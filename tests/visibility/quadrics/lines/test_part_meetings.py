@@ -10,7 +10,8 @@ from scipy.special import ellipe
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.capped import Capped, Frustum, rod
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere

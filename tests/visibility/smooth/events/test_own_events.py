@@ -9,7 +9,8 @@ import pytest
 from support.smooth_parts import around, ball_from_above, polylines
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.quadric import Quadric, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus

@@ -7,7 +7,8 @@ import pytest
 
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere

@@ -7,7 +7,8 @@ import pytest
 
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.rotations import rotation_x
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.cylinder import Cylinder

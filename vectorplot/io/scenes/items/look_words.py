@@ -10,7 +10,7 @@ from vectorplot.io.scenes.items.item_cursor import ItemCursor
 from vectorplot.io.scenes.items.scene_hatching import read_hatch
 from vectorplot.io.scenes.items.scene_item import CAP_WORDS, Draft
 from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS, SCENE_WORDS, SOLID_WORDS
-from vectorplot.scene.scene import Pattern
+from vectorplot.scene.item import Pattern
 from vectorplot.words import COLOURS, LINE_WORDS, MATERIALS, OWN_LINE_WORDS, unknown_material
 
 _OF_ITEMS = frozenset([*ITEM_WORDS, *FORM_WORDS, *CAP_WORDS, *COLOURS, *MATERIALS])

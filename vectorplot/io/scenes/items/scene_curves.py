@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_words import Words
-from vectorplot.scene.integral_lines import ON_MESHES, ON_SURFACES
+from vectorplot.scene.lines.integral_lines import ON_MESHES, ON_SURFACES
 from vectorplot.scene.surface_lines import (
     MAX_LINES,
     NO_LINES,

@@ -26,7 +26,7 @@ from vectorplot.features.integral.tangent_fields import (
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.io.scenes.scene_slots import read_formulas, read_number, read_numbers
 from vectorplot.io.scenes.scene_words import Words
-from vectorplot.scene.integral_lines import (
+from vectorplot.scene.lines.integral_lines import (
     MOST_STARTS,
     ON_MESHES,
     FieldLines,

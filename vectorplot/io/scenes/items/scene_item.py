@@ -31,7 +31,8 @@ from vectorplot.io.scenes.items.scene_curves import CurveDraft
 from vectorplot.io.scenes.items.scene_placement import Placement
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.scene.hatching import Hatching
-from vectorplot.scene.scene import Item, Material, Pattern
+from vectorplot.scene.item import Item, Pattern
+from vectorplot.scene.material import Material
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 

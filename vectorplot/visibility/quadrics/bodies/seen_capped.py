@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
-from vectorplot.scene.scene import Item
+from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.capped_quadrics import CappedQuadric
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates, eye_coordinates

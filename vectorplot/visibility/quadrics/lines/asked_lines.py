@@ -7,8 +7,9 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.scene.curve_light import curve_light
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.curve_light import curve_light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
 from vectorplot.words import LineKind

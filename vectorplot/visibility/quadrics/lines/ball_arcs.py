@@ -9,7 +9,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import cross, dot
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.quadrics.bodies.seen_balls import Balls
 from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, arcs_on

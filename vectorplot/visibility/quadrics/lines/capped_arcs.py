@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import cross, dot
-from vectorplot.scene.scene import Item
+from vectorplot.scene.item import Item
 from vectorplot.visibility.quadrics.bodies.capped_covers import ball_contours
 from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP, CappedBodies
 from vectorplot.visibility.quadrics.conic_arcs import OwnSides, arcs_on, lines_on

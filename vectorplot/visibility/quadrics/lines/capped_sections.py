@@ -10,7 +10,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.vectors import dot
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import NARROW_CONIC
 from vectorplot.tolerances.of_values import HOMOTHETIC

@@ -32,8 +32,9 @@ from vectorplot.features.implicit.singular_curves import refined_line
 from vectorplot.features.implicit.singular_equations import CuspidalEdges, DoubleLines
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.polylines import closed_round
-from vectorplot.scene.curve_light import curve_light
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.curve_light import curve_light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets.family import Family, NearChords, SingularCurves, SpatialCurves

@@ -13,7 +13,8 @@ from vectorplot.features.integral.integral_curves import geodesics, integral_cur
 from vectorplot.features.integral.spacing.evenly_spaced import DRAWN, evenly_spaced_curves
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, together
-from vectorplot.scene.integral_lines import (
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.integral_lines import (
     ON_SURFACES,
     USUAL_APART,
     GeodesicLines,
@@ -23,7 +24,6 @@ from vectorplot.scene.integral_lines import (
     ShortestPaths,
     check_points,
 )
-from vectorplot.scene.scene import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed import placed_once
 from vectorplot.surfaces.surface import Domain, Surface

@@ -31,8 +31,9 @@ from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.surface_paths import surface_path
 from vectorplot.features.zeros.zero_doubts import JUMPS
 from vectorplot.geometry.budget import unheard
-from vectorplot.scene.curve_light import curve_light
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.lines.curve_light import curve_light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.parts import covered_once, smooth_parts

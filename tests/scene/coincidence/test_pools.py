@@ -9,7 +9,7 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.geometry.repair.adjacency import body_record, mesh_edges
 from vectorplot.io.read_file import read
-from vectorplot.scene.pools import pools
+from vectorplot.scene.coincidence.pools import pools
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box
 

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.coincidence.same_place import are_in_one_place
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.same_place import are_in_one_place
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import Surface, is_parametrised

@@ -11,7 +11,8 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import axis_frame
-from vectorplot.scene.scene import Item, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import MAX_LINES, Section, SurfaceLines, Vector
 from vectorplot.scene.terrains.level_lines import USUAL_COUNT, USUAL_EVERY, round_heights, with_index_lines
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT

@@ -5,7 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.errors import InputError
-from vectorplot.scene.scene import Item, Light, Scene
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 
 UPPER_LEFT = (-1.0, 1.0, 1.0)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from vectorplot.scene.scene import Page
+from vectorplot.scene.pages.page import Page
 
 LEAST_MM = 1.0
 """What a picture without width or height, such as a straight line, has for it: a sheet needs both."""

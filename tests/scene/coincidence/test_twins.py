@@ -13,8 +13,8 @@ import vectorplot as vp
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.rotations import rotation_z
-from vectorplot.scene.same_place import are_in_one_place
-from vectorplot.scene.twins import NOTHING, fingerprint, first_twins, without_twins
+from vectorplot.scene.coincidence.same_place import are_in_one_place
+from vectorplot.scene.coincidence.twins import NOTHING, fingerprint, first_twins, without_twins
 from vectorplot.scene.view import look
 from vectorplot.surfaces import Domain, Sphere, Torus, graph
 from vectorplot.surfaces.placed import PlacedSurface

@@ -1,0 +1,1 @@
+"""What is in the same place: items that stand in one another, and points that polyhedra share."""

@@ -1,0 +1,188 @@
+"""Shapes in a scene, and how they are drawn."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.curve import Curve
+from vectorplot.geometry.cuts.half_spaces import HalfSpaces
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.motions.movable import Movable
+from vectorplot.scene.hatching import Hatching
+from vectorplot.scene.material import Material
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
+from vectorplot.surfaces.placed import placed_shape
+from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.words import OWN_LINE_WORDS, check_colour, line_words
+
+
+@dataclass(frozen=True, eq=False)
+class Pattern:
+    """A coloured polygon lying on a face.
+
+    Parameters
+    ----------
+    name : str
+        What messages call it.
+    colour : str
+        The name of a palette, a plain colour or #rrggbb.
+    face : int
+        An index from 0.
+    points : (k, 2) array of float
+        In the face's own coordinates: origin at its barycentre, x along its first edge, y to the left of it.
+
+    Raises
+    ------
+    InputError
+        For unknown colours.
+
+    Notes
+    -----
+    Source: Glaeser, section 6.5.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> window = vp.Pattern("window", "blue", 0, np.array([(-1.0, -1.0), (1.0, -1.0), (0.0, 1.0)]))
+    >>> window.points.shape
+    (3, 2)
+    """
+
+    name: str
+    colour: str
+    face: int
+    points: Floats
+
+    def __post_init__(self) -> None:
+        check_colour(self.colour, f"pattern {self.name}: ")
+
+
+@dataclass(frozen=True, eq=False)
+class Item(Movable["Item"]):
+    """A shape in the scene, and how it is drawn.
+
+    Parameters
+    ----------
+    name : str
+        What messages and files call it.
+    shape : Mesh, Surface, ImplicitSurface or Curve
+        A polyhedron, a smooth surface or a curve in space.
+    colour : str
+        The name of a palette, a plain colour or #rrggbb.
+    material : Material
+        How its surface takes light.
+    patterns : tuple of Pattern
+        Coloured polygons on its faces.
+    lines : tuple of str, optional
+        The words of the kinds to draw (None: what the drawing asks for).
+    occludes : bool, optional
+        Whether it hides what is behind it (None: unless its material is transparent).
+    curves : SurfaceLines
+        Which lines there are on a smooth surface.
+    group : str
+        A name that items share which stay together in the painter's order.
+    hatch : Hatching, optional
+        How its faces are hatched (None: as the drawing asks for).
+    place : (str, int), optional
+        The file and the line, from 1, where it is described, for messages about it.
+    cut_by : tuple of HalfSpaces
+        What was cut away of it; its borders on them are edges of cuts.
+    is_cut_face : bool
+        It is what a cut shows of another item: its sections are hatches, and it meets others only where that one does.
+
+    Raises
+    ------
+    InputError
+        For unknown colours and kinds of lines.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> pane = vp.Item("pane", triangle, "cyan", vp.Material("transparent"), lines=("contour", "boundary"))
+    >>> pane.hides
+    False
+    """
+
+    name: str
+    shape: Mesh | Surface | ImplicitSurface | Curve
+    colour: str = "gray"
+    material: Material = field(default_factory=Material)
+    patterns: tuple[Pattern, ...] = ()
+    lines: tuple[str, ...] | None = None
+    occludes: bool | None = None
+    curves: SurfaceLines = NO_LINES
+    group: str = ""
+    hatch: Hatching | None = None
+    place: tuple[str, int] | None = None
+    cut_by: tuple[HalfSpaces, ...] = ()
+    is_cut_face: bool = False
+
+    def __post_init__(self) -> None:
+        check_colour(self.colour, f"{self.name}: ")
+        if self.lines is not None:
+            object.__setattr__(self, "lines", line_words(self.lines, OWN_LINE_WORDS))
+
+    def transformed(self, matrix: ArrayLike) -> Item:
+        """The item under a 4x4 matrix acting on columns, with what lies on it.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array_like of float
+            Rows 0 to 2: rotation, scale and translation.
+
+        Returns
+        -------
+        Item
+            Its sections are in the moved planes; distances on it, and patterns, are larger by the cube root of what its
+            volume is larger by.
+
+        Raises
+        ------
+        InputError
+            For a matrix that cannot be inverted.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> from vectorplot.surfaces import Sphere
+        >>> ball = vp.Item("ball", Sphere(1.0)).scaled(2.0).moved(5.0, 0.0, 0.0)
+        >>> vp.Scene((ball,)).bounds.round(9).tolist()
+        [[3.0, -2.0, -2.0], [7.0, 2.0, 2.0]]
+        """
+        shape = placed_shape(self.shape, matrix)
+        m = np.asarray(matrix, dtype=np.float64)
+        larger = linear_growth(m)
+        patterns = tuple(replace(one, points=larger * one.points) for one in self.patterns) if larger != 1.0 else None
+        curves = self.curves.transformed(m) if self.curves else self.curves
+        cut_by = tuple(region.transformed(m) for region in self.cut_by)
+        patterns = self.patterns if patterns is None else patterns
+        return replace(self, shape=shape, curves=curves, patterns=patterns, cut_by=cut_by)
+
+    @property
+    def hides(self) -> bool:
+        """Whether it hides what is behind it."""
+        return self.material.word != "transparent" if self.occludes is None else self.occludes
+
+    @property
+    def casts_shadow(self) -> bool:
+        """Whether it stops light, as far as it has faces."""
+        return self.hides and self.material.opacity >= 1.0
+
+    @property
+    def dims_light(self) -> bool:
+        """Whether light goes through it, but not all of it."""
+        return self.material.is_clear and self.material.opacity > 0.0
+
+    @property
+    def mesh(self) -> Mesh:
+        """The polyhedron; of a smooth surface or a curve a mesh without vertices and faces."""
+        return self.shape if isinstance(self.shape, Mesh) else _NO_MESH
+
+
+_NO_MESH = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))

@@ -1,0 +1,53 @@
+"""Lights."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from vectorplot.errors import InputError
+from vectorplot.words import check_colour
+
+
+@dataclass(frozen=True)
+class Light:
+    """A light source at a point, or with parallel rays coming from the direction ``position``.
+
+    Parameters
+    ----------
+    position : (float, float, float)
+        The point in world coordinates, or the direction that parallel rays come from.
+    parallel : bool
+        Whether its rays are parallel.
+    intensity : float, optional
+        0 to 1 (None: 1 / sqrt(l) in a scene with l lights).
+    name : str
+        What messages call it.
+    colour : str
+        white, a palette or #rrggbb.
+    fading : bool
+        The light of a lamp becomes weaker with the square of the distance.
+
+    Raises
+    ------
+    InputError
+        For unknown colours and intensities out of range.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> sun = vp.Light((1, -1, 2), parallel=True, intensity=0.8, name="SUN")
+    >>> sun.colour
+    'white'
+    """
+
+    position: tuple[float, float, float]
+    parallel: bool = False
+    intensity: float | None = None
+    name: str = ""
+    colour: str = "white"
+    fading: bool = False
+
+    def __post_init__(self) -> None:
+        check_colour(self.colour, f"light {self.name}: " if self.name else "light: ")
+        if self.intensity is not None and not 0.0 <= self.intensity <= 1.0:
+            raise InputError(f"light {self.name}: an intensity of {self.intensity:g}: expected 0 to 1")

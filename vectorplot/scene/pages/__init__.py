@@ -1,0 +1,1 @@
+"""Sheets of paper: their sizes, their names, and those that are cut to a picture."""
