@@ -311,7 +311,7 @@ def test_the_nearer_of_two_plates_wins_in_every_verb(verb: str, gap: float, size
 
 def faceted_sphere(rings: int, sectors: int, seed: int) -> Mesh:
     """A ball of triangles and quadrilaterals, turned at random."""
-    from vectorplot.geometry.bodies_of_revolution import revolution
+    from vectorplot.geometry.bodies.bodies_of_revolution import revolution
 
     angle = np.linspace(-np.pi / 2, np.pi / 2, rings + 1)
     meridian = [(float(np.cos(a)) if 0 < k < rings else 0.0, 0.0, float(np.sin(a))) for k, a in enumerate(angle)]

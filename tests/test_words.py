@@ -10,7 +10,7 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.verbs import meant_option
 from vectorplot.cli.verbs import vectorplot as verbs
-from vectorplot.geometry.solids import box
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.shading.light.illumination import FINISHES

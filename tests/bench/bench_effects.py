@@ -10,7 +10,7 @@ import pytest
 
 from vectorplot.effects.glass.glass_polygons import seen_in_glass
 from vectorplot.effects.mirrors.reflections import mirrors, reflections
-from vectorplot.geometry.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.bodies_of_revolution import revolution
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.paint import paint
 from vectorplot.scene.item import Item

@@ -19,9 +19,9 @@ from vectorplot.scene.view import View, look
 from vectorplot.speed.clock import cpu_seconds
 from vectorplot.testing.curved_meshes import bumpy_icosphere
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
-from vectorplot.textbook.graph_orders import graph_order, graph_triangles
-from vectorplot.textbook.ring_orders import ring_order, sliced_meridian
-from vectorplot.textbook.sphere_orders import sphere_order
+from vectorplot.textbook.orders.graph_orders import graph_order, graph_triangles
+from vectorplot.textbook.orders.ring_orders import ring_order, sliced_meridian
+from vectorplot.textbook.orders.sphere_orders import sphere_order
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.painters_order import painters_order

@@ -8,7 +8,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.geometry.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.bodies_of_revolution import revolution
 from vectorplot.geometry.repair.adjacency import mesh_edges
 from vectorplot.shading.light.palettes import palette
 from vectorplot.surfaces.families.ellipsoid import Sphere

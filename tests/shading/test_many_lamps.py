@@ -7,7 +7,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.solids import box
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.scene.light import Light
 from vectorplot.shading.raster import scene_pixels
 from vectorplot.shading.shadows import shadow_buffer, shadow_map

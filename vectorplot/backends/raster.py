@@ -17,7 +17,7 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.raster.coverage import GUARD_BAND
 from vectorplot.shading.raster.pixel_lines import line_pixels
 from vectorplot.shading.raster.png import DPI, Bytes

@@ -1,5 +1,6 @@
 from . import ragged
-from .bodies_of_revolution import revolution
+from .bodies.bodies_of_revolution import revolution
+from .bodies.solids import box, has_convex_outline, placed, polyhedron, prism
 from .budget import Budget, budget_of
 from .cameras.camera import Camera
 from .cameras.collineation import collineate, project, uncollineate, unproject
@@ -7,19 +8,9 @@ from .cameras.coordinate_system import CoordinateSystem, changed_coordinates, wi
 from .cameras.lens import diagonal_field_of_vision_deg, field_of_vision_deg, focal_length_mm, lens_advice
 from .cameras.pixel_window import PixelWindow
 from .cameras.unit_projection import Projection, projection_of
-from .clipping import (
-    Box,
-    ClippedLines,
-    Polygons,
-    Window,
-    clip_and_draw,
-    clip_lines_2d,
-    clip_lines_3d,
-    clip_polygons_2d,
-    clip_polygons_3d,
-    cut_polygons,
-    region_codes,
-)
+from .clipping.clip_windows import Box, Window, region_codes
+from .clipping.clipped_lines import ClippedLines, clip_and_draw, clip_lines_2d, clip_lines_3d
+from .clipping.clipped_polygons import Polygons, clip_polygons_2d, clip_polygons_3d, cut_polygons
 from .convex.convex_hulls import convex_hull, hull_mesh
 from .convex.convex_parts import (
     convex_polygon_parts,
@@ -65,7 +56,6 @@ from .rotations import (
     rotation_y,
     rotation_z,
 )
-from .solids import box, has_convex_outline, placed, polyhedron, prism
 from .strokes import Strokes
 from .vectors import (
     angle,

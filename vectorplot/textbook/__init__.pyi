@@ -1,40 +1,25 @@
-from .depth_queries import depth_planes, points_visible, visible_line_pixels
-from .device import DepthCueing, Device
-from .erasing_faces import Erased, erasing_edges, interleaved
 from .field_steps import euler_curves, runge_kutta_curves
-from .framebuffer import (
-    Framebuffer,
-    cleared,
-    pixel_colours,
-    swapped_buffers,
-    with_colour,
-    with_lines,
-    with_pixels,
-    with_polygons,
-    with_rubber_bands,
-    with_smooth_polygons,
-)
-from .frustum import Frustum
-from .graph_orders import graph_order, graph_triangles
 from .intersections import LineCut, line_and_line, line_and_plane, polygons_common_segment, segments
-from .outline_positions import Position, RelativePosition, in_convex_polygon, relative_position
+from .orders.graph_orders import graph_order, graph_triangles
+from .orders.outline_positions import Position, RelativePosition, in_convex_polygon, relative_position
+from .orders.ring_orders import ring_order, sliced_meridian
+from .orders.sphere_orders import sphere_order
 from .planes import Plane
-from .ring_orders import ring_order, sliced_meridian
-from .sphere_orders import sphere_order
-from .viewing_matrices import (
+from .screens.depth_queries import depth_planes, points_visible, visible_line_pixels
+from .screens.device import DepthCueing, Device
+from .screens.drawn_pixels import with_lines, with_polygons, with_rubber_bands, with_smooth_polygons
+from .screens.erasing_faces import Erased, erasing_edges, interleaved
+from .screens.framebuffer import Framebuffer, cleared, pixel_colours, swapped_buffers, with_colour, with_pixels
+from .viewing.frames import basis_of, basis_of_gaze, frame_from_world, world_from_frame
+from .viewing.frustum import Frustum
+from .viewing.homogeneous import dehomogenized, homogeneous, transformed
+from .viewing.viewing_matrices import (
     ViewVolume,
-    basis_of,
-    basis_of_gaze,
     camera_matrix,
-    dehomogenized,
-    frame_from_world,
-    homogeneous,
     pixel_matrix,
     segments_to_pixels,
-    transformed,
     viewport,
     window_transform,
-    world_from_frame,
 )
 
 __all__ = [

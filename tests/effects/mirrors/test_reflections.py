@@ -9,7 +9,7 @@ from support.triangle_rays import first_hits
 from vectorplot.effects.mirrors.reflections import Mirrors, mirrored_view, mirrors, originals, reflections
 from vectorplot.effects.windows.window_polygons import SeenThrough
 from vectorplot.geometry import ragged
-from vectorplot.geometry.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.bodies_of_revolution import revolution
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item

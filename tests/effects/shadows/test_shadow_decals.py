@@ -15,7 +15,7 @@ from vectorplot.effects.shadows.shadow_casters import shadow_casters
 from vectorplot.effects.shadows.shadow_decals import cast_shadows, shadow_crossings, shadow_decals
 from vectorplot.effects.shadows.shadow_pairs import Receivers, candidates
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.bodies_of_revolution import revolution
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.plane_cuts import parts_of, polygon_areas
 from vectorplot.geometry.mesh import Mesh
@@ -25,7 +25,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.testing.shapes import box, numbered, random_convex_solids, rotated_boxes, rotation
-from vectorplot.textbook.graph_orders import graph_triangles
+from vectorplot.textbook.orders.graph_orders import graph_triangles
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.painter.slices import cut_into_slices
 from vectorplot.visibility.polyhedra.occluders import solid_items

@@ -21,10 +21,10 @@ from vectorplot.features.meshes.mesh_lines import (
     vertex_normals,
 )
 from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.geometry.repair.winding import edge_uses
-from vectorplot.geometry.solids import box
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_cylinder, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus

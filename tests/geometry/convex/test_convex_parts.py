@@ -9,7 +9,8 @@ from hypothesis import strategies as st
 from support.effort import examples
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.solids import has_convex_outline, prism
 from vectorplot.geometry.convex.convex_parts import (
     convex_polygon_parts,
     convex_prism_parts,
@@ -20,7 +21,6 @@ from vectorplot.geometry.convex.convex_parts import (
 )
 from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.geometry.solids import has_convex_outline, prism
 
 LETTER = np.array([[0, 0, 0], [4, 0, 0], [4, 1, 0], [1, 1, 0], [1, 3, 0], [4, 3, 0], [4, 4, 0], [0, 4, 0]], dtype=float)
 

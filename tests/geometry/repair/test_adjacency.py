@@ -9,6 +9,7 @@ import pytest
 from support.paths import DATA
 
 from vectorplot.draw import draw
+from vectorplot.geometry.bodies.solids import box, polyhedron
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.separating_planes import FIRST_ABOVE, separations
 from vectorplot.geometry.mesh import Mesh
@@ -21,7 +22,6 @@ from vectorplot.geometry.repair.adjacency import (
     mesh_edges,
     neighbour_faces,
 )
-from vectorplot.geometry.solids import box, polyhedron
 from vectorplot.io.read_file import read
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import look

@@ -10,11 +10,11 @@ from support.paths import DATA
 from support.scene_texts import PYRAMID
 
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.geometry.solids import box
 from vectorplot.io.scenes.scene_language import parse_scene, read_scene
 from vectorplot.scene.light import Light
 from vectorplot.scene.pages.page import Page

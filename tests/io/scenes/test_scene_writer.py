@@ -11,9 +11,9 @@ from support.paths import DATA
 
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.solids import box
 from vectorplot.io.scenes.scene_language import parse_scene, read_scene
 from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
 from vectorplot.io.scenes.scene_writer import write_scene

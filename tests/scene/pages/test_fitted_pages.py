@@ -10,7 +10,7 @@ from vectorplot.cli.main import run
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
-from vectorplot.geometry.solids import box
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.scene.pages.fitted_pages import fitted_page, page_of_width
 from vectorplot.scene.pages.page import Page

@@ -10,9 +10,9 @@ from support.pixel_rays import beside_edges, first_triangles, pixel_rays
 from support.shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.solids import box
 from vectorplot.scene.item import Item
 from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Scene

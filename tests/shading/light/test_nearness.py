@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.solids import box
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.scene.item import Item
 from vectorplot.shading.light.nearness import nearby, triangles_of_item
 from vectorplot.surfaces.families.ellipsoid import Sphere

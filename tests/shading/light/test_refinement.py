@@ -6,7 +6,7 @@ import numpy as np
 import shapely
 
 import vectorplot as vp
-from vectorplot.geometry.bodies_of_revolution import revolution
+from vectorplot.geometry.bodies.bodies_of_revolution import revolution
 from vectorplot.geometry.regions import polygons_of
 
 LATITUDE = np.linspace(-np.pi / 2, np.pi / 2, 13)

@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.effort import examples
 
-from vectorplot.geometry.clipping import Polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.raster.scan_lines import polygon_pixels
 
 COLUMNS, ROWS = 60, 50

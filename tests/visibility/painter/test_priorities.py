@@ -22,7 +22,7 @@ from vectorplot.testing.shapes import (
     rotated_boxes,
     scene_of,
 )
-from vectorplot.textbook.sphere_orders import sphere_order
+from vectorplot.textbook.orders.sphere_orders import sphere_order
 from vectorplot.visibility.painter.groups import gordian_knots, grouped_order, knot_report, object_order
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks, mikado

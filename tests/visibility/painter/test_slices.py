@@ -15,8 +15,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import look
 from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, numbered, scene_of
-from vectorplot.textbook.graph_orders import graph_order, graph_triangles
-from vectorplot.textbook.ring_orders import ring_order, sliced_meridian
+from vectorplot.textbook.orders.graph_orders import graph_order, graph_triangles
+from vectorplot.textbook.orders.ring_orders import ring_order, sliced_meridian
 from vectorplot.visibility.painter.image_faces import image_faces, image_points, polygons_of
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.precedence import Precedence

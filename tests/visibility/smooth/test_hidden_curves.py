@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from vectorplot.geometry.bodies.solids import box
 from vectorplot.geometry.budget import USUAL, unheard
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.solids import box
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look

@@ -22,7 +22,7 @@ from vectorplot.shading.raster.screen import raster_system, screen_triangles
 from vectorplot.testing.rays.sight import visible_by_rays
 from vectorplot.testing.rays.triangles import triangulated
 from vectorplot.testing.shapes import rotated_boxes
-from vectorplot.textbook.depth_queries import points_visible
+from vectorplot.textbook.screens.depth_queries import points_visible
 from vectorplot.tolerances.of_extent import CLEARANCE_OF_EXTENT
 
 BOXES, CAMERA = 60, Camera(eye=(12.0, -9.0, 8.0), fov_deg=50.0)

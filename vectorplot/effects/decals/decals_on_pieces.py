@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import image_points

@@ -15,7 +15,7 @@ from vectorplot.effects.windows.window_polygons import (
     seen_through,
 )
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, view_points

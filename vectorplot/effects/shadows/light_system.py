@@ -13,7 +13,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.geometry.convex.plane_cuts import planes_of
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View

@@ -13,7 +13,7 @@ from vectorplot.effects.shadows.shadow_grades import Shadows, joined_shadows
 from vectorplot.effects.shadows.shadow_shades import LEVELS
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import image_faces, view_points

@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.tessellation import FREE, Tessellation
-from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
+from vectorplot.geometry.bounds.boxes import PAIRS_AT_ONCE, overlapping_boxes
 
 Pair = tuple[Ints, Ints]
 

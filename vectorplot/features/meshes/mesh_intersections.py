@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.edges import Faces, unit_normals
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.boxes import overlapping_boxes, overlapping_pairs
+from vectorplot.geometry.bounds.boxes import overlapping_boxes, overlapping_pairs
 from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross, dot, first_of_equal
 from vectorplot.geometry.mesh import next_positions

@@ -10,9 +10,9 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies_of_revolution import FULL_TURN, HALF_TURN, revolution
+from vectorplot.geometry.bodies.bodies_of_revolution import FULL_TURN, HALF_TURN, revolution
+from vectorplot.geometry.bodies.solids import checked_points, polyhedron, prism
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.solids import checked_points, polyhedron, prism
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 

@@ -8,10 +8,10 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.bodies.solids import has_convex_outline, zero_distance
 from vectorplot.geometry.convex.convex_parts import convex_polygon_parts, plane_axes, signed_area, split_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.geometry.solids import has_convex_outline, zero_distance
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 MAX_PLANES = 10_000

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 from vectorplot.geometry.records import IN_COLUMNS

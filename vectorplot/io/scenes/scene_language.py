@@ -12,8 +12,8 @@ import numpy as np
 
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, printable
+from vectorplot.geometry.bodies.solids import IDENTITY
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.solids import IDENTITY
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.io.named_files import DEEPEST, NamedFiles
 from vectorplot.io.scenes.items.item_reader import ItemReader

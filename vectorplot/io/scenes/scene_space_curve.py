@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.placed import PlacedCurve
-from vectorplot.geometry.solids import IDENTITY
+from vectorplot.geometry.bodies.solids import IDENTITY
 from vectorplot.io.scenes.scene_families import CURVES
 from vectorplot.io.scenes.scene_slots import read_family
 from vectorplot.io.scenes.scene_words import Words

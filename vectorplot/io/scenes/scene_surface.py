@@ -9,9 +9,9 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.bodies.solids import IDENTITY
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
-from vectorplot.geometry.solids import IDENTITY
 from vectorplot.io.scenes.items.scene_curves import AXES, CurveDraft
 from vectorplot.io.scenes.scene_families import SURFACES
 from vectorplot.io.scenes.scene_slots import read_family

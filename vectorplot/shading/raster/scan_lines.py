@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.raster.coverage import GUARD_BAND, SUBPIXELS
 
 SPECK_RADIUS = 0.4

@@ -7,7 +7,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.geometry.polylines import joined, some
 from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.image_faces import ImageFaces

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.visibility.painter.image_faces import ImageFaces
 
 

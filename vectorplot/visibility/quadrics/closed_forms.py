@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
-from vectorplot.geometry.boxes import overlapping_boxes
+from vectorplot.geometry.bounds.boxes import overlapping_boxes
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.extent import smooth_bounds

@@ -10,11 +10,8 @@ import numpy as np
 
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.bodies_of_revolution import FULL_TURN, revolution
-from vectorplot.geometry.convex.intersect_polyhedra import polyhedron_intersection
-from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.adjacency import mesh_edges
-from vectorplot.geometry.solids import (
+from vectorplot.geometry.bodies.bodies_of_revolution import FULL_TURN, revolution
+from vectorplot.geometry.bodies.solids import (
     BOTH_CAPS,
     BOTTOM,
     IDENTITY,
@@ -27,6 +24,9 @@ from vectorplot.geometry.solids import (
     swept_polygon,
     turned_outwards,
 )
+from vectorplot.geometry.convex.intersect_polyhedra import polyhedron_intersection
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.adjacency import mesh_edges
 from vectorplot.io.scenes.items.scene_curves import CurveDraft
 from vectorplot.io.scenes.items.scene_placement import Placement
 from vectorplot.io.scenes.scene_words import Words

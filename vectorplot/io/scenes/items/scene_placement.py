@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from vectorplot.geometry.solids import IDENTITY
+from vectorplot.geometry.bodies.solids import IDENTITY
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.tolerances.of_numbers import LARGEST
 

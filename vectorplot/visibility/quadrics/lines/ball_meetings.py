@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
+from vectorplot.geometry.bounds.boxes import PAIRS_AT_ONCE, overlapping_boxes
 from vectorplot.geometry.records import joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View

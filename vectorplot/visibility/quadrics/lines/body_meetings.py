@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.boxes import overlapping_boxes
+from vectorplot.geometry.bounds.boxes import overlapping_boxes
 from vectorplot.geometry.records import joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View

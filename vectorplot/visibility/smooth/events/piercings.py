@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.slab_hulls import SlabHulls
+from vectorplot.geometry.bounds.slab_hulls import SlabHulls
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ALONG_SHEET_SINE, ROUGHLY_ALONG_SHEET_SINE

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from vectorplot.arrays import Floats
-from vectorplot.geometry.slab_hulls import SlabHulls
+from vectorplot.geometry.bounds.slab_hulls import SlabHulls
 
 SLACK = 0.01
 """Part of its size that a tessellation may lie inside of its sheet."""

@@ -9,8 +9,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.cameras.pixel_window import PixelWindow
-from vectorplot.textbook import viewing_matrices as vw
-from vectorplot.textbook.viewing_matrices import ViewVolume
+from vectorplot.textbook.viewing import viewing_matrices as vw
+from vectorplot.textbook.viewing.viewing_matrices import ViewVolume
 
 EYE, GAZE, UP, P = (3, 2, 6), (-1, -0.5, -2), (0, 1, 0), (0.5, 0.25, -1)
 VOLUME = ViewVolume(-1, 1.5, -0.75, 1, -2, -20)

@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.boxes import overlapping_boxes
+from vectorplot.geometry.bounds.boxes import overlapping_boxes
 from vectorplot.geometry.vectors import normalize
 
 _DIAGONALS = [(1, 1, 0), (1, -1, 0), (1, 0, 1), (1, 0, -1), (0, 1, 1), (0, 1, -1)]

@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.bodies.solids import BOTH_CAPS, BOTTOM, TOP, checked_points, presence
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.solids import BOTH_CAPS, BOTTOM, TOP, checked_points, presence
 from vectorplot.tolerances.of_angles import HALF_TURN_ROUNDING
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 

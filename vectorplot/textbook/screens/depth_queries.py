@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.depth.depth_buffer import DepthBuffer
 from vectorplot.shading.raster.coverage import SUBPIXELS
 from vectorplot.shading.raster.pixel_lines import line_pixels

@@ -12,10 +12,10 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.clipping import Polygons
+from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.raster.pixel_lines import line_pixels
-from vectorplot.textbook import framebuffer
-from vectorplot.textbook.framebuffer import Framebuffer
+from vectorplot.textbook.screens import framebuffer
+from vectorplot.textbook.screens.framebuffer import Framebuffer
 
 
 @dataclass(frozen=True)

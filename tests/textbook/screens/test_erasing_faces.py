@@ -7,7 +7,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, cyclic_bars, interpenetrating_boxes, rotated_boxes
-from vectorplot.textbook.erasing_faces import Erased, erasing_edges, interleaved
+from vectorplot.textbook.screens.erasing_faces import Erased, erasing_edges, interleaved
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
 from vectorplot.visibility.painter.painters_order import painters_order
 

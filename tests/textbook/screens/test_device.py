@@ -15,11 +15,11 @@ from vectorplot.geometry import clipping
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.cameras.pixel_window import PixelWindow
-from vectorplot.geometry.clipping import Box, Window
+from vectorplot.geometry.clipping.clip_windows import Box, Window
 from vectorplot.shading.light.depth_cueing import LEAST, depth_shades
 from vectorplot.testing.shapes import box
-from vectorplot.textbook import framebuffer
-from vectorplot.textbook.device import DepthCueing, Device
+from vectorplot.textbook.screens import framebuffer
+from vectorplot.textbook.screens.device import DepthCueing, Device
 
 COLUMNS, ROWS = 60, 45
 

@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.collineation import depth_of
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.geometry.clipping import Box
+from vectorplot.geometry.clipping.clip_windows import Box
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_numbers import INFINITE
 

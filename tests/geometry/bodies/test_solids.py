@@ -8,10 +8,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.bodies.solids import (
+    BOTTOM,
+    TOP,
+    box,
+    has_convex_outline,
+    placed,
+    polyhedron,
+    prism,
+    turned_outwards,
+)
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import body_record, mesh_edges
 from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.geometry.solids import BOTTOM, TOP, box, has_convex_outline, placed, polyhedron, prism, turned_outwards
 
 SWEEP = [[0, 2, 0], [0, -1.4, 0], [0, -2, 0.6], [0, -2, 1.2], [0, -1.4, 1.6], [0, 2, 1.6]]
 

@@ -1,0 +1,1 @@
+"""Bodies as meshes: boxes, prisms, polyhedra from lists of faces, bodies of revolution."""

@@ -1,0 +1,1 @@
+"""Screens as the sources have them: a framebuffer, a device, what a depth buffer answers, faces that erase."""
