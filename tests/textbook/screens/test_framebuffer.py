@@ -14,6 +14,7 @@ from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.raster.pixel_lines import line_pixels
 from vectorplot.shading.raster.png import png_bytes
 from vectorplot.shading.raster.supersampling import averaged, averaged_light
+from vectorplot.textbook.screens import drawn_pixels
 from vectorplot.textbook.screens import framebuffer as fb
 from vectorplot.textbook.screens.device import Device
 from vectorplot.textbook.screens.framebuffer import Framebuffer
@@ -54,9 +55,9 @@ def test_a_rubber_band_drawn_twice_vanishes():
     for frame, colour in ((Framebuffer.of_numbers(80, 60), 173), (Framebuffer.of_rgb(80, 60), (255, 3, 90))):
         noise = fb.with_pixels(frame, rng.integers(0, 60, (500, 2)), rng.integers(0, 256, (500, frame.pages.shape[3])))
         start, end = rng.uniform(-20, 90, (2, 40, 2))
-        once = fb.with_rubber_bands(noise, start, end, colour)
+        once = drawn_pixels.with_rubber_bands(noise, start, end, colour)
         assert (once.pages != noise.pages).any()
-        assert (fb.with_rubber_bands(once, start, end, colour).pages == noise.pages).all()
+        assert (drawn_pixels.with_rubber_bands(once, start, end, colour).pages == noise.pages).all()
 
 
 @pytest.mark.capability("G4.6-fill")
@@ -69,7 +70,9 @@ def test_polygons_are_filled_as_large_as_they_are():
         after = np.roll(corner, -1, axis=0)
         area = abs((corner[:, 0] * after[:, 1] - corner[:, 1] * after[:, 0]).sum()) / 2.0
         girth = np.linalg.norm(after - corner, axis=1).sum()
-        filled = (drawn(fb.with_polygons(Framebuffer.of_numbers(200, 200), Polygons.of(corner), 9)) == 9).sum()
+        filled = (
+            drawn(drawn_pixels.with_polygons(Framebuffer.of_numbers(200, 200), Polygons.of(corner), 9)) == 9
+        ).sum()
         assert abs(filled - area) <= girth / 2.0 + 1.0
 
 
@@ -87,7 +90,7 @@ def test_polygons_with_a_common_edge_share_no_pixel_and_leave_none_out():
         two = np.concatenate([seam[::-1], right[::-1]])
         numbers = []
         for polygon in (one, two):
-            frame = fb.with_polygons(Framebuffer.of_numbers(100, 100), Polygons.of(polygon), 1)
+            frame = drawn_pixels.with_polygons(Framebuffer.of_numbers(100, 100), Polygons.of(polygon), 1)
             numbers.append(drawn(frame).astype(int))
         assert (numbers[0] + numbers[1] == 1).all()
 
@@ -95,7 +98,7 @@ def test_polygons_with_a_common_edge_share_no_pixel_and_leave_none_out():
 @pytest.mark.capability("G4.6-fill")
 def test_a_polygon_within_one_pixel_is_that_pixel():
     speck = Polygons.of(np.array([(7.3, 4.2), (7.4, 4.2), (7.4, 4.4)]))
-    frame = fb.with_polygons(Framebuffer.of_numbers(20, 20), speck, 5)
+    frame = drawn_pixels.with_polygons(Framebuffer.of_numbers(20, 20), speck, 5)
     assert np.argwhere(drawn(frame)).tolist() == [[4, 7]]
 
 
@@ -103,12 +106,14 @@ def test_a_polygon_within_one_pixel_is_that_pixel():
 def test_a_linear_ramp_is_reproduced():
     corner = np.array([(-0.5, -0.5), (180.0, 10.0), (150.0, 140.0), (10.0, 149.0)])
     shade = 20.0 + 0.7 * corner[:, 0] + 0.5 * corner[:, 1]
-    frame = fb.with_smooth_polygons(Framebuffer.of_numbers(200, 150), Polygons.of(np.column_stack([corner, shade])))
+    frame = drawn_pixels.with_smooth_polygons(
+        Framebuffer.of_numbers(200, 150), Polygons.of(np.column_stack([corner, shade]))
+    )
     row, column = np.nonzero(drawn(frame))
     assert len(row) > 10_000
     assert np.abs(drawn(frame)[row, column] - (20.0 + 0.7 * column + 0.5 * row)).max() < 1.0
     colours = np.column_stack([corner, shade, 255.0 - shade, np.full(4, 300.0)])
-    rgb = fb.with_smooth_polygons(Framebuffer.of_rgb(200, 150), Polygons.of(colours))
+    rgb = drawn_pixels.with_smooth_polygons(Framebuffer.of_rgb(200, 150), Polygons.of(colours))
     page = rgb.pages[rgb.drawn].astype(int)
     assert np.abs(page[row, column, 0] + page[row, column, 1] - 255).max() <= 1
     assert (page[row, column, 2] == 255).all()
@@ -160,9 +165,9 @@ def test_impossible_pictures_and_colours_are_refused():
     with pytest.raises(InputError, match="colour table"):
         fb.with_colour(Framebuffer.of_rgb(2, 2), 1, 0, 0, 0)
     with pytest.raises(InputError, match="not a number"):
-        fb.with_lines(frame, [(np.nan, 0)], [(1, 1)], 1)
+        drawn_pixels.with_lines(frame, [(np.nan, 0)], [(1, 1)], 1)
     with pytest.raises(InputError, match="too far away"):
-        fb.with_polygons(frame, Polygons.of(np.array([(0, 0), (1e9, 0), (0, 1)])), 1)
+        drawn_pixels.with_polygons(frame, Polygons.of(np.array([(0, 0), (1e9, 0), (0, 1)])), 1)
     with pytest.raises(InputError, match="picture"):
         png_bytes(np.zeros((0, 4, 3), dtype=np.uint8))
     with pytest.raises(InputError, match="colours"):

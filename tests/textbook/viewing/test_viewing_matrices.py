@@ -5,11 +5,11 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from vectorplot import textbook as vw
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.cameras.pixel_window import PixelWindow
-from vectorplot.textbook.viewing import viewing_matrices as vw
 from vectorplot.textbook.viewing.viewing_matrices import ViewVolume
 
 EYE, GAZE, UP, P = (3, 2, 6), (-1, -0.5, -2), (0, 1, 0), (0.5, 0.25, -1)

@@ -14,7 +14,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.raster.pixel_lines import line_pixels
-from vectorplot.textbook.screens import framebuffer
+from vectorplot.textbook.screens import drawn_pixels, framebuffer
 from vectorplot.textbook.screens.framebuffer import Framebuffer
 
 
@@ -311,7 +311,7 @@ class Device:
         start, end = self._start(), _place(point)
         if self.cueing is not None:
             return replace(self, window=_with_shaded_line(self.frame, start, end, self.cueing), position=end)
-        return replace(self, window=framebuffer.with_lines(self.frame, [start], [end], self.colour), position=end)
+        return replace(self, window=drawn_pixels.with_lines(self.frame, [start], [end], self.colour), position=end)
 
     def rubber_band(self, point: ArrayLike) -> Device:
         """As drawn, but by exclusive or: the same again erases it.
@@ -333,7 +333,7 @@ class Device:
         """
         start, end = self._start(), _place(point)
         return replace(
-            self, window=framebuffer.with_rubber_bands(self.frame, [start], [end], self.colour), position=end
+            self, window=drawn_pixels.with_rubber_bands(self.frame, [start], [end], self.colour), position=end
         )
 
     def moved_area(self, point: ArrayLike) -> Device:
@@ -378,7 +378,7 @@ class Device:
         if not self.area:
             raise InputError("an area needs a first corner")
         polygon = Polygons.of(np.stack(self.area))
-        return replace(self, window=framebuffer.with_polygons(self.frame, polygon, self.colour), area=())
+        return replace(self, window=drawn_pixels.with_polygons(self.frame, polygon, self.colour), area=())
 
     def key_pressed(self) -> tuple[int, Device]:
         """The code of the next character typed, 0 if there is none, and the device without it."""

@@ -13,7 +13,7 @@ from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.raster.pixel_lines import line_pixels
 from vectorplot.shading.raster.png import Bytes
 from vectorplot.shading.raster.scan_lines import PolygonPixels, polygon_pixels, with_specks_grown
-from vectorplot.textbook.screens.framebuffer import Colour, Framebuffer, _bytes, _many
+from vectorplot.textbook.screens.framebuffer import Colour, Framebuffer, value_of, values_of
 
 
 def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: ArrayLike) -> Framebuffer:
@@ -52,7 +52,7 @@ def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: Ar
     >>> frame.pages[frame.drawn, ..., 0].tolist()
     [[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0], [0, 0, 0, 0, 1, 1]]
     """
-    values = _many(frame, colours, len(np.atleast_2d(np.asarray(start))))
+    values = values_of(frame, colours, len(np.atleast_2d(np.asarray(start))))
     pages = frame.pages.copy()
     for part in line_pixels(start, end, frame.columns, frame.rows):
         pages[frame.drawn, part.row, part.column] = values[part.line]
@@ -94,7 +94,7 @@ def with_rubber_bands(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colo
     >>> bool((band.pages == before.pages).all()), bool((after.pages == before.pages).all())
     (False, True)
     """
-    value = _bytes(frame, colour)
+    value = value_of(frame, colour)
     pages = frame.pages.copy()
     page = pages[frame.drawn].reshape(-1, len(value))
     for part in line_pixels(start, end, frame.columns, frame.rows):
@@ -142,7 +142,7 @@ def with_polygons(frame: Framebuffer, polygons: Polygons, colours: ArrayLike) ->
     >>> frame.pages[frame.drawn, ..., 0].tolist()
     [[9, 9, 9, 0, 0], [9, 9, 9, 0, 0], [0, 0, 0, 0, 0]]
     """
-    values = _many(frame, colours, len(polygons))
+    values = values_of(frame, colours, len(polygons))
     return _painted(frame, polygons, lambda found: values[found.polygon])
 
 

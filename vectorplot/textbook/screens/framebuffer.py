@@ -218,7 +218,7 @@ def cleared(frame: Framebuffer, colour: Colour) -> Framebuffer:
     [[0, 0, 255]]
     """
     pages = frame.pages.copy()
-    pages[frame.drawn] = _bytes(frame, colour)
+    pages[frame.drawn] = value_of(frame, colour)
     return replace(frame, pages=pages)
 
 
@@ -287,17 +287,17 @@ def with_pixels(frame: Framebuffer, points: ArrayLike, colours: ArrayLike) -> Fr
     column, row = whole_pixels(points).T
     inside = np.flatnonzero((column >= 0) & (column < frame.columns) & (row >= 0) & (row < frame.rows))
     pages = frame.pages.copy()
-    values = _many(frame, colours, len(column))
+    values = values_of(frame, colours, len(column))
     pages[frame.drawn, row[inside], column[inside]] = values[inside]
     return replace(frame, pages=pages)
 
 
-def _bytes(frame: Framebuffer, colour: Colour) -> Bytes:
+def value_of(frame: Framebuffer, colour: Colour) -> Bytes:
     """(k,) a colour as the pages hold it."""
-    return np.asarray(_many(frame, colour, 1)[0])
+    return np.asarray(values_of(frame, colour, 1)[0])
 
 
-def _many(frame: Framebuffer, colours: ArrayLike, count: int) -> Bytes:
+def values_of(frame: Framebuffer, colours: ArrayLike, count: int) -> Bytes:
     """(count, k) one colour, or count of them, as the pages hold them."""
     c = np.asarray(colours)
     k = frame.pages.shape[3]
