@@ -11,14 +11,14 @@ import vectorplot as vp
 from vectorplot.backends.page.areas import Areas
 from vectorplot.backends.page.page_marks import page_marks
 from vectorplot.errors import InputError
-from vectorplot.geometry import clipping
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.cameras.pixel_window import PixelWindow
+from vectorplot.geometry.clipping import clipped_lines
 from vectorplot.geometry.clipping.clip_windows import Box, Window
 from vectorplot.shading.light.depth_cueing import LEAST, depth_shades
 from vectorplot.testing.shapes import box
-from vectorplot.textbook.screens import framebuffer
+from vectorplot.textbook.screens import drawn_pixels
 from vectorplot.textbook.screens.device import DepthCueing, Device
 
 COLUMNS, ROWS = 60, 45
@@ -200,7 +200,7 @@ def solid(device):
 
 def by_or(frame):
     """How to draw lines in a framebuffer by exclusive or."""
-    return lambda p, q: framebuffer.with_rubber_bands(frame, p, q, 7)
+    return lambda p, q: drawn_pixels.with_rubber_bands(frame, p, q, 7)
 
 
 @pytest.mark.capability("G2.5-clip-draw-line")
@@ -210,8 +210,8 @@ def test_every_way_of_clipping_goes_with_solid_exclusive_or_and_buffered_lines(s
     start, end = rng.uniform(-40, 100, (2, 9, 2))
     window = Window(5, 40, 4, 30)
     clips = {
-        "in the window": lambda p, q: clipping.clip_lines_2d(p, q, window),
-        "not at all": lambda p, q: clipping.ClippedLines(p, q, np.ones(len(p), bool), np.zeros(len(p), bool)),
+        "in the window": lambda p, q: clipped_lines.clip_lines_2d(p, q, window),
+        "not at all": lambda p, q: clipped_lines.ClippedLines(p, q, np.ones(len(p), bool), np.zeros(len(p), bool)),
     }
     for name, clip in clips.items():
         lines = clip(start, end)
@@ -220,10 +220,10 @@ def test_every_way_of_clipping_goes_with_solid_exclusive_or_and_buffered_lines(s
             expected |= drawn_on(line(blank(), a, b))
         frame = blank().frame
 
-        plain = clipping.clip_and_draw(start, end, clip, solid(blank()))
+        plain = clipped_lines.clip_and_draw(start, end, clip, solid(blank()))
         assert drawn_on(plain) == expected, name
-        banded = clipping.clip_and_draw(start, end, clip, by_or(frame))
-        again = clipping.clip_and_draw(start, end, clip, by_or(banded))
+        banded = clipped_lines.clip_and_draw(start, end, clip, by_or(frame))
+        again = clipped_lines.clip_and_draw(start, end, clip, by_or(banded))
         assert np.array_equal(again.pages, frame.pages) and (banded.pages != frame.pages).any(), name
         # Buffered: on the page that is not seen, until the pages are exchanged.
         assert not plain.frame.picture().any() and plain.swapped().frame.picture().any()
@@ -242,15 +242,15 @@ def test_lines_of_space_are_drawn_where_they_are_inside_and_not_at_all_outside()
     start, end = (system.homogeneous(np.array([pair[k] for pair in (inside, crossing, outside)])) for k in (0, 1))
 
     def clip(p, q):
-        return clipping.clip_lines_3d(p, q, space)
+        return clipped_lines.clip_lines_3d(p, q, space)
 
     clipped = clip(start, end)
     assert clipped.exists.tolist() == [True, True, False] and clipped.clipped.tolist() == [False, True, True]
     expected = [system.from_world(np.array(p))[:2] for p in inside]
     assert np.allclose([clipped.start[0, :2], clipped.end[0, :2]], expected, atol=1e-9)
     separate = [drawn_on(line(blank(), clipped.start[k, :2], clipped.end[k, :2])) for k in range(2)]
-    assert drawn_on(clipping.clip_and_draw(start, end, clip, solid(blank()))) == separate[0] | separate[1]
-    assert not drawn_on(clipping.clip_and_draw(start[2:], end[2:], clip, solid(blank())))
+    assert drawn_on(clipped_lines.clip_and_draw(start, end, clip, solid(blank()))) == separate[0] | separate[1]
+    assert not drawn_on(clipped_lines.clip_and_draw(start[2:], end[2:], clip, solid(blank())))
 
 
 @dataclass
