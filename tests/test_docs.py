@@ -139,5 +139,5 @@ def test_the_page_of_the_textbook_names_every_file_of_it():
 
     page = (DOCS / "textbook.md").read_text(encoding="utf-8")
     named = {name for name in textbook.__all__ if f"`{name}`" in page}
-    files = {path.stem for path in (ROOT / "vectorplot" / "textbook").glob("[a-z]*.py")}
+    files = {path.stem for path in (ROOT / "vectorplot" / "textbook").rglob("[a-z]*.py")}
     assert {getattr(textbook, name).__module__.rpartition(".")[2] for name in named} == files

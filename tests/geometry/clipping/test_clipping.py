@@ -6,11 +6,11 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry import clipping as cl
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.collineation import collineate, depth_of
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.cameras.pixel_window import PixelWindow
+from vectorplot.geometry.clipping import clip_windows, clipped_lines, clipped_polygons
 from vectorplot.geometry.clipping.clip_windows import Box, Window
 from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.textbook.viewing.frustum import Frustum
@@ -49,24 +49,31 @@ def area(polygon):
 @pytest.mark.capability("G2.5-region")
 def test_nine_region_codes():
     grid = np.array([[(x, y) for x in (-5, 50, 105)] for y in (105, 50, -5)])
-    assert cl.region_codes(grid, HUNDRED).tolist() == [
+    assert clip_windows.region_codes(grid, HUNDRED).tolist() == [
         [0b0101, 0b0100, 0b0110],
         [0b0001, 0, 0b0010],
         [0b1001, 8, 0b1010],
     ]
-    assert (cl.LEFT, cl.RIGHT, cl.ABOVE, cl.BELOW) == (1, 2, 4, 8)
-    assert cl.region_codes([(0, 0), (100, 100)], HUNDRED).tolist() == [0, 0]
+    assert (clip_windows.LEFT, clip_windows.RIGHT, clip_windows.ABOVE, clip_windows.BELOW) == (1, 2, 4, 8)
+    assert clip_windows.region_codes([(0, 0), (100, 100)], HUNDRED).tolist() == [0, 0]
     depths = [(50, 50, z) for z in (-1.5, -0.9, -0.8, 0, 4, 4.1)]
-    assert cl.region_codes(depths, Box(HUNDRED)).tolist() == [cl.INFRONT, cl.BEHIND, 0, 0, 0, cl.INFRONT]
+    assert clip_windows.region_codes(depths, Box(HUNDRED)).tolist() == [
+        clip_windows.INFRONT,
+        clip_windows.BEHIND,
+        0,
+        0,
+        0,
+        clip_windows.INFRONT,
+    ]
 
 
 @pytest.mark.capability("G2.5-clip2d-line")
 def test_tv15_line_in_a_window():
-    lines = cl.clip_lines_2d([(-50, 20)], [(200, 80)], HUNDRED)
+    lines = clipped_lines.clip_lines_2d([(-50, 20)], [(200, 80)], HUNDRED)
     assert np.allclose([lines.start[0], lines.end[0]], [(0, 32), (100, 56)], rtol=0, atol=1e-12)
     assert lines.exists[0] and lines.clipped[0]
     # Erratum G2-07: the left-hand point goes to the left side.
-    lines = cl.clip_lines_2d([(-20, 10)], [(50, 40)], HUNDRED)
+    lines = clipped_lines.clip_lines_2d([(-20, 10)], [(50, 40)], HUNDRED)
     assert np.allclose(lines.start[0], (0, 10 + 30 * 20 / 70), atol=1e-12)
 
 
@@ -74,7 +81,7 @@ def test_tv15_line_in_a_window():
 @given(st.lists(st.tuples(number, number, number, number), min_size=1, max_size=20))
 def test_lines_in_a_window_agree_with_liang_barsky(rows):
     p, q = np.array(rows)[:, :2], np.array(rows)[:, 2:]
-    lines = cl.clip_lines_2d(p, q, HUNDRED)
+    lines = clipped_lines.clip_lines_2d(p, q, HUNDRED)
     for k in range(len(p)):
         part = liang_barsky(p[k], q[k], HUNDRED)
         if part is None or part[1] - part[0] < 1e-9:
@@ -84,7 +91,9 @@ def test_lines_in_a_window_agree_with_liang_barsky(rows):
         assert lines.exists[k]
         assert np.allclose(lines.start[k], p[k] + part[0] * (q[k] - p[k]), atol=1e-9)
         assert np.allclose(lines.end[k], p[k] + part[1] * (q[k] - p[k]), atol=1e-9)
-    outside = cl.region_codes(lines.start[lines.exists], HUNDRED) | cl.region_codes(lines.end[lines.exists], HUNDRED)
+    outside = clip_windows.region_codes(lines.start[lines.exists], HUNDRED) | clip_windows.region_codes(
+        lines.end[lines.exists], HUNDRED
+    )
     assert not outside.any()
 
 
@@ -92,17 +101,17 @@ def test_lines_in_a_window_agree_with_liang_barsky(rows):
 def test_exists_and_was_clipped():
     start = [(10.0, 10.0), (-10.0, 50.0), (-10.0, 50.0), (-10, 90), (0.0, 0.0), (-5.0, -5.0)]
     end = [(20.0, 30.0), (-20.0, 60.0), (50.0, 50.0), (20, 150), (100.0, 0.0), (-5.0, -5.0)]
-    lines = cl.clip_lines_2d(start, end, HUNDRED)
+    lines = clipped_lines.clip_lines_2d(start, end, HUNDRED)
     assert lines.exists.tolist() == [True, False, True, False, True, False]
     assert lines.clipped.tolist() == [False, True, True, True, False, True]
     assert lines.start[2].tolist() == [0.0, 50.0]
-    none = cl.clip_lines_2d(np.zeros((0, 2)), np.zeros((0, 2)), HUNDRED)
+    none = clipped_lines.clip_lines_2d(np.zeros((0, 2)), np.zeros((0, 2)), HUNDRED)
     assert len(none.exists) == 0
 
 
 @pytest.mark.capability("G2.5-clip2d-line")
 def test_depth_goes_along_linearly():
-    lines = cl.clip_lines_2d([(-50, 20, 0.0)], [(200, 80, 10.0)], HUNDRED)
+    lines = clipped_lines.clip_lines_2d([(-50, 20, 0.0)], [(200, 80, 10.0)], HUNDRED)
     assert np.allclose((lines.start[0, 2], lines.end[0, 2]), (2.0, 6.0), atol=1e-14)
 
 
@@ -110,7 +119,7 @@ def test_depth_goes_along_linearly():
 def test_the_region_is_the_whole_window_or_what_the_user_says():
     assert Window.of_size(800, 600) == Window(0, 800, 0, 600)
     assert BOX.window == Window(0, 800, 0, 600)
-    lines = cl.clip_lines_2d([(0.0, 0.0)], [(100.0, 100.0)], Window(20, 40, -50, 30))
+    lines = clipped_lines.clip_lines_2d([(0.0, 0.0)], [(100.0, 100.0)], Window(20, 40, -50, 30))
     assert (lines.start[0].tolist(), lines.end[0].tolist()) == ([20.0, 20.0], [30.0, 30.0])
     for empty in ((1, 1, 0, 5), (0, 5, 3, 2), (0, float("nan"), 0, 1)):
         with pytest.raises(InputError, match="window"):
@@ -123,7 +132,7 @@ def test_any_clipping_goes_with_any_drawing():
     start, end = (np.array([line[k] for line in (inside, across, outside)]) for k in (0, 1))
 
     def window(p, q):
-        return cl.clip_lines_2d(p, q, HUNDRED)
+        return clipped_lines.clip_lines_2d(p, q, HUNDRED)
 
     def solid(p, q):
         return [("line", *a, *b) for a, b in zip(p.tolist(), q.tolist(), strict=True)]
@@ -132,11 +141,11 @@ def test_any_clipping_goes_with_any_drawing():
         return float(np.linalg.norm(q - p, axis=1).sum())
 
     def nothing_clipped(p, q):
-        return cl.ClippedLines(p, q, np.ones(len(p), dtype=bool), np.zeros(len(p), dtype=bool))
+        return clipped_lines.ClippedLines(p, q, np.ones(len(p), dtype=bool), np.zeros(len(p), dtype=bool))
 
-    assert cl.clip_and_draw(start, end, window, solid) == [("line", 1, 2, 3, 4), ("line", 0, 50, 50, 50)]
-    assert cl.clip_and_draw(start, end, window, length) == pytest.approx(50 + 8**0.5)
-    assert len(cl.clip_and_draw(start, end, nothing_clipped, solid)) == 3
+    assert clipped_lines.clip_and_draw(start, end, window, solid) == [("line", 1, 2, 3, 4), ("line", 0, 50, 50, 50)]
+    assert clipped_lines.clip_and_draw(start, end, window, length) == pytest.approx(50 + 8**0.5)
+    assert len(clipped_lines.clip_and_draw(start, end, nothing_clipped, solid)) == 3
 
 
 @pytest.mark.capability("G2.5-z-region")
@@ -169,7 +178,7 @@ def test_lines_after_t2_agree_with_the_frustum_in_the_world_also_across_the_eye(
     rng = np.random.default_rng(9)
     p, q = rng.uniform(-14, 14, (2, 2000, 3)) + SCREEN.centre / 2
     assert SCREEN.forbidden(p).sum() > 300
-    lines = cl.clip_lines_3d(SCREEN.homogeneous(p), SCREEN.homogeneous(q), BOX)
+    lines = clipped_lines.clip_lines_3d(SCREEN.homogeneous(p), SCREEN.homogeneous(q), BOX)
     found = 0
     for k in range(len(p)):
         part = inside_by_sampling(p[k], q[k], frustum)
@@ -195,17 +204,17 @@ def test_both_images_beyond_the_right_edge_yet_the_line_crosses_the_window():
     p, q = np.array([[4.0, 0.0, 0.0]]), np.array([[-3.0, 0.0, 14.0]])
     raw = np.concatenate([system.homogeneous(p), system.homogeneous(q)])
     assert (raw[:, 0] / raw[:, 3] > 600).all()
-    lines = cl.clip_lines_3d(raw[:1], raw[1:], Box(Window.of_size(600, 600)))
+    lines = clipped_lines.clip_lines_3d(raw[:1], raw[1:], Box(Window.of_size(600, 600)))
     assert lines.exists[0] and lines.start[0, 0] == pytest.approx(600) and lines.end[0, 0] < 600
     # A point in the neutral plane itself does no harm.
-    level = cl.clip_lines_3d(raw[:1], system.homogeneous([[1.0, 0.0, 10.0]]), Box(Window.of_size(600, 600)))
+    level = clipped_lines.clip_lines_3d(raw[:1], system.homogeneous([[1.0, 0.0, 10.0]]), Box(Window.of_size(600, 600)))
     assert np.isfinite(level.end).all()
 
 
 @pytest.mark.capability("G2.5-clip3d-line")
 def test_a_parallel_projection_is_clipped_in_its_own_depths():
     system = CoordinateSystem.of_image(Camera.view("top"))
-    lines = cl.clip_lines_3d(
+    lines = clipped_lines.clip_lines_3d(
         system.homogeneous([[0.5, 0.5, -9.0]]), system.homogeneous([[0.5, 0.5, 9.0]]), Box(Window.of_size(1, 1), -2, 3)
     )
     assert np.allclose([lines.start[0], lines.end[0]], [(0.5, 0.5, -2), (0.5, 0.5, 3)], atol=1e-15)
@@ -214,7 +223,7 @@ def test_a_parallel_projection_is_clipped_in_its_own_depths():
 @pytest.mark.capability("G2.5-clip2d-poly")
 def test_tv72_triangle_in_a_window():
     triangle = Polygons.of([(-2, 1), (5, -3), (4, 6)])
-    clipped = cl.clip_polygons_2d(triangle, Window(0, 4, 0, 4))
+    clipped = clipped_polygons.clip_polygons_2d(triangle, Window(0, 4, 0, 4))
     expected = [(0, 0), (0, 8 / 3), (1.6, 4), (4, 0), (4, 4)]
     assert np.allclose(sorted(clipped[0].tolist()), expected, rtol=0, atol=1e-12)
     assert area(clipped[0]) == pytest.approx(14.9333333333333, abs=1e-12)
@@ -226,7 +235,7 @@ def test_depth_of_new_corners_is_linear_entering_and_leaving(way):
     # Erratum G2-11.
     corners = np.array([(-2.0, 1.0), (5.0, -3.0), (4.0, 6.0)])[::way]
     depth = corners @ (0.3, -0.7) + 2.0
-    clipped = cl.clip_polygons_2d(Polygons.of(np.column_stack([corners, depth])), Window(0, 4, 0, 4))[0]
+    clipped = clipped_polygons.clip_polygons_2d(Polygons.of(np.column_stack([corners, depth])), Window(0, 4, 0, 4))[0]
     assert len(clipped) == 5
     assert np.allclose(clipped[:, 2], clipped[:, :2] @ (0.3, -0.7) + 2.0, atol=1e-14)
     assert np.sign(area(clipped)) == np.sign(area(corners))
@@ -243,7 +252,7 @@ def test_many_polygons_agree_with_shapely():
         angles = np.sort(rng.uniform(0, 2 * np.pi, rng.integers(3, 9)))
         spread = rng.uniform(0.2, 1.5, (len(angles), 1))
         polygons.append(np.stack([np.cos(angles), np.sin(angles)], axis=1) * spread + rng.uniform(-1.5, 1.5, 2))
-    clipped = cl.clip_polygons_2d(Polygons.of(*polygons), window)
+    clipped = clipped_polygons.clip_polygons_2d(Polygons.of(*polygons), window)
     assert len(clipped) == 200
     frame = shapely.box(-1, -0.5, 1, 0.8)
     empty = 0
@@ -255,19 +264,19 @@ def test_many_polygons_agree_with_shapely():
         got = area(clipped[k]) if len(clipped[k]) else 0.0
         empty += not len(clipped[k])
         assert abs(got) == pytest.approx(exact, abs=1e-12)
-        assert not len(clipped[k]) or not cl.region_codes(clipped[k], window).any()
+        assert not len(clipped[k]) or not clip_windows.region_codes(clipped[k], window).any()
     assert empty > 5
 
 
 @pytest.mark.capability("G2.5-clip2d-poly")
 def test_a_side_through_corners_keeps_the_right_half():
     square = Polygons.of([(-1, 0), (0, -1), (1, 0), (0, 1)])
-    half, is_new = cl.cut_polygons(square, square.points[:, 0])
+    half, is_new = clipped_polygons.cut_polygons(square, square.points[:, 0])
     assert half[0].tolist() == [[0, -1], [1, 0], [0, 1]] and not is_new.any()
-    touching, _ = cl.cut_polygons(square, square.points[:, 0] - 1.0)
+    touching, _ = clipped_polygons.cut_polygons(square, square.points[:, 0] - 1.0)
     assert len(touching) == 1 and len(touching[0]) == 0
     two = Polygons.of(square.points, np.add(square.points, (0.5, 0.0)))
-    second, _ = cl.cut_polygons(two, two.points[:, 0] - 1.0)
+    second, _ = clipped_polygons.cut_polygons(two, two.points[:, 0] - 1.0)
     assert len(second) == 2 and len(second[0]) == 0
     assert second.points.tolist() == second[1].tolist() == [[1.0, -0.5], [1.5, 0.0], [1.0, 0.5]]
 
@@ -281,13 +290,13 @@ def test_polygons_in_the_box_agree_with_the_frustum_in_the_world():
     assert (SCREEN.forbidden(triangles).any(axis=1) & ~SCREEN.forbidden(triangles).all(axis=1)).sum() > 100
     count = len(triangles)
     polygons = Polygons(SCREEN.homogeneous(triangles).reshape(-1, 4), np.arange(0, 3 * count + 1, 3))
-    clipped = cl.clip_polygons_3d(polygons, BOX)
+    clipped = clipped_polygons.clip_polygons_3d(polygons, BOX)
     planes, mesh = [], frustum.mesh
     for first, normal in zip(mesh.corners[mesh.offsets[:-1]], mesh.face_normals, strict=True):
         planes.append((-normal, normal @ mesh.vertices[first]))
     world = Polygons(triangles.reshape(-1, 3), np.arange(0, 3 * count + 1, 3))
     for normal, constant in planes:
-        world, _ = cl.cut_polygons(world, world.points @ normal + constant)
+        world, _ = clipped_polygons.cut_polygons(world, world.points @ normal + constant)
     filled = 0
     for k in range(count):
         if len(world[k]) == 0:
@@ -305,7 +314,9 @@ def test_polygons_in_the_box_agree_with_the_frustum_in_the_world():
 def test_a_polygon_around_the_eye_fills_the_window():
     system = CoordinateSystem.of_screen(Camera(eye=(0, 0, 10), up=(0, 1, 0)), PixelWindow(600, 600))
     floor = [(-1e3, -1, -1e3), (1e3, -1, -1e3), (1e3, -1, 1e3), (-1e3, -1, 1e3)]
-    clipped = cl.clip_polygons_3d(Polygons.of(system.homogeneous(floor)), Box(Window.of_size(600, 600), -0.99, 100.0))
+    clipped = clipped_polygons.clip_polygons_3d(
+        Polygons.of(system.homogeneous(floor)), Box(Window.of_size(600, 600), -0.99, 100.0)
+    )
     assert clipped[0][:, 1].min() == pytest.approx(0.0, abs=1e-9)
     assert np.abs(area(clipped[0])) == pytest.approx(600 * clipped[0][:, 1].max(), rel=1e-9)
 
