@@ -1,4 +1,5 @@
 from .accuracy.verb import accuracy
+from .animate import animate
 from .animation.animation import Animation
 from .animation.animation_file import read_animation
 from .draw import draw
@@ -8,6 +9,7 @@ from .drawing.sheets.contact_sheets import contact_sheet
 from .drawing.sheets.sheet import Sheet
 from .effects.cutting.cut_scenes import cut
 from .errors import InputError, InputWarning
+from .film import Film
 from .geometry.cameras.camera import Camera
 from .geometry.cameras.panorama import Panorama
 from .geometry.mesh import Mesh
@@ -17,6 +19,7 @@ from .panorama import panorama
 from .read import read
 from .render import render
 from .save import save, save_for_latex
+from .save_frames import save_frames
 from .scene.cuts.exploded import exploded
 from .scene.hatching import Hatching, Stippling
 from .scene.item import Item, Pattern
@@ -42,6 +45,7 @@ __all__ = [
     "AtVertex",
     "Camera",
     "Drawing",
+    "Film",
     "Hatching",
     "Image",
     "InputError",
@@ -69,6 +73,7 @@ __all__ = [
     "SurfaceLines",
     "accuracy",
     "angle",
+    "animate",
     "arrow",
     "axes",
     "centre_line",
@@ -89,6 +94,7 @@ __all__ = [
     "render",
     "save",
     "save_for_latex",
+    "save_frames",
     "surface",
     "technical_sheet",
     "tube",

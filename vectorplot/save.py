@@ -7,6 +7,7 @@ import secrets
 from collections.abc import Callable
 from importlib import import_module
 from pathlib import Path
+from typing import Protocol, runtime_checkable
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
@@ -34,14 +35,29 @@ _SCENE = "scene"
 """The one format of scenes."""
 
 
-def save(drawing: Drawing | Image | Scene, path: str | os.PathLike[str]) -> None:
-    """Write a drawing, a picture of pixels or a scene in the format of the suffix.
+@runtime_checkable
+class Frames(Protocol):
+    """Pictures that know how they are saved together, as a film does."""
+
+    @property
+    def fps(self) -> float:
+        """Frames a second."""
+        ...
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write them in the format of the suffix."""
+        ...
+
+
+def save(drawing: Drawing | Image | Scene | Frames, path: str | os.PathLike[str]) -> None:
+    """Write a drawing, a picture of pixels, a scene or a film in the format of the suffix.
 
     Parameters
     ----------
-    drawing : Drawing, Image or Scene
+    drawing : Drawing, Image, Scene or Film
         What is written: a drawing as svg, ps, eps, pdf, png, tex (PGF/TikZ, for LaTeX), dxf or json; a picture of
-        pixels as png; a scene as scene, a text in the scene language.
+        pixels as png; a scene as scene, a text in the scene language; a film as pdf, svg, mp4, webm, gif or vd1, or
+        into a folder, as `vp.save_frames` writes it.
     path : str or path
         The file, whose suffix says the format.
 
@@ -69,6 +85,9 @@ def save(drawing: Drawing | Image | Scene, path: str | os.PathLike[str]) -> None
     >>> again.items
     ('triangle',)
     """
+    if isinstance(drawing, Frames):
+        drawing.save(path)
+        return
     suffix = Path(path).suffix
     if suffix[1:].lower() not in (*_BACKENDS, _SCENE):
         raise InputError(f"unknown suffix {suffix!r}; known are .{', .'.join(FORMATS)}", file=os.fspath(path))

@@ -18,7 +18,8 @@ from vectorplot.cli.common_options import (
     picture_verb,
 )
 from vectorplot.cli.hatching_options import HATCHING_OPTIONS, hatching_from
-from vectorplot.cli.options import at_least, dash, layers, pen, place, said_or_none, style
+from vectorplot.cli.options import at_least, layers, place
+from vectorplot.cli.stroke_options import STROKE_OPTIONS
 from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
@@ -44,36 +45,7 @@ if TYPE_CHECKING:
     *PAGE_OPTIONS,
     lines_option("Kinds of lines", default=None, note="  [default: all but edges; in wireframes all but intersection]"),
     crease_angle_option("Sharper edges are creases."),
-    click.option(
-        "--style",
-        type=style,
-        default="plain",
-        metavar="STYLE",
-        help="plain, plotter, book, draft, blueprint, wireframe, depth-cue, or a file that ends in .toml.",
-    ),
-    click.option(
-        "--hidden",
-        type=click.Choice(["none", "dashed", "solid"]),
-        help="How hidden lines look.  [default: none, or what the style says]",
-    ),
-    click.option(
-        "--pen",
-        "pens",
-        type=pen,
-        multiple=True,
-        callback=said_or_none,
-        metavar="[WHAT=]PEN,...",
-        help="WIDTH, COLOUR or WIDTH:COLOUR of a kind of line (or hidden), an item, or ITEM.KIND; repeat it for more.",
-    ),
-    click.option(
-        "--dash",
-        "dashes",
-        type=dash,
-        multiple=True,
-        callback=said_or_none,
-        metavar="[WHAT=]DASH,GAP",
-        help="Dashes of the same, in mm or with units (8pt,3pt), or none; repeat it for more.",
-    ),
+    *STROKE_OPTIONS,
     click.option("--scale-pens", is_flag=True, help="Widths and dashes are those on A4, and grow with the page."),
     click.option("--thin-ends", is_flag=True, help="Lines that converge stop early in turn, before they blot."),
     BACKGROUND,

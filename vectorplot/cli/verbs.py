@@ -6,10 +6,12 @@ import click
 
 from vectorplot import __version__
 from vectorplot.cli.accuracy import accuracy
+from vectorplot.cli.animate import animate
 from vectorplot.cli.draw import draw
 from vectorplot.cli.info import info
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
+from vectorplot.cli.replay import replay
 from vectorplot.cli.sheet import sheet
 from vectorplot.cli.speed import speed
 from vectorplot.errors import printable
@@ -40,6 +42,8 @@ vectorplot.add_command(paint)
 vectorplot.add_command(info)
 vectorplot.add_command(render)
 vectorplot.add_command(sheet)
+vectorplot.add_command(animate)
+vectorplot.add_command(replay)
 vectorplot.add_command(accuracy)
 vectorplot.add_command(speed)
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.vectors import cross, normalize
@@ -19,7 +20,12 @@ def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
 
     The front of a scene with z upwards is where y is smallest, with y upwards where z is largest.
     """
-    low, high = scene.bounds
+    return camera_around(scene.bounds, up)
+
+
+def camera_around(bounds: Floats, up: Point = (0.0, 0.0, 1.0)) -> Camera:
+    """The same, of a scene with these bounds (2,3)."""
+    low, high = bounds
     centre, size = (low + high) / 2.0, math.dist(low, high)
     above = normalize(up)
     # Without a direction upwards, or with x upwards, something has to be the right.

@@ -26,7 +26,7 @@ from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.errors import InputError
-from vectorplot.shading.raster.png import DPI, with_meaning
+from vectorplot.shading.raster.png import DPI, Bytes, with_meaning
 
 if TYPE_CHECKING:
     import cairo
@@ -165,7 +165,8 @@ def pdf_bytes(drawing: Drawing) -> bytes:
     surface.set_metadata(cairo.PDFMetadata.CREATE_DATE, "")
     if page.title:
         surface.set_metadata(cairo.PDFMetadata.TITLE, page.title)
-    _draw(surface, page, height)
+    draw_page(surface, page, height)
+    surface.finish()
     return with_triangles_in_pdf(stream.getvalue())
 
 
@@ -203,6 +204,20 @@ def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
     >>> int.from_bytes(content[16:20], "big"), int.from_bytes(content[20:24], "big")
     (100, 50)
     """
+    stream = io.BytesIO()
+    _raster(drawing, dpi).write_to_png(stream)
+    return with_meaning(stream.getvalue(), dpi)
+
+
+def drawing_pixels(drawing: Drawing, dpi: float = DPI) -> Bytes:
+    """(rows, columns, 3) the pixels of the picture that png_bytes gives. Errors: as there."""
+    surface = _raster(drawing, dpi)
+    rows, stride = surface.get_height(), surface.get_stride()
+    words = np.frombuffer(surface.get_data(), dtype=np.uint32).reshape(rows, stride // 4)[:, : surface.get_width()]
+    return np.stack([words >> 16, words >> 8, words], axis=2).astype(np.uint8)
+
+
+def _raster(drawing: Drawing, dpi: float) -> cairo.ImageSurface:
     import cairo
 
     page = page_marks(drawing)
@@ -220,9 +235,8 @@ def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
     context.set_source_rgb(1.0, 1.0, 1.0)
     context.paint()
     _ink(context, page, scale, page.height * scale, max(SEAM_MM * 1000.0 * scale, 1.0))
-    stream = io.BytesIO()
-    surface.write_to_png(stream)
-    return with_meaning(stream.getvalue(), dpi)
+    surface.flush()
+    return surface
 
 
 def _postscript(page: PageMarks, *, eps: bool) -> bytes:
@@ -237,7 +251,8 @@ def _postscript(page: PageMarks, *, eps: bool) -> bytes:
     surface.set_eps(eps)
     if page.title:
         surface.dsc_comment(f"%%Title: ({postscript_string(page.title)})")
-    _draw(surface, page, height)
+    draw_page(surface, page, height)
+    surface.finish()
     text = with_triangles_in_postscript(re.sub(rb"(?m)^%%CreationDate:.*\n", b"", stream.getvalue(), count=1))
     if not any(len(part) for ink in page.inks for part in ink.parts):
         text = _with_page_box(text, page)
@@ -263,13 +278,13 @@ def _whole_points(page: PageMarks) -> tuple[int, int]:
     return math.ceil(page.width * POINTS_PER_MICRON), math.ceil(page.height * POINTS_PER_MICRON)
 
 
-def _draw(surface: cairo.Surface, page: PageMarks, height: float) -> None:
+def draw_page(surface: cairo.Surface, page: PageMarks, height: float) -> None:
+    """Draw a page of PostScript or PDF, and end it; height: of the page, in points."""
     import cairo
 
     context = cairo.Context(surface)
     _ink(context, page, POINTS_PER_MICRON, height, SEAM_MM * 1000.0 * POINTS_PER_MICRON)
     context.show_page()
-    surface.finish()
 
 
 def _ink(context: cairo.Context[Any], page: PageMarks, scale: float, height: float, seam: float) -> None:

@@ -1,0 +1,110 @@
+"""``vectorplot animate`` and ``vectorplot replay``."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from support.paths import DATA, ROOT
+
+from vectorplot.animation import read_movie
+from vectorplot.cli.main import run
+
+ANIM = ROOT / "anim"
+
+
+@pytest.fixture
+def workplace(tmp_path, monkeypatch):
+    """A folder with data, anim and video in it."""
+    (tmp_path / "data").mkdir()
+    (tmp_path / "anim").mkdir()
+    (tmp_path / "data" / "die.scene").write_text("camera eye 9 -9 6 DIE red box solid 2 2 2", encoding="utf-8")
+    (tmp_path / "anim" / "turn.anim").write_text("frames 3 item DIE rotation z at 0 0 at 1 40", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.capability("GA.1-layout")
+def test_files_lie_where_the_book_has_them(workplace):
+    assert run(["animate", "die", "-a", "turn", "-v", "turn"]) == 0
+    assert sorted(path.name for path in Path("video").iterdir()) == ["turn.vd1", "turn.vd2"]
+    assert run(["animate", "data/die.scene", "-a", "anim/turn", "-v", "video/again"]) == 0
+    assert Path("video/again.vd1").read_bytes() == Path("video/turn.vd1").read_bytes()
+    # What lies in the current folder comes first.
+    Path("die").write_text("DIE blue box 1 1 1", encoding="utf-8")
+    assert run(["animate", "die", "-a", "turn", "-v", "other"]) == 0
+    assert Path("video/other.vd2").read_bytes() != Path("video/turn.vd2").read_bytes()
+    assert run(["replay", "turn"]) == run(["replay", "video/turn.vd1"]) == 0
+
+
+@pytest.mark.capability("GA.3-pencil")
+def test_the_pencil_is_animated_recorded_and_replayed(tmp_path, monkeypatch, capsys):
+    for folder, name in ((DATA, "pencil.scene"), (ANIM, "pencil.anim")):
+        (tmp_path / folder.name).mkdir()
+        shutil.copy(folder / name, tmp_path / folder.name)
+    monkeypatch.chdir(tmp_path)
+    assert run(["animate", "pencil", "-a", "pencil", "-v", "pencil", "-o", "film.pdf", "--frames", "4"]) == 0
+    assert len(read_movie("video/pencil")) == 4
+    assert run(["replay", "pencil", "-o", "again.pdf"]) == 0
+    for name in ("film.pdf", "again.pdf"):
+        told = subprocess.run(["pdfinfo", name], capture_output=True, text=True, check=True).stdout
+        assert "Pages:           4" in told
+    assert run(["replay", "pencil"]) == 0
+    assert "4 frames, 0 of them frozen; 2 palettes" in capsys.readouterr().out
+
+
+def test_options_mean_what_they_mean_to_the_verbs(workplace):
+    assert run(["animate", "die", "-a", "turn", "-o", "a.svg", "--eye", "-9,4,3", "--hidden", "dashed"]) == 0
+    text = Path("a.svg").read_text(encoding="utf-8")
+    assert text.count("hidden") > 3 and 'viewBox="0 0 210 297"' in text
+    wide = ["--page", "100x50", "--mode", "shading", "--frames", "2", "--background", "yellow"]
+    assert run(["animate", "die", "-a", "turn", "-o", "b/", "--format", "png", *wide]) == 0
+    assert sorted(path.name for path in Path("b").iterdir()) == ["0001.png", "0002.png"]
+    assert run(["animate", "die", "-a", "turn", "-o", "c/", "--mode", "pixels", "--size", "40x30"]) == 0
+    assert len(list(Path("c").glob("*.png"))) == 3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "status", "cause"),
+    [
+        (["animate", "die", "-a", "turn"], 2, "nothing to write: give -o OUT, or -v NAME, or both"),
+        (["animate", "die", "-o", "a.pdf"], 2, "Missing option '-a'"),
+        (["animate", "dye", "-a", "turn", "-o", "a.pdf"], 1, "dye: no such data file, nor in data/"),
+        (["animate", "die", "-a", "trun", "-o", "a.pdf"], 1, "trun: no such animation file, nor in anim/"),
+        (["animate", "die", "-a", "turn", "-o", "a.ps"], 2, "frames are written as .pdf, .svg, .mp4"),
+        (["animate", "die", "-a", "turn", "-o", "no/a.pdf"], 1, "no: No such file or directory"),
+        (["animate", "die", "-a", "turn", "-o", "a.pdf", "--format", "svg"], 2, "--format is that of single frames"),
+        (["animate", "die", "-a", "turn", "-o", "a.pdf", "--mode", "shadows", "--hidden", "solid"], 2, "--hidden does"),
+        (["animate", "die", "-a", "turn", "-o", "a.pdf", "--fps", "0"], 1, "0 frames a second"),
+        (["animate", "die", "-a", "turn", "-v", "a", "--mode", "pixels"], 1, "frames of pixels do not go into a movie"),
+        (["replay", "none"], 1, "no such movie: neither none.vd1 nor video/none.vd1"),
+        (["replay", "bad"], 1, "bad.vd1: byte 0: the movie breaks off here"),
+    ],
+    ids=range(12),
+)
+def test_what_is_wrong_is_one_line_and_nothing_is_written(arguments, status, cause, workplace, capsys):
+    Path("bad.vd1").write_bytes(b"")
+    Path("bad.vd2").write_bytes(bytes.fromhex("0ff000000000000000000000"))
+    before = sorted(workplace.rglob("*"))
+    assert run(arguments) == status
+    err = capsys.readouterr().err
+    assert cause in err and (status == 2 or err.count("\n") == 1)
+    assert [path for path in sorted(workplace.rglob("*")) if path.name != "video"] == before
+
+
+def test_a_stop_leaves_no_half_file(workplace):
+    script = (
+        "import os, signal, sys, vectorplot.film as film\n"
+        "made = film.Film.picture\n"
+        "def stopping(self, frame, progress=None):\n"
+        "    if frame == 2: os.kill(os.getpid(), signal.SIGTERM)\n"
+        "    return made(self, frame, progress)\n"
+        "film.Film.picture = stopping\n"
+        "from vectorplot.cli.main import main\n"
+        "sys.argv = ['vectorplot', 'animate', 'die', '-a', 'turn', '-o', 'a.pdf']\n"
+        "main()\n"
+    )
+    found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
+    assert found.returncode == 143 and "terminated" in found.stderr
+    assert sorted(path.name for path in workplace.iterdir()) == ["anim", "data"]

@@ -1,0 +1,153 @@
+"""Strokes in correspondence from frame to frame: the same order, and the same ends first."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths
+from vectorplot.drawing.strokes.stroke_paths import directed, swapped, unrolled, world_per_mm
+from vectorplot.geometry import ragged
+from vectorplot.geometry.polylines import joined, some, with_points
+from vectorplot.scene.scene import Scene
+from vectorplot.tolerances.of_the_page import COINCIDENT_MM
+
+
+def corresponding(drawing: Drawing, scene: Scene) -> Drawing:
+    """The drawing with the strokes of each layer in an order that does not depend on where one looks from: by item,
+    kind, whether they are hidden, and the vertices of the item that their ends are nearest to; each stroke begins at
+    the end, and each loop at the corner, that comes first among these.
+
+    Where three lines or more of a layer meet in a vertex all of them end: which two of them a pen would draw in one go
+    depends on the picture. Its order, which is short, is lost too. Of curves the order changes, the sense stays.
+    """
+    nearest = _Nearest(drawing, scene)
+    layers = []
+    for layer in drawing.layers:
+        marks = [_sorted(mark, nearest) if isinstance(mark, Paths | CurvedStrokes) else mark for mark in layer.marks]
+        layers.append(Layer(layer.name, layer.pen, tuple(marks), layer.plotted))
+    return replace(drawing, layers=tuple(layers))
+
+
+class _Nearest:
+    """Which vertex of its item each point is nearest to: items move, their vertices keep their numbers."""
+
+    def __init__(self, drawing: Drawing, scene: Scene) -> None:
+        meshes = {item.name: item.mesh for item in reversed(scene.items)}
+        self.vertices = [meshes[name].vertices if name in meshes else np.zeros((0, 3)) for name in drawing.items]
+        self.trees: dict[int, Any] = {}
+
+    def vertex(self, points: Floats, item: Ints) -> tuple[Ints, Floats]:
+        """(n,) numbers and (n,) distances; of items without vertices 0 and the height, then the width."""
+        number = np.zeros(len(points), dtype=np.intp)
+        far = points[:, 2].copy() if len(points) else np.zeros(0)
+        for which in np.unique(item).tolist():
+            tree = self._tree(which)
+            if tree is not None:
+                here = np.flatnonzero(item == which)
+                far[here], number[here] = tree.query(points[here])
+        return number, far
+
+    def known(self, item: Ints) -> Bools:
+        """(n,) whether items have vertices."""
+        has = np.array([len(vertices) > 0 for vertices in self.vertices] + [False], dtype=np.bool_)
+        return np.asarray(has[np.clip(item, -1, len(has) - 1)], dtype=np.bool_)
+
+    def _tree(self, item: int) -> Any:
+        from scipy.spatial import KDTree
+
+        if item not in self.trees:
+            vertices = self.vertices[item] if 0 <= item < len(self.vertices) else np.zeros((0, 3))
+            self.trees[item] = KDTree(vertices) if len(vertices) else None
+        return self.trees[item]
+
+
+def _sorted(mark: Paths | CurvedStrokes, nearest: _Nearest) -> Paths | CurvedStrokes:
+    """The strokes in their order; polylines turned as well."""
+    paths = mark.paths if isinstance(mark, CurvedStrokes) else mark
+    if not len(paths):
+        return mark
+    if isinstance(mark, Paths):
+        paths = _cut_at_junctions(paths, nearest)
+        number, far = nearest.vertex(paths.points3d, np.repeat(paths.item, np.diff(paths.offsets)))
+        index, backwards = _ways(paths, number, far)
+        turned = with_points(paths, index, np.arange(len(paths)), paths.offsets)
+        directions, handles = directed(turned.directions, backwards), swapped(turned.handles, backwards)
+        paths, number, far = replace(turned, directions=directions, handles=handles), number[index], far[index]
+    else:
+        number, far = nearest.vertex(paths.points3d, np.repeat(paths.item, np.diff(paths.offsets)))
+    first, last = paths.offsets[:-1], paths.offsets[1:] - 1
+    keys = (far[first], number[last], number[first], paths.curve, paths.hidden_by > 0, paths.kind, paths.item)
+    rank = np.lexsort(keys)
+    found = some(paths, rank)
+    if isinstance(mark, Paths):
+        return found
+    place = np.empty(len(rank), dtype=np.intp)
+    place[rank] = np.arange(len(rank))
+    arcs = replace(mark.arcs, stroke=place[mark.arcs.stroke])
+    return CurvedStrokes(found, some(mark.beziers, rank), arcs.some(np.argsort(arcs.stroke, kind="stable")))
+
+
+def _cut_at_junctions(paths: Paths, nearest: _Nearest) -> Paths:
+    """The strokes, cut in the vertices where three segments or more meet that are on one layer."""
+    cut = _junctions(paths, nearest)
+    owner = ragged.owner(np.diff(paths.offsets))
+    round_ = np.zeros(len(paths), dtype=np.bool_)
+    round_[owner[cut]] = True
+    round_ &= paths.closed
+    if round_.any():
+        some_cut = np.flatnonzero(cut)
+        begin = some_cut[np.searchsorted(some_cut, paths.offsets[:-1]) % max(len(some_cut), 1)] - paths.offsets[:-1]
+        loops = some(unrolled(paths, np.where(round_, begin, 0), round_.astype(np.intp)), round_)
+        paths = joined([some(paths, ~round_), loops])
+        cut = _junctions(paths, nearest)
+    ends = np.zeros(len(cut), dtype=np.bool_)
+    ends[paths.offsets[:-1]] = ends[paths.offsets[1:] - 1] = True
+    cut &= ~ends
+    index = np.repeat(np.arange(len(cut)), 1 + cut)
+    first = np.zeros(len(index), dtype=np.bool_)
+    where = ragged.starts(1 + cut)
+    first[where[paths.offsets[:-1]]] = True
+    first[where[cut] + 1] = True
+    offsets = np.append(np.flatnonzero(first), len(index))
+    which = ragged.owner(np.diff(paths.offsets))[index[first]]
+    return with_points(paths, index, which, offsets)
+
+
+def _junctions(paths: Paths, nearest: _Nearest) -> Bools:
+    """(p,) the points in vertices of their items where three segments or more meet."""
+    sizes = np.diff(paths.offsets)
+    item = np.repeat(paths.item, sizes)
+    number, far = nearest.vertex(paths.points3d, item)
+    degree = np.full(len(number), 2)
+    open_ = ~paths.closed
+    degree[paths.offsets[:-1][open_]] = degree[paths.offsets[1:][open_] - 1] = 1
+    at = np.flatnonzero(nearest.known(item) & (far <= COINCIDENT_MM * world_per_mm(paths)))
+    _, place = np.unique(np.stack([item[at], number[at]]), axis=1, return_inverse=True)
+    place = place.reshape(-1)
+    found = np.zeros(len(number), dtype=np.bool_)
+    found[at] = np.bincount(place, degree[at])[place] > 2 if len(at) else False
+    return found
+
+
+def _ways(paths: Paths, number: Ints, far: Floats) -> tuple[Ints, Bools]:
+    """(p,) the points of strokes in the order in which they are run through: from the end that comes first, of loops
+    from the corner that does, towards that of its neighbours that does; (p,) whether that is backwards."""
+    count, owner = np.diff(paths.offsets), ragged.owner(np.diff(paths.offsets))
+    begin, local = paths.offsets[:-1], ragged.place(np.diff(paths.offsets))
+    order = np.lexsort((far, number, owner))
+    least = order[begin] - begin
+    last = np.maximum(count - 1, 0)
+
+    def comes_first(one: Ints, other: Ints) -> Bools:
+        a, b = begin + one % np.maximum(count, 1), begin + other % np.maximum(count, 1)
+        return np.asarray((number[a] < number[b]) | ((number[a] == number[b]) & (far[a] < far[b])), dtype=np.bool_)
+
+    back = np.where(paths.closed, comes_first(least - 1, least + 1), comes_first(last, 0 * last))
+    start = np.where(paths.closed, least, np.where(back, last, 0))
+    step = np.where(back, -1, 1)
+    index = begin[owner] + (start[owner] + step[owner] * local) % np.maximum(count[owner], 1)
+    return index, back[owner]

@@ -1,0 +1,129 @@
+"""``vectorplot animate``: a scene that moves becomes frames."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import click
+
+from vectorplot.cli.common_options import (
+    BACKGROUND,
+    BUDGET,
+    FRAME,
+    JOBS,
+    LIGHTS,
+    QUIET,
+    TITLE,
+    TOLERANCE,
+    crease_angle_option,
+    lines_option,
+    shadows_option,
+    with_options,
+)
+from vectorplot.cli.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
+from vectorplot.cli.options import pixels
+from vectorplot.cli.picture import located
+from vectorplot.cli.progress import progress_bar, told_warnings
+from vectorplot.cli.stroke_options import STROKE_OPTIONS
+from vectorplot.cli.view_options import CAMERA_OPTIONS, PAGE_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
+
+MODE_WORDS = ("wire", "lines", "shading", "shadows", "erasing", "pixels")
+
+VERBS = {
+    "draw": {"lines", "crease_angle_deg", "style", "hidden", "pens", "dashes", "background", "tolerance_mm", "title"},
+    "paint": {"lines", "crease_angle_deg", "lights", "shadows", "background", "tolerance_mm", "title"},
+    "render": {"lines", "crease_angle_deg", "lights", "shadows", "background"},
+}
+"""The options that go with each verb, beside those for camera, page and work."""
+
+
+@click.command(short_help="Make the frames of a moving scene.", context_settings={"show_default": True})
+@with_options(
+    click.argument("data_file", type=click.Path(), metavar="SCENE"),
+    click.option(
+        "-a", "--animation", metavar="FILE", required=True, help="What moves: a file, or a name in the folder anim."
+    ),
+    FRAMES_OUT,
+    click.option(
+        "-v", "--video", metavar="NAME", help="Also, or only, record NAME.vd1 and NAME.vd2, in the folder video."
+    ),
+    click.option("--mode", type=click.Choice(MODE_WORDS), help="Look of the frames.  [default: that of the animation]"),
+    click.option("--frames", type=click.IntRange(1), metavar="N", help="How many.  [default: that of the animation]"),
+    FPS,
+    FRAME_FORMAT,
+    *CAMERA_OPTIONS,
+    *PAGE_OPTIONS,
+    click.option("--size", type=pixels, default="800x600", metavar="WxH", help="Columns and rows of pixels."),
+    lines_option("Kinds of lines", default=None, note="  [default: as of the verbs]"),
+    crease_angle_option("Sharper edges are creases."),
+    *STROKE_OPTIONS,
+    LIGHTS,
+    shadows_option(("auto", "none"), "Whether lights cast shadows."),
+    BACKGROUND,
+    TOLERANCE,
+    TITLE,
+    FRAME,
+    BUDGET,
+    JOBS,
+    QUIET,
+)
+def animate(
+    data_file: str,
+    animation: str,
+    frames_out: str | None,
+    video: str | None,
+    mode: str | None,
+    frames: int | None,
+    fps: float | None,
+    frame_format: str | None,
+    quiet: bool,
+    **told: Any,
+) -> None:
+    """Make the frames of SCENE, a scene file, mesh, molecule or terrain, as an animation file moves it, and write them
+    to OUT, or record them as a movie of polygons.
+
+    SCENE is looked for in the current folder and in the folder data, with and without .scene; the animation in the
+    current folder and in the folder anim, with and without .anim. One fit holds for the whole film. Camera options
+    replace the fields of the camera in the scene file one by one, before it moves.
+    """
+    from vectorplot.animate import animate as film_of
+    from vectorplot.animation.animation_file import read_animation
+    from vectorplot.animation.folders import animation_file
+    from vectorplot.animation.folders import data_file as found
+    from vectorplot.animation.modes import MODES
+    from vectorplot.io.read_file import read
+
+    if frames_out is None and video is None:
+        raise click.UsageError("nothing to write: give -o OUT, or -v NAME, or both")
+    check_out(frames_out, frame_format)
+    camera, page = CameraOptions.of(told), PageOptions.of(told)
+    with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
+        scene = read(found(data_file))
+        scene = replace(scene, camera=camera_from(camera, scene), page=page_from(page, scene))
+        moving = read_animation(animation_file(animation), scene)
+        said = {"frames": frames, "fps": fps, "mode": mode}
+        moving = replace(moving, **{name: value for name, value in said.items() if value is not None})
+        options = _of_verb(MODES[moving.mode].verb, told)
+        with located(scene):
+            film = film_of(
+                moving, width=told["width"], size=told["size"], fit=told["fit"], progress=progress, **options
+            )
+            write_frames(film, len(film), frames_out, video, film.fps, frame_format, progress)
+
+
+def _of_verb(verb: str, told: dict[str, Any]) -> dict[str, Any]:
+    """The options of the verb that makes frames. Bad usage for others that were given."""
+    context = click.get_current_context()
+    known, every = VERBS[verb], set().union(*VERBS.values())
+    for name in sorted(every - known):
+        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
+            option = next(param for param in context.command.params if param.name == name).opts[0]
+            raise click.UsageError(f"{option} does not go with frames that the verb {verb} makes")
+    given = {name: told[name] for name in known if told[name] is not None}
+    own = {name: told[name] for name in ("budget", "jobs")}
+    if verb != "render":
+        own["frame"] = told["frame"]
+    elif "lines" not in given:
+        given["lines"] = ()
+    return {**given, **own}

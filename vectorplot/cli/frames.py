@@ -1,0 +1,80 @@
+"""What the commands that make frames share: where they go, and what is said while they are made."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import click
+
+from vectorplot.cli.picture import check_place
+from vectorplot.cli.progress import Progress
+
+if TYPE_CHECKING:
+    from vectorplot.save_frames import Picture
+
+FRAME_FORMATS = ("svg", "png", "pdf", "ps", "eps", "tex", "dxf", "json")
+"""What single frames in a folder may be."""
+
+FRAMES_OUT = click.option(
+    "-o",
+    "--out",
+    "frames_out",
+    type=click.Path(),
+    metavar="OUT",
+    help="Pages of a .pdf, a moving .svg, a video (.mp4, .webm, .gif), or a folder for single frames, FOLDER/.",
+)
+
+FRAME_FORMAT = click.option(
+    "--format", "frame_format", type=click.Choice(FRAME_FORMATS), help="Of single frames.  [default: svg or png]"
+)
+
+FPS = click.option("--fps", type=float, metavar="N", help="Frames a second.  [default: that of the film]")
+
+
+def check_out(out: str | None, format_: str | None) -> None:
+    """Bad usage, or an OSError, before the work, where frames cannot go where they are told to."""
+    from vectorplot.errors import InputError
+    from vectorplot.save_frames import VIDEOS, kind_of
+
+    if out is None:
+        return
+    try:
+        kind = kind_of(out)
+    except InputError as error:
+        raise click.UsageError(str(error)) from None
+    if format_ is not None and kind != "folder":
+        raise click.UsageError("--format is that of single frames: OUT must be a folder, FOLDER/")
+    if kind in VIDEOS:
+        from vectorplot.backends.video import library
+
+        library()
+    check_place(os.fspath(Path(out)))
+
+
+def write_frames(
+    pictures: Iterable[Picture],
+    count: int,
+    out: str | None,
+    movie: str | None,
+    fps: float,
+    format_: str | None,
+    progress: Progress | None,
+) -> None:
+    """Write so many frames: to OUT, as a movie of polygons of this name, or both.
+
+    They are made once; of pixels there is no such movie.
+    """
+    from vectorplot.animation.folders import VIDEOS, movie_to_write
+    from vectorplot.save_frames import save_frames, told
+
+    name = None if movie is None else movie_to_write(movie)
+    if name is not None and name.parent == VIDEOS:
+        VIDEOS.mkdir(exist_ok=True)
+    frames = list(pictures) if name is not None and out is not None else pictures
+    if name is not None:
+        save_frames(told(frames, count, progress), name.with_name(name.name + ".vd1"), fps=fps)
+    if out is not None:
+        save_frames(told(frames, count, progress if name is None else None), out, fps=fps, format=format_)

@@ -1,0 +1,41 @@
+"""``vectorplot replay``: a movie of polygons becomes frames again."""
+
+from __future__ import annotations
+
+import click
+
+from vectorplot.cli.common_options import QUIET, with_options
+from vectorplot.cli.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
+from vectorplot.cli.options import chosen
+from vectorplot.cli.progress import progress_bar, told_warnings
+
+
+@click.command(short_help="Replay a movie of polygons.")
+@with_options(
+    click.argument("name", metavar="NAME"),
+    FRAMES_OUT,
+    FPS,
+    FRAME_FORMAT,
+    click.option(
+        "--width", type=click.FloatRange(1.0), default=160.0, metavar="MM", help="Of the page.  [default: 160]"
+    ),
+    QUIET,
+)
+def replay(
+    name: str, frames_out: str | None, fps: float | None, frame_format: str | None, width: float, quiet: bool
+) -> None:
+    """Read the movie NAME.vd1 and NAME.vd2, from the current folder or the folder video, and write its frames to OUT;
+    without OUT, say what it holds."""
+    from vectorplot.animation.folders import movie_to_read
+    from vectorplot.animation.movies.movie import FPS as USUAL
+    from vectorplot.animation.movies.reader import read_movie
+    from vectorplot.animation.movies.shown import frame_drawings
+
+    check_out(frames_out, frame_format)
+    with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
+        movie = read_movie(movie_to_read(name))
+        if frames_out is None:
+            click.echo(str(movie))
+            return
+        pictures = frame_drawings(movie, width)
+        write_frames(pictures, len(movie), frames_out, None, chosen(fps, USUAL), frame_format, progress)

@@ -1,0 +1,40 @@
+"""Options for how strokes look: a style, hidden lines, pens and dashes."""
+
+from __future__ import annotations
+
+import click
+
+from vectorplot.cli.options import dash, pen, said_or_none, style
+
+STROKE_OPTIONS = (
+    click.option(
+        "--style",
+        type=style,
+        default="plain",
+        metavar="STYLE",
+        help="plain, plotter, book, draft, blueprint, wireframe, depth-cue, or a file that ends in .toml.",
+    ),
+    click.option(
+        "--hidden",
+        type=click.Choice(["none", "dashed", "solid"]),
+        help="How hidden lines look.  [default: none, or what the style says]",
+    ),
+    click.option(
+        "--pen",
+        "pens",
+        type=pen,
+        multiple=True,
+        callback=said_or_none,
+        metavar="[WHAT=]PEN,...",
+        help="WIDTH, COLOUR or WIDTH:COLOUR of a kind of line (or hidden), an item, or ITEM.KIND; repeat it for more.",
+    ),
+    click.option(
+        "--dash",
+        "dashes",
+        type=dash,
+        multiple=True,
+        callback=said_or_none,
+        metavar="[WHAT=]DASH,GAP",
+        help="Dashes of the same, in mm or with units (8pt,3pt), or none; repeat it for more.",
+    ),
+)

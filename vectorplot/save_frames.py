@@ -1,0 +1,159 @@
+"""Frames in one file that moves, in the pages of one file, or in a folder with a file for each."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from pathlib import Path
+
+from vectorplot.animation.animation import check_fps
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.errors import InputError
+from vectorplot.save import FORMATS, write, write_whole
+from vectorplot.shading.raster.image import Image
+from vectorplot.shading.raster.png import Bytes
+
+VIDEOS = ("mp4", "webm", "gif")
+"""Formats of pixels, through the package av."""
+
+ONE_FILE = ("pdf", "svg", *VIDEOS)
+"""The formats of all frames together."""
+
+MOVIES = ("vd1", "vd2")
+"""The suffixes of the two files that hold a movie as polygons."""
+
+DIGITS = 4
+"""Of the numbers of frames in a folder, at least: so they stand in their order."""
+
+Picture = Drawing | Image
+
+
+def save_frames(
+    pictures: Iterable[Picture],
+    path: str | os.PathLike[str],
+    *,
+    fps: float = 25.0,
+    format: str | None = None,
+) -> None:
+    """Write frames as one file, as the two files of a movie, or into a folder.
+
+    Parameters
+    ----------
+    pictures : iterable of Drawing or Image
+        The frames in their order; each is made, written and forgotten before the next one.
+    path : str or path
+        A name that ends in .pdf (a page for each frame), .svg (it moves by itself), .mp4, .webm, .gif (a video), .vd1
+        or .vd2 (a movie of polygons, both files); any other one is a folder with a file for each frame, which is made
+        where there is none.
+    fps : float
+        Frames a second.
+    format : str, optional
+        Of the files in a folder; svg for drawings and png for pixels where None.
+
+    Raises
+    ------
+    InputError
+        For pixels in formats of drawings, unknown formats, and videos where the package av is not installed.
+    OSError
+        Where a file cannot be written; it names the path.
+
+    Notes
+    -----
+    A file is written whole or not at all; of a folder each file is. Videos have 150 dots per inch.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> import vectorplot as vp
+    >>> pages = [vp.Drawing(100, 80, ()), vp.Drawing(100, 80, ())]
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     vp.save_frames(pages, pathlib.Path(folder, "frames"))
+    ...     sorted(path.name for path in pathlib.Path(folder, "frames").iterdir())
+    ['0001.svg', '0002.svg']
+    """
+    check_fps(fps)
+    kind = kind_of(path)
+    if kind == "folder":
+        _save_folder(pictures, Path(path), format)
+    elif kind in MOVIES:
+        from vectorplot.animation.movies.recorder import recorded
+
+        first, second = recorded(_drawings(pictures, "a movie of polygons"))
+        write_whole(Path(path).with_suffix(".vd1"), first)
+        write_whole(Path(path).with_suffix(".vd2"), second)
+    else:
+        write_whole(path, write_frames(pictures, kind, fps))
+
+
+def kind_of(path: str | os.PathLike[str]) -> str:
+    """What frames become under a name: one of ONE_FILE or MOVIES, or ``folder``.
+
+    Errors: InputError for the suffix of a picture that cannot hold several.
+    """
+    text = os.fspath(path)
+    suffix = Path(text).suffix[1:].lower()
+    if text.endswith(("/", os.sep)) or Path(text).is_dir() or not suffix:
+        return "folder"
+    if suffix in (*ONE_FILE, *MOVIES):
+        return suffix
+    known = ", ".join(f".{one}" for one in (*ONE_FILE, MOVIES[0]))
+    raise InputError(f"{text}: frames are written as {known}, or into a folder, whose name ends in /")
+
+
+def write_frames(pictures: Iterable[Picture], format: str, fps: float) -> bytes:
+    """Frames as the content of one file of a format of ONE_FILE. Errors: as of save_frames."""
+    if format in VIDEOS:
+        from vectorplot.backends.video import video_bytes
+
+        return video_bytes(map(pixels_of, pictures), fps, format)
+    frames = _drawings(pictures, f"a file of the format {format}")
+    first = next(frames, None)
+    title = "" if first is None else first.title
+    every = _with(first, frames)
+    if format == "pdf":
+        from vectorplot.backends.cairo.pages import pdf_pages_bytes
+
+        return pdf_pages_bytes(every, title)
+    from vectorplot.backends.svg.animated import animated_svg_bytes
+
+    return animated_svg_bytes(every, fps, title)
+
+
+def pixels_of(picture: Picture) -> Bytes:
+    """(rows, columns, 3) the pixels of a frame; of a drawing at 150 dots per inch."""
+    if isinstance(picture, Image):
+        return picture.pixels
+    from vectorplot.backends.cairo.surfaces import drawing_pixels
+
+    return drawing_pixels(picture)
+
+
+def _save_folder(pictures: Iterable[Picture], folder: Path, format: str | None) -> None:
+    if format is not None and format not in FORMATS:
+        raise InputError(f"unknown format {format!r}; known are {', '.join(FORMATS)}")
+    for number, picture in enumerate(pictures, start=1):
+        word = format or ("png" if isinstance(picture, Image) else "svg")
+        content = write(picture, word)
+        folder.mkdir(exist_ok=True)
+        write_whole(folder / f"{number:0{DIGITS}d}.{word}", content)
+
+
+def _drawings(pictures: Iterable[Picture], what: str) -> Iterator[Drawing]:
+    for picture in pictures:
+        if isinstance(picture, Image):
+            raise InputError(f"frames of pixels do not go into {what}: write a video, or a folder")
+        yield picture
+
+
+def _with(first: Drawing | None, rest: Iterator[Drawing]) -> Iterator[Drawing]:
+    if first is not None:
+        yield first
+        yield from rest
+
+
+def told(pictures: Iterable[Picture], count: int, progress: Callable[[str, float], None] | None) -> Iterator[Picture]:
+    """The pictures; progress("frames", fraction) is called before each of so many."""
+    for number, picture in enumerate(pictures):
+        if progress is not None:
+            progress("frames", (number + 1) / max(count, 1))
+        yield picture
