@@ -23,7 +23,7 @@ ORDER = [
     *("drawing", "charts", "effects", "animation", "textbook", "backends"),
     *("verbs", "testing", "accuracy", "speed", "cli"),
 ]
-VERBS = {"draw", "paint", "panorama", "read", "render", "save", "plan"}
+VERBS = {"animate", "draw", "film", "paint", "panorama", "plan", "read", "render", "save", "save_frames"}
 STAGES = {"linework", "painting", "rendering", "stages", "technical"}
 
 # Pictures show themselves in a notebook and save themselves; the import happens when they are asked to.

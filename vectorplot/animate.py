@@ -13,8 +13,8 @@ from vectorplot.animation.steady_fit import steady_fit
 from vectorplot.errors import InputError
 from vectorplot.film import Film, Progress
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import camera_around, page_of
-from vectorplot.scene.scene import Page
 from vectorplot.words import check_word, unknown
 
 SIZE = (800, 600)
@@ -82,7 +82,7 @@ def animate(
     >>> die = vp.Item("die", box((1, 1, 1)))
     >>> turning = vp.Animation(lambda time: die.turned("z", 90 * time), frames=8, loop=True)
     >>> film = vp.animate(turning, page="100x80", hidden="dashed")
-    >>> [layer.name for layer in film.picture(3).layers]
+    >>> [layer.name for layer in film.picture(3).layers if len(layer.strokes[0])]
     ['visible', 'contour', 'hidden']
     """
     word = animation.mode if mode is None else mode

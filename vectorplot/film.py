@@ -13,7 +13,8 @@ from vectorplot.animation.modes import Mode
 from vectorplot.animation.steady_fit import widened
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.scene import Scene
 from vectorplot.shading.raster.image import Image
 
 Progress = Callable[[str, float], None]

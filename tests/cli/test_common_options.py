@@ -18,10 +18,10 @@ from vectorplot.cli.common_options import (
     picture_verb,
 )
 from vectorplot.cli.draw import draw
-from vectorplot.cli.hatching_options import hatching_from
 from vectorplot.cli.options import at_least
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
+from vectorplot.cli.strokes.hatching_options import hatching_from
 from vectorplot.cli.verbs import vectorplot
 from vectorplot.cli.view_options import PAGE_OPTIONS, CameraOptions, PageOptions
 

@@ -14,8 +14,9 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import GRID, smooth_bounds
+from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import box_corners
-from vectorplot.scene.scene import Page, Scene
+from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.surface import is_parametrised
 
 BETWEEN_SAMPLES = 1.005

@@ -17,9 +17,9 @@ from vectorplot.cli.common_options import (
     lines_option,
     picture_verb,
 )
-from vectorplot.cli.hatching_options import HATCHING_OPTIONS, hatching_from
 from vectorplot.cli.options import at_least, layers, place
-from vectorplot.cli.stroke_options import STROKE_OPTIONS
+from vectorplot.cli.strokes.hatching_options import HATCHING_OPTIONS, hatching_from
+from vectorplot.cli.strokes.stroke_options import STROKE_OPTIONS
 from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:

@@ -6,12 +6,12 @@ import click
 
 from vectorplot import __version__
 from vectorplot.cli.accuracy import accuracy
-from vectorplot.cli.animate import animate
 from vectorplot.cli.draw import draw
+from vectorplot.cli.films.animate import animate
+from vectorplot.cli.films.replay import replay
 from vectorplot.cli.info import info
 from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
-from vectorplot.cli.replay import replay
 from vectorplot.cli.sheet import sheet
 from vectorplot.cli.speed import speed
 from vectorplot.errors import printable

@@ -13,7 +13,9 @@ from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons, Window, clip_lines_2d, clip_polygons_2d
+from vectorplot.geometry.clipping.clip_windows import Window
+from vectorplot.geometry.clipping.clipped_lines import clip_lines_2d
+from vectorplot.geometry.clipping.clipped_polygons import Polygons, clip_polygons_2d
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, Polylines, joined, segments, some
 from vectorplot.geometry.regions import corners_of, polygons_of, triangles_of
 

@@ -27,9 +27,9 @@ def frame_drawings(movie: Movie, width_mm: float = 160.0) -> Iterator[Drawing]:
         Of the page, which has the shape of the first polygon where this is a rectangle from the lower left corner,
         otherwise it is a square.
 
-    Yields
-    ------
-    Drawing
+    Returns
+    -------
+    iterator of Drawing
         One layer of polygons and lines; of a frozen frame the one before it, or an empty one.
 
     Notes

@@ -21,11 +21,11 @@ from vectorplot.cli.common_options import (
     shadows_option,
     with_options,
 )
-from vectorplot.cli.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
-from vectorplot.cli.options import pixels
+from vectorplot.cli.films.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
+from vectorplot.cli.options import chosen, pixels
 from vectorplot.cli.picture import located
 from vectorplot.cli.progress import progress_bar, told_warnings
-from vectorplot.cli.stroke_options import STROKE_OPTIONS
+from vectorplot.cli.strokes.stroke_options import STROKE_OPTIONS
 from vectorplot.cli.view_options import CAMERA_OPTIONS, PAGE_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
 
 MODE_WORDS = ("wire", "lines", "shading", "shadows", "erasing", "pixels")
@@ -102,8 +102,12 @@ def animate(
         scene = read(found(data_file))
         scene = replace(scene, camera=camera_from(camera, scene), page=page_from(page, scene))
         moving = read_animation(animation_file(animation), scene)
-        said = {"frames": frames, "fps": fps, "mode": mode}
-        moving = replace(moving, **{name: value for name, value in said.items() if value is not None})
+        moving = replace(
+            moving,
+            frames=chosen(frames, moving.frames),
+            fps=chosen(fps, moving.fps),
+            mode=chosen(mode, moving.mode),
+        )
         options = _of_verb(MODES[moving.mode].verb, told)
         with located(scene):
             film = film_of(

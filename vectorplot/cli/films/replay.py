@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from vectorplot.cli.common_options import QUIET, with_options
-from vectorplot.cli.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
+from vectorplot.cli.films.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
 from vectorplot.cli.options import chosen
 from vectorplot.cli.progress import progress_bar, told_warnings
 

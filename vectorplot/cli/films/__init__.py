@@ -1,0 +1,1 @@
+"""The commands that make frames, and what they share."""

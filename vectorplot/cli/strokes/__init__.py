@@ -1,0 +1,1 @@
+"""Options for how strokes and hatchings look."""
