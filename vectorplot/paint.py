@@ -26,13 +26,13 @@ from vectorplot.painting.painted_paper import background as background_of
 from vectorplot.painting.painted_paper import paper
 from vectorplot.plan import accuracy_of_paint, plan_paint, with_accuracy
 from vectorplot.scene.coincidence.twins import without_twins
-from vectorplot.scene.light import Light
+from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.pages.fitted_pages import FittedPage
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import page_of
-from vectorplot.shading.light.face_shades import view_lights
+from vectorplot.shading.light.exposure import exposed_scene
 from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals
@@ -51,6 +51,7 @@ def paint(
     width: float | str | None = None,
     fit: bool = True,
     lights: Sequence[Light] | None = None,
+    exposure: Exposure | None = None,
     shadows: Literal["auto", "none"] = "auto",
     aura_mm: float = 0.0,
     palette: int = PALETTE_SIZE,
@@ -85,6 +86,9 @@ def paint(
         camera's picture height.
     lights : sequence of Light, optional
         In place of those of the scene.
+    exposure : float or {"fitted"}, optional
+        What the intensities of all lights are taken times; fitted: so that the brightest face that is seen is as bright
+        as lights can make it, wherever shadows fall. Where None, that of the scene.
     shadows : {"auto", "none"}
         Whether lights cast any.
     aura_mm : float
@@ -158,7 +162,7 @@ def paint(
     check_word("text", text, TEXT_WORDS)
     budget_of(budget)
     threads = threads_of(jobs)
-    subject = subject_of(scene, camera, explain, progress, lights=lights, background=background)
+    subject = subject_of(scene, camera, explain, progress, lights=lights, exposure=exposure, background=background)
     scene = subject.scene
     sheet, strip = left_of_bar(page_of(page, scene, width, fit), subject.bar)
     kinds = line_kinds(lines)
@@ -183,7 +187,8 @@ def paint(
     seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
     view, true = seen.view, ordered.facets.normals
     page, world = placement.page, placement.page_from_world
-    here = view_lights(view, scene.lights)
+    lit, here = exposed_scene(view, scene)
+    seen = replace(seen, scene=lit)
     normals = np.full((3, len(view.corners)), np.nan)
     if smooth and fills == "painted":
         normals = painted_normals(view, scene.items, here, true, plane, crease_angle_deg)

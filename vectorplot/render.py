@@ -23,14 +23,14 @@ from vectorplot.rendering.pixels_beside_bar import PIXELS_PER_MM, pixels_beside_
 from vectorplot.rendering.render_options import check_lights, check_render_options, check_whole, usual_samples
 from vectorplot.rendering.scene_shadows import ShadowMaps, scene_lighting, tapered_for
 from vectorplot.scene.coincidence.twins import without_twins
-from vectorplot.scene.light import Light
+from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import view_of
 from vectorplot.shading.depth.coplanar import coplanar_faces
-from vectorplot.shading.light.face_shades import view_lights
+from vectorplot.shading.light.exposure import exposed_scene
 from vectorplot.shading.light.faceted import FacetedScene, faceted
 from vectorplot.shading.light.palettes import palette
 from vectorplot.shading.raster.image import Image
@@ -79,6 +79,7 @@ def render(
     size: tuple[int, int] = SIZE,
     fit: bool = True,
     lights: Sequence[Light] | None = None,
+    exposure: Exposure | None = None,
     shadows: Literal["auto", "none", "buffer", "trapezoid", "exact"] = "auto",
     shadow_size: int = 1024,
     shadow_bits: int = 32,
@@ -107,6 +108,8 @@ def render(
         The picture fills the raster, otherwise the camera's field of vision is its height.
     lights : sequence of Light, optional
         In place of those of the scene.
+    exposure : float or {"fitted"}, optional
+        As of paint.
     shadows : {"auto", "none", "buffer", "trapezoid", "exact"}
         Of these lights, found with shadow buffers, plain ones or such that show most of what is near the eye, or
         exactly; auto: as the view calls for.
@@ -181,7 +184,7 @@ def render(
     settings = MapSettings(shadow_size, shadow_bits, shadow_casters, shadow_focus)
     budget_of(budget)
     threads = threads_of(jobs)
-    subject = subject_of(scene, camera, explain, progress, lights=lights)
+    subject = subject_of(scene, camera, explain, progress, lights=lights, exposure=exposure)
     seen, bar = subject.scene, subject.bar
     check_lights(seen.lights)
     whole, size = size, pixels_left_of_bar(size, bar)
@@ -201,7 +204,7 @@ def render(
     if fit:
         placement = subject.around(placement, view, placement.page, AROUND_BOX)
     system = pixel_system(placement)
-    here, sides = view_lights(view, seen.lights), outer_sides(view)
+    (seen, here), sides = exposed_scene(view, seen), outer_sides(view)
     region = tapered_for(triangles, system, fine, how) if walk.calls_for("shadows") else None
     lighting = scene_lighting(walk, seen, view, ShadowMaps(triangles, here, how, settings, region, sides))
     opacity = np.array([item.material.opacity for item in seen.items])

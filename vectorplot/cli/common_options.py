@@ -12,7 +12,7 @@ import click
 
 from vectorplot.cli.cut_options import CUT_OPTIONS, CutOptions
 from vectorplot.cli.line_options import LINE_OPTIONS, LineOptions
-from vectorplot.cli.options import KINDS, at_least, between, format_of, kinds, light
+from vectorplot.cli.options import KINDS, at_least, between, exposure, format_of, kinds, light
 from vectorplot.cli.picture import Source, make_picture
 from vectorplot.cli.view_options import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
 
@@ -39,6 +39,13 @@ LIGHTS = click.option(
     callback=lambda _context, _parameter, lamps: lamps or None,
     metavar="X,Y,Z[,I]",
     help="Lamp at a point, with an intensity from 0 to 1, in place of the lights of the scene; repeat it for more.",
+)
+
+EXPOSURE = click.option(
+    "--exposure",
+    type=exposure,
+    metavar="FACTOR",
+    help="To the intensities of all lights; fitted: the brightest face as bright as can be.  [default: of the scene]",
 )
 
 BACKGROUND = click.option(

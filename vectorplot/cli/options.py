@@ -12,7 +12,7 @@ from vectorplot.errors import InputError
 from vectorplot.words import LINE_WORDS, line_words
 
 if TYPE_CHECKING:
-    from vectorplot.scene.light import Light
+    from vectorplot.scene.light import Exposure, Light
 
 Value = TypeVar("Value")
 
@@ -151,6 +151,20 @@ def light(text: str) -> Light:
         raise click.BadParameter(f"an intensity of {parts[3]:g} is not between 0 and 1")
     x, y, z = parts[:3]
     return Light((x, y, z), intensity=parts[3] if len(parts) == 4 else None)
+
+
+def exposure(text: str) -> Exposure:
+    """The word fitted, or a positive factor."""
+    from vectorplot.scene.light import check_exposure
+
+    if text == "fitted":
+        return "fitted"
+    factor = number(text)
+    try:
+        check_exposure(factor)
+    except InputError as error:
+        raise click.BadParameter(error.cause) from None
+    return factor
 
 
 def said_or_none(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:

@@ -9,6 +9,7 @@ import click
 from vectorplot.cli.common_options import (
     BACKGROUND,
     DRAWING_FORMATS,
+    EXPOSURE,
     FRAME,
     LIGHTS,
     TEXT,
@@ -32,6 +33,7 @@ if TYPE_CHECKING:
     DRAWING_FORMATS,
     *PAGE_OPTIONS,
     LIGHTS,
+    EXPOSURE,
     shadows_option(("auto", "none"), "Whether lights cast shadows."),
     click.option(
         "--aura",

@@ -8,6 +8,7 @@ import click
 
 from vectorplot.cli.common_options import (
     BACKGROUND,
+    EXPOSURE,
     LIGHTS,
     crease_angle_option,
     lines_option,
@@ -31,6 +32,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     click.option("--size", type=pixels, default="800x600", metavar="WxH", help="Columns and rows of pixels."),
     fit_option("picture"),
     LIGHTS,
+    EXPOSURE,
     shadows_option(SHADOWS, "How shadows are found."),
     click.option("--shadow-size", type=click.IntRange(8, 8192), default=1024, metavar="N", help="Texels along a map."),
     click.option(

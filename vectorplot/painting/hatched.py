@@ -18,7 +18,7 @@ from vectorplot.scene.coincidence.twins import without_twins
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.face_shades import view_lights
+from vectorplot.shading.light.exposure import exposed_scene
 from vectorplot.shading.light.fineness import picture_fineness
 from vectorplot.shading.light.illumination import AMBIENT
 from vectorplot.shading.light.painted_colours import Lighting
@@ -66,7 +66,8 @@ def hatched(
 
     ordered = ordered_faces(walk, toned, shown, projection, demand, budget)
     seen, plane = seen_on_page(walk, ordered, placement, budget)
-    lights = view_lights(seen.view, toned.lights)
+    toned, lights = exposed_scene(seen.view, toned)
+    seen = replace(seen, scene=toned)
     # Planes have one shade each: no light varies on them.
     normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, crease_angle_deg)
     lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)

@@ -3,9 +3,24 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 from vectorplot.errors import InputError
 from vectorplot.words import check_colour
+
+Exposure = float | Literal["fitted"]
+"""What the intensities of all lights are taken times; fitted: such that what is brightest is not too bright."""
+
+LARGEST_EXPOSURE = 1e6
+"""Brighter pictures show light and dark alone."""
+
+
+def check_exposure(exposure: object) -> None:
+    """An InputError for what is no exposure."""
+    right = isinstance(exposure, int | float) and 0.0 < exposure <= LARGEST_EXPOSURE
+    if exposure != "fitted" and not right:
+        told = f"{exposure:g}" if isinstance(exposure, int | float) else repr(exposure)
+        raise InputError(f"exposure {told}: expected fitted, or a positive factor of at most {LARGEST_EXPOSURE:g}")
 
 
 @dataclass(frozen=True)

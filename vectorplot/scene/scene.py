@@ -18,7 +18,7 @@ from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.item import Pattern as Pattern
-from vectorplot.scene.light import Light
+from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.material import Material as Material
 from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.naming.scales import BoxAxes, Colouring
@@ -55,6 +55,9 @@ class Scene(Movable["Scene"]):
         A box with ticks around all items.
     cuts : tuple of Cut
         What is cut away where the scene is drawn, painted or rendered.
+    exposure : float or {"fitted"}
+        What the intensities of all lights are taken times; fitted: so that the brightest face is as bright as a light
+        can make it.
 
     Raises
     ------
@@ -82,10 +85,12 @@ class Scene(Movable["Scene"]):
     colouring: Colouring | None = None
     box: BoxAxes | None = None
     cuts: tuple[Cut, ...] = ()
+    exposure: Exposure = 1.0
 
     def __post_init__(self) -> None:
         if self.background is not None:
             check_colour(self.background, "background: ")
+        check_exposure(self.exposure)
 
     def __len__(self) -> int:
         return len(self.items)

@@ -23,6 +23,7 @@ from vectorplot.io.scenes.scene_statements import (
     read_camera,
     read_colouring,
     read_cut,
+    read_exposure,
     read_label,
     read_light,
     read_page,
@@ -233,6 +234,9 @@ class _Reader(ItemReader):
         elif word == "colour_by":
             colouring, self.at = read_colouring(source, self.at)
             self.settings = replace(now, colouring=colouring)
+        elif word == "exposure":
+            exposure, self.at = read_exposure(source, self.at)
+            self.settings = replace(now, exposure=exposure)
         elif word == "box_axes":
             box, self.at = read_box_axes(source, self.at)
             self.settings = replace(now, box=box)

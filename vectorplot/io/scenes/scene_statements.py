@@ -9,7 +9,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.scene.cuts.cut import AWAY, Cut
-from vectorplot.scene.light import Light
+from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.naming.labels import (
     HIDDEN,
     MARKS,
@@ -302,3 +302,16 @@ def read_box_axes(words: Words, at: int) -> tuple[BoxAxes, int]:
         return BoxAxes(names, size), after
     except InputError as error:
         words.fail(at, error.cause)
+
+
+def read_exposure(words: Words, at: int) -> tuple[Exposure, int]:
+    """The exposure that the words from ``exposure`` on describe, and the word behind them."""
+    fitted = words.words[at + 1] == "fitted"
+    if not fitted and not words.is_number(at + 1):
+        words.fail(at + 1, f"exposure: expected 'fitted' or a factor, got {words.shown(at + 1)}")
+    exposure: Exposure = "fitted" if fitted else words.number(at + 1, "", "exposure")
+    try:
+        check_exposure(exposure)
+    except InputError as error:
+        words.fail(at + 1, error.cause)
+    return exposure, at + 2

@@ -54,7 +54,7 @@ ANNOTATION_WORDS = ("axes", "arrow", "dimension", "diameter", "leader", "centre_
 """The words for lines and labels that make items of their own."""
 
 SCENE_WORDS = (
-    *("camera", "light", "page", "background", "title", "label", "cut", "colour_by", "box_axes"),
+    *("camera", "light", "page", "background", "title", "label", "cut", "colour_by", "box_axes", "exposure"),
     *("include", "assembly", "end"),
     *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )

@@ -37,6 +37,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         tuple(chain(*(renamed_labels(scene, items[end - len(scene) : end]) for scene, end in parts))),
         next((scene.colouring for scene in scenes if scene.colouring), None),
         next((scene.box for scene in scenes if scene.box), None),
+        exposure=next((scene.exposure for scene in scenes if scene.exposure != 1.0), 1.0),
     )
 
 

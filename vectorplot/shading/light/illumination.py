@@ -427,8 +427,15 @@ def fitting(shares: ArrayLike, intensity: ArrayLike) -> Floats:
     Source: Glaeser, section 4.5.
     """
     given = np.asarray(intensity, dtype=np.float64)
-    brightest = float((given.T @ np.asarray(shares, dtype=np.float64)).max(initial=0.0))
-    return given / brightest if brightest > 0.0 else given
+    most = brightest(shares, given)
+    return given / most if most > 0.0 else given
+
+
+def brightest(shares: ArrayLike, intensity: ArrayLike) -> float:
+    """How bright the brightest point is in the light of all lights, as a part of what these can fill; zero without
+    points."""
+    given = np.asarray(intensity, dtype=np.float64)
+    return float((given.T @ np.asarray(shares, dtype=np.float64)).max(initial=0.0))
 
 
 def shade_numbers(shade: ArrayLike, size: int) -> NDArray[np.uint8]:
