@@ -11,11 +11,12 @@ from vectorplot.drawing.hatching.line_ranks import place_ranks
 from vectorplot.errors import InputError
 from vectorplot.features.integral.charts import charts
 from vectorplot.features.integral.curvature_fields import AsymptoticDirections, PrincipalDirections
+from vectorplot.features.integral.face_sites import FaceSites
 from vectorplot.features.integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
 from vectorplot.features.integral.sites import Sites
 from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, evenly_spaced_curves
 from vectorplot.features.integral.tangent_fields import SteepestSlope, TangentField, TurnedField
-from vectorplot.features.meshes.mesh_curves import MeshCurves
+from vectorplot.features.meshes.mesh_curves import MeshCurves, face_triangles
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.geometry import ragged
@@ -86,7 +87,7 @@ def flowing_lines(
     shape = item.shape
     try:
         if isinstance(shape, Mesh):
-            points, area = shape.vertices, 0.5 * float(norm(shape.face_normals).sum())
+            points, area = shape.vertices, _area_of_mesh(shape, field)
             whole = float(np.ptp(shape.bounds, axis=0).max())
         else:
             assert is_parametrised(shape)
@@ -101,6 +102,16 @@ def flowing_lines(
     except InputError as error:
         raise InputError(f"{item.name}: hatching along {along}: {error.cause}") from None
     return _sampled(item, curves, area, apart, placement)
+
+
+def _area_of_mesh(mesh: Mesh, field: TangentField) -> float:
+    """How large a mesh is where a field has directions."""
+    faces = face_triangles(mesh)
+    corners = faces.mesh.vertices[faces.triangles]
+    doubled = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    sites = FaceSites(corners.mean(axis=1), mesh.face_normals[faces.face])
+    known = np.isfinite(field.tangents(sites)[0]).all(axis=1)
+    return float(0.5 * doubled[known].sum())
 
 
 def _all_over(surface: Surface, field: TangentField) -> tuple[Floats, float]:

@@ -124,3 +124,13 @@ def test_many_lines_that_run_together_are_compared_with_few():
 def test_scene_files_say_it_too():
     scene = parse_scene("A gray box 1 1 1 hatch tone along slope spacing 2\n")
     assert scene.items[0].hatch == vp.Hatching("tone", along="slope", spacing_mm=2.0)
+
+
+def test_walls_are_as_dark_whatever_the_size_of_their_faces():
+    drawn = []
+    for size in (0.125, 1.0, 8.0):
+        body = vp.Scene((vp.Item("BODY", box((2.0 * size, 2.0 * size, size))),), lights=(SUN,))
+        seen = vp.draw(body, camera="iso", page=PAGE, hatch=vp.Hatching("even", along="slope", spacing_mm=2.0))
+        drawn.append(len(strokes(seen)))
+    assert np.ptp(drawn) <= 1
+    assert drawn[0] >= 20

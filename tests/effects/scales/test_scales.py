@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -9,6 +11,7 @@ import vectorplot as vp
 from vectorplot.effects.scales.box_axes import with_box
 from vectorplot.effects.scales.colour_maps import COLOUR_MAPS, map_colours
 from vectorplot.effects.scales.coloured_scene import coloured
+from vectorplot.effects.scales.scaled_scene import scaled
 from vectorplot.effects.scales.value_bands import Valued, bands
 from vectorplot.errors import InputError
 from vectorplot.geometry import box as solid_box
@@ -158,3 +161,19 @@ def test_mistakes_are_told_with_their_line(text, said):
     with pytest.raises(InputError, match=said) as error:
         parse_scene(text)
     assert error.value.line == 1
+
+
+def test_cuts_come_before_bands_and_boxes():
+    scene = vp.cut(CUBE, "x < 0.5")
+    from_where = vp.Camera(eye=VIEWS[0], target=(0.0, 0.0, 0.0))
+    for asked in (replace(scene, colouring=Colouring("z")), replace(scene, box=BoxAxes())):
+        chart = scaled(asked, from_where).scene
+        assert not chart.cuts
+        faces = [item for item in chart.items if item.is_cut_face]
+        assert len(faces) == 1 and faces[0].name == "CUBE cut"
+        assert np.ptp(faces[0].shape.vertices[:, 0]) == 0.0
+
+
+def test_numbers_that_are_next_to_nothing_have_a_bar_too():
+    scene = replace(CUBE, colouring=Colouring("1e-320*x"), box=BoxAxes())
+    assert vp.draw(scene, camera="iso").layers[-1].name == "colour bar"

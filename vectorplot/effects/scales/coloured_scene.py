@@ -47,13 +47,16 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     """The scene with a band of every body for each colour, and the bar that explains them.
 
     Smooth surfaces become triangles within COLOURED_OF_EXTENT of the extent of the scene; their parameter lines, paths
-    and integral curves are left out.
+    and integral curves are left out. Cut faces keep their colour and their hatches.
     Errors: InputError for an unknown map or word, a formula that is none, a scene without bodies, numbers that are not
     finite anywhere.
     """
     colours = map_colours(colouring.colour_map, colouring.steps)
     size = float(np.linalg.norm(np.ptp(scene.bounds, axis=0)))
-    given = [None if is_curve(item.shape) else _valued(item, colouring, size) for item in scene.items]
+    plain = (is_curve(item.shape) or item.is_cut_face for item in scene.items)
+    given = [
+        None if left else _valued(item, colouring, size) for item, left in zip(scene.items, plain, strict=True)
+    ]
     values = np.concatenate([np.zeros(0), *(one.values for one in given if one is not None)])
     values = values[np.isfinite(values)]
     if not len(values):

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from vectorplot.arrays import Floats
+from vectorplot.effects.cutting.cut_scenes import cut_scene
 from vectorplot.effects.scales.box_axes import with_box
 from vectorplot.effects.scales.coloured_scene import ColourBar, coloured
 from vectorplot.geometry.cameras.camera import Camera
@@ -34,8 +35,11 @@ class Scaled:
 
 
 def scaled(scene: Scene, camera: Camera | str | None) -> Scaled:
-    """The scene as a chart. Errors: InputError as of coloured."""
+    """The scene as a chart, after its cuts. Errors: InputError as of coloured."""
     seen_from, bar = camera_of(camera, scene), None
+    if scene.colouring is not None or scene.box is not None:
+        # Bands of closed bodies are open, and no cut goes through a box with ticks.
+        scene = cut_scene(scene, seen_from)
     if scene.colouring is not None:
         scene, bar = coloured(scene, scene.colouring)
     boxed, reach = with_box(scene, seen_from)

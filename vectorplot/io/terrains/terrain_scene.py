@@ -11,6 +11,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.io.terrains.read_terrain import read_terrain
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.terrains.level_lines import times_power_of_ten
 from vectorplot.scene.terrains.terrain import MOST_DRAWN, terrain_scene
 from vectorplot.surfaces.terrains.terrain import Terrain, exaggerated, thinned_terrain
 
@@ -56,7 +57,7 @@ def usual_exaggeration(land: Terrain) -> float:
     wanted = USUAL / part
     power = int(np.floor(np.log10(wanted)))
     numerator = max(k for k in (1, 2, 5) if k * 10.0**power <= wanted or k == 1)
-    return float(numerator * 10.0**power if power >= 0 else numerator / 10.0**-power)
+    return float(times_power_of_ten(np.array(float(numerator)), power))
 
 
 def _say(path: Path, what: str) -> None:

@@ -19,6 +19,9 @@ USUAL_COUNT = 20
 USUAL_EVERY = 5
 """Which of them are index lines."""
 
+LARGEST_POWER = 300
+"""The powers of ten up to this one, and down to its negative, are numbers of full precision."""
+
 UP = (0.0, 0.0, 1.0)
 
 
@@ -63,7 +66,7 @@ def round_heights(low: float, high: float, count: int = USUAL_COUNT) -> tuple[fl
     best = int(np.abs(np.log(numerators * 10.0**power * count / (high - low))).argmin())
     step = float(numerators[best])
     first, last = (np.floor(height / step / 10.0**power) for height in (low, high))
-    found = _times_power(step * np.arange(first, last + 2.0), power)
+    found = times_power_of_ten(step * np.arange(first, last + 2.0), power)
     return tuple(found[(found > low) & (found < high)].tolist())
 
 
@@ -126,6 +129,10 @@ def _index_numbers(levels: Floats) -> Floats:
     return np.asarray(np.round(number) if even else place)
 
 
-def _times_power(values: Floats, power: int) -> Floats:
-    """The values times a power of ten, rounded once."""
+def times_power_of_ten(values: Floats, power: int) -> Floats:
+    """The values times a power of ten, rounded once where that power is a number; powers beyond LARGEST_POWER in two
+    steps."""
+    if abs(power) > LARGEST_POWER:
+        half = LARGEST_POWER if power > 0 else -LARGEST_POWER
+        return times_power_of_ten(times_power_of_ten(values, half), power - half)
     return np.asarray(values * 10.0**power if power >= 0 else values / 10.0**-power)

@@ -63,3 +63,17 @@ def test_mistakes_about_them_are_told():
         with pytest.raises(InputError, match=cause):
             call()
     assert len(features.evenly_spaced_mesh_curves(Mesh.from_polygons(CUBE.vertices, []), slope, 0.1)) == 0
+
+
+def test_every_part_of_a_mesh_of_many_is_covered_with_one_even_family_a_face():
+    away = 4.0 * np.stack(np.meshgrid(np.arange(5), np.arange(5), [0.0]), axis=-1).reshape(-1, 3)
+    count = len(CUBE.vertices)
+    town = Mesh(
+        (CUBE.vertices + away[:, None]).reshape(-1, 3),
+        (CUBE.corners + count * np.arange(len(away))[:, None]).ravel(),
+        np.append((CUBE.offsets[:-1] + len(CUBE.corners) * np.arange(len(away))[:, None]).ravel(), len(away) * 24),
+    )
+    found = features.evenly_spaced_mesh_curves(town, features.SteepestSlope(), 0.2)
+    walls = np.flatnonzero(np.abs(town.face_normals[:, 2]) < 0.5)
+    lines = np.bincount(found.faces[found.offsets[:-1]], minlength=town.face_count)[walls]
+    assert lines.min() >= 9 and lines.max() <= 11

@@ -9,8 +9,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.integral.on_meshes.combed_mesh import CombedMesh
-from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, NEAREST, ROUNDS, SAMPLES, SHORTEST
-from vectorplot.features.integral.spacing.gaps import AT_ONCE, SEPARATE, WIDEST
+from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, NEAREST, SAMPLES, SHORTEST
+from vectorplot.features.integral.spacing.gaps import SEPARATE, WIDEST
 from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import closed_round, joined, some
@@ -18,6 +18,15 @@ from vectorplot.geometry.vectors import norm
 
 MOST_SAMPLES = 16
 """And so many at most, however near each other its points are."""
+
+MOST_ROUNDS = 24
+"""Gaps are filled so many times at most; each time they are about half as wide."""
+
+MOST_AT_ONCE = 1000
+"""And so many at a time."""
+
+BESIDE = 2.0
+"""Times as far as a gap is from all that is taken, within which no other one is filled at the same time."""
 
 GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
@@ -53,7 +62,7 @@ def combed(shape: CombedMesh) -> MeshCurves:
     where = shape.where(places)
     taken = np.zeros((0, 6))
     found: list[MeshCurves] = [all_mesh_curves([])]
-    for _ in range(ROUNDS):
+    for _ in range(MOST_ROUNDS):
         gaps = _gaps(where, taken, apart)
         if not len(gaps):
             break
@@ -79,9 +88,11 @@ def _gaps(where: Floats, taken: Floats, apart: float) -> Ints:
     left = np.flatnonzero(away > WIDEST * apart)
     left = left[np.argsort(-away[left], kind="stable")]
     chosen: list[int] = []
-    while len(left) and len(chosen) < AT_ONCE:
+    while len(left) and len(chosen) < MOST_AT_ONCE:
         chosen.append(int(left[0]))
-        left = left[norm(where[left] - where[left[0]]) > SEPARATE * apart]
+        # Where much is empty, what begins in one gap fills those about it too.
+        beside = max(SEPARATE * apart, BESIDE * float(away[left[0]]))
+        left = left[norm(where[left] - where[left[0]]) > beside]
     return np.array(chosen, dtype=np.intp)
 
 
@@ -99,7 +110,7 @@ def _seeds(shape: CombedMesh, gaps: Floats, taken: Floats) -> tuple[Floats, Floa
     near = np.abs(np.abs(signed) - rounds * apart) <= 0.5 * apart / SAMPLES
     if len(taken):
         # Only in the gap itself: from its middle to the first place that is taken.
-        free = cKDTree(taken).query(found.where)[0] > WIDEST * apart
+        free = cKDTree(taken).query(found.where, distance_upper_bound=WIDEST * apart)[0] > WIDEST * apart
         first, last = _reached(found, free)
         at = np.arange(len(free))
         near &= (at >= first[found.curve]) & (at <= last[found.curve])
@@ -173,7 +184,7 @@ def _without_crowds(shape: CombedMesh, found: _Placed, taken: Floats) -> tuple[l
     spans = [np.zeros((0, 3), dtype=np.intp)]
     free = np.ones(len(found.curve), dtype=np.bool_)
     if len(taken) and count:
-        free = cKDTree(taken).query(found.where)[0] > NEAREST * apart
+        free = cKDTree(taken).query(found.where, distance_upper_bound=NEAREST * apart)[0] > NEAREST * apart
     bounds = np.searchsorted(found.curve, np.arange(count + 1))
     left = np.arange(count)
     while len(left):
