@@ -14,6 +14,7 @@ from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, 
 from vectorplot.features.implicit.implicit_singular_lines import SingularLines, singular_lines, usual_gradient
 from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
 from vectorplot.features.implicit.singular_set import led_into_singular_set
+from vectorplot.features.normal_jumps import cut_where_normals_jump
 from vectorplot.features.parametric.holed_triangles import cut_at_holes
 from vectorplot.features.parametric.holes import beside_rim_chords, is_known, ways_between
 from vectorplot.features.parametric.poles import Pole, poles
@@ -129,15 +130,16 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_B
     seams and at poles are one; neighbours of different sizes share their vertices.
     Error: the demand is kept at LOOKS of every side, and where it crosses a fold; what is smaller may be missed, and
     where it calls for more than most triangles it is not kept. Sides that lead into a hole end at its rim, and those
-    along a rim follow it.
+    along a rim follow it; cuspidal edges lie on sides, up to their chords.
     Errors: InputError for what is no smooth surface.
     Degenerate: triangles in holes, those without area, and those beneath which the surface jumps are left out.
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
     if is_parametrised(shape):
-        net = _first_net(shape, demand)
-        net = _without_jumps(shape, refined(net, _Patch(shape, tuple(poles(shape))), demand, most))
-        return _facets(net, np.isin(net.vertices.places[:, 1], creases(shape)))
+        patch = _Patch(shape, tuple(poles(shape)))
+        net = _without_jumps(shape, refined(_first_net(shape, demand), patch, demand, most))
+        net, turned = cut_where_normals_jump(net, patch)
+        return _facets(net, turned | np.isin(net.vertices.places[:, 1], creases(shape)))
     if is_implicit(shape):
         level = _level(shape)
         net = refined(level.net, level, demand, most)
