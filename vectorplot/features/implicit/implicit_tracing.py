@@ -226,12 +226,28 @@ def _nodes(curve: CurveInSpace, own: ImplicitMesh) -> tuple[Nodes, Ints, bool]:
     places = points.copy()
     places[on_line] = _beside(curve.surface, points[on_line], sheets.inner[on_line], fixed[on_line])
     w = curve.values(places)
+    # On rims of holes the gradient may be infinite.
+    rim = np.isnan(w)
+    if rim.any():
+        places[rim] = _beside(curve.surface, points[rim], _inner(points, sheets.triangles, ~rim)[rim], fixed[rim])
+        w[rim] = curve.values(places[rim])
     small = np.asarray((np.abs(w) <= FLAT_OF_VALUES * curve.size)[sheets.triangles].all(axis=1))
     area = bool(small.any()) and _is_area(curve, own.mesh, small)
     near = np.abs(w) <= _slack(curve, area)
     values = np.where(near, 0.0, w)
     nodes = Nodes(points, places, on_line, fixed, values, *_slopes_and_gradients(curve, places))
     return nodes, sheets.triangles, area
+
+
+def _inner(points: Floats, triangles: Ints, known: Bools) -> Floats:
+    """(n,3) for each of the points (n,3) the mean of those known at the triangles (t,3) around it; itself for none."""
+    total, count = np.zeros_like(points), np.zeros(len(points))
+    for step in (1, 2):
+        other = np.roll(triangles, -step, axis=1)
+        good = known[other]
+        np.add.at(total, triangles[good], points[other[good]])
+        np.add.at(count, triangles[good], 1.0)
+    return np.where(count[:, None] > 0.0, total / np.maximum(count, 1.0)[:, None], points)
 
 
 def _beside(surface: ImplicitSurface, points: Floats, inner: Floats, fixed: Bools) -> Floats:

@@ -16,7 +16,7 @@ from vectorplot.geometry.repair.winding import components, edge_uses
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances.of_extent import RESIDUAL_OF_EXTENT
 from vectorplot.tolerances.of_lengths import MERGED_OF_CELL
-from vectorplot.tolerances.of_numbers import LARGEST_OF_SINGLES, SMALLEST_OF_SINGLES
+from vectorplot.tolerances.of_numbers import LARGEST_OF_SINGLES, ROUNDING, SMALLEST_OF_SINGLES
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
 from vectorplot.tolerances.of_values import FALLS_BESIDE
 
@@ -190,8 +190,21 @@ def _on_surface(surface: ImplicitSurface, lattice: _Lattice, w: Floats, places: 
     fixed = (places[rest] == 0.0) | (places[rest] == lattice.counts)
     reach = float(lattice.cell.max())
     moved, arrived = onto_surface(surface, points[rest], fixed=fixed, reach=reach)
+    # Where F ends its gradient may be infinite: points of the lattice that are zeros but for rounding are zeros.
+    arrived |= _are_zeros(w, low[rest], high[rest])
     points[rest], on[rest] = np.clip(moved, lattice.low, lattice.high), arrived
     return points, on
+
+
+def _are_zeros(w: Floats, low: Ints, high: Ints) -> Bools:
+    """(k,) which points of the lattice, low and high the same, have values no larger than rounding makes beside those
+    of their neighbours."""
+    found = (low == high).all(axis=1)
+    around = np.zeros(len(low))
+    for step in np.concatenate([np.eye(3, dtype=np.intp), -np.eye(3, dtype=np.intp)]):
+        beside = np.clip(low + step, 0, np.array(w.shape) - 1)
+        around = np.fmax(around, np.abs(w[tuple(beside.T)]))
+    return np.asarray(found & (np.abs(w[tuple(low.T)]) <= ROUNDING * around), dtype=np.bool_)
 
 
 def _on_edges(
