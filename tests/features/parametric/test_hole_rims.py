@@ -10,6 +10,7 @@ from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.hole_rims import hole_rims
 from vectorplot.features.parametric.holed_triangles import cut_at_holes
 from vectorplot.features.parametric.holes import beside_rim_chords, into_surface, is_known
+from vectorplot.features.parametric.parameter_lines import domain_borders, u_lines, v_lines
 from vectorplot.testing.curve_points import curves_in_space
 
 
@@ -113,3 +114,22 @@ def test_rims_are_found_in_few_steps_whatever_the_number_of_chords(count):
     assert on.all() and off.min() > 0.0 and off.max() < 1e-8
     few = count < 100
     assert len(asked) < (20 if few else 50) and sum(asked) < 400 * max(count, 10)
+
+
+def power(x, y):
+    with np.errstate(all="ignore"):
+        return x**y
+
+
+@pytest.mark.parametrize(
+    "height", [power, lambda x, y: power(y, x), lambda x, y: power(x + 0.1, y)], ids=["x^y", "y^x", "(x+0.1)^y"]
+)
+def test_lines_with_no_surface_on_either_side_are_no_borders(height):
+    surface = surfaces.graph(height, surfaces.Domain(-2, 2, -2, 2))
+    tracing = Tracing(columns=12, rows=12, tolerance=1e-2)
+    lines = [domain_borders(surface, tracing), u_lines(surface, [1.0]), v_lines(surface, [-1.0, 0.0, 1.0])]
+    angle = 2.0 * np.pi * (np.arange(64) + 0.5) / 64
+    for curves in (hole_rims(surface, tracing), *lines):
+        u, v = curves.u[:, None] + 1e-5 * np.cos(angle), curves.v[:, None] + 1e-5 * np.sin(angle)
+        inside = (np.abs(u) <= 2.0) & (np.abs(v) <= 2.0)
+        assert (np.isfinite(surface.points(u, v)).all(axis=2) & inside).any(axis=1).all()

@@ -7,10 +7,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.parametric.holes import into_surface, just_inside, last_alike, ways_between
+from vectorplot.features.parametric.holes import around, into_surface, is_known, just_inside, last_alike, ways_between
 from vectorplot.features.parametric.resolved_rims import resolved
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_parameters import REPEATED_OF_DOMAIN
+
+HALVINGS = 30
+"""Halvings of a side along a line with no surface beside it, until its first place without one is known."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,10 +40,12 @@ def cut_at_holes(surface: Surface, places: Floats, triangles: Ints, known: Bools
     in none. They turn as before.
 
     A corner that lies on a rim to within 1e-9 of a side is taken for a place on it.
-    Degenerate: lines without a surface on either side have no rim.
+    Degenerate: lines and points without a surface on either side have no rim: they count as parts of the hole.
     """
+    known = _with_surface(surface, places, triangles, known)
     finer = resolved(surface, places, triangles, known)
-    places, triangles, known = finer.places, finer.triangles, finer.known
+    places, triangles = finer.places, finer.triangles
+    known = _with_surface(surface, places, triangles, finer.known)
     inside = known[triangles].sum(axis=1)
     whole, cut_up = np.flatnonzero(inside == 3), np.flatnonzero((inside == 1) | (inside == 2))
     if not len(cut_up):
@@ -66,6 +71,20 @@ def cut_at_holes(surface: Surface, places: Floats, triangles: Ints, known: Bools
     return CutTriangles(np.concatenate([places, new]), every[kept], _once(rims), finer.of[of[kept]])
 
 
+def _with_surface(surface: Surface, places: Floats, triangles: Ints, known: Bools) -> Bools:
+    """(n,) the known places but those beside holes around which nothing is known: x^y at whole y and x < 0."""
+    mixed = triangles[known[triangles].any(axis=1) & ~known[triangles].all(axis=1)]
+    beside = np.unique(mixed[known[mixed]])
+    result = known.copy()
+    result[beside] = _has_surface(surface, places[beside])
+    return result
+
+
+def _has_surface(surface: Surface, places: Floats) -> Bools:
+    """(k,) which places (k,2) have something known around them."""
+    return np.asarray(is_known(surface, around(surface, places)).any(axis=0), dtype=np.bool_)
+
+
 def _crossings(surface: Surface, places: Floats, known: Bools, one: Ints, two: Ints) -> tuple[Floats, Ints]:
     """The places (m,2) that are new, and the numbers (k,) of those at which sides between places one and two (k,), one
     of which is in a hole, leave the surface: of a place that there was, or of a new one."""
@@ -74,6 +93,14 @@ def _crossings(surface: Surface, places: Floats, known: Bools, one: Ints, two: I
     start, end = np.where(known[low], low, high), np.where(known[low], high, low)
     way = ways_between(surface.domain, places[start], places[end])
     part, _ = last_alike(surface, places[start], way, np.zeros(len(pair)), np.ones(len(pair)))
+    # A side along a line with values and no surface beside them: all of it is known.
+    line = np.flatnonzero(part >= 1.0 - REPEATED_OF_DOMAIN)
+    low, high = np.zeros(len(line)), np.ones(len(line))
+    for _ in range(HALVINGS if len(line) else 0):
+        middle = 0.5 * (low + high)
+        there = _has_surface(surface, places[start[line]] + middle[:, None] * way[line])
+        low, high = np.where(there, middle, low), np.where(there, high, middle)
+    part[line] = np.where(_has_surface(surface, places[end[line]]), part[line], low)
     # Sides that end in one place have one crossing where the rim runs through it.
     number = len(places) + np.arange(len(pair))
     through = part >= 1.0 - REPEATED_OF_DOMAIN

@@ -116,13 +116,18 @@ def up_to_rims(surface: Surface, start: Floats, ways: Floats) -> tuple[Floats, B
 def into_surface(surface: Surface, places: Floats) -> Floats:
     """(k,2) short ways in the domain from places (k,2) on rims into the surface; 0 for places around which there is no
     hole."""
+    tried = around(surface, places)
+    known = is_known(surface, tried)
+    way = (known[..., None] * (tried - places)).mean(axis=0)
+    return np.where(np.asarray(known.all(axis=0))[:, None], 0.0, way)
+
+
+def around(surface: Surface, places: Floats) -> Floats:
+    """(a,k,2) places around places (k,2), AROUND_RIM of the domain from them."""
     angle = 2.0 * np.pi * (np.arange(AROUND) + 0.5) / AROUND
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     size = np.broadcast_to(np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1), places.shape)
-    tried = places + AROUND_RIM * ring[:, None] * size
-    known = is_known(surface, tried)
-    way = AROUND_RIM * size * (known[..., None] * ring[:, None]).mean(axis=0)
-    return np.where(np.asarray(known.all(axis=0))[:, None], 0.0, way)
+    return np.asarray(places + AROUND_RIM * ring[:, None] * size)
 
 
 def ways_between(domain: Domain, start: Floats, end: Floats) -> Floats:

@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.hole_rims import hole_rims
+from vectorplot.features.parametric.holes import is_known
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.features.parametric.wrapping import wrapped
@@ -19,6 +20,7 @@ from vectorplot.geometry.chord_refinement import Traces, refined, straight_betwe
 from vectorplot.geometry.polylines import some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
+from vectorplot.tolerances.of_parameters import AROUND_RIM
 
 DEFAULT = Tracing()
 
@@ -210,7 +212,7 @@ def _at(surface: Surface, axis: int, ways: Floats) -> Floats:
 def _without_holes(surface: Surface, axis: int, lines: Traces) -> Traces:
     """The lines cut where the surface has holes, their ends at the borders of the holes by halving."""
     ways, last = lines.points, lines.last
-    good: Bools = np.asarray(np.isfinite(_at(surface, axis, ways)).all(axis=1))
+    good = _on_surface(surface, axis, ways)
     if good.all():
         return lines
     change = np.flatnonzero((good[1:] != good[:-1]) & ~last[:-1])
@@ -218,12 +220,23 @@ def _without_holes(surface: Surface, axis: int, lines: Traces) -> Traces:
     low, high = ways[change + enters], ways[change + ~enters]
     for _ in range(50):
         middle = 0.5 * (low + high)
-        there = np.isfinite(_at(surface, axis, middle)).all(axis=1, keepdims=True)
+        there = _on_surface(surface, axis, middle)[:, None]
         low, high = np.where(there, middle, low), np.where(there, high, middle)
     kept, ends = np.insert(good, change + 1, True), np.insert(last & good, change + 1, ~enters)
     # A line that consists of a single point is no line.
     kept &= ~(ends & np.concatenate([[True], (ends | ~kept)[:-1]]))
     return Traces(np.insert(ways, change + 1, low, axis=0), ends).some(kept)
+
+
+def _on_surface(surface: Surface, axis: int, ways: Floats) -> Bools:
+    """(n,) where lines are on the surface, and it goes on beside them: x^y has values at whole y for x < 0 too, but is
+    no surface there."""
+    there = np.isfinite(_at(surface, axis, ways)).all(axis=1)
+    beside = np.zeros(len(ways), dtype=np.bool_)
+    for step in (AROUND_RIM, -AROUND_RIM):
+        moved = ways + [step * surface.domain.size[axis], 0.0]
+        beside |= is_known(surface, moved if axis == 0 else moved[:, ::-1])
+    return np.asarray(there & beside, dtype=np.bool_)
 
 
 def _refined(surface: Surface, axis: int, lines: Traces, tracing: Tracing, size: float) -> tuple[Traces, bool]:
