@@ -34,13 +34,15 @@ def scene_shadows(
     from vectorplot.effects.shadows.shadow_borders import shadow_borders
     from vectorplot.effects.shadows.shadow_decals import cast_within
     from vectorplot.effects.shadows.shadow_grades import graded, shadow_decals_of
+    from vectorplot.effects.shadows.united_shadows import united_shadows
 
     # Light goes through what is transparent: there patterns show shadows, and nothing else.
     shows = np.array([item.material.opacity >= 1.0 or bool(item.patterns) for item in items], dtype=np.bool_)
     shown = shows[view.face_item] if receivers is None else receivers & shows[view.face_item]
     cast = cast_within(view, lights, budget.pairs, receivers=shown, projected=projected)
     tell_missing_shadows(items, lights, cast.left_out)
-    single = cast.shadows
+    # Borders are made of the regions that cells are made of.
+    single = cast.shadows if aura == 0.0 else united_shadows(view, cast.shadows)
     cells = graded(view, single)
     dark = shadow_decals_of(cells, FillKind.SHADOW)
     return dark if aura == 0.0 else joined_decals(dark, shadow_borders(view, single, cells, aura))
