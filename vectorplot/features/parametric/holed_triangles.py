@@ -95,12 +95,12 @@ def _crossings(surface: Surface, places: Floats, known: Bools, one: Ints, two: I
     part, _ = last_alike(surface, places[start], way, np.zeros(len(pair)), np.ones(len(pair)))
     # A side along a line with values and no surface beside them: all of it is known.
     line = np.flatnonzero(part >= 1.0 - REPEATED_OF_DOMAIN)
-    low, high = np.zeros(len(line)), np.ones(len(line))
+    inner, outer = np.zeros(len(line)), np.ones(len(line))
     for _ in range(HALVINGS if len(line) else 0):
-        middle = 0.5 * (low + high)
+        middle = 0.5 * (inner + outer)
         there = _has_surface(surface, places[start[line]] + middle[:, None] * way[line])
-        low, high = np.where(there, middle, low), np.where(there, high, middle)
-    part[line] = np.where(_has_surface(surface, places[end[line]]), part[line], low)
+        inner, outer = np.where(there, middle, inner), np.where(there, outer, middle)
+    part[line] = np.where(_has_surface(surface, places[end[line]]), part[line], inner)
     # Sides that end in one place have one crossing where the rim runs through it.
     number = len(places) + np.arange(len(pair))
     through = part >= 1.0 - REPEATED_OF_DOMAIN
