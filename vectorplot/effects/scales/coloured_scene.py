@@ -54,9 +54,7 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     colours = map_colours(colouring.colour_map, colouring.steps)
     size = float(np.linalg.norm(np.ptp(scene.bounds, axis=0)))
     plain = (is_curve(item.shape) or item.is_cut_face for item in scene.items)
-    given = [
-        None if left else _valued(item, colouring, size) for item, left in zip(scene.items, plain, strict=True)
-    ]
+    given = [None if left else _valued(item, colouring, size) for item, left in zip(scene.items, plain, strict=True)]
     values = np.concatenate([np.zeros(0), *(one.values for one in given if one is not None)])
     values = values[np.isfinite(values)]
     if not len(values):
