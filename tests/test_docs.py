@@ -14,6 +14,8 @@ from support.paths import ROOT
 import vectorplot as vp
 from vectorplot.cli.accuracy import accuracy
 from vectorplot.cli.draw import draw
+from vectorplot.cli.films.animate import animate
+from vectorplot.cli.films.replay import replay
 from vectorplot.cli.info import info
 from vectorplot.cli.main import run
 from vectorplot.cli.paint import paint
@@ -41,7 +43,8 @@ COMMANDS = [
 @pytest.fixture
 def checkout(tmp_path, monkeypatch):
     """A folder with the data, which one may write into."""
-    shutil.copytree(ROOT / "data", tmp_path / "data")
+    for folder in ("data", "anim"):
+        shutil.copytree(ROOT / folder, tmp_path / folder)
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
@@ -75,7 +78,7 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
 
 
 @pytest.mark.parametrize(
-    "command", [accuracy, draw, info, paint, render, sheet, speed], ids=lambda command: command.name
+    "command", [accuracy, animate, draw, info, paint, render, replay, sheet, speed], ids=lambda command: command.name
 )
 def test_every_option_is_on_the_page_of_the_command(command):
     page = (DOCS / "command.md").read_text(encoding="utf-8")

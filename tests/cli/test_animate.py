@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 from support.paths import DATA, ROOT
 
+import vectorplot as vp
 from vectorplot.animation import read_movie
 from vectorplot.cli.main import run
 
@@ -52,6 +53,21 @@ def test_the_pencil_is_animated_recorded_and_replayed(tmp_path, monkeypatch, cap
         assert "Pages:           4" in told
     assert run(["replay", "pencil"]) == 0
     assert "4 frames, 0 of them frozen; 2 palettes" in capsys.readouterr().out
+
+
+@pytest.mark.capability("GA.4-learn")
+@pytest.mark.parametrize("lesson", sorted(DATA.glob("Learn.*")), ids=lambda path: path.name)
+def test_lessons_are_drawn_and_painted(lesson):
+    scene = vp.read(lesson)
+    number = int(lesson.name.removeprefix("Learn."))
+    assert scene.title.startswith(f"Lesson {number}: ") and len(scene) >= min(number, 2)
+    for picture in (vp.draw(scene), vp.paint(scene, tolerance_mm=0.2)):
+        assert sum(len(mark) for layer in picture.layers for mark in layer.marks) > 2
+
+
+@pytest.mark.capability("GA.4-learn")
+def test_there_are_several_dozen_samples():
+    assert len(list(DATA.glob("Learn.*"))) == 6 and len(list(DATA.glob("*.scene"))) > 30
 
 
 def test_options_mean_what_they_mean_to_the_verbs(workplace):
