@@ -1,7 +1,7 @@
 """A film: a pencil turns once around, its lines seen exactly in every frame.
 
-The picture moves by itself, without a script: frames are groups that are visible one after the other. One fit holds for all of
-them, and strokes keep their order. Source: Glaeser, chapter 10 and appendix A.3.
+The picture moves by itself, without a script: frames are groups that are visible one after the other. One fit holds for
+all of them, and strokes keep their order. Source: Glaeser, chapter 10 and appendix A.3.
 """
 
 import sys
