@@ -10,7 +10,7 @@ from sphinx.application import Sphinx
 
 ROOMS = (
     "geometry curves surfaces features scene io visibility shading drawing effects animation textbook backends "
-    "testing accuracy exact"
+    "batch testing accuracy exact"
 ).split()
 """The rooms whose names the reference lists."""
 

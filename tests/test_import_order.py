@@ -24,7 +24,7 @@ ORDER = [
     *("verbs", "testing", "accuracy", "speed", "cli"),
 ]
 VERBS = {"animate", "draw", "film", "paint", "panorama", "plan", "read", "render", "save", "save_frames"}
-STAGES = {"linework", "painting", "rendering", "stages", "technical"}
+STAGES = {"linework", "painting", "rendering", "stages", "technical", "batch"}
 
 # Pictures show themselves in a notebook and save themselves; the import happens when they are asked to.
 ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/raster/image.py", "verbs")}
@@ -48,6 +48,7 @@ HEAVY = {
     "svgwrite",
     "trimesh",
     "click",
+    "distributed",
     "tqdm",
     "HersheyFonts",
     "embreex",

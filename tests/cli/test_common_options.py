@@ -32,7 +32,7 @@ PARAMS = {verb.name: {param.name: param for param in verb.params} for verb in VE
 CAMERA_VERBS = [verb for verb in VERBS if "eye" in PARAMS[verb.name]]
 SHARED = sorted(name for name in set(chain(*PARAMS.values())) if sum(name in params for params in PARAMS.values()) > 1)
 
-MEANING = {"lines", "crease_angle_deg", "shadows", "fit", "page", "title", "frame"}
+MEANING = {"out", "lines", "crease_angle_deg", "shadows", "fit", "page", "title", "frame"}
 """Options whose help says what they are to the verb."""
 
 WORDS = {"format_", "shadows", "page"}

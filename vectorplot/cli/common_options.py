@@ -6,18 +6,20 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import reduce, wraps
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from vectorplot.cli.cut_options import CUT_OPTIONS, CutOptions
 from vectorplot.cli.line_options import LINE_OPTIONS, LineOptions
+from vectorplot.cli.many.pictures import PictureVerb, is_folder, make_pictures
+from vectorplot.cli.many.workers import WORKER_OPTIONS, WorkerOptions
 from vectorplot.cli.options import KINDS, at_least, between, exposure, format_of, kinds, light
-from vectorplot.cli.picture import Source, make_picture
+from vectorplot.cli.picture import Report, Source, make_picture, picture_contents
 from vectorplot.cli.view_options import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
 
 if TYPE_CHECKING:
-    from vectorplot.cli.picture import Report
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.scene.scene import Scene
     from vectorplot.shading.raster.image import Image
@@ -92,6 +94,21 @@ EXAGGERATION = click.option(
 
 OUT = click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
 
+OUT_OR_FOLDER = click.option(
+    "-o",
+    "--out",
+    required=True,
+    type=click.Path(),
+    metavar="OUT",
+    help="File to write; - for stdout; FOLDER/ for a picture of each INPUT.",
+)
+
+_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain")
+"""Parameters that say what is read and written, and what is said of it."""
+
+SILENT = Report(None, lambda _report: None)
+"""Nobody is told anything."""
+
 
 def format_option(formats: Sequence[str]) -> Option:
     """``--format``, for a verb that writes these."""
@@ -132,7 +149,7 @@ class Told:
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> Told:
         """What the options of a command say. Bad usage for options that contradict each other."""
-        groups = (CameraOptions, PageOptions, LineOptions, CutOptions)
+        groups = (CameraOptions, PageOptions, LineOptions, CutOptions, WorkerOptions)
         taken = {field.name for group in groups for field in fields(group)}
         return cls(
             CameraOptions.of(options),
@@ -188,10 +205,30 @@ def picture_verb(
     """
 
     def command_of(verb: Callable[..., Drawing | Image]) -> click.Command:
-        @click.command(short_help=short_help, context_settings={"show_default": True})
+        def asked(params: Mapping[str, Any]) -> dict[str, Any]:
+            """What is to be pictured and how, as make_picture and picture_contents take it."""
+            told = Told.of({name: value for name, value in params.items() if name not in _OF_THE_FILE})
+            written, jobs = format_of(params["out"], params["format_"], formats), told.rest["jobs"]
+            overlaid = told.rest.get("text") == "latex"
+            if overlaid:
+                told = replace(told, rest={**told.rest, "text": "real"})
+                check_overlaid(params["out"], written)
+
+            def picture(scene: Scene, report: Report) -> Drawing | Image:
+                lined, keywords = told.with_lines(scene)
+                return verb(lined, **keywords, progress=report.progress, explain=report.explain)
+
+            source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
+            return {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
+
+        def content(params: Mapping[str, Any]) -> bytes:
+            """What a file of pictures in a folder holds."""
+            return picture_contents(name=Path(params["out"]).name, report=SILENT, **asked(params))[0]
+
+        @click.command(cls=PictureVerb, short_help=short_help, context_settings={"show_default": True})
         @with_options(
             INPUT,
-            OUT,
+            OUT_OR_FOLDER,
             format_option(formats),
             EXAGGERATION,
             *CAMERA_OPTIONS,
@@ -200,33 +237,22 @@ def picture_verb(
             *CUT_OPTIONS,
             BUDGET,
             JOBS,
+            *WORKER_OPTIONS,
             EXPLAIN,
             QUIET,
         )
         @wraps(verb)
-        def command(
-            scene_file: tuple[str, ...],
-            out: str,
-            format_: str | None,
-            exaggeration: float | None,
-            quiet: bool,
-            explain: bool,
-            **options: Any,
-        ) -> None:
-            told = Told.of(options)
+        def command(**params: Any) -> None:
+            if is_folder(params["out"]):
+                make_pictures(verb.__name__, params, formats, asked)
+                return
+            if WorkerOptions.of(params).given:
+                raise click.UsageError("--workers and --cluster make pictures into a folder: OUT must be one, FOLDER/")
+            told = asked(params)
+            make_picture(out=params["out"], quiet=params["quiet"], explain=params["explain"], **told)
 
-            def picture(scene: Scene, report: Report) -> Drawing | Image:
-                lined, keywords = told.with_lines(scene)
-                return verb(lined, **keywords, progress=report.progress, explain=report.explain)
-
-            written, jobs = format_of(out, format_, formats), told.rest["jobs"]
-            overlaid = told.rest.get("text") == "latex"
-            if overlaid:
-                told = replace(told, rest={**told.rest, "text": "real"})
-                check_overlaid(out, written)
-            source = Source(scene_file, exaggeration, upright=told.camera.says_where())
-            make_picture(source, out, written, picture, quiet=quiet, explain=explain, jobs=jobs, overlaid=overlaid)
-
+        assert isinstance(command, PictureVerb)
+        command.content = content
         return command
 
     return command_of

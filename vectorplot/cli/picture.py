@@ -80,30 +80,46 @@ def make_picture(
     quiet: no warnings, no progress bar; explain: print what each stage cost; jobs: threads to read on, as many as
     processors where it is None; overlaid: texts are left to LaTeX, in a file beside OUT.
     """
+    reports: list[StageReport] = []
+    with told_warnings(quiet=quiet):
+        check_place(out)
+        with progress_bar(quiet=quiet) as progress:
+            report = Report(progress, reports.append)
+            contents = picture_contents(source, Path(out).name, format_, picture, report, jobs, overlaid=overlaid)
+            write_out(out, contents[0])
+            for letters in contents[1:]:
+                write_out(os.fspath(Path(out).with_suffix(".tex")), letters)
+    if explain:
+        click.echo(table(reports), err=True)
+
+
+def picture_contents(
+    source: Source,
+    name: str,
+    format_: str,
+    picture: Callable[[Scene, Report], Drawing | Image],
+    report: Report,
+    jobs: int | None = None,
+    *,
+    overlaid: bool = False,
+) -> tuple[bytes, ...]:
+    """Read a scene and make a picture of it: the content of its file, and where texts are overlaid of theirs; name:
+    that of the picture's file."""
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.geometry.chunks import threads_of
     from vectorplot.save import write, write_for_latex
     from vectorplot.stages.walk import Stage, Walk
 
-    reports: list[StageReport] = []
     stages = (Stage("read", source.name), Stage("write", f"as {format_}"))
-    walk = Walk(stages, reports.append, None, threads_of(jobs))
-    with told_warnings(quiet=quiet):
-        check_place(out)
-        with progress_bar(quiet=quiet) as progress:
-            scene = walk.run("read", source.read)
-            with located(scene):
-                made = picture(scene, Report(progress, reports.append))
-            if is_empty(made):
-                warnings.warn(f"{source.name}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
-            if overlaid and isinstance(made, Drawing):
-                picture_, letters = walk.run("write", write_for_latex, made, format_, Path(out).name)
-                write_out(out, picture_)
-                write_out(os.fspath(Path(out).with_suffix(".tex")), letters)
-            else:
-                write_out(out, walk.run("write", write, made, format_))
-    if explain:
-        click.echo(table(reports), err=True)
+    walk = Walk(stages, report.explain, None, threads_of(jobs))
+    scene = walk.run("read", source.read)
+    with located(scene):
+        made = picture(scene, report)
+    if is_empty(made):
+        warnings.warn(f"{source.name}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
+    if overlaid and isinstance(made, Drawing):
+        return walk.run("write", write_for_latex, made, format_, name)
+    return (walk.run("write", write, made, format_),)
 
 
 @contextmanager

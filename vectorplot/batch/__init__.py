@@ -1,0 +1,5 @@
+"""Many files of pictures, each made by itself: here, in processes, or on a cluster."""
+
+import lazy_loader
+
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -1,0 +1,258 @@
+"""Running tasks: files that are up to date stay, the others are made by workers and written here."""
+
+from __future__ import annotations
+
+import threading
+import traceback
+import warnings
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from pathlib import Path
+from typing import Generic, TypeVar
+
+from vectorplot.batch.answers import Lost, Submits, answers
+from vectorplot.batch.executors import Here
+from vectorplot.batch.records import Records
+from vectorplot.batch.tasks import Task
+from vectorplot.errors import InputError, InputWarning, printable
+from vectorplot.save import write_whole
+
+Value = TypeVar("Value")
+
+WINDOW = 32
+"""So many tasks are with the workers at once if nobody says otherwise."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """What became of a task.
+
+    Parameters
+    ----------
+    path : str
+        Its file.
+    state : str
+        written, kept (it was up to date) or failed.
+    cause : str
+        Why it failed, in one line.
+    warnings : tuple of str
+        What an InputWarning said while its content was made; of workers that are threads, nothing.
+
+    Examples
+    --------
+    >>> from vectorplot.batch import Outcome
+    >>> Outcome("out/a.svg", "kept").cause
+    ''
+    """
+
+    path: str
+    state: str
+    cause: str = ""
+    warnings: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Tally:
+    """How many files were written, kept because they were up to date, and failed.
+
+    Parameters
+    ----------
+    written, kept, failed : int
+        The counts.
+
+    Examples
+    --------
+    >>> from vectorplot.batch import Tally
+    >>> Tally(3, 4, 1).count
+    8
+    """
+
+    written: int = 0
+    kept: int = 0
+    failed: int = 0
+
+    @property
+    def count(self) -> int:
+        """All of them."""
+        return self.written + self.kept + self.failed
+
+
+@dataclass(frozen=True)
+class _Answer(Generic[Value]):
+    """What a worker sends: a value, or why there is none; bug: the trace of an error that is no fault of the input."""
+
+    value: Value | None = None
+    cause: str = ""
+    bug: str = ""
+    warnings: tuple[str, ...] = ()
+
+
+def run(
+    tasks: Iterable[Task],
+    executor: Submits | None = None,
+    *,
+    window: int = WINDOW,
+    tell: Callable[[Outcome], None] | None = None,
+) -> Tally:
+    """Make files, each whole or not at all, and only those that are not up to date.
+
+    Parameters
+    ----------
+    tasks : iterable of Task
+        Taken one by one as workers become free: there may be millions.
+    executor : Executor, optional
+        Anything with the method submit of `concurrent.futures.Executor`; where None, this process does the work.
+    window : int
+        So many tasks are with the executor at once; with less than two for a worker, workers wait.
+    tell : callable, optional
+        tell(outcome) is called as soon as a file is done.
+
+    Returns
+    -------
+    Tally
+        How many files were written, kept and failed.
+
+    Raises
+    ------
+    InputError
+        For a window below 1, and where no worker survives anything.
+    OSError
+        Where a file cannot be written; it names the path.
+    RuntimeError
+        For an error in a task that is no fault of its input; what is finished stays.
+
+    Notes
+    -----
+    Workers make contents; this process writes them. So workers need no folder in common to write into, one that dies
+    leaves nothing behind, and files are the same bytes whatever the executor is. InputError, OSError and MemoryError of
+    a task are its outcome, and the others go on. A task whose worker is lost is given to another one; the third time
+    while no other task runs, and after the fourth loss it has failed. What is finished is noted in a file
+    ``.vectorplot-finished`` in each folder, so that a run that was stopped goes on where it was.
+
+    Examples
+    --------
+    >>> import pathlib, tempfile
+    >>> from functools import partial
+    >>> from vectorplot.batch import Task, fingerprint, run
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     tasks = [Task(f"{folder}/{n}.bin", partial(bytes, n), fingerprint(str(n))) for n in range(3)]
+    ...     run(tasks[:2]), run(tasks)
+    (Tally(written=2, kept=0, failed=0), Tally(written=1, kept=2, failed=0))
+    """
+    if window < 1:
+        raise InputError(f"a window of {window} tasks: expected 1 or more")
+    counts = {"written": 0, "kept": 0, "failed": 0}
+    records = Records()
+
+    def note(outcome: Outcome) -> None:
+        counts[outcome.state] += 1
+        if tell is not None:
+            tell(outcome)
+
+    def due() -> Iterator[tuple[Task, Callable[[], _Answer[bytes]]]]:
+        for task in tasks:
+            if records.has(task.path, task.fingerprint):
+                note(Outcome(task.path, "kept"))
+            else:
+                yield task, partial(_answered, task.content)
+
+    for task, answer in answers(due(), executor or Here(), window):
+        content = _value(answer, task.path)
+        told = () if isinstance(answer, Lost) else answer.warnings
+        if isinstance(content, InputError):
+            note(Outcome(task.path, "failed", content.cause, told))
+            continue
+        Path(task.path).parent.mkdir(parents=True, exist_ok=True)
+        write_whole(task.path, content)
+        records.add(task.path, task.fingerprint, len(content))
+        note(Outcome(task.path, "written", "", told))
+    return Tally(**counts)
+
+
+def results(
+    calls: Sequence[Callable[[], Value]], executor: Submits | None = None, *, window: int = WINDOW
+) -> list[Value]:
+    """What calls give, in their order, such as the drawings of a contact sheet.
+
+    Parameters
+    ----------
+    calls : sequence of callables
+        Without arguments; for workers in other processes they can be pickled.
+    executor : Executor, optional
+        As of `run`.
+    window : int
+        As of `run`.
+
+    Returns
+    -------
+    list
+        A value for each call.
+
+    Raises
+    ------
+    InputError
+        As of `run`, and what a call raises of InputError, OSError and MemoryError.
+    RuntimeError
+        As of `run`.
+
+    Examples
+    --------
+    >>> from functools import partial
+    >>> import vectorplot as vp
+    >>> from vectorplot.batch import results
+    >>> from vectorplot.geometry import box
+    >>> drawings = results([partial(vp.draw, box((1, 1, 1)), view) for view in ("top", "iso")])
+    >>> vp.contact_sheet(drawings).width_mm
+    210.0
+    """
+    if window < 1:
+        raise InputError(f"a window of {window} tasks: expected 1 or more")
+    found: dict[int, Value] = {}
+    work = ((number, partial(_answered, call)) for number, call in enumerate(calls))
+    for number, answer in answers(work, executor or Here(), window):
+        value = _value(answer, f"call {number + 1} of {len(calls)}")
+        if isinstance(value, InputError):
+            raise value
+        for text in () if isinstance(answer, Lost) else answer.warnings:
+            warnings.warn(text, InputWarning, stacklevel=2)
+        found[number] = value
+    return [found[number] for number in range(len(calls))]
+
+
+def _answered(make: Callable[[], Value]) -> _Answer[Value]:
+    """What a worker does. It raises no Exception: an executor that does has lost its worker."""
+    if threading.current_thread() is not threading.main_thread():
+        return _tried(make)
+    # To catch warnings is for one thread alone.
+    with warnings.catch_warnings(record=True) as caught:
+        warnings.simplefilter("always", InputWarning)
+        answer = _tried(make)
+    told = dict.fromkeys(str(entry.message) for entry in caught if issubclass(entry.category, InputWarning))
+    return _Answer(answer.value, answer.cause, answer.bug, tuple(told))
+
+
+def _tried(make: Callable[[], Value]) -> _Answer[Value]:
+    try:
+        return _Answer(make())
+    except InputError as error:
+        return _Answer(cause=str(error))
+    except OSError as error:
+        name = "" if error.filename is None else f"{error.filename}: "
+        return _Answer(cause=printable(name + (error.strerror or str(error))))
+    except MemoryError:
+        return _Answer(cause="there is not enough memory for this")
+    except Exception:
+        return _Answer(bug=traceback.format_exc())
+
+
+def _value(answer: _Answer[Value] | Lost, name: str) -> Value | InputError:
+    """The value, or an InputError that says why there is none. Errors: RuntimeError for a bug."""
+    if isinstance(answer, Lost):
+        return InputError(f"its workers were lost: {answer.why}")
+    if answer.bug:
+        raise RuntimeError(f"{name}: {answer.bug}")
+    if answer.cause:
+        return InputError(answer.cause)
+    value: Value = answer.value  # type: ignore[assignment]
+    return value

@@ -1,0 +1,1 @@
+"""Options and files of commands that make many pictures."""

@@ -1,0 +1,151 @@
+"""A picture of each of many files, into a folder."""
+
+from __future__ import annotations
+
+import os
+import pickle
+import re
+from collections import Counter
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from functools import partial
+from importlib import import_module
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from vectorplot.cli.many.workers import WorkerOptions
+from vectorplot.cli.picture import check_place
+from vectorplot.errors import InputError
+
+if TYPE_CHECKING:
+    from vectorplot.batch.tasks import Task
+
+NO_MATTER = ("scene_file", "out", "jobs", "quiet", "explain", "workers", "cluster")
+"""Parameters on which the bytes of a picture do not depend, beside what it shows."""
+
+_PICKLE = 5
+"""The protocol in which options are compared with those of a run before: any one, but always the same."""
+
+_QUOTED = re.compile(r'"([^"\r\n]{1,1000})"')
+
+
+class PictureVerb(click.Command):
+    """A command that makes pictures; content: the bytes of one, for the values of its parameters."""
+
+    content: Callable[[Mapping[str, Any]], bytes]
+
+
+def is_folder(out: str) -> bool:
+    """Whether a name is that of a folder: it ends in a slash, or there is one."""
+    return out.endswith(("/", os.sep)) or (out != "-" and Path(out).is_dir())
+
+
+def make_pictures(
+    verb: str, params: Mapping[str, Any], formats: Sequence[str], check: Callable[[Mapping[str, Any]], object]
+) -> None:
+    """A picture of each input, in the folder of ``out``; check: what finds bad usage in the parameters of one picture.
+
+    Errors: InputError, after all others are made, where one could not be.
+    """
+    if params["explain"]:
+        raise click.UsageError("--explain is of one picture: OUT must be a file")
+    if params.get("text") == "latex":
+        raise click.UsageError("--text latex is of one picture: OUT must be a file")
+    workers = WorkerOptions.of(params)
+    written = params["format_"] or formats[0]
+    # Workers are as many as there is room for: threads of theirs would only be in each other's way.
+    jobs = params["jobs"] or (1 if workers.given else None)
+    outs = out_names(inputs_of(params["scene_file"]), Path(params["out"]), written)
+    each = {**params, "format_": written, "jobs": jobs, "quiet": True}
+    for source, out in list(outs.items())[:1]:
+        check({**each, "scene_file": (source,), "out": out})
+    check_place(os.fspath(Path(params["out"])))
+    workers.run(_tasks(verb, each, outs), len(outs), "pictures", quiet=params["quiet"])
+
+
+def inputs_of(named: Sequence[str]) -> tuple[str, ...]:
+    """The files that are named, and in place of a folder those in it that hold shapes, by name; each once."""
+    found: dict[str, None] = {}
+    for name in named:
+        if Path(name).is_dir():
+            inside = sorted(os.fspath(path) for path in Path(name).iterdir() if path.is_file() and _holds_shapes(path))
+            if not inside:
+                raise click.UsageError(f"{name}: no file in it is a scene, mesh, molecule or terrain")
+            found.update(dict.fromkeys(inside))
+        else:
+            found[name] = None
+    return tuple(found)
+
+
+def _holds_shapes(path: Path) -> bool:
+    from vectorplot.io.meshes.read_mesh import MESH_SUFFIXES
+    from vectorplot.io.read_file import MOLECULE_SUFFIXES, TERRAIN_SUFFIXES
+
+    return path.suffix.lower() in (".scene", *MESH_SUFFIXES, *MOLECULE_SUFFIXES, *TERRAIN_SUFFIXES)
+
+
+def out_names(inputs: Sequence[str], folder: Path, format_: str) -> dict[str, str]:
+    """The picture of each input: its name with the suffix of the format, after its own suffix where others are called
+    the same. Bad usage for inputs that cannot be told apart."""
+    stems = Counter(Path(name).stem for name in inputs)
+    outs = {
+        name: os.fspath(folder / f"{Path(name).stem if stems[Path(name).stem] == 1 else Path(name).name}.{format_}")
+        for name in inputs
+    }
+    owners: dict[str, str] = {}
+    for name, out in outs.items():
+        if owners.setdefault(out, name) != name:
+            raise click.UsageError(f"{owners[out]} and {name} would both become {out}")
+    return outs
+
+
+def _tasks(verb: str, params: Mapping[str, Any], outs: Mapping[str, str]) -> Iterator[Task]:
+    from vectorplot.batch.tasks import Task, fingerprint
+
+    same = {name: value for name, value in sorted(params.items()) if name not in NO_MATTER}
+    # Two that are pickled alike are alike; at worst, one that has not changed is made again.
+    said = pickle.dumps(same, _PICKLE).hex()
+    for source, out in outs.items():
+        files = files_of((source, *(value for value in same.values() if isinstance(value, str))))
+        try:
+            known = fingerprint(verb, source, said, files=files)
+        except OSError:
+            known = ""
+        content = partial(picture_content, verb, {**params, "scene_file": (source,), "out": out})
+        yield Task(out, content, known)
+
+
+def files_of(names: Sequence[str]) -> tuple[Path, ...]:
+    """Those of the names that are files, and all files that the texts among them name in quotes; the files' own places
+    are where these names begin."""
+    from vectorplot.io.meshes.read_mesh import MESH_SUFFIXES
+
+    found: dict[Path, None] = {}
+    waiting = [Path(name) for name in names]
+    while waiting:
+        path = waiting.pop(0)
+        try:
+            if path in found or not path.is_file():
+                continue
+            found[path] = None
+            if path.suffix.lower() not in MESH_SUFFIXES:
+                text = path.read_text(encoding="utf-8", errors="replace")
+                waiting += [path.parent / name for name in dict.fromkeys(_QUOTED.findall(text))]
+        except (OSError, ValueError):
+            continue
+    return tuple(found)
+
+
+def picture_content(verb: str, params: Mapping[str, Any]) -> bytes:
+    """What a worker does: a picture for the values of a command's parameters."""
+    command = getattr(import_module(f"vectorplot.cli.{verb}"), verb)
+    context = click.Context(command, info_name=verb)
+    context.params = dict(params)
+    try:
+        with context:
+            content: bytes = command.content(params)
+    except click.UsageError as error:
+        # Of options that what is in the file has no use for.
+        raise InputError(error.format_message()) from None
+    return content
