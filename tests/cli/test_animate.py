@@ -76,7 +76,7 @@ def test_options_mean_what_they_mean_to_the_verbs(workplace):
     assert text.count("hidden") > 3 and 'viewBox="0 0 210 297"' in text
     wide = ["--page", "100x50", "--mode", "shading", "--frames", "2", "--background", "yellow"]
     assert run(["animate", "die", "-a", "turn", "-o", "b/", "--format", "png", *wide]) == 0
-    assert sorted(path.name for path in Path("b").iterdir()) == ["0001.png", "0002.png"]
+    assert sorted(path.name for path in Path("b").glob("[!.]*")) == ["0001.png", "0002.png"]
     assert run(["animate", "die", "-a", "turn", "-o", "c/", "--mode", "pixels", "--size", "40x30"]) == 0
     assert len(list(Path("c").glob("*.png"))) == 3
 

@@ -21,7 +21,8 @@ from vectorplot.cli.common_options import (
     shadows_option,
     with_options,
 )
-from vectorplot.cli.films.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
+from vectorplot.cli.films.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, is_sequence, write_frames
+from vectorplot.cli.many.workers import WORKER_OPTIONS, WorkerOptions
 from vectorplot.cli.options import chosen, pixels
 from vectorplot.cli.picture import located
 from vectorplot.cli.progress import progress_bar, told_warnings
@@ -66,6 +67,7 @@ VERBS = {
     FRAME,
     BUDGET,
     JOBS,
+    *WORKER_OPTIONS,
     QUIET,
 )
 def animate(
@@ -97,6 +99,10 @@ def animate(
     if frames_out is None and video is None:
         raise click.UsageError("nothing to write: give -o OUT, or -v NAME, or both")
     check_out(frames_out, frame_format)
+    workers = WorkerOptions.of(told)
+    sequence = is_sequence(frames_out) and video is None
+    if workers.given and not sequence:
+        raise click.UsageError("--workers and --cluster make frames into a folder alone: give -o FOLDER/, no -v")
     camera, page = CameraOptions.of(told), PageOptions.of(told)
     with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
         scene = read(found(data_file))
@@ -109,11 +115,19 @@ def animate(
             mode=chosen(mode, moving.mode),
         )
         options = _of_verb(MODES[moving.mode].verb, told)
+        # Workers are as many as there is room for: threads of theirs would only be in each other's way.
+        options["jobs"] = told["jobs"] or (1 if workers.given else None)
         with located(scene):
             film = film_of(
                 moving, width=told["width"], size=told["size"], fit=told["fit"], progress=progress, **options
             )
-            write_frames(film, len(film), frames_out, video, film.fps, frame_format, progress)
+            if not sequence:
+                write_frames(film, len(film), frames_out, video, film.fps, frame_format, progress)
+    if sequence and frames_out is not None:
+        from vectorplot.batch.film_frames import frame_tasks
+
+        tasks = frame_tasks(film, frames_out, format=frame_format)
+        workers.run(tasks, len(film), "frames", quiet=quiet)
 
 
 def _of_verb(verb: str, told: dict[str, Any]) -> dict[str, Any]:

@@ -54,6 +54,13 @@ def check_out(out: str | None, format_: str | None) -> None:
     check_place(os.fspath(Path(out)))
 
 
+def is_sequence(out: str | None) -> bool:
+    """Whether frames become files of their own in a folder."""
+    from vectorplot.save_frames import kind_of
+
+    return out is not None and kind_of(out) == "folder"
+
+
 def write_frames(
     pictures: Iterable[Picture],
     count: int,

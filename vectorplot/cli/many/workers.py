@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterable
 
     from vectorplot.batch.answers import Submits
-    from vectorplot.batch.run import Outcome
+    from vectorplot.batch.running import Outcome
     from vectorplot.batch.tasks import Task
     from vectorplot.cli.progress import Progress
 
@@ -61,7 +61,7 @@ class WorkerOptions:
     def executor(self) -> Iterator[tuple[Submits, int]]:
         """Who does the work, and how many tasks are with them at once."""
         from vectorplot.batch.executors import Here, Processes, cluster
-        from vectorplot.batch.run import WINDOW
+        from vectorplot.batch.running import WINDOW
 
         if self.cluster is not None:
             with cluster(self.cluster) as executor:
@@ -77,7 +77,7 @@ class WorkerOptions:
 
         Errors: InputError, after all others are done, where one failed.
         """
-        from vectorplot.batch.run import run
+        from vectorplot.batch.running import run
 
         with progress_bar(quiet=quiet) as progress, self.executor() as (executor, window):
             tally = run(tasks, executor, window=window, tell=_teller(count, what, progress, quiet=quiet))
@@ -86,13 +86,13 @@ class WorkerOptions:
 
 
 def _teller(count: int, what: str, progress: Progress | None, *, quiet: bool) -> Callable[[Outcome], None]:
-    """What is said of each outcome: failures always, a warning once, and of warnings the first."""
+    """What is said of each outcome: of failures the first, and of warnings, each of which is said once."""
     warned: dict[str, None] = {}
     done = {"written": 0, "kept": 0, "failed": 0}
 
     def tell(outcome: Outcome) -> None:
         done[outcome.state] += 1
-        if outcome.state == "failed":
+        if outcome.state == "failed" and done["failed"] <= WARNINGS:
             click.echo(f"vectorplot: {outcome.path}: {outcome.cause}", err=True)
         for line in () if quiet else outcome.warnings:
             if line not in warned and len(warned) < WARNINGS:
