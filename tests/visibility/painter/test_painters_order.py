@@ -128,6 +128,21 @@ def test_five_hundred_boxes_through_one_another_stay_few_pieces():
 
 
 @pytest.mark.hard(22)
+def test_plates_that_all_pierce_each_other_are_as_many_pieces_as_a_tree_of_their_planes_makes():
+    rng = np.random.default_rng(3)
+    square = np.array([(-1.0, -1.0, 0.0), (1.0, -1.0, 0.0), (1.0, 1.0, 0.0), (-1.0, 1.0, 0.0)])
+    plates = []
+    for number in range(20):
+        axes, _ = np.linalg.qr(rng.normal(size=(3, 3)))
+        corners = square @ axes.T + rng.uniform(-0.5, 0.5, 3)
+        plates.append(Item(f"P{number}", Mesh.from_polygons(corners, [(0, 1, 2, 3)])))
+    scene = Scene(tuple(plates))
+    camera = Camera((5.0, 4.0, 3.0))
+    # Cut pair by pair they are 1306.
+    assert len(painters_order(look(scene, camera)).faces) < 1100
+    assert_right(scene, camera)
+
+
 def test_a_thing_wholly_hidden_is_painted_over_not_left_out():
     scene = scene_of(SMALL=box((-0.2, -0.2, -0.2), (0.2, 0.2, 0.2)), LARGE=box((-1, -3, -1), (1, -2, 1)))
     view = look(scene, Camera.view("front", (0, 0, 0), 8.0))

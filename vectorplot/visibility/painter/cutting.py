@@ -28,6 +28,10 @@ MOST_ROUNDS = 64
 LARGE_CIRCLE = 400
 """A circle of more faces than these is ordered by a tree of planes at once."""
 
+PIERCED_BY = 4
+"""A circle whose faces are pierced by more others than so many each in the mean is ordered by a tree of planes at once:
+cut pair by pair its pieces, and even more so the pairs of them that have to be compared, grow faster."""
+
 PIECES_OF_EACH = 4
 """A tree of planes may cut faces into so many pieces each in the mean, whatever the budget."""
 
@@ -68,6 +72,9 @@ def cut_into_order(
         pairs = pairs.some((place[pairs.first] == place[pairs.second]) & (pairs.codes != APART))
         place = _sorted_out(faces, place, pairs)
         pairs = pairs.some(place[pairs.first] == place[pairs.second])
+        crowded = _much_pierced(place, pairs)[place]
+        circled |= crowded
+        pairs = pairs.some(~crowded[pairs.first])
         if not len(pairs):
             break
         victim, knife = _cuts(faces, place, pairs, number, tolerance)
@@ -86,6 +93,13 @@ def cut_into_order(
     else:
         circled |= np.isin(place, place[pairs.first[place[pairs.first] == place[pairs.second]]])
     return _with_trees(faces, place, circled, tolerance, max(most, PIECES_OF_EACH * int(circled.sum())))
+
+
+def _much_pierced(place: Ints, pairs: Pairs) -> Bools:
+    """(p,) the places whose faces are pierced by more than PIERCED_BY others in the mean."""
+    size = np.bincount(place)
+    pierced = np.bincount(place[pairs.first[pairs.codes == STRADDLING]], minlength=len(size))
+    return np.asarray(2 * pierced > PIERCED_BY * size, dtype=np.bool_)
 
 
 def _with_trees(
