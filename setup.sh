@@ -71,6 +71,7 @@ missing() {
     command -v gs >/dev/null || printf 'ghostscript '
     command -v pdftoppm >/dev/null || printf 'poppler-utils '
     command -v rsvg-convert >/dev/null || printf 'librsvg2-bin '
+    command -v chromium >/dev/null || printf 'chromium '
     command -v pdflatex >/dev/null || printf 'texlive-latex-base texlive-pictures '
 }
 

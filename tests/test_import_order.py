@@ -21,7 +21,7 @@ ORDER = [
     *("errors", "spelling", "words", "arrays", "tolerances"),
     *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
     *("drawing", "charts", "effects", "animation", "textbook", "backends"),
-    *("verbs", "testing", "accuracy", "speed", "cli"),
+    *("verbs", "testing", "accuracy", "speed", "viewer", "cli"),
 ]
 VERBS = {"animate", "draw", "film", "paint", "panorama", "plan", "read", "render", "save", "save_frames"}
 STAGES = {"linework", "painting", "rendering", "stages", "technical", "batch"}

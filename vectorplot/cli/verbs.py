@@ -14,6 +14,7 @@ from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
 from vectorplot.cli.sheet import sheet
 from vectorplot.cli.speed import speed
+from vectorplot.cli.try_ import try_
 from vectorplot.errors import printable
 from vectorplot.words import nearest
 
@@ -46,6 +47,7 @@ vectorplot.add_command(animate)
 vectorplot.add_command(replay)
 vectorplot.add_command(accuracy)
 vectorplot.add_command(speed)
+vectorplot.add_command(try_)
 
 
 def say_usage(error: click.UsageError, cause: str) -> None:

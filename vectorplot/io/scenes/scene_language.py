@@ -106,7 +106,7 @@ def _text(file: Path, name: str) -> str:
         raise InputError(getattr(error, "strerror", None) or "cannot be read", file=name) from None
 
 
-def parse_scene(text: str, name: str = "<text>") -> Scene:
+def parse_scene(text: str, name: str = "<text>", *, beside: str | os.PathLike[str] | None = None) -> Scene:
     """The scene that a text in the scene language describes.
 
     Parameters
@@ -115,6 +115,8 @@ def parse_scene(text: str, name: str = "<text>") -> Scene:
         Statements and items.
     name : str
         What messages call the text.
+    beside : str or path, optional
+        The file that the text stands for: names of files in it are relative to its folder. Where None there are none.
 
     Returns
     -------
@@ -144,7 +146,8 @@ def parse_scene(text: str, name: str = "<text>") -> Scene:
     >>> scene.items[0].mesh.face_count
     6
     """
-    return _Reader(Words(text, name)).annotated()
+    files = None if beside is None else NamedFiles.of(Path(beside))
+    return _Reader(Words(text, name), files).annotated()
 
 
 class _Reader(ItemReader):

@@ -1,0 +1,213 @@
+"""The server answers its own page on this machine, and nobody else; work that nobody waits for stops."""
+
+from __future__ import annotations
+
+import asyncio
+import io
+import json
+import struct
+import threading
+
+import aiohttp
+import pytest
+
+from vectorplot.viewer.answers import Answers
+from vectorplot.viewer.jobs import Jobs, SupersededError
+from vectorplot.viewer.server import Server, serving
+from vectorplot.viewer.sources import Source
+
+TEXT = "camera eye 5 -7 4\nDIE red box solid 1 2 1\n"
+
+
+@pytest.fixture
+def source(tmp_path):
+    path = tmp_path / "die.scene"
+    path.write_text(TEXT, encoding="utf-8")
+    return Source(path)
+
+
+def talk(source, conversation):
+    """What a conversation with the server comes to."""
+
+    async def all_of_it():
+        server = Server(Answers(source))
+        async with serving(server) as address, aiohttp.ClientSession() as session:
+            return await conversation(server, address, session)
+
+    return asyncio.run(all_of_it())
+
+
+async def asked(session, address, what, **values):
+    async with session.post(f"{address}ask/{what}", json={"page": "p", "text": None, **values}) as answer:
+        return answer.status, answer.content_type, await answer.read()
+
+
+def test_the_page_comes_with_strict_headers_and_nothing_from_elsewhere(source):
+    async def conversation(server, address, session):
+        assert address.startswith("http://127.0.0.1:") and server.token in address and len(server.token) >= 24
+        found = {}
+        for name in ("", "viewer.js", "projection.js", "viewer.css", "icon.svg"):
+            async with session.get(address + name) as answer:
+                assert answer.status == 200
+                found[name] = await answer.text()
+                policy = answer.headers["Content-Security-Policy"]
+                assert "default-src 'none'" in policy and "unsafe" not in policy
+                assert answer.headers["Cache-Control"] == "no-store"
+        return found
+
+    found = talk(source, conversation)
+    for name, text in found.items():
+        assert "https://" not in text
+        assert "http://" not in text.replace("http://www.w3.org/2000/svg", ""), name
+        assert " style=" not in text and "onclick" not in text
+
+
+def test_strangers_are_turned_away(source):
+    async def conversation(server, address, session):
+        root = address.replace(server.token + "/", "")
+
+        async def status(url, method="get", **more):
+            async with session.request(method, url, **more) as answer:
+                return answer.status
+
+        return [
+            await status(root),
+            await status(root + "wrong-token/"),
+            await status(address + "../etc/passwd"),
+            await status(address + "ask/start"),
+            await status(address, headers={"Host": "evil.example"}),
+            await status(address + "ask/start", "post", json={}, headers={"Origin": "http://evil.example"}),
+            await status(address + "ask/start", "post", data="{}", headers={"Content-Type": "text/plain"}),
+            await status(address + "ask/start", "post", data="{", headers={"Content-Type": "application/json"}),
+            await status(address + "ask/start", "post", json=[]),
+            await status(address + "ask/nothing", "post", json={}),
+            await status(address + "ask/by_name", "post", json={}),
+            await status(
+                address + "ask/start",
+                "post",
+                data=io.BytesIO(b" " * (3 << 20)),
+                headers={"Content-Type": "application/json"},
+            ),
+            await status(address + "ask/start", "post", json={}, headers={"Origin": root.rstrip("/")}),
+        ]
+
+    assert talk(source, conversation) == [404, 404, 404, 405, 403, 403, 415, 400, 400, 404, 404, 413, 200]
+
+
+def test_questions_have_answers(source):
+    async def conversation(server, address, session):
+        _, _, start = await asked(session, address, "start")
+        _, _, scene = await asked(session, address, "scene")
+        size = struct.unpack("<I", scene[:4])[0]
+        head = json.loads(scene[4 : 4 + size])
+        state = head["first"]
+        _, _, keys = await asked(session, address, "keys", state=state, keys=["a", "w", "p"])
+        fit = await asked(session, address, "fit", state={**state, "fov_deg": 3.0})
+        pictures = [await asked(session, address, "picture", state=state)]
+        pictures += [await asked(session, address, "save", state=state, format=word) for word in ("ps", "dxf", "pdf")]
+        command = await asked(session, address, "command", state=state, format="svg")
+        wrong = await asked(session, address, "save", state=state, format="exe")
+        nothing = await asked(session, address, "picture", state={"azimuth": "north"})
+        return start, head, scene[4 + size :], keys, fit, pictures, command, wrong, nothing
+
+    start, head, lines, keys, fit, pictures, command, wrong, nothing = talk(source, conversation)
+    assert json.loads(start)["text"] == TEXT
+    assert (head["segments"], head["boxes"], len(lines)) == (12, 1, 13 * 24)
+    assert json.loads(keys)["state"]["mode"] == "wire" and json.loads(keys)["wishes"] == ["ps"]
+    assert json.loads(fit[2])["state"]["fov_deg"] > 10
+    assert [kind for _, kind, _ in pictures] == [
+        "image/svg+xml",
+        "application/postscript",
+        "image/vnd.dxf",
+        "application/pdf",
+    ]
+    assert pictures[0][2].startswith(b"<?xml") and pictures[1][2].startswith(b"%!PS") and pictures[3][2][:4] == b"%PDF"
+    assert json.loads(command[2])["line"].startswith("vectorplot draw ")
+    assert wrong[0] == nothing[0] == 422
+
+
+def test_errors_in_the_text_name_their_line_and_files_lie_beside_the_scene(source):
+    async def conversation(server, address, session):
+        bad = await asked(session, address, "scene", text="camera eye 5 -7 4\nDIE red box solid 1 two 1\n")
+        (source.path.parent / "part.scene").write_text("BAR blue box solid 1 1 9", encoding="utf-8")
+        good = await asked(session, address, "scene", text='include "part.scene"')
+        out = await asked(session, address, "scene", text='include "/etc/passwd"')
+        return bad, good, out
+
+    bad, good, out = talk(source, conversation)
+    assert bad[0] == 422 and json.loads(bad[2])["line"] == 2
+    assert good[0] == 200, good[2]
+    assert out[0] == 422
+
+
+def test_the_stream_of_life_ends_with_the_server(source):
+    async def conversation(server, address, session):
+        async with session.get(address + "alive") as answer:
+            assert b"here" in await answer.content.readany()
+            async with session.post(address + "quit", json={}) as gone:
+                assert gone.status == 200
+            return await answer.content.read()
+
+    assert b"event: end" in talk(source, conversation)
+
+
+def test_the_latest_question_of_a_page_wins_and_pages_do_not_disturb_each_other():
+    began, release, done = threading.Event(), threading.Event(), []
+
+    def long(job):
+        began.set()
+        release.wait(30.0)
+        job.progress("lines", 0.5)
+
+    async def all_of_it():
+        jobs = Jobs()
+        first = asyncio.create_task(jobs.run("one", long))
+        await asyncio.to_thread(began.wait)
+        queued = asyncio.create_task(jobs.run("one", lambda job: done.append("queued")))
+        other = asyncio.create_task(jobs.run("two", lambda job: "other"))
+        await asyncio.sleep(0)
+        last = asyncio.create_task(jobs.run("one", lambda job: "last"))
+        await asyncio.sleep(0)
+        release.set()
+        results = await asyncio.gather(first, queued, other, last, return_exceptions=True)
+        jobs.close()
+        return results
+
+    first, queued, other, last = asyncio.run(all_of_it())
+    assert isinstance(first, SupersededError) and (other, last) == ("other", "last")
+    assert done == [] and isinstance(queued, SupersededError)
+
+
+def test_the_end_stops_what_is_running():
+    began = threading.Event()
+
+    def long(job):
+        began.set()
+        job.stopped.wait(30.0)
+        job.progress("lines", 0.5)
+
+    async def all_of_it():
+        jobs = Jobs()
+        running = asyncio.create_task(jobs.run("one", long))
+        await asyncio.to_thread(began.wait)
+        jobs.close()
+        with pytest.raises(SupersededError):
+            await running
+
+    asyncio.run(all_of_it())
+
+
+def test_scenes_are_kept_and_files_read_anew_when_they_change(source):
+    first = source.scene(None)
+    assert source.scene(None) is first
+    assert source.scene(TEXT) is source.scene(TEXT)
+    for number in range(9):
+        source.scene(f"DIE red box solid 1 1 {number + 1}")
+    assert len(source._kept) <= 4
+
+
+def test_meshes_have_no_text(tmp_path):
+    path = tmp_path / "it.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n", encoding="utf-8")
+    assert Source(path).text() is None
+    assert len(Source(path).scene(None).items) == 1

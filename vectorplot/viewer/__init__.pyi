@@ -1,0 +1,13 @@
+from .commands import command_line
+from .keys import KEYS, pressed
+from .pictures import picture
+from .state import ViewerState, first_state
+
+__all__ = [
+    "KEYS",
+    "ViewerState",
+    "command_line",
+    "first_state",
+    "picture",
+    "pressed",
+]

@@ -1,0 +1,157 @@
+"""What the page asks for, and the answers: functions of what the page tells, which keeps all state itself."""
+
+from __future__ import annotations
+
+import json
+import struct
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from vectorplot.errors import InputError
+from vectorplot.save import write
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
+from vectorplot.viewer.commands import command_line
+from vectorplot.viewer.jobs import Job
+from vectorplot.viewer.keys import KEYS, pressed
+from vectorplot.viewer.moving import moving
+from vectorplot.viewer.pictures import for_browser, picture
+from vectorplot.viewer.sources import Source
+from vectorplot.viewer.state import ViewerState, first_state, fitting_fov_deg, page_of_state
+
+SAVED = {
+    "svg": "image/svg+xml",
+    "pdf": "application/pdf",
+    "ps": "application/postscript",
+    "dxf": "image/vnd.dxf",
+    "png": "image/png",
+}
+"""The formats that the page saves, and their media types."""
+
+MOST_KEYS = 1000
+"""So many keys are taken at once."""
+
+Asked = Mapping[str, Any]
+Answer = Callable[[Asked, Job], Any]
+
+
+@dataclass(frozen=True)
+class Answers:
+    """All that the page asks, about the scene of a source."""
+
+    source: Source
+
+    def by_name(self, name: str) -> Answer | None:
+        """The answer to a question; None where there is no such question."""
+        known: dict[str, Answer] = {
+            "start": self.start,
+            "scene": self.scene,
+            "keys": self.keys,
+            "fit": self.fit,
+            "picture": self.picture,
+            "save": self.save,
+            "command": self.command,
+        }
+        return known.get(name)
+
+    def start(self, asked: Asked, job: Job) -> dict[str, Any]:
+        """The name of the file, its text, and the keys."""
+        name = self.source.path.name
+        return {"name": name, "text": self.source.text(), "keys": {key: says for key, (says, _) in KEYS.items()}}
+
+    def scene(self, asked: Asked, job: Job) -> tuple[bytes, str]:
+        """What moves: lines in the world as 32-bit floats, and before them what else the page has to know."""
+        scene = self._scene(asked)
+        shown = moving(scene)
+        low, high = scene.bounds
+        lines = np.concatenate([shown.segments.reshape(-1, 6), shown.boxes.reshape(-1, 6)])
+        head = json_bytes(
+            {
+                "first": first_state(scene).values(),
+                "segments": len(shown.segments),
+                "boxes": len(shown.boxes),
+                "thinned": shown.thinned,
+                "bounds": [low.tolist(), high.tolist()],
+                "items": len(scene.items),
+                "title": scene.title,
+                "colours": shown.colours,
+                "lights": [_told(light) for light in scene.lights],
+                "page": _page(scene),
+            }
+        )
+        return struct.pack("<I", len(head)) + head + lines.astype("<f4").tobytes(), "application/octet-stream"
+
+    def keys(self, asked: Asked, job: Job) -> dict[str, Any]:
+        """The state after keys, and where its lights are."""
+        state, keys = _state(asked), asked.get("keys")
+        if not isinstance(keys, list) or len(keys) > MOST_KEYS or not all(isinstance(key, str) for key in keys):
+            raise InputError(f"viewer: expected a list of at most {MOST_KEYS} keys")
+        wishes = []
+        for key in keys:
+            state = pressed(state, key)
+            wishes += [state.wish] if state.wish else []
+            state = replace(state, wish="")
+        return {"state": state.values(), "wishes": wishes}
+
+    def fit(self, asked: Asked, job: Job) -> dict[str, Any]:
+        """The state from whose eye all of the scene is seen."""
+        scene, state = self._scene(asked), _state(asked)
+        low, high = scene.bounds
+        x, y, z = ((low + high) / 2.0).tolist()
+        centred = replace(state, target=(x, y, z))
+        return {"state": replace(centred, fov_deg=fitting_fov_deg(centred, scene)).values()}
+
+    def picture(self, asked: Asked, job: Job) -> tuple[bytes, str]:
+        """The exact picture."""
+        return for_browser(picture(_state(asked), self._scene(asked), progress=job.progress))
+
+    def save(self, asked: Asked, job: Job) -> tuple[bytes, str]:
+        """The picture as a file. Shaded pixels become painted polygons where the format has none."""
+        format_ = asked.get("format")
+        if format_ not in SAVED:
+            raise InputError(f"viewer: expected one of {', '.join(SAVED)}")
+        state = _state(asked)
+        made = picture(as_written(state, format_), self._scene(asked), progress=job.progress)
+        return write(made, format_), SAVED[format_]
+
+    def command(self, asked: Asked, job: Job) -> dict[str, Any]:
+        """The command that makes the picture."""
+        format_ = asked.get("format")
+        if format_ not in SAVED:
+            raise InputError(f"viewer: expected one of {', '.join(SAVED)}")
+        name, scene = str(self.source.path), self._scene(asked)
+        return {"line": command_line(as_written(_state(asked), format_), scene, name, f"picture.{format_}")}
+
+    def _scene(self, asked: Asked) -> Scene:
+        text = asked.get("text")
+        if text is not None and not isinstance(text, str):
+            raise InputError("viewer: the text of a scene is a text")
+        return self.source.scene(text)
+
+
+def as_written(state: ViewerState, format_: str) -> ViewerState:
+    """The state whose picture is written: pixels only as PNG, otherwise painted polygons in their place."""
+    if format_ == "png":
+        return state
+    return replace(state, mode="shadows" if state.mode == "pixels" else state.mode, depth_buffer=False)
+
+
+def json_bytes(values: Any) -> bytes:
+    """Values as JSON; numbers that are none become null."""
+    return json.dumps(values, allow_nan=False).encode()
+
+
+def _state(asked: Asked) -> ViewerState:
+    return ViewerState.of(asked.get("state"))
+
+
+def _told(light: Light) -> dict[str, Any]:
+    return {"position": light.position, "parallel": light.parallel, "name": light.name}
+
+
+def _page(scene: Scene) -> dict[str, Any]:
+    page = page_of_state(ViewerState(), scene)
+    return {"width": page.width_mm, "height": page.height_mm, "margin": page.margin_mm, "named": scene.page is not None}

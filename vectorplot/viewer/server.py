@@ -1,0 +1,173 @@
+"""The local web server: on the loopback only, at a random port, behind a token in the address."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import secrets
+import signal
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
+from contextlib import asynccontextmanager
+from dataclasses import dataclass, field
+from importlib.resources import files
+from typing import Any
+
+from aiohttp import web
+
+from vectorplot.errors import InputError
+from vectorplot.viewer.answers import Answers
+from vectorplot.viewer.jobs import Jobs, SupersededError
+
+HOST = "127.0.0.1"
+
+MOST_BYTES = 2 << 20
+"""The largest request."""
+
+STATIC = {"": ("index.html", "text/html"), "viewer.js": ("viewer.js", "text/javascript")} | {
+    name: (name, kind)
+    for name, kind in (
+        ("projection.js", "text/javascript"),
+        ("viewer.css", "text/css"),
+        ("icon.svg", "image/svg+xml"),
+    )
+}
+"""The files of the page and their media types, by the ends of their addresses."""
+
+HEADERS = {
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'; "
+        "base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Opener-Policy": "same-origin",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cache-Control": "no-store",
+}
+"""What every answer says: nothing from elsewhere, nothing kept."""
+
+Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
+
+
+@dataclass(eq=False)
+class Server:
+    """The page, what it asks for, and when it ends."""
+
+    answers: Answers
+    token: str = field(default_factory=lambda: secrets.token_urlsafe(18))
+    jobs: Jobs = field(default_factory=Jobs)
+    stop: asyncio.Event = field(default_factory=asyncio.Event)
+
+    def app(self) -> web.Application:
+        """What answers requests."""
+
+        @web.middleware
+        async def guarded(request: web.Request, handler: Handler) -> web.StreamResponse:
+            return await self._guarded(request, handler)
+
+        app = web.Application(client_max_size=MOST_BYTES, middlewares=[guarded])
+        base = f"/{self.token}"
+        for name in STATIC:
+            app.router.add_get(f"{base}/{name}", self._file)
+        app.router.add_get(f"{base}/alive", self._alive)
+        app.router.add_post(f"{base}/quit", self._quit)
+        app.router.add_post(f"{base}/ask/{{what}}", self._ask)
+        return app
+
+    async def _guarded(self, request: web.Request, handler: Handler) -> web.StreamResponse:
+        """Requests that name this server as their host, and come from its own page or from no page."""
+        own = {f"{name}:{request.transport.get_extra_info('sockname')[1]}" for name in (HOST, "localhost")}  # type: ignore[union-attr]  # there is one while it is answered
+        origin = request.headers.get("Origin")
+        if request.headers.get("Host") not in own or (origin is not None and origin.removeprefix("http://") not in own):
+            response: web.StreamResponse = web.Response(status=403, text="this page is for this machine only")
+        elif request.method == "POST" and request.content_type != "application/json":
+            response = web.Response(status=415, text="expected JSON")
+        else:
+            try:
+                response = await handler(request)
+            except web.HTTPException as refused:
+                response = web.Response(status=refused.status, text=refused.reason)
+        if not response.prepared:
+            response.headers.update(HEADERS)
+        return response
+
+    async def _file(self, request: web.Request) -> web.Response:
+        name, kind = STATIC[request.path.rpartition("/")[2]]
+        content = files("vectorplot.viewer").joinpath("page", name).read_bytes()
+        return web.Response(body=content, content_type=kind, charset="utf-8")
+
+    async def _alive(self, request: web.Request) -> web.StreamResponse:
+        """A stream of events that lasts as long as the server."""
+        response = web.StreamResponse(headers={**HEADERS, "Content-Type": "text/event-stream"})
+        await response.prepare(request)
+        await response.write(b"retry: 1000\n\ndata: here\n\n")
+        await self.stop.wait()
+        await response.write(b"event: end\ndata: end\n\n")
+        return response
+
+    async def _quit(self, request: web.Request) -> web.Response:
+        self.stop.set()
+        return web.json_response({})
+
+    async def _ask(self, request: web.Request) -> web.Response:
+        answer = self.answers.by_name(request.match_info["what"])
+        if answer is None:
+            return web.Response(status=404, text="no such question")
+        try:
+            asked = await request.json()
+        except (json.JSONDecodeError, UnicodeDecodeError, RecursionError):
+            return web.Response(status=400, text="not JSON")
+        if not isinstance(asked, Mapping):
+            return web.Response(status=400, text="expected a mapping")
+        page = f"{str(asked.get('page'))[:64]} {request.match_info['what']}"
+        try:
+            made = await self.jobs.run(page, lambda job: answer(asked, job))
+        except SupersededError:
+            return web.Response(status=409, text="superseded")
+        except (InputError, OSError, MemoryError) as error:
+            return web.json_response(told(error), status=422)
+        if isinstance(made, tuple):
+            content, kind = made
+            return web.Response(body=content, content_type=kind)
+        return web.json_response(made)
+
+
+def told(error: Exception) -> dict[str, Any]:
+    """What the page is told of an error: the cause, and the line where there is one."""
+    if isinstance(error, InputError):
+        return {"cause": error.cause, "line": error.line, "file": error.file}
+    if isinstance(error, MemoryError):
+        return {"cause": "there is not enough memory for this", "line": None, "file": None}
+    cause = getattr(error, "strerror", None) or str(error)
+    return {"cause": cause, "line": None, "file": getattr(error, "filename", None)}
+
+
+@asynccontextmanager
+async def serving(server: Server) -> AsyncIterator[str]:
+    """The address of the page, while it is served; after that all work has stopped."""
+    runner = web.AppRunner(server.app(), access_log=None, handle_signals=False, shutdown_timeout=1.0)
+    await runner.setup()
+    try:
+        site = web.TCPSite(runner, HOST, 0)
+        await site.start()
+        yield f"http://{HOST}:{runner.addresses[0][1]}/{server.token}/"
+    finally:
+        server.stop.set()
+        server.jobs.close()
+        await runner.cleanup()
+
+
+async def serve(answers: Answers, started: Callable[[str], None], timeout_s: float | None) -> None:
+    """Serve the page until it is told to quit, a signal comes or the time is over; started is told the address."""
+    server = Server(answers)
+    loop = asyncio.get_running_loop()
+    for name in ("SIGINT", "SIGTERM", "SIGHUP"):
+        number = getattr(signal, name, None)
+        if number is not None:
+            loop.add_signal_handler(number, server.stop.set)
+    async with serving(server) as address:
+        started(address)
+        try:
+            await asyncio.wait_for(server.stop.wait(), timeout_s)
+        except TimeoutError:
+            pass
