@@ -8,12 +8,9 @@ import subprocess
 import sys
 import urllib.request
 
-import pytest
-
 from vectorplot.cli.main import run
 
 
-@pytest.mark.capability("GA.3-cli")
 def test_it_stops_by_a_signal_and_leaves_with_status_0(cube):
     command = [sys.executable, "-m", "vectorplot", "try", str(cube), "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
