@@ -18,6 +18,7 @@ from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping.clipped_polygons import Polygons
+from vectorplot.scene.pages.paper import MM_PER_INCH
 from vectorplot.shading.raster.coverage import GUARD_BAND
 from vectorplot.shading.raster.pixel_lines import line_pixels
 from vectorplot.shading.raster.png import DPI, Bytes
@@ -40,7 +41,7 @@ def png_bytes(drawing: Drawing, dpi: float = DPI, samples: int = 3) -> bytes:
     """
     if not 0.0 < dpi < np.inf or not 1 <= samples <= 16:
         raise InputError(f"a picture of {dpi:g} dpi with {samples} samples is out of range")
-    columns, rows = (max(1, round(side * dpi / 25.4)) for side in (drawing.width_mm, drawing.height_mm))
+    columns, rows = (max(1, round(side * dpi / MM_PER_INCH)) for side in (drawing.width_mm, drawing.height_mm))
     columns, rows = raster_size(columns * samples, rows * samples)
     blank = np.full((rows, columns, 3), 255, dtype=np.uint8)
     fine = painted(blank, drawing)

@@ -79,12 +79,8 @@ class Facets:
     sharp: Bools
 
 
-@dataclass(frozen=True)
-class Within:
-    """Triangles that are no farther from the surface than is allowed, and on which normals turn by no more than TURN,
-    or nearly so: along rulings they turn though sides lie on the surface."""
-
-    allowed: Allowed
+class AllSidesAlike:
+    """What a Demand has that treats all sides of triangles alike, outlines and borders among them."""
 
     def folds(self, points: Floats, normals: Floats) -> Floats:
         """None."""
@@ -98,6 +94,14 @@ class Within:
     def border_excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand: borders are as all sides."""
         return np.zeros(edges.t.shape)
+
+
+@dataclass(frozen=True)
+class Within(AllSidesAlike):
+    """Triangles that are no farther from the surface than is allowed, and on which normals turn by no more than TURN,
+    or nearly so: along rulings they turn though sides lie on the surface."""
+
+    allowed: Allowed
 
     def excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand: the larger one of the distances and the turning of the normals, as parts of their limits."""

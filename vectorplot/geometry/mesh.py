@@ -25,6 +25,10 @@ def next_positions(offsets: Ints, position: Ints) -> Ints:
     return np.asarray(ragged.following(offsets)[position], dtype=np.intp)
 
 
+TRIANGLE = 3
+"""Corners of the faces that some functions take alone."""
+
+
 @dataclass(frozen=True, eq=False)
 class Mesh(Movable["Mesh"]):
     """Vertices and polygonal faces, counter-clockwise seen from outside.

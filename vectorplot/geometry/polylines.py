@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import Field, dataclass, field, fields, replace
 from itertools import pairwise
-from typing import Any, ClassVar, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
 
 import numpy as np
 
@@ -56,8 +56,34 @@ class RingRecord(LineRecord, Protocol):
 L = TypeVar("L", bound=LineRecord)
 
 
+class NumberedLines:
+    """What polylines with points of their own give by number: how many there are, and the points of each."""
+
+    if TYPE_CHECKING:
+        __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
+        @property
+        def points(self) -> Floats:
+            """(p,d)."""
+
+        @property
+        def offsets(self) -> Ints:
+            """(m+1,)."""
+
+        @property
+        def closed(self) -> Bools:
+            """(m,)."""
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, line: int) -> Floats:
+        """(k,d) the points of a polyline; a closed one ends with its first point."""
+        return self.points[indices_along(self, line)]
+
+
 @dataclass(frozen=True, eq=False)
-class Polylines:
+class Polylines(NumberedLines):
     """Polylines, open and closed.
 
     points (p,d); offsets (m+1,): polyline i has the points offsets[i] to offsets[i+1]; closed (m,): the last point
@@ -68,13 +94,6 @@ class Polylines:
     points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
     closed: Bools = field(metadata=EACH_LINE)
-
-    def __len__(self) -> int:
-        return len(self.offsets) - 1
-
-    def __getitem__(self, line: int) -> Floats:
-        """(k,d) the points of a polyline; a closed one ends with its first point."""
-        return self.points[indices_along(self, line)]
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,13 +7,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.scene.pages.paper import MM_PER_INCH
 from vectorplot.shading.raster.png import Bytes
 from vectorplot.shading.raster.supersampling import averaged
 
 if TYPE_CHECKING:
     from vectorplot.effects.scales.coloured_scene import ColourBar
 
-PIXELS_PER_MM = 96.0 / 25.4
+PIXELS_PER_MM = 96.0 / MM_PER_INCH
 """How large a millimetre of letters is, as on screens."""
 
 BAR_SAMPLES = 4

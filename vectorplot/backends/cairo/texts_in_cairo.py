@@ -19,15 +19,7 @@ def show(context: cairo.Context[Any], texts: PageTexts, scale: float, height: fl
     import cairo
 
     context.select_font_face(FAMILY, cairo.FONT_SLANT_NORMAL, cairo.FONT_WEIGHT_NORMAL)
-    for (x, y), size, turn, anchor, colour, string in zip(
-        texts.microns.tolist(),
-        texts.type_mm.tolist(),
-        texts.turn_deg.tolist(),
-        texts.anchor.tolist(),
-        texts.colours,
-        texts.plain,
-        strict=True,
-    ):
+    for x, y, size, turn, anchor, colour, string in texts.lines(texts.plain):
         context.save()
         context.set_source_rgb(*(int(colour[k : k + 2], 16) / 255.0 for k in (1, 3, 5)))
         context.set_font_size(size * 1000.0 * scale)

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import unicodedata
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -14,6 +16,18 @@ from vectorplot.scene.naming.labels import TYPE_SIZE
 
 FONTS = "Helvetica, Arial, sans-serif"
 """What text is set in where the format asks for a font by its name: the first one that the reader has."""
+
+
+class TextLine(NamedTuple):
+    """One line of text: as PageTexts, number by number."""
+
+    x: int
+    y: int
+    type_mm: float
+    turn_deg: float
+    anchor: float
+    colour: str
+    string: str
 
 
 @dataclass(frozen=True, eq=False)
@@ -31,6 +45,12 @@ class PageTexts:
 
     def __len__(self) -> int:
         return len(self.strings)
+
+    def lines(self, strings: Sequence[str]) -> Iterator[TextLine]:
+        """The lines one by one, with these words in place of their own."""
+        columns = (self.microns.tolist(), self.type_mm.tolist(), self.turn_deg.tolist(), self.anchor.tolist())
+        for (x, y), size, turn, anchor, colour, string in zip(*columns, self.colours, strings, strict=True):
+            yield TextLine(x, y, size, turn, anchor, colour, string)
 
     @property
     def plain(self) -> tuple[str, ...]:

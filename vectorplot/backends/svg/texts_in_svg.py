@@ -12,15 +12,7 @@ _ANCHORS = {0.0: "start", 0.5: "middle", 1.0: "end"}
 def text_elements(texts: PageTexts, height: int) -> bytes:
     """The text elements; y is flipped about the page height in microns, and so are the directions."""
     lines = []
-    for (x, y), size, turn, anchor, colour, string in zip(
-        texts.microns.tolist(),
-        texts.type_mm.tolist(),
-        texts.turn_deg.tolist(),
-        texts.anchor.tolist(),
-        texts.colours,
-        texts.plain,
-        strict=True,
-    ):
+    for x, y, size, turn, anchor, colour, string in texts.lines(texts.plain):
         across, down = f"{x / 1000.0:.10g}", f"{(height - y) / 1000.0:.10g}"
         turned = f' transform="rotate({-turn:g} {across},{down})"' if turn else ""
         lines.append(

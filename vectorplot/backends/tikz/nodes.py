@@ -8,9 +8,7 @@ from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.backends.tikz.colours import colour_of
 from vectorplot.drawing.lettering.formulas import FORMULA
 from vectorplot.drawing.lettering.hershey import clusters
-
-POINTS_PER_MM = 72.0 / 25.4
-"""Big points, of which 72 are an inch."""
+from vectorplot.scene.pages.paper import MM_PER_POINT
 
 LEADING = 1.2
 """From line to line, in sizes of type."""
@@ -67,16 +65,8 @@ _OVER = {
 def text_nodes(texts: PageTexts) -> bytes:
     """A node for each line, of its size of type, on the line that its letters stand on."""
     lines = []
-    for (x, y), size, turn, anchor, colour, string in zip(
-        texts.microns.tolist(),
-        texts.type_mm.tolist(),
-        texts.turn_deg.tolist(),
-        texts.anchor.tolist(),
-        texts.colours,
-        texts.strings,
-        strict=True,
-    ):
-        points = size * POINTS_PER_MM
+    for x, y, size, turn, anchor, colour, string in texts.lines(texts.strings):
+        points = size / MM_PER_POINT
         font = f"\\fontsize{{{points:.4g}bp}}{{{LEADING * points:.4g}bp}}\\selectfont"
         turned = f",rotate={turn:g}" if turn else ""
         head = f"inner sep=0pt,outer sep=0pt,anchor={_ANCHORS[anchor]},text={colour_of(int(colour[1:], 16))}{turned}"

@@ -8,13 +8,11 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.features.terrains.places import places_on_terrain
 from vectorplot.geometry.cameras.panorama import Panorama
-from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.scene.scene import Scene
 
 USUAL_ABOVE = 1.0 / 500.0
 """How high an eye is above a terrain where nothing is said, by the width of the scene."""
-
-TRIANGLE = 3
 
 
 def eye_of(given: Panorama, scene: Scene) -> Floats:

@@ -23,7 +23,7 @@ from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
-from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round, indices_along, joined
+from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, NumberedLines, closed_round, joined
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances.of_extent import APART_OF_EXTENT, CHORD_OF_EXTENT, DOT_OF_EXTENT
 from vectorplot.tolerances.of_lengths import BESIDE_LINE, WIDE_OF_AREA
@@ -79,7 +79,7 @@ class ImplicitTracing:
 
 
 @dataclass(frozen=True, eq=False)
-class ImplicitCurves:
+class ImplicitCurves(NumberedLines):
     """Polylines on an implicit surface.
 
     Parameters
@@ -121,13 +121,6 @@ class ImplicitCurves:
     isolated: Floats = field(metadata=APART)
     nodes: Floats = field(metadata=APART)
     doubts: tuple[str, ...] = field(metadata=DOUBTS)
-
-    def __len__(self) -> int:
-        return len(self.offsets) - 1
-
-    def __getitem__(self, curve: int) -> Floats:
-        """(k,3) the points of a curve; a closed one ends with its first point."""
-        return self.points[indices_along(self, curve)]
 
 
 def all_curves(families: Sequence[ImplicitCurves]) -> ImplicitCurves:

@@ -11,7 +11,7 @@ from vectorplot.features.intersections.meeting_points import in_planes, meetings
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.parametric.curve_tracing import Picture
 from vectorplot.geometry.chord_refinement import Traces, refined
-from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, indices_along
+from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, NumberedLines
 
 MOST_POINTS = 1 << 21
 """Points of all curves at most: a tolerance that asks for more is not kept."""
@@ -21,7 +21,7 @@ STRAYED = 0.75
 
 
 @dataclass(frozen=True, eq=False)
-class DoubleCurves:
+class DoubleCurves(NumberedLines):
     """Polylines on two surfaces, or on two patches of one: each point known by its parameters on both, and in space.
 
     Parameters
@@ -69,13 +69,6 @@ class DoubleCurves:
     isolated: Floats = field(metadata=APART)
     touching: Floats = field(metadata=APART)
     doubts: tuple[str, ...] = field(metadata=DOUBTS)
-
-    def __len__(self) -> int:
-        return len(self.offsets) - 1
-
-    def __getitem__(self, curve: int) -> Floats:
-        """(k,3) the points of a curve; a closed one ends with its first point."""
-        return self.points[indices_along(self, curve)]
 
 
 def no_double_curves(doubts: tuple[str, ...] = ()) -> DoubleCurves:

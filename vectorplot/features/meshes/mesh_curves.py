@@ -18,8 +18,8 @@ from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import (
     EACH_LINE,
     EACH_POINT,
+    NumberedLines,
     closed_round,
-    indices_along,
     joined,
     with_points_kept,
 )
@@ -32,7 +32,7 @@ NO_FACE = -1
 
 
 @dataclass(frozen=True, eq=False)
-class MeshCurves:
+class MeshCurves(NumberedLines):
     """Polylines in the faces of a mesh.
 
     Parameters
@@ -69,13 +69,6 @@ class MeshCurves:
     closed: Bools = field(metadata=EACH_LINE)
     faces: Ints = field(metadata=EACH_POINT)
     levels: Floats = field(metadata=EACH_LINE)
-
-    def __len__(self) -> int:
-        return len(self.offsets) - 1
-
-    def __getitem__(self, curve: int) -> Floats:
-        """(k,3) the points of a curve; a closed one ends with its first point."""
-        return self.points[indices_along(self, curve)]
 
     def strokes(self, kind: LineKind, item: int = 0) -> Strokes:
         """The curves as strokes, closed ones with their first point repeated."""

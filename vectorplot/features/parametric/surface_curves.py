@@ -9,12 +9,12 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, indices_along, joined
+from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, NumberedLines, joined
 from vectorplot.tolerances.of_parameters import REPEATED_OF_DOMAIN
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceCurves:
+class SurfaceCurves(NumberedLines):
     """Polylines on a surface, each point known by its parameters and in space.
 
     Parameters
@@ -67,13 +67,6 @@ class SurfaceCurves:
     nodes: Floats = field(metadata=APART)
     touching: Floats = field(metadata=APART)
     doubts: tuple[str, ...] = field(metadata=DOUBTS)
-
-    def __len__(self) -> int:
-        return len(self.offsets) - 1
-
-    def __getitem__(self, curve: int) -> Floats:
-        """(k,3) the points of a curve; a closed one ends with its first point."""
-        return self.points[indices_along(self, curve)]
 
 
 def together(families: Sequence[SurfaceCurves]) -> SurfaceCurves:

@@ -8,11 +8,9 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
-
-TRIANGLE = 3
 
 
 def places_on_terrain(mesh: Mesh, places: ArrayLike, what: str = "terrain") -> tuple[Ints, Floats]:

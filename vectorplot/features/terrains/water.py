@@ -10,9 +10,9 @@ from vectorplot.errors import InputError
 from vectorplot.features.integral.on_meshes.mesh_integral_curves import mesh_integral_curves
 from vectorplot.features.integral.tangent_fields import SteepestSlope, TurnedField
 from vectorplot.features.meshes.mesh_curves import NO_FACE, MeshCurves, all_mesh_curves
-from vectorplot.features.terrains.places import TRIANGLE, places_on_terrain
+from vectorplot.features.terrains.places import places_on_terrain
 from vectorplot.geometry import ragged
-from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.geometry.repair.winding import edge_uses
 
 UPHILL = SteepestSlope()

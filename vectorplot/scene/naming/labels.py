@@ -10,12 +10,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
+from vectorplot.scene.pages.paper import MM_PER_POINT
 from vectorplot.words import check_word
 
 TYPE_SIZE = 0.7
 """The height of capitals as a part of the size of type, which is given in points."""
-
-MM_PER_POINT = 25.4 / 72.0
 
 USUAL_SIZE_MM = 3.5
 """The height of capitals where nothing is said."""

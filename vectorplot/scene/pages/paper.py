@@ -26,7 +26,13 @@ SHEETS = {
 FIT = "fit"
 """The word for a page as large as its picture."""
 
-MM_PER = {"mm": 1.0, "pt": 25.4 / 72.0, "cm": 10.0, "in": 25.4}
+MM_PER_INCH = 25.4
+"""By definition."""
+
+MM_PER_POINT = MM_PER_INCH / 72.0
+"""Of big points, in which type and PostScript are measured."""
+
+MM_PER = {"mm": 1.0, "pt": MM_PER_POINT, "cm": 10.0, "in": MM_PER_INCH}
 """The units that lengths on paper may have; mm where there is none."""
 
 LENGTH = re.compile(r"\s*([0-9.]+(?:e[-+]?[0-9]+)?)\s*([a-z]*)\s*", re.IGNORECASE)

@@ -10,12 +10,11 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import number
 from vectorplot.errors import InputError
-from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.cuts.divided_triangles import divided_triangles
+from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
-
-TRIANGLE = 3
 
 MOST_TINTS = 100
 """Bands of heights, at most."""
@@ -137,28 +136,13 @@ def _mixed(colours: Sequence[str], count: int) -> list[str]:
 def _cut(vertices: Floats, triangles: Ints, height: float) -> tuple[Floats, Ints, Ints]:
     """The vertices, those on the level line added, and the triangles below it and above; what is on it counts as
     above."""
-    values = vertices[:, 2] - height
-    below = (values < 0.0)[triangles]
-    count = below.sum(axis=1)
-    row = np.flatnonzero(count % TRIANGLE != 0)
-    alone = count[row] == 1
-    lone = np.where(alone, below[row].argmax(axis=1), (~below[row]).argmax(axis=1))
-    corner, after, before = (triangles[row, (lone + k) % TRIANGLE] for k in range(TRIANGLE))
-    one, two = np.concatenate([corner, corner]), np.concatenate([after, before])
-    low, high = np.minimum(one, two), np.maximum(one, two)
-    _, first, side = np.unique(low * len(vertices) + high, return_index=True, return_inverse=True)
-    a, b = vertices[low[first]], vertices[high[first]]
+    cut = divided_triangles(triangles, vertices[:, 2] - height < 0.0)
+    a, b = vertices[cut.low], vertices[cut.high]
     share = (height - a[:, 2]) / (b[:, 2] - a[:, 2])
     points = a + share[:, None] * (b - a)
     points[:, 2] = height
-    out, back = len(vertices) + side[: len(row)], len(vertices) + side[len(row) :]
-    tip = np.stack([corner, out, back], axis=1)
-    rest = np.concatenate([np.stack([out, after, before], axis=1), np.stack([out, before, back], axis=1)])
-    twice = np.concatenate([alone, alone])
-    lower = [triangles[count == TRIANGLE], tip[alone], rest[~twice]]
-    upper = [triangles[count == 0], tip[~alone], rest[twice]]
     every = np.concatenate([vertices, points])
-    return every, _with_area(every, np.concatenate(lower)), _with_area(every, np.concatenate(upper))
+    return every, _with_area(every, cut.below), _with_area(every, cut.above)
 
 
 def _with_area(vertices: Floats, triangles: Ints) -> Ints:

@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.features.edge_splitting import Edges
-from vectorplot.features.facets import INSIDE, facets, off_chords
+from vectorplot.features.facets import INSIDE, AllSidesAlike, facets, off_chords
 from vectorplot.geometry import ragged
 from vectorplot.scene.item import Item
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -33,24 +33,11 @@ BETWEEN = 2.0 / 3.0
 
 
 @dataclass(frozen=True)
-class Coarse:
+class Coarse(AllSidesAlike):
     """Triangles that are no farther than a distance from their surface, whatever is seen of them, as
     features.edge_splitting.Demand."""
 
     distance: float
-
-    def folds(self, points: Floats, normals: Floats) -> Floats:
-        """None."""
-        return np.zeros((0, len(points)))
-
-    @property
-    def outlines(self) -> int:
-        """None."""
-        return 0
-
-    def border_excess(self, edges: Edges) -> Floats:
-        """(k,n) as Demand: borders are as all sides."""
-        return np.zeros(edges.t.shape)
 
     def excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand."""

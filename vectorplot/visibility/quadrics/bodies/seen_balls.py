@@ -13,28 +13,12 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.balls import Ball
-from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates, eye_coordinates
+from vectorplot.visibility.quadrics.bodies.unit_bodies import UnitBodies, bodies_in_sight
 
 
 @dataclass(frozen=True, eq=False)
-class Balls:
-    """Images of the unit sphere in the coordinates of sight: the points centre + s @ frame; centre (n,3),
-    frame (n,3,3), item (n,); hides (n,); tolerance: what counts as distance zero."""
-
-    sight: EyeCoordinates
-    centre: Floats
-    frame: Floats
-    item: Ints
-    hides: Bools
-    tolerance: float
-
-    def __len__(self) -> int:
-        return len(self.item)
-
-    @cached_property
-    def inverse(self) -> Floats:
-        """(n,3,3): s = (point - centre) @ inverse."""
-        return np.asarray(np.linalg.inv(self.frame))
+class Balls(UnitBodies):
+    """Images of the unit sphere."""
 
     @cached_property
     def eye(self) -> Floats:
@@ -92,13 +76,8 @@ class Balls:
 
 def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Ball]) -> Balls:
     """Balls of the world, those of the items which (n,), as the eye of a view sees them."""
-    sight = eye_coordinates(view)
-    centre = np.array([ball.centre for ball in balls]).reshape(-1, 3)
-    frame = np.array([ball.frame for ball in balls]).reshape(-1, 3, 3)
-    turned = view.axes.T / view.scale
-    hides = np.array([items[k].hides for k in which.tolist()], dtype=np.bool_)
-    in_view = (centre - view.centre) @ turned
-    return Balls(sight, sight.points(in_view), sight.vectors(frame @ turned), which, hides, view.tolerance)
+    seen = bodies_in_sight(view, items, which, balls)
+    return Balls(seen.sight, seen.centre, seen.frame, seen.item, seen.hides, seen.tolerance)
 
 
 def sphere_sections(centre: Floats, frame: Floats, normal: Floats, height: Floats) -> tuple[Floats, Floats, Floats]:

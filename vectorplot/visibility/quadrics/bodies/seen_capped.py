@@ -13,37 +13,23 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.capped_quadrics import CappedQuadric
-from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates, eye_coordinates
 from vectorplot.visibility.quadrics.bodies.seen_balls import same_numbers
+from vectorplot.visibility.quadrics.bodies.unit_bodies import UnitBodies, bodies_in_sight
 
 BOTTOM, TOP = 0, 1
 
 
 @dataclass(frozen=True, eq=False)
-class CappedBodies:
-    """Images of unit bodies in the coordinates of sight: the points centre + s @ frame; centre (n,3), frame (n,3,3).
+class CappedBodies(UnitBodies):
+    """Images of unit bodies with flat ends.
 
     A unit body lies between the planes z = ends[:,0] and z = ends[:,1]; within the frustum with the radii (n,2) there,
-    or, where is_round (n,), within the unit ball. item (n,); hides (n,); tolerance: what counts as distance zero.
+    or, where is_round (n,), within the unit ball.
     """
 
-    sight: EyeCoordinates
-    centre: Floats
-    frame: Floats
     ends: Floats
     radii: Floats
     is_round: Bools
-    item: Ints
-    hides: Bools
-    tolerance: float
-
-    def __len__(self) -> int:
-        return len(self.item)
-
-    @cached_property
-    def inverse(self) -> Floats:
-        """(n,3,3): s = (point - centre) @ inverse."""
-        return np.asarray(np.linalg.inv(self.frame))
 
     @cached_property
     def eye(self) -> Floats:
@@ -186,12 +172,12 @@ class CappedBodies:
             self.sight,
             self.centre[which],
             self.frame[which],
-            self.ends[which],
-            self.radii[which],
-            self.is_round[which],
             self.item[which],
             self.hides[which],
             self.tolerance,
+            self.ends[which],
+            self.radii[which],
+            self.is_round[which],
         )
 
 
@@ -200,19 +186,15 @@ _AXES = np.eye(3)
 
 def capped_bodies_of(view: View, items: Sequence[Item], which: Ints, bodies: Sequence[CappedQuadric]) -> CappedBodies:
     """Bodies of the world, those of the items which (n,), as the eye of a view sees them."""
-    sight = eye_coordinates(view)
-    centre = np.array([body.centre for body in bodies]).reshape(-1, 3)
-    frame = np.array([body.frame for body in bodies]).reshape(-1, 3, 3)
-    turned = view.axes.T / view.scale
-    hides = np.array([items[k].hides for k in which.tolist()], dtype=np.bool_)
+    seen = bodies_in_sight(view, items, which, bodies)
     return CappedBodies(
-        sight,
-        sight.points((centre - view.centre) @ turned),
-        sight.vectors(frame @ turned),
+        seen.sight,
+        seen.centre,
+        seen.frame,
+        seen.item,
+        seen.hides,
+        seen.tolerance,
         np.array([(body.low, body.high) for body in bodies]).reshape(-1, 2),
         np.array([body.radii for body in bodies]).reshape(-1, 2),
         np.array([body.is_round for body in bodies], dtype=np.bool_),
-        which,
-        hides,
-        view.tolerance,
     )
