@@ -76,20 +76,29 @@ def imported_modules(tree: ast.AST, package: tuple[str, ...]) -> set[tuple[str, 
     return {module[1:] for module in found if module[0] == "vectorplot" and len(module) > 1}
 
 
-@pytest.mark.slow
-@pytest.mark.parametrize("file", [file for file in FILES if file != "__init__.py"])
-def test_a_room_imports_only_what_stands_left_of_it(file):
+def wrong_imports(file: str) -> list[str]:
+    """What a file imports from where it must not."""
     path = Path(file)
     home = room(path.parts)
-    assert home in ORDER, f"{file}: {home} has no place in the import order"
-    tree = tree_of(PACKAGE / path)
-    for module in imported_modules(tree, ("vectorplot", *path.parts[:-1])):
+    if home not in ORDER:
+        return [f"{file}: {home} has no place in the import order"]
+    wrong = []
+    for module in imported_modules(tree_of(PACKAGE / path), ("vectorplot", *path.parts[:-1])):
         target = room(module)
         if target not in ORDER:  # a name of the package itself, such as __version__
-            assert not (PACKAGE / target).exists() and not (PACKAGE / f"{target}.py").exists()
-            continue
-        right = ORDER.index(target) > ORDER.index(home)
-        assert not right or (file, target) in ALLOWED, f"{file} imports {'.'.join(module)}, which stands right of it"
+            if (PACKAGE / target).exists() or (PACKAGE / f"{target}.py").exists():
+                wrong.append(f"{file} imports {target}, which has no place in the import order")
+        elif ORDER.index(target) > ORDER.index(home) and (file, target) not in ALLOWED:
+            wrong.append(f"{file} imports {'.'.join(module)}, which stands right of it")
+    return wrong
+
+
+@pytest.mark.slow
+def test_rooms_import_only_what_stands_left_of_them():
+    """One test for all files: pytest takes longer to hold a test than this takes for a file."""
+    files = [file for file in FILES if file != "__init__.py"]
+    assert len(files) > 100
+    assert not [line for file in files for line in wrong_imports(file)]
 
 
 @cache
@@ -176,13 +185,21 @@ def test_a_room_has_few_files_and_says_what_it_is_for(folder):
     assert ast.get_docstring(tree_of(folder / "__init__.py"))
 
 
-@pytest.mark.parametrize("file", [file for file in FILES if not file.startswith(("backends/", "cli/"))])
-def test_heavy_packages_are_imported_inside_functions(file):
-    tree = tree_of(PACKAGE / file)
-    for node in tree.body:
+def heavy_imports(file: str) -> list[str]:
+    """The heavy packages that a file imports at the top."""
+    found = []
+    for node in tree_of(PACKAGE / file).body:
         names = [alias.name for alias in node.names] if isinstance(node, ast.Import) else []
         names += [node.module or ""] if isinstance(node, ast.ImportFrom) else []
-        assert not {name.split(".")[0] for name in names} & HEAVY, f"{file}:{node.lineno} imports {names} at the top"
+        if {name.split(".")[0] for name in names} & HEAVY:
+            found.append(f"{file}:{node.lineno} imports {names} at the top")
+    return found
+
+
+def test_heavy_packages_are_imported_inside_functions():
+    files = [file for file in FILES if not file.startswith(("backends/", "cli/"))]
+    assert len(files) > 100
+    assert not [line for file in files for line in heavy_imports(file)]
 
 
 def loaded_after(statement: str) -> set[str]:
