@@ -6,6 +6,9 @@ import importlib.metadata
 import re
 from pathlib import Path
 
+from jinja2 import BaseLoader
+from jinja2.sandbox import SandboxedEnvironment
+from numpydoc import docscrape_sphinx
 from sphinx.application import Sphinx
 
 ROOMS = (
@@ -85,6 +88,13 @@ def without_links_outside(app: Sphinx, name: str, source: list[str]) -> None:
 
 def setup(app: Sphinx) -> None:
     """What sphinx calls."""
+    environments: dict[type[BaseLoader], SandboxedEnvironment] = {}
+
+    def environment(loader: BaseLoader) -> SandboxedEnvironment:
+        return environments.setdefault(type(loader), SandboxedEnvironment(loader=loader))
+
+    # Numpydoc makes an environment for each of a thousand docstrings, and compiles its one template in each anew.
+    docscrape_sphinx.SandboxedEnvironment = environment
     app.connect("builder-inited", reference)
     app.connect("source-read", without_links_outside)
     app.connect("source-read", with_contents)
