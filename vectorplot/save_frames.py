@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from vectorplot.animation.animation import check_fps
 from vectorplot.drawing.drawing import Drawing
@@ -12,6 +13,9 @@ from vectorplot.errors import InputError
 from vectorplot.save import FORMATS, write, write_whole
 from vectorplot.shading.raster.image import Image
 from vectorplot.shading.raster.png import Bytes
+
+if TYPE_CHECKING:
+    from vectorplot.animation.movies.movie import Movie
 
 VIDEOS = ("mp4", "webm", "gif")
 """Formats of pixels, through the package av."""
@@ -76,13 +80,32 @@ def save_frames(
     if kind == "folder":
         _save_folder(pictures, Path(path), format)
     elif kind in MOVIES:
-        from vectorplot.animation.movies.recorder import recorded
+        from vectorplot.animation.movies.recorder import movie_of
 
-        first, second = recorded(_drawings(pictures, "a movie of polygons"))
-        write_whole(Path(path).with_suffix(".vd1"), first)
-        write_whole(Path(path).with_suffix(".vd2"), second)
+        save_movie(movie_of(_drawings(pictures, "a movie of polygons")), Path(path).with_suffix(""))
     else:
         write_whole(path, write_frames(pictures, kind, fps))
+
+
+def save_movie(movie: Movie, path: Path) -> None:
+    """Write the two files of a movie, whose name without suffix is given."""
+    from vectorplot.animation.movies.encoding import encoded
+
+    first, second = encoded(movie)
+    # The first one is what a movie is found by.
+    write_whole(path.with_name(path.name + ".vd2"), second)
+    write_whole(path.with_name(path.name + ".vd1"), first)
+
+
+def recorded(pictures: Iterable[Picture], path: Path) -> Iterator[Drawing]:
+    """The drawings, which are recorded while they go by, and saved as a movie of this name behind the last one."""
+    from vectorplot.animation.movies.recorder import Recorder
+
+    recorder = Recorder()
+    for drawing in _drawings(pictures, "a movie of polygons"):
+        recorder.add(drawing)
+        yield drawing
+    save_movie(recorder.movie(), path)
 
 
 def kind_of(path: str | os.PathLike[str]) -> str:

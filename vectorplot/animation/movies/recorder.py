@@ -7,7 +7,6 @@ from collections.abc import Iterable
 import numpy as np
 
 from vectorplot.animation.movies.coloured_polygons import coloured_polygons
-from vectorplot.animation.movies.encoding import encoded
 from vectorplot.animation.movies.movie import MOST_PALETTES, Movie, MovieFrame, MoviePalette
 from vectorplot.animation.movies.pruning import pruned
 from vectorplot.arrays import Floats, Ints
@@ -16,11 +15,6 @@ from vectorplot.shading.light.palettes import PALETTE_LIMITS
 
 OFF_BY = 1.5
 """A colour that is off a palette by more, in red, green or blue of 255, gets one of its own."""
-
-
-def recorded(drawings: Iterable[Drawing]) -> tuple[bytes, bytes]:
-    """The contents of the two files of the movie that drawings make: encoded(movie_of(drawings))."""
-    return encoded(movie_of(drawings))
 
 
 def movie_of(drawings: Iterable[Drawing]) -> Movie:
@@ -53,19 +47,34 @@ def movie_of(drawings: Iterable[Drawing]) -> Movie:
     >>> print(animation.movie_of([drawing, drawing]))
     2 frames, 1 of them frozen; 1 palettes; 4 polygons, one shade each
     """
-    table = _Palettes()
-    frames: list[MovieFrame | None] = []
-    shown: MovieFrame | None = None
+    recorder = Recorder()
     for drawing in drawings:
+        recorder.add(drawing)
+    return recorder.movie()
+
+
+class Recorder:
+    """Takes one drawing after the other, and knows the movie that they make."""
+
+    def __init__(self) -> None:
+        self._palettes = _Palettes()
+        self._frames: list[MovieFrame | None] = []
+        self._shown: MovieFrame | None = None
+
+    def add(self, drawing: Drawing) -> None:
+        """One more frame."""
         found = coloured_polygons(drawing)
         sizes = np.diff(found.offsets)
-        palette, shades = table.of(found.colours, sizes)
+        palette, shades = self._palettes.of(found.colours, sizes)
         frame = MovieFrame(found.points.astype(np.intp), found.offsets, palette, shades)
         frame = frame.some(pruned(frame, found.item))
-        frames.append(None if shown is not None and frame == shown else frame)
-        shown = frame
-    smooth = any(frame.smooth for frame in frames if frame is not None)
-    return Movie(table.used(), tuple(frames), smooth)
+        self._frames.append(None if self._shown is not None and frame == self._shown else frame)
+        self._shown = frame
+
+    def movie(self) -> Movie:
+        """The movie of all frames so far."""
+        smooth = any(frame.smooth for frame in self._frames if frame is not None)
+        return Movie(self._palettes.used(), tuple(self._frames), smooth)
 
 
 class _Palettes:

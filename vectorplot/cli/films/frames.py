@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import deque
 from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -70,18 +71,21 @@ def write_frames(
     format_: str | None,
     progress: Progress | None,
 ) -> None:
-    """Write so many frames: to OUT, as a movie of polygons of this name, or both.
+    """Write so many frames: to OUT, as a movie of polygons of this name, or both; each is made once.
 
-    They are made once; of pixels there is no such movie.
+    Of pixels there is no such movie.
     """
     from vectorplot.animation.folders import VIDEOS, movie_to_write
-    from vectorplot.save_frames import save_frames, told
+    from vectorplot.save_frames import recorded, save_frames, told
 
-    name = None if movie is None else movie_to_write(movie)
-    if name is not None and name.parent == VIDEOS:
-        VIDEOS.mkdir(exist_ok=True)
-    frames = list(pictures) if name is not None and out is not None else pictures
-    if name is not None:
-        save_frames(told(frames, count, progress), name.with_name(name.name + ".vd1"), fps=fps)
+    frames = told(pictures, count, progress)
+    if movie is not None:
+        name = movie_to_write(movie)
+        check_place(os.fspath(name) if name.parent != VIDEOS else os.fspath(VIDEOS))
+        if name.parent == VIDEOS:
+            VIDEOS.mkdir(exist_ok=True)
+        frames = recorded(frames, name)
     if out is not None:
-        save_frames(told(frames, count, progress if name is None else None), out, fps=fps, format=format_)
+        save_frames(frames, out, fps=fps, format=format_)
+    else:
+        deque(frames, maxlen=0)
