@@ -61,7 +61,7 @@ def test_lessons_are_drawn_and_painted(lesson):
     scene = vp.read(lesson)
     number = int(lesson.name.removeprefix("Learn."))
     assert scene.title.startswith(f"Lesson {number}: ") and len(scene) >= min(number, 2)
-    for picture in (vp.draw(scene), vp.paint(scene, tolerance_mm=0.2)):
+    for picture in (vp.draw(scene), vp.paint(scene, tolerance_mm=1.0, page="60x40")):
         assert sum(len(mark) for layer in picture.layers for mark in layer.marks) > 2
 
 
