@@ -5,8 +5,6 @@ from __future__ import annotations
 import ast
 import logging
 import math
-import subprocess
-import sys
 import warnings
 from pathlib import Path
 
@@ -76,15 +74,13 @@ def test_memory_that_cannot_be_had_is_one_line(verb, tmp_path, capsys, monkeypat
 @pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 @pytest.mark.parametrize("verb", ["draw", "paint", "render"])
-def test_the_command_sends_its_messages_to_stderr_and_its_result_to_stdout(verb, tmp_path):
+def test_the_command_sends_its_messages_to_stderr_and_its_result_to_stdout(verb, tmp_path, capfdbinary):
     scene = tmp_path / "a.scene"
     scene.write_text("camera eye 9 9 9 field_of_vision 70 A nocolour box 1 1 1", encoding="utf-8")
-    arguments = [sys.executable, "-m", "vectorplot", verb, str(scene), "-o", "-", "--format", "png", "--explain"]
-    messages = tmp_path / "messages.txt"
-    with messages.open("wb") as stream:
-        found = subprocess.run(arguments, stdout=subprocess.PIPE, stderr=stream, check=True)
-    text = messages.read_text(encoding="utf-8")
-    assert found.stdout.startswith(b"\x89PNG")
+    assert run([verb, str(scene), "-o", "-", "--format", "png", "--explain"]) == 0
+    result, messages = capfdbinary.readouterr()
+    text = messages.decode("utf-8")
+    assert result.startswith(b"\x89PNG")
     assert "unknown colour 'nocolour'" in text and "distorts" in text and "peak" in text
 
 
