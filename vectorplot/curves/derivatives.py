@@ -6,7 +6,7 @@ import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
-from itertools import pairwise
+from itertools import accumulate, pairwise
 from threading import Lock
 from typing import Any
 
@@ -109,11 +109,11 @@ class NumericFunction:
             return tuple(self.second_derivatives(*pair, *parameters) for pair in pairs)
 
         def evaluate(flat: list[Floats]) -> Floats:
-            steps = [self.steps[other] for _, other in pairs]
-            stencils = [
+            along = [
                 _Stencil.around(other, flat, self.ranges[other].centres(flat[other], step), step)
-                for (_, other), step in zip(pairs, steps, strict=True)
+                for other, step in enumerate(self.steps)
             ]
+            stencils = [along[other] for _, other in pairs]
             slopes = self._by_complex_step([(axis, at.nodes) for (axis, _), at in zip(pairs, stencils, strict=True)])
             found = [at.slopes(values) for at, values in zip(stencils, slopes, strict=True)]
             for (axis, other), one in zip(pairs, found, strict=True):
@@ -156,7 +156,8 @@ class NumericFunction:
     ) -> tuple[Floats, ...]:
         """So many arrays (..., k), which evaluate gives side by side."""
         whole = self._shaped(evaluate, parameters, count)
-        return tuple(np.ascontiguousarray(part) for part in np.split(whole, count, axis=-1))
+        k = self.function.components
+        return tuple(np.ascontiguousarray(whole[..., k * number : k * (number + 1)]) for number in range(count))
 
     def _shaped(
         self, evaluate: Callable[[list[Floats]], Floats], parameters: Sequence[Floats], count: int = 1
@@ -215,9 +216,8 @@ class NumericFunction:
             answers = self._asked([np.concatenate(column) for column in zip(*lifted, strict=True)])
             values = self._values([np.concatenate(column) for column in zip(*places.values(), strict=True)])
         # A root of a negative number is imaginary there, and a hole here.
-        sizes = [len(parameters[0]) for parameters in places.values()]
-        known = dict(zip(places, np.split(np.isfinite(values), np.cumsum(sizes)[:-1]), strict=True))
-        each = np.split(answers, np.cumsum([len(parameters[0]) for _, parameters in asked])[:-1])
+        known = dict(zip(places, _split(np.isfinite(values), list(places.values())), strict=True))
+        each = _split(answers, [parameters for _, parameters in asked])
         found: list[Floats] = []
         for (_, parameters), height, answer in zip(asked, heights, each, strict=True):
             real = known[id(parameters)] & np.isfinite(answer)
@@ -275,6 +275,13 @@ class NumericFunction:
             return False
         error = np.abs(exact - difference)[known]
         return bool((error <= DERIVATIVES_AGREE * np.abs(difference[known]).max()).all())
+
+
+def _split(values: Numbers, parameters: Sequence[list[Floats]]) -> list[Numbers]:
+    """The values at each of several lists of places, of those that stand in a row. (np.split takes longer than small
+    arrays take to be computed.)"""
+    ends = list(accumulate((len(each[0]) for each in parameters), initial=0))
+    return [values[begin:end] for begin, end in pairwise(ends)]
 
 
 def _most(changes: Floats) -> float:

@@ -71,7 +71,8 @@ class UserFunction:
             return np.stack([np.broadcast_to(column, (count,)) for column in columns], axis=-1)
         values = self._numbers(result)
         if k == 1 and values.shape in ((), (1,), (count,), (count, 1)):
-            return np.broadcast_to(values.reshape(-1, 1), (count, 1))
+            # Most functions return as many; to be broadcast takes longer than small arrays take to be computed.
+            return values.reshape(-1, 1) if values.size == count else np.broadcast_to(values.reshape(-1, 1), (count, 1))
         if k > 1 and values.shape == (k, count) and (k != count or self.components_first):
             return values.T
         if k > 1 and values.shape in ((count, k), (k,)):
