@@ -7,7 +7,7 @@ import json
 import secrets
 import signal
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
-from contextlib import asynccontextmanager
+from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
 from importlib.resources import files
 from typing import Any
@@ -102,7 +102,9 @@ class Server:
         await response.prepare(request)
         await response.write(b"retry: 1000\n\ndata: here\n\n")
         await self.stop.wait()
-        await response.write(b"event: end\ndata: end\n\n")
+        # A page that was closed before hears nothing of the end.
+        with suppress(ConnectionError):
+            await response.write(b"event: end\ndata: end\n\n")
         return response
 
     async def _quit(self, request: web.Request) -> web.Response:

@@ -205,7 +205,7 @@ async function press(key) {
 }
 async function fulfil(wish) {
   if (wish === "ps") await save("ps");
-  if (wish === "video") say("This page does not record movies yet.");
+  if (wish === "video") say("The page records no movies: vectorplot animate does.");
   if (wish === "quit") await fetch("quit", { method: "POST", headers: { "Content-Type": "application/json" }, body: "{}" }).catch(() => {});
 }
 let known = {};
@@ -387,11 +387,11 @@ async function begin() {
       failed(error);
     }
     const before = kept();
-    state = scene.first;
+    let first = scene.first;
     if (before) {
-      try { state = (await (await ask("keys", { keys: [], state: before })).json()).state; } catch (error) { told(error); }
+      try { first = (await (await ask("keys", { keys: [], state: before })).json()).state; } catch (error) { told(error); }
     }
-    become(state);
+    become(first);
     if (state.rotating) requestAnimationFrame(turn);
   } catch (error) { failed(error); }
 }

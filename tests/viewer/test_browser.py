@@ -1,0 +1,277 @@
+"""The page in a real browser: keys, mouse, editor, files, two pages, the end of the server; one start for all."""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import shutil
+import threading
+import time
+from urllib.parse import unquote
+
+import pytest
+from playwright.sync_api import sync_playwright
+from support.paths import ROOT
+
+from vectorplot.viewer.answers import Answers
+from vectorplot.viewer.server import Server, serving
+from vectorplot.viewer.sources import Source
+
+pytestmark = pytest.mark.slow
+
+CHROMIUM = shutil.which("chromium")
+TEXT = 'title "Die"\npage 60x40 margin 2\ncamera eye 5 -7 4\nlight LAMP position 6 -5 8\nDIE red box solid 1 2 1\n'
+PATIENCE_MS = 12_000
+
+
+class Served:
+    """A server in a thread of its own."""
+
+    def __init__(self, path):
+        self.address, self.end, ready = "", None, threading.Event()
+
+        async def all_of_it():
+            server = Server(Answers(Source(path)))
+            loop = asyncio.get_running_loop()
+            async with serving(server) as address:
+                self.address, self.end = address, lambda: loop.call_soon_threadsafe(server.stop.set)
+                ready.set()
+                await server.stop.wait()
+
+        self.thread = threading.Thread(target=lambda: asyncio.run(all_of_it()))
+        self.thread.start()
+        ready.wait(20)
+
+    def stop(self):
+        if self.thread.is_alive():
+            self.end()
+        self.thread.join(20)
+        assert not self.thread.is_alive()
+
+
+@pytest.fixture(scope="module")
+def browser():
+    with sync_playwright() as playwright:
+        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
+        yield found
+        found.close()
+
+
+@pytest.fixture(scope="module")
+def file(tmp_path_factory):
+    path = tmp_path_factory.mktemp("browser") / "die.scene"
+    path.write_text(TEXT, encoding="utf-8")
+    return path
+
+
+@pytest.fixture(scope="module")
+def served(file):
+    found = Served(file)
+    yield found
+    found.stop()
+
+
+def still(page):
+    page.wait_for_selector("#stage[data-exact=yes]", timeout=PATIENCE_MS)
+
+
+def until(page, expression):
+    """Wait until it is true; the page's policy lets nobody evaluate texts in it, not even a tool that waits."""
+    end = time.monotonic() + PATIENCE_MS / 1000
+    while not page.evaluate(expression):
+        assert time.monotonic() < end, expression
+        page.wait_for_timeout(30)
+
+
+def state(page):
+    return json.loads(unquote(page.url.partition("#")[2]))
+
+
+@pytest.fixture
+def opened(browser, served):
+    """How to open a page in a window of its own; errors in the page, and what its policy forbids, fail the test."""
+    contexts, errors = [], []
+
+    def opening(address=None, **options):
+        context = browser.new_context(viewport=options.pop("viewport", {"width": 1000, "height": 700}), **options)
+        contexts.append(context)
+        page = context.new_page()
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.on("console", lambda said: errors.append(said.text) if "Content Security" in said.text else None)
+        page.goto(address or served.address)
+        still(page)
+        return page
+
+    yield opening
+    for context in contexts:
+        context.close()
+    assert errors == []
+
+
+@pytest.mark.capability("G4.4-interactive")
+def test_keys_turn_the_picture_and_a_reload_keeps_it(opened):
+    page = opened()
+    before = state(page)
+    for key in ("a", "a", "e", "w", "x", "1"):
+        page.keyboard.press(key)
+    until(page, "decodeURIComponent(location.hash).includes('\"parallel\":true')")
+    page.keyboard.press("u")
+    until(page, "decodeURIComponent(location.hash).includes('\"parallel\":false')")
+    still(page)
+    after = state(page)
+    assert after["azimuth"] == pytest.approx(before["azimuth"] + 0.1)
+    assert after["elevation"] == pytest.approx(before["elevation"] + 0.05)
+    assert after["mode"] == "wire" and after["fov_deg"] < before["fov_deg"]
+    page.reload()
+    still(page)
+    assert state(page) == after
+    assert page.locator("[name=mode][value=wire]").is_checked()
+
+
+def test_mouse_and_wheel_turn_move_and_enlarge(opened):
+    page = opened()
+    before, box = state(page), page.locator("#stage").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    page.mouse.move(x + 60, y + 20)
+    assert page.get_attribute("#stage", "data-exact") == "no"
+    page.mouse.up()
+    turned = state(page)
+    assert turned["azimuth"] < before["azimuth"] and turned["elevation"] > before["elevation"]
+    page.mouse.down(button="right")
+    page.mouse.move(x, y)
+    page.mouse.up(button="right")
+    page.mouse.wheel(0, -200)
+    still(page)
+    moved = state(page)
+    assert moved["azimuth"] == turned["azimuth"] and moved["target"] != turned["target"]
+    assert moved["fov_deg"] < turned["fov_deg"]
+
+
+def test_files_are_saved_and_the_command_is_told(opened):
+    page = opened()
+    for word, head in (("svg", b"<?xml"), ("dxf", b"  0"), ("png", b"\x89PNG")):
+        page.select_option("#format", word)
+        with page.expect_download() as download:
+            page.click("#save")
+        assert download.value.suggested_filename == f"die.{word}"
+        with open(download.value.path(), "rb") as saved:
+            assert saved.read(len(head)) == head
+    page.focus("#stage")
+    with page.expect_download() as download:
+        page.keyboard.press("p")
+    assert download.value.suggested_filename == "die.ps"
+    page.click("#copy")
+    until(page, "document.getElementById('status').textContent.includes('vectorplot draw')")
+
+
+def test_what_is_typed_is_drawn_and_mistakes_are_told_at_their_line(opened):
+    page = opened()
+    page.fill("#text", TEXT.replace("1 2 1", "1 two 1"))
+    page.wait_for_selector("#error:visible")
+    assert page.inner_text("#error").startswith("Line 5: ") and "two" in page.inner_text("#error")
+    assert page.inner_text("#numbers .bad") == "5"
+    page.fill("#text", TEXT + "BAR blue box solid 1 1 2 translation 2 0 0\n")
+    page.wait_for_selector("#error", state="hidden")
+    until(page, "document.getElementById('exact').alt === 'Die: 2 items'")
+    still(page)
+    page.reload()
+    still(page)
+    assert "BAR" in page.input_value("#text")
+    page.click("#as-file")
+    until(page, "document.getElementById('exact').alt === 'Die: 1 items'")
+    assert page.input_value("#text") == TEXT
+
+
+def test_two_pages_have_their_own_states(opened):
+    one, other = opened(), opened()
+    one.keyboard.press("c")
+    until(one, "decodeURIComponent(location.hash).includes('shadows')")
+    still(one)
+    assert state(other)["mode"] == "lines" and state(one)["mode"] == "shadows"
+
+
+def test_the_keyboard_reaches_everything_in_order_and_focus_is_seen(opened):
+    page = opened()
+    order = []
+    for _ in range(8):
+        page.keyboard.press("Tab")
+        order.append(page.evaluate("document.activeElement.id || document.activeElement.name"))
+        width = "(e => parseFloat(getComputedStyle(e.type === 'radio' ? e.nextElementSibling : e).outlineWidth))"
+        assert page.evaluate(f"{width}(document.activeElement)") >= 1.0, order
+    assert order[:6] == ["mode", "format", "save", "copy", "help", "stage"]
+    page.focus("#help")
+    page.keyboard.press("Enter")
+    assert page.locator("#keys").is_visible()
+    page.keyboard.press("Escape")
+    assert page.locator("#keys").is_hidden() and page.locator("#gone").is_hidden()
+    page.focus("#crease")
+    page.keyboard.press("ArrowRight")
+    assert state(page)["crease_angle_deg"] == 26
+    nameless = """[...document.querySelectorAll('button, input, select, textarea')].filter(
+        e => !(e.textContent.trim() || (e.labels && e.labels.length))).map(e => e.id)"""
+    assert page.evaluate(nameless) == []
+    assert page.get_attribute("#status", "aria-live") == "polite" and page.get_attribute("#error", "role") == "alert"
+
+
+CONTRAST = """() => {
+  const light = (rgb) => { const [r, g, b] = rgb.match(/[\\d.]+/g).map(Number).map(v => v / 255).map(
+    v => v <= 0.04045 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
+  const back = (e) => { for (; e; e = e.parentElement) { const c = getComputedStyle(e).backgroundColor;
+    if (!c.startsWith('rgba(0, 0, 0, 0')) return c; } return 'rgb(255, 255, 255)'; };
+  const words = 'h1 span, summary, label, button:enabled, output, kbd, #where, #numbers';
+  return [...document.querySelectorAll(words)].filter(e => e.offsetParent).map(e => {
+    const [a, b] = [light(getComputedStyle(e).color), light(back(e))].sort((p, q) => q - p);
+    return (a + 0.05) / (b + 0.05); }).reduce((a, b) => Math.min(a, b)); }"""
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_words_stand_out_in_the_light_and_in_the_dark(opened, scheme):
+    page = opened(color_scheme=scheme)
+    ground = page.evaluate("getComputedStyle(document.body).backgroundColor")
+    assert (ground == "rgb(25, 27, 30)") == (scheme == "dark")
+    assert page.evaluate(CONTRAST) >= 4.5
+
+
+def test_a_small_window_shows_everything_below_each_other(opened):
+    page = opened(viewport={"width": 360, "height": 640}, has_touch=True)
+    assert page.evaluate("document.documentElement.scrollWidth") <= 360
+    stage, text = page.locator("#stage").bounding_box(), page.locator("#text").bounding_box()
+    assert stage["width"] > 300 and text["y"] > stage["y"] + stage["height"] and text["width"] > 250
+
+
+FRAMES = """async () => {
+  const stage = document.getElementById('stage'), box = stage.getBoundingClientRect();
+  const send = (type, x) => stage.dispatchEvent(new PointerEvent(type, { pointerId: 1, clientX: box.x + x,
+    clientY: box.y + 100, buttons: 1, bubbles: true }));
+  stage.setPointerCapture = () => {};
+  send('pointerdown', 100);
+  const before = Number(stage.dataset.frames || 0), began = performance.now();
+  for (let k = 0; performance.now() - began < 1000; k++) {
+    send('pointermove', 100 + (k % 150));
+    await new Promise(requestAnimationFrame);
+  }
+  const found = (Number(stage.dataset.frames) - before) / ((performance.now() - began) / 1000);
+  send('pointerup', 100);
+  return found; }"""
+
+
+def test_a_town_turns_fifteen_times_a_second(opened):
+    town = Served(ROOT / "data" / "town.scene")
+    try:
+        page = opened(town.address)
+        rate = max(page.evaluate(FRAMES) for _ in range(2))
+        print(f"{rate:.0f} frames a second")
+        assert rate >= 15.0
+    finally:
+        town.stop()
+
+
+def test_the_end_of_the_server_is_told(opened, file):
+    other = Served(file)
+    page = opened(other.address)
+    page.keyboard.press("q")
+    page.wait_for_selector("#gone:visible")
+    assert "stopped" in page.inner_text("#gone")
+    other.stop()
