@@ -13,7 +13,7 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.painted_fills import placement_of_faces
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Demand
-from vectorplot.features.facets import Within
+from vectorplot.features.facet_demands import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of

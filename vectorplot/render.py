@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.drawing.strokes.finishing import chain_lines_dashed
 from vectorplot.errors import InputWarning
-from vectorplot.features.facets import Within
+from vectorplot.features.facet_demands import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of

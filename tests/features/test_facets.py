@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.facets import Within, facets
+from vectorplot.features.facet_demands import Within
+from vectorplot.features.facets import facets
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.families.cylinder import Cone
 from vectorplot.surfaces.families.ellipsoid import Sphere

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.facets import Within, facets
+from vectorplot.features.facet_demands import Within
+from vectorplot.features.facets import facets
 from vectorplot.surfaces.function import surface_of_function
 from vectorplot.surfaces.surface import Domain
 

@@ -7,7 +7,8 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.features.facets import Within, facets
+from vectorplot.features.facet_demands import Within
+from vectorplot.features.facets import facets
 from vectorplot.geometry.vectors import dot
 from vectorplot.io.description import describe
 from vectorplot.io.scenes.scene_language import parse_scene

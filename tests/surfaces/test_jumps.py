@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.facets import Within, facets
+from vectorplot.features.facet_demands import Within
+from vectorplot.features.facets import facets
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph
 from vectorplot.surfaces.families.torus import Torus

@@ -2,7 +2,8 @@ from .drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from .fills import FillKind, Fills
 from .fills_without_overlaps import visible_fills
 from .hatching.hatched_fills import hatched_fills
-from .lettering.text import Lettering, lettered, lettered_along, typeset, typeset_along
+from .lettering.text import Lettering, lettered, typeset
+from .lettering.text_along import lettered_along, typeset_along
 from .painted_fills import placement_of_faces
 from .sheets.contact_sheets import contact_sheet
 from .sheets.drawing_scales import DrawingScale

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.drawing.lettering.text import lettered, lettered_along
+from vectorplot.drawing.lettering.text import lettered
+from vectorplot.drawing.lettering.text_along import lettered_along
 
 ASCII = "".join(map(chr, range(33, 127)))
 LATIN = "".join(c for c in map(chr, range(0xC0, 0x180)) if c.isalpha())

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.facets import Within, facets
+from vectorplot.features.facet_demands import Within
+from vectorplot.features.facets import facets
 from vectorplot.features.implicit.implicit_singular_lines import singular_lines
 from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
 from vectorplot.features.implicit.singular_set import led_into_lines, led_into_singular_set

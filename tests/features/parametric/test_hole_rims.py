@@ -5,7 +5,8 @@ import pytest
 
 import vectorplot as vp
 from vectorplot import features, surfaces
-from vectorplot.features.facets import Within, facets
+from vectorplot.features.facet_demands import Within
+from vectorplot.features.facets import facets
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.hole_rims import hole_rims
 from vectorplot.features.parametric.holed_triangles import cut_at_holes

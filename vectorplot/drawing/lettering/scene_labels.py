@@ -15,7 +15,8 @@ from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.formulas import without_formulas
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.placing import places
-from vectorplot.drawing.lettering.text import Lettering, lettered, lettered_along, typeset, typeset_along
+from vectorplot.drawing.lettering.text import Lettering, lettered, typeset
+from vectorplot.drawing.lettering.text_along import lettered_along, typeset_along
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated

@@ -12,7 +12,8 @@ from vectorplot.drawing.pens.pen_rules import PenRule
 from vectorplot.effects.scales.colour_maps import map_colours
 from vectorplot.effects.scales.value_bands import Valued, bands
 from vectorplot.errors import InputError
-from vectorplot.features.facets import Within, facets
+from vectorplot.features.facet_demands import Within
+from vectorplot.features.facets import facets
 from vectorplot.features.feature_lines.mesh_bending import mesh_bending, smooth_normals
 from vectorplot.features.meshes.mesh_curves import face_triangles
 from vectorplot.geometry.mesh import Mesh

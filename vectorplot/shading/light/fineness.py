@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import LOOKS, NONE, Edges
-from vectorplot.features.facets import INSIDE, JUMP, Allowed, off_chords, turning
+from vectorplot.features.facet_demands import INSIDE, JUMP, Allowed, off_chords, turning
 from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.coincidence.twins import fingerprint

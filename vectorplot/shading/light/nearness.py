@@ -11,7 +11,8 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.features.edge_splitting import Edges
-from vectorplot.features.facets import INSIDE, AllSidesAlike, facets, off_chords
+from vectorplot.features.facet_demands import INSIDE, AllSidesAlike, off_chords
+from vectorplot.features.facets import facets
 from vectorplot.geometry import ragged
 from vectorplot.scene.item import Item
 from vectorplot.surfaces.surface import is_implicit, is_parametrised

@@ -1,0 +1,71 @@
+"""How far triangles may be from a surface, and how far its normals may turn on them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.features.edge_splitting import LOOKS, Edges
+
+Allowed = Callable[[Floats], Floats]
+"""How far (...) triangles may be off a surface at points (..., 3)."""
+
+TURN = np.radians(8.5)
+"""By so much the normals at the ends of a side may differ, or flat shades would come out jagged."""
+
+JUMP = np.radians(45.0)
+"""Normals that differ by more at neighbouring looks jump, as on creases: finer sides would not help."""
+
+INSIDE = 0.75
+"""In the middle of a triangle the surface may be farther off than over its sides, by a third."""
+
+
+class AllSidesAlike:
+    """What a Demand has that treats all sides of triangles alike, outlines and borders among them."""
+
+    def folds(self, points: Floats, normals: Floats) -> Floats:
+        """None."""
+        return np.zeros((0, len(points)))
+
+    @property
+    def outlines(self) -> int:
+        """None."""
+        return 0
+
+    def border_excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand: borders are as all sides."""
+        return np.zeros(edges.t.shape)
+
+
+@dataclass(frozen=True)
+class Within(AllSidesAlike):
+    """Triangles that are no farther from the surface than is allowed, and on which normals turn by no more than TURN,
+    or nearly so: along rulings they turn though sides lie on the surface."""
+
+    allowed: Allowed
+
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand: the larger one of the distances and the turning of the normals, as parts of their limits."""
+        far = off_chords(edges) / (INSIDE * self.allowed(edges.at.points))
+        return np.asarray(np.maximum(far, turning(edges) / TURN))
+
+
+def off_chords(edges: Edges) -> Floats:
+    """(k,n) how far the surface is from the sides themselves, at the vertices over them."""
+    chord = edges.end.points - edges.start.points
+    length = np.linalg.norm(chord, axis=-1, keepdims=True)
+    way = np.divide(chord, length, out=np.zeros_like(chord), where=length > 0.0)
+    arm = edges.at.points - edges.start.points
+    along = np.clip((arm * way).sum(axis=-1, keepdims=True), 0.0, length)
+    return np.asarray(np.linalg.norm(arm - along * way, axis=-1))
+
+
+def turning(edges: Edges) -> Floats:
+    """(n,) by how much normals turn from end to end, as far as they do so smoothly."""
+    nodes = np.stack((edges.start.normals, *edges.at.normals[: len(LOOKS)], edges.end.normals))
+    steps = np.arccos(np.clip((nodes[1:] * nodes[:-1]).sum(axis=-1), -1.0, 1.0))
+    smooth = np.isfinite(steps) & (steps < JUMP)
+    return np.asarray(np.where(smooth, steps, 0.0).sum(axis=0))

@@ -1,0 +1,270 @@
+"""Nets of triangles on surfaces with parameters."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices
+from vectorplot.features.parametric.holed_triangles import cut_at_holes
+from vectorplot.features.parametric.holes import beside_rim_chords, is_known, ways_between
+from vectorplot.features.parametric.poles import Pole
+from vectorplot.features.tessellation import UNEVEN, grid_numbers
+from vectorplot.features.zeros.grid_triangulation import triangulate_surface
+from vectorplot.geometry.vectors import cross, dot
+from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.parts import creases
+from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.tolerances.of_parameters import ASIDE_OF_CREASE, ON_BORDER_OF_DOMAIN, TURNED_OVER
+
+FEWEST, USUAL, FINEST = (2, 4), 16, 1024
+"""Columns, and rows, of the first grid: so many at least for open and for closed surfaces, doubled until they are
+enough, or as many as is usual; more where most sides are too coarse even then."""
+
+HALF = 0.5
+"""By how many times sides of the first grid may be too coarse, in the mean, so that its diagonals are fine enough."""
+
+MOST = 0.75
+"""Part of the sides that are too coarse when all of them are made finer."""
+
+CLOSE_BY = 1.0 / 128.0
+"""Part of the length of a side, both in parts of the domain, by which the places over it may be moved to be nearer."""
+
+ON_RIM = 1.0
+"""The third number of a place on the rim of a hole."""
+
+STEPS = 5
+"""Steps to places that are nearer."""
+
+TOO_LONG = 3.0
+"""Times the length that the slopes at both ends of a side tell: a longer one may lie across a jump of the surface."""
+
+
+@dataclass(frozen=True, eq=False)
+class Patch:
+    """A parametrised surface between vertices whose places are (u, v), and 1 on the rim of a hole, 0 elsewhere."""
+
+    surface: Surface
+    poles: tuple[Pole, ...]
+
+    @cached_property
+    def creases(self) -> Floats:
+        """The v of sharp edges."""
+        return creases(self.surface)
+
+    def __call__(self, start: Vertices, end: Vertices, t: Floats, border: Bools) -> Vertices:
+        """The vertices over parts t of sides, on the surface; border: of sides at its borders."""
+        domain = self.surface.domain
+        first, last = self._without_poles(start.places, end.places)
+        way = ways_between(domain, first[:, :2], last[:, :2])
+        places = np.column_stack([first[:, :2] + t[:, None] * way, np.zeros(len(t))])
+        found = self.at(_wrapped(domain, places.copy()))
+        # A border between two places on a rim lies along it; what leads over a hole goes round it.
+        rim = border & (first[:, 2] == ON_RIM) & (last[:, 2] == ON_RIM)
+        rim = np.flatnonzero(rim | (~found.known & start.known & end.known))
+        if not len(rim):
+            return found
+        places[rim, :2], on = beside_rim_chords(self.surface, first[rim, :2], first[rim, :2] + way[rim], t[rim])
+        places[rim, 2] = np.where(on, ON_RIM, 0.0)
+        moved = self.at(_wrapped(domain, places[rim]))
+        for own, new in ((found.places, moved.places), (found.points, moved.points), (found.normals, moved.normals)):
+            own[rim] = new
+        return found
+
+    def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
+        """The ends of sides; on the rim of a cap normals are those of the cap for sides that lead into it."""
+        sharp = [np.isin(some.places[:, 1], self.creases) for some in (start, end)]
+        return self._sided(start, end, sharp[0] & ~sharp[1]), self._sided(end, start, sharp[1] & ~sharp[0])
+
+    def nearer(self, edges: Edges) -> Vertices:
+        """(k,n) as Between, found by the method of Gauss and Newton with steps halved where they lead astray."""
+        shape = edges.t.shape
+        chord = edges.start.points + edges.t[..., None] * (edges.end.points - edges.start.points)
+        points = chord.reshape(-1, 3)
+        found = Vertices(*(some.reshape(-1, 3) for some in (edges.at.places, edges.at.points, edges.at.normals)))
+        size = np.array(self.surface.domain.size)
+        first, last = self._without_poles(edges.start.places, edges.end.places)
+        way = ways_between(self.surface.domain, first[:, :2], last[:, :2]) / size
+        reach = CLOSE_BY * np.tile(np.hypot(*way.T), shape[0])
+        from_start, scale = np.zeros((len(points), 2)), np.ones(len(points))
+        for _ in range(STEPS):
+            step = scale[:, None] * _toward(self.surface, found, points)
+            # Along the axes, so that the place stays close by.
+            moved = from_start + step
+            close = np.hypot(*(moved / size).T) <= reach
+            tried = self.at(
+                _wrapped(self.surface.domain, np.column_stack([found.places[:, :2] + step, found.places[:, 2]]))
+            )
+            better = np.linalg.norm(tried.points - points, axis=1) < np.linalg.norm(found.points - points, axis=1)
+            better &= close & is_known(self.surface, found.places[:, :2] + step)
+            scale = np.where(better, 1.0, 0.5 * scale)
+            from_start = np.where(better[:, None], moved, from_start)
+            found = Vertices(
+                *(
+                    np.where(better[:, None], new, old)
+                    for new, old in (
+                        (tried.places, found.places),
+                        (tried.points, found.points),
+                        (tried.normals, found.normals),
+                    )
+                )
+            )
+        return Vertices(*(some.reshape(*shape, 3) for some in (found.places, found.points, found.normals)))
+
+    def turned(self, corners: Vertices) -> Bools:
+        """(t,) as Between."""
+        places = corners.places
+        found = np.zeros(len(places), dtype=np.bool_)
+        if not (places[:, :, 2] == ON_RIM).any():
+            return found
+        # All of the line that is a pole is one point.
+        whole = np.ones(len(places), dtype=np.bool_)
+        for pole in self.poles:
+            whole &= (places[:, :, pole.axis] != pole.place).all(axis=1)
+        _, *ways = self._ways(places[whole])
+        one, two = (way / self.surface.domain.size for way in ways)
+        longest = np.maximum(np.maximum(dot(one, one), dot(two, two)), dot(two - one, two - one))
+        area: Floats = np.asarray(cross(one, two))
+        found[whole] = area < TURNED_OVER * longest
+        return found
+
+    def inside(self, corners: Vertices) -> Bools:
+        """(t,) as Between: of triangles between three places on a rim those with the surface in their middle."""
+        found = np.ones(len(corners.places), dtype=np.bool_)
+        on_rim = np.flatnonzero((corners.places[:, :, 2] == ON_RIM).all(axis=1))
+        if len(on_rim):
+            first, one, two = self._ways(corners.places[on_rim])
+            found[on_rim] = is_known(self.surface, first + (one + two) / 3.0)
+        return found
+
+    def _ways(self, places: Floats) -> tuple[Floats, Floats, Floats]:
+        """The first ones of the places (t,3,3) of corners, and the ways (t,2) from there to the two others."""
+        first, *others = np.moveaxis(places[:, :, :2], 1, 0)
+        one, two = (ways_between(self.surface.domain, first, other) for other in others)
+        return first, one, two
+
+    def _sided(self, own: Vertices, other: Vertices, which: Bools) -> Vertices:
+        """Vertices, some of them with the normals that they have on the way to others."""
+        if not which.any():
+            return own
+        u, v = own.places[which, :2].T
+        normals = own.normals.copy()
+        with np.errstate(all="ignore"):
+            normals[which] = unit_normals(self.surface, u, v + ASIDE_OF_CREASE * (other.places[which, 1] - v))
+        return replace(own, normals=normals)
+
+    def at(self, places: Floats) -> Vertices:
+        """The vertices at some places (n,3)."""
+        with np.errstate(all="ignore"):
+            points = np.array(self.surface.points(places[:, 0], places[:, 1]), dtype=np.float64)
+            normals = unit_normals(self.surface, places[:, 0], places[:, 1])
+        return Vertices(places, points, normals)
+
+    def _without_poles(self, start: Floats, end: Floats) -> tuple[Floats, Floats]:
+        """Places of the ends of sides: all of the line that is a pole is one point, and a side goes straight to it."""
+        first, last = start.copy(), end.copy()
+        for pole in self.poles:
+            for own, other in ((first, end), (last, start)):
+                at = own[:, pole.axis] == pole.place
+                own[at, 1 - pole.axis] = other[at, 1 - pole.axis]
+        return first, last
+
+
+def _toward(surface: Surface, vertices: Vertices, points: Floats) -> Floats:
+    """(n,2) steps in the domain from vertices (n,) of a surface that lead nearest to points (n,3), were it flat."""
+    with np.errstate(all="ignore"):
+        along_u, along_v = surface.partials(*vertices.places[:, :2].T)
+        off = points - vertices.points
+        uu, uv, vv = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
+        u, v = dot(along_u, off), dot(along_v, off)
+        steps = np.stack([vv * u - uv * v, uu * v - uv * u], axis=1) / (uu * vv - uv * uv)[:, None]
+    finite: Bools = np.asarray(np.isfinite(steps).all(axis=1))
+    return np.where(finite[:, None], steps, 0.0)
+
+
+def _wrapped(domain: Domain, places: Floats) -> Floats:
+    """Places moved by whole periods into the domain."""
+    starts = (domain.u_start, domain.v_start)
+    for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
+        if closed:
+            places[:, axis] -= size * np.floor((places[:, axis] - starts[axis]) / size)
+    return places
+
+
+def first_net(surface: Surface, demand: Demand) -> Net:
+    """A grid that has as few columns and rows as it may, but not so few that something between its lines is missed."""
+    domain, patch = surface.domain, Patch(surface, ())
+    columns = _enough(lambda count: _lines(patch, count, across=True), domain.closed_u, demand)
+    rows = _enough(lambda count: _lines(patch, count, across=False), domain.closed_v, demand)
+    u, v = domain.grid(columns, rows)
+    if not patch.at(_on_grid(u, v).reshape(-1, 3)).known.all():
+        # Beside a line of the grid along a rim nobody knew on which side the surface is.
+        u, v = (_uneven(lines, seed) for seed, lines in enumerate((u, v)))
+    # No side of a triangle may lead over a sharp edge.
+    sharp = creases(surface)
+    near = np.abs(v[:, None] - sharp) <= ON_BORDER_OF_DOMAIN * domain.size[1]
+    v = np.sort(np.concatenate([v[~near.any(axis=1)], sharp]))
+    rows = len(v) - 1
+    places = _on_grid(u, v).reshape(-1, 3)
+    number = grid_numbers(surface, columns, rows).ravel()
+    vertices = patch.at(places)
+    grid = vertices.points.reshape(columns + 1, rows + 1, 3)
+    cut, _ = triangulate_surface(grid, closed_u=domain.closed_u, closed_v=domain.closed_v)
+    triangles = number[cut]
+    triangles = triangles[(triangles != np.roll(triangles, -1, axis=1)).all(axis=1)]
+    holed = cut_at_holes(surface, places[:, :2], triangles, vertices.known)
+    new = np.column_stack([holed.places[len(places) :], np.full(len(holed.places) - len(places), ON_RIM)])
+    vertices.places[holed.on_rim[: len(places)], 2] = ON_RIM
+    return Net(vertices.joined(patch.at(_wrapped(domain, new))), holed.triangles)
+
+
+def _uneven(lines: Floats, seed: int) -> Floats:
+    """Lines of a grid, all but the first and the last one moved by up to UNEVEN of the way to the next."""
+    # The same numbers every time: a picture made twice is the same.
+    moves = np.random.default_rng(seed).uniform(-UNEVEN, UNEVEN, len(lines))
+    moves[[0, -1]] = 0.0
+    return np.asarray(lines + moves * (lines[1] - lines[0]))
+
+
+def _on_grid(u: Floats, v: Floats) -> Floats:
+    """(m,n,3) the places of a grid, none of them on a rim."""
+    return np.stack([*np.meshgrid(u, v, indexing="ij"), np.zeros((len(u), len(v)))], axis=-1)
+
+
+def _enough(lines: Callable[[int], Edges], closed: bool, demand: Demand) -> int:
+    """How many parts of lines of a grid are enough to begin with."""
+    count = FEWEST[int(closed)]
+    while True:
+        sides = lines(count)
+        # What lies in a hole is not cut at all.
+        inside = sides.start.known | sides.end.known
+        excess = np.nan_to_num(demand.excess(sides.some(inside)), nan=2.0).max(axis=0)
+        if not len(excess):
+            return USUAL
+        if count < USUAL:
+            if excess.max() <= 1.0:
+                return count
+            count *= 2
+            continue
+        most = float(np.quantile(excess, 1.0 - MOST))
+        if most <= 1.2 * HALF or count == FINEST:
+            return count
+        # Distances fall with the square of the length, what turns along rulings with the length itself.
+        count = min(int(np.ceil(count * np.sqrt(most / HALF))), FINEST)
+
+
+def _lines(patch: Patch, count: int, across: bool) -> Edges:
+    """Some lines of a grid in so many parts each, along u (across) or along v."""
+    domain = patch.surface.domain
+    u, v = domain.grid(*((count, USUAL) if across else (USUAL, count)))
+    places = _on_grid(u, v)
+    places = places if across else places.swapaxes(0, 1)
+    first, last = places[:-1].reshape(-1, 3), places[1:].reshape(-1, 3)
+    t = np.repeat(np.array(LOOKS)[:, None], len(first), axis=1)
+    at = patch.at((first + t[..., None] * (last - first)).reshape(-1, 3))
+    looks = Vertices(*(some.reshape(*t.shape, -1) for some in (at.places, at.points, at.normals)))
+    return Edges(patch.at(first), patch.at(last), looks, t, np.full(t.shape, NONE))
