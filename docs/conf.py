@@ -49,7 +49,7 @@ CONTENTS = {
     ),
     "What it does": (
         *("drawing", "feature-lines", "cuts", "labels", "hatching", "paint", "render", "colour-maps"),
-        *("viewer", "animation", "movies", "scene-language", "molecules", "landscapes", "textbook"),
+        *("viewer", "animation", "movies", "many-pictures", "scene-language", "molecules", "landscapes", "textbook"),
     ),
     "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
     "How exact, how fast": ("accuracy-and-limits", "accuracy", "stability", "speed", "tolerances"),

@@ -3,10 +3,13 @@
 from __future__ import annotations
 
 import math
+from functools import partial
 from typing import Any
 
 import numpy as np
 
+from vectorplot.batch.answers import Submits
+from vectorplot.batch.running import results
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
@@ -25,7 +28,13 @@ USUAL_PAGE = Page(80.0, 80.0, 2.0)
 
 
 def turntable(
-    scene: object, count: int = 8, *, elevation_deg: float = 25.0, page: Page | str = USUAL_PAGE, **options: Any
+    scene: object,
+    count: int = 8,
+    *,
+    elevation_deg: float = 25.0,
+    page: Page | str = USUAL_PAGE,
+    executor: Submits | None = None,
+    **options: Any,
 ) -> tuple[Drawing, ...]:
     """Drawings of a scene that turns about its vertical axis, clockwise from above, all at one scale.
 
@@ -39,6 +48,8 @@ def turntable(
         How high the eye stands above the horizon, -89 to 89 degrees.
     page : Page or str
         Of each drawing, as of draw.
+    executor : Executor, optional
+        Whose workers make the drawings, as of `batch.run`; where None, they are made one after another.
     options : Any
         Others as of draw, but for camera and fit.
 
@@ -78,4 +89,5 @@ def turntable(
     eyes = (middle + DISTANCE * radius * ways).tolist()
     target = (float(middle[0]), float(middle[1]), float(middle[2]))
     cameras = [Camera((x, y, z), target, fov_deg=fov) for x, y, z in eyes]
-    return tuple(draw(shown, camera, page=paper, fit=False, **options) for camera in cameras)
+    calls = [partial(draw, shown, camera, page=paper, fit=False, **options) for camera in cameras]
+    return tuple(call() for call in calls) if executor is None else tuple(results(calls, executor))
