@@ -40,7 +40,7 @@ class Submits(Protocol):
     """
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """The answer to fn(*args, **kwargs), which comes later.
+        """The answer to a call, which comes later.
 
         Parameters
         ----------
