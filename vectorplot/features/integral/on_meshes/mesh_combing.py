@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.integral.on_meshes.combed_mesh import CombedMesh
+from vectorplot.features.integral.on_meshes.placed_curves import (
+    PlacedCurves,
+    beside,
+    free_around,
+    reached,
+    some_places,
+)
 from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, NEAREST, SAMPLES, SHORTEST
 from vectorplot.features.integral.spacing.gaps import SEPARATE, WIDEST
 from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import closed_round, joined, some
 from vectorplot.geometry.vectors import norm
+
+if TYPE_CHECKING:
+    from scipy.spatial import cKDTree
 
 MOST_SAMPLES = 16
 """And so many at most, however near each other its points are."""
@@ -32,21 +42,6 @@ GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
 
 
-@dataclass(frozen=True, eq=False)
-class _Placed:
-    """Curves, and the places (p,) along them at which they are compared: curve (p,); along (p,), lengths from the start
-    of the curve; node (p,); where (p,6). seed (m,): the place nearest to where each curve began; long (m,): how long it
-    is."""
-
-    curves: MeshCurves
-    curve: Ints
-    along: Floats
-    node: Floats
-    where: Floats
-    seed: Ints
-    long: Floats
-
-
 def combed(shape: CombedMesh) -> MeshCurves:
     """Curves of its field that cover a mesh evenly.
 
@@ -58,48 +53,49 @@ def combed(shape: CombedMesh) -> MeshCurves:
         raise InputError(
             f"evenly spaced curves {apart:g} apart on a surface of {size:g}: expected {size / MOST_LINES:g} or more"
         )
+    from scipy.spatial import cKDTree
+
     places = shape.over()
     where = shape.where(places)
     taken = np.zeros((0, 6))
     found: list[MeshCurves] = [all_mesh_curves([])]
     for _ in range(MOST_ROUNDS):
-        gaps = _gaps(where, taken, apart)
+        tree = cKDTree(taken) if len(taken) else None
+        if tree is not None:
+            open_ = ~beside(tree, where, WIDEST * apart)
+            places, where = places[open_], where[open_]
+        gaps = _gaps(where, tree, apart)
         if not len(gaps):
             break
-        seeds, spots = _seeds(shape, places[gaps], taken)
+        seeds, spots = _seeds(shape, places[gaps], tree)
         new = _compared(shape, shape.along(seeds), spots)
-        kept, own = _without_crowds(shape, new, taken)
+        kept, own = _without_crowds(shape, new, tree)
         # A gap that nothing fits into is one no more.
         taken = np.concatenate([taken, own, where[gaps]])
         found += kept
     return joined(found)
 
 
-def _gaps(where: Floats, taken: Floats, apart: float) -> Ints:
-    """Which of the places are away from all that is taken, and from one another, the farthest ones first."""
-    from scipy.spatial import cKDTree
-
+def _gaps(where: Floats, tree: cKDTree | None, apart: float) -> Ints:
+    """Which of the places that are away from all that is taken are so from one another, the farthest ones first."""
     if not len(where):
         return np.zeros(0, dtype=np.intp)
-    if not len(taken):
+    if tree is None:
         middle = np.median(where, axis=0)
         return np.array([np.argmin(norm(where[:, :3] - middle[:3]))])
-    away = cKDTree(taken).query(where)[0]
-    left = np.flatnonzero(away > WIDEST * apart)
-    left = left[np.argsort(-away[left], kind="stable")]
+    away = tree.query(where)[0]
+    left = np.argsort(-away, kind="stable")
     chosen: list[int] = []
     while len(left) and len(chosen) < MOST_AT_ONCE:
         chosen.append(int(left[0]))
         # Where much is empty, what begins in one gap fills those about it too.
-        beside = max(SEPARATE * apart, BESIDE * float(away[left[0]]))
-        left = left[norm(where[left] - where[left[0]]) > beside]
+        empty = max(SEPARATE * apart, BESIDE * float(away[left[0]]))
+        left = left[norm(where[left] - where[left[0]]) > empty]
     return np.array(chosen, dtype=np.intp)
 
 
-def _seeds(shape: CombedMesh, gaps: Floats, taken: Floats) -> tuple[Floats, Floats]:
+def _seeds(shape: CombedMesh, gaps: Floats, tree: cKDTree | None) -> tuple[Floats, Floats]:
     """Places (k,d) in the gaps, the distance apart across the field, and where (k,6) they are."""
-    from scipy.spatial import cKDTree
-
     apart = shape.apart
     lines = shape.across(gaps)
     if not len(lines):
@@ -108,12 +104,9 @@ def _seeds(shape: CombedMesh, gaps: Floats, taken: Floats) -> tuple[Floats, Floa
     signed = found.along - found.along[found.seed][found.curve]
     rounds = np.abs(np.rint(signed / apart))
     near = np.abs(np.abs(signed) - rounds * apart) <= 0.5 * apart / SAMPLES
-    if len(taken):
+    if tree is not None:
         # Only in the gap itself: from its middle to the first place that is taken.
-        free = cKDTree(taken).query(found.where, distance_upper_bound=WIDEST * apart)[0] > WIDEST * apart
-        first, last = _reached(found, free)
-        at = np.arange(len(free))
-        near &= (at >= first[found.curve]) & (at <= last[found.curve])
+        near &= free_around(found, tree, WIDEST * apart)
     keys = np.stack([found.curve, np.rint(signed / apart)], axis=1)[near]
     _, first = np.unique(keys, axis=0, return_index=True)
     at = np.flatnonzero(near)[np.sort(first)]
@@ -122,7 +115,7 @@ def _seeds(shape: CombedMesh, gaps: Floats, taken: Floats) -> tuple[Floats, Floa
     return shape.at(lines, found.node[at]), found.where[at]
 
 
-def _compared(shape: CombedMesh, curves: MeshCurves, spots: Floats) -> _Placed:
+def _compared(shape: CombedMesh, curves: MeshCurves, spots: Floats) -> PlacedCurves:
     """The curves with places along them; spots: where (k,6) the places are that their levels number."""
     apart = shape.apart
     rounds = closed_round(curves)
@@ -130,7 +123,7 @@ def _compared(shape: CombedMesh, curves: MeshCurves, spots: Floats) -> _Placed:
     if not len(points):
         none = np.zeros(0)
         empty = np.zeros(0, dtype=np.intp)
-        return _Placed(curves, empty, none, none, np.zeros((0, 6)), empty, none)
+        return PlacedCurves(curves, empty, none, none, np.zeros((0, 6)), empty, none)
     ends = rounds.offsets[1:] - 1
     begins = np.delete(np.arange(len(points)), ends)
     steps = norm(points[begins + 1] - points[begins])
@@ -154,24 +147,12 @@ def _compared(shape: CombedMesh, curves: MeshCurves, spots: Floats) -> _Placed:
     away = norm(where - spots[curves.levels.astype(np.intp)][owner])
     nearest = np.lexsort((away, owner))
     seed = nearest[np.searchsorted(owner, np.arange(len(curves)))]
-    return _Placed(curves, owner, along, node, where, seed, total[ends])
+    return PlacedCurves(curves, owner, along, node, where, seed, total[ends])
 
 
-def _reached(found: _Placed, free: Bools) -> tuple[Ints, Ints]:
-    """The first and the last (m,) of the places of each curve that are reached from its seed over free ones only: of a
-    closed curve, which begins at its seed, up to the end, and from the end on; none where the seed is not free."""
-    count = len(found.seed)
-    bounds = np.searchsorted(found.curve, np.arange(count + 1))
-    taken = np.concatenate([[-1], np.flatnonzero(~free), [len(free)]])
-    after = np.searchsorted(taken, found.seed, side="left")
-    last = np.minimum(taken[after] - 1, bounds[1:] - 1)
-    first = np.maximum(taken[after - 1] + 1, bounds[:-1])
-    return first, np.where(free[found.seed], last, first - 1)
-
-
-def _without_crowds(shape: CombedMesh, found: _Placed, taken: Floats) -> tuple[list[MeshCurves], Floats]:
-    """The curves, one after the other, as far as they are not too near what is taken, to those before, and to
-    themselves; and where (k,6) they are.
+def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None) -> tuple[list[MeshCurves], Floats]:
+    """The curves, one after the other, as far as they are not too near what is taken, which the tree has, to those
+    before, and to themselves; and where (k,6) they are.
 
     Groups of curves are compared with each other, the later ones only as far as those before leave room: where many run
     together, as water in a valley, they are never compared all at once.
@@ -179,49 +160,50 @@ def _without_crowds(shape: CombedMesh, found: _Placed, taken: Floats) -> tuple[l
     from scipy.spatial import cKDTree
 
     apart = shape.apart
+    free = free_around(lines, tree, NEAREST * apart)
+    found, places = some_places(lines, free)
+    free = free[places]
     count = len(found.seed)
     own = [np.zeros((0, 6))]
     spans = [np.zeros((0, 3), dtype=np.intp)]
-    free = np.ones(len(found.curve), dtype=np.bool_)
-    if len(taken) and count:
-        free = cKDTree(taken).query(found.where, distance_upper_bound=NEAREST * apart)[0] > NEAREST * apart
     bounds = np.searchsorted(found.curve, np.arange(count + 1))
-    left = np.arange(count)
+    left = np.flatnonzero(free[found.seed])
     while len(left):
-        lines, left = np.split(left, [max(1, int(np.searchsorted(np.cumsum(np.diff(bounds)[left]), GROUP)))])
-        kept = _kept(found, lines, free, apart)
+        group, left = np.split(left, [max(1, int(np.searchsorted(np.cumsum(np.diff(bounds)[left]), GROUP)))])
+        kept = _kept(found, group, free, apart)
         if not len(kept):
             continue
         spans.append(kept)
         own.append(found.where[ragged.ranges(kept[:, 1], kept[:, 2] - kept[:, 1] + 1)])
-        tree = cKDTree(own[-1])
-        left = left[tree.query(found.where[found.seed[left]], distance_upper_bound=WIDEST * apart)[0] > WIDEST * apart]
+        last = cKDTree(own[-1])
+        left = left[~beside(last, found.where[found.seed[left]], WIDEST * apart)]
         at = ragged.ranges(bounds[left], bounds[left + 1] - bounds[left])
         at = at[free[at]]
-        free[at] = tree.query(found.where[at], distance_upper_bound=NEAREST * apart)[0] > NEAREST * apart
-    parts = np.concatenate(spans)
-    if not len(parts):
+        free[at] = ~beside(last, found.where[at], NEAREST * apart)
+    line, first, end = np.concatenate(spans).T
+    if not len(line):
         return [], np.zeros((0, 6))
-    return _cut(shape, found, *parts.T), np.concatenate(own)
+    return _cut(shape, lines, line, places[first], places[end]), np.concatenate(own)
 
 
-def _kept(found: _Placed, lines: Ints, free: Bools, apart: float) -> Ints:
+def _kept(found: PlacedCurves, lines: Ints, free: Bools, apart: float) -> Ints:
     """(s,3) which of some lines to keep, one after the other, and their first and last places. free (p,): places that
     are not beside others; those that are beside lines that are kept, and lines beside themselves, are free no more."""
     from scipy.spatial import cKDTree
 
-    first, last = (ends[lines] for ends in _reached(found, free))
+    first, last = (ends[lines] for ends in reached(found, free))
     at = ragged.ranges(first, np.maximum(last - first + 1, 0))
-    pairs = at[cKDTree(found.where[at]).query_pairs(WIDEST * apart, output_type="ndarray")] if len(at) else None
-    one, two = (np.zeros((2, 0), dtype=np.intp)) if pairs is None else np.concatenate([pairs, pairs[:, ::-1]]).T
-    near = norm(found.where[one] - found.where[two])
-    free &= ~_beside_itself(found, one, two, near, apart)
-    by_curve = np.argsort(found.curve[one], kind="stable")
-    one, two, near = one[by_curve], two[by_curve], near[by_curve]
-    begin = np.searchsorted(found.curve[one], np.arange(len(found.seed) + 1))
+    if not len(at):
+        return np.zeros((0, 3), dtype=np.intp)
+    tree = cKDTree(found.where[at])
+    pairs = at[tree.query_pairs(NEAREST * apart, output_type="ndarray")]
+    one, two = np.concatenate([pairs, pairs[:, ::-1]]).T
+    free &= ~_beside_itself(found, one, two, apart)
+    one, two, begin = _by_curve(found, one, two)
+    seeds = found.seed[lines]
+    around = cKDTree(found.where[seeds]).sparse_distance_matrix(tree, WIDEST * apart, output_type="ndarray")
+    place, seed, begin_seeds = _by_curve(found, at[around["j"]], seeds[around["i"]])
     fresh = np.ones(len(found.seed), dtype=np.bool_)
-    seeds = np.zeros(len(free), dtype=np.bool_)
-    seeds[found.seed] = True
     bounds = np.searchsorted(found.curve, np.arange(len(found.seed) + 1))
     spans = []
     for line in lines.tolist():
@@ -233,11 +215,19 @@ def _kept(found: _Placed, lines: Ints, free: Bools, apart: float) -> Ints:
             continue
         spans.append((line, low, high))
         own = slice(begin[line], begin[line + 1])
-        inside = (one[own] >= low) & (one[own] <= high) & (found.curve[two[own]] != line)
-        others, far = two[own][inside], near[own][inside]
-        free[others[far <= NEAREST * apart]] = False
-        fresh[found.curve[others[seeds[others]]]] = False
+        free[two[own][(one[own] >= low) & (one[own] <= high)]] = False
+        own = slice(begin_seeds[line], begin_seeds[line + 1])
+        fresh[found.curve[seed[own][(place[own] >= low) & (place[own] <= high)]]] = False
     return np.array(spans, dtype=np.intp).reshape(-1, 3)
+
+
+def _by_curve(found: PlacedCurves, one: Ints, two: Ints) -> tuple[Ints, Ints, Ints]:
+    """The pairs (k,) of places of different curves in the order of the curves of the first ones, and where (m+1,) those
+    of each curve begin."""
+    curve = found.curve[one]
+    order = np.flatnonzero(curve != found.curve[two])
+    order = order[np.argsort(curve[order], kind="stable")]
+    return one[order], two[order], np.searchsorted(curve[order], np.arange(len(found.seed) + 1))
 
 
 def _span(free: Bools, seed: int) -> tuple[int, int]:
@@ -251,9 +241,9 @@ def _span(free: Bools, seed: int) -> tuple[int, int]:
     return low, high
 
 
-def _beside_itself(found: _Placed, one: Ints, two: Ints, near: Floats, apart: float) -> Bools:
+def _beside_itself(found: PlacedCurves, one: Ints, two: Ints, apart: float) -> Bools:
     """(p,) the places where a curve is too near to what it has been through before."""
-    same = (found.curve[one] == found.curve[two]) & (near <= NEAREST * apart)
+    same = found.curve[one] == found.curve[two]
     one, two = one[same], two[same]
     way = np.abs(found.along[one] - found.along[two])
     closed = found.curves.closed[found.curve[one]]
@@ -265,7 +255,7 @@ def _beside_itself(found: _Placed, one: Ints, two: Ints, near: Floats, apart: fl
     return result
 
 
-def _cut(shape: CombedMesh, found: _Placed, line: Ints, first: Ints, last: Ints) -> list[MeshCurves]:
+def _cut(shape: CombedMesh, found: PlacedCurves, line: Ints, first: Ints, last: Ints) -> list[MeshCurves]:
     """Parts of curves, from one place to another; whole curves as they are."""
     bounds = np.searchsorted(found.curve, np.arange(len(found.seed) + 1))
     whole = (first == bounds[line]) & (last == bounds[line + 1] - 1)
