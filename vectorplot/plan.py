@@ -132,8 +132,10 @@ def plan_panorama() -> tuple[Stage, ...]:
 
 
 def _label_stages(scene: Scene) -> list[Stage]:
-    """The stage that letters places, where the scene has names for any."""
-    return [Stage("labels", "places have names; lines end before the letters")] if scene.labels else []
+    """The stage that letters places and level lines, where the scene has names or numbers for any."""
+    numbered = any(section.numbered for item in scene.items for section in item.curves.sections)
+    why = "places have names" if scene.labels else "level lines have numbers"
+    return [Stage("labels", f"{why}; lines end before the letters")] if scene.labels or numbered else []
 
 
 def plan_hatching(scene: Scene, given: Hatching | Stippling | None, stages: Sequence[Stage]) -> tuple[Stage, ...]:

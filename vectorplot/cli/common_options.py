@@ -178,7 +178,8 @@ class Told:
             keywords["lines"] = tuple(dict.fromkeys((*keywords["lines"], *line_kinds(added))))
         if self.added.levels is not None:
             charted = without_level_lines(charted, self.added.levels.normal)
-        return with_lines(charted, sections=added.sections, isophotes=added.isophotes, detail=added.detail), keywords
+        lined = with_lines(charted, sections=added.sections, isophotes=added.isophotes, detail=added.detail)
+        return self.added.with_numbers(lined), keywords
 
 
 def check_overlaid(out: str, format_: str) -> None:

@@ -90,6 +90,9 @@ LINE_OPTIONS = (
         metavar="[AXIS,]N",
         help="About N level lines at round heights, every fifth of the kind index; or at AXIS=D,...",
     ),
+    click.option(
+        "--label-levels", is_flag=True, help="Heights stand on their index lines, or where there are none, on all."
+    ),
     click.option("--isophotes", type=count, metavar="N", help="N lines of the same light on all that is shown."),
     click.option(
         "--detail",
@@ -119,6 +122,7 @@ class LineOptions:
 
     sections: tuple[Planes, ...] = ()
     levels: Planes | None = None
+    label_levels: bool = False
     isophotes: int | None = None
     detail: float = 1.0
     colour_by: str | None = None
@@ -146,6 +150,16 @@ class LineOptions:
             named = own if self.colour_map is None else replace(own, colour_map=self.colour_map)
             own = named if self.colour_steps is None else replace(named, steps=self.colour_steps)
         return replace(scene, colouring=own, box=BoxAxes() if self.box else scene.box)
+
+    def with_numbers(self, scene: Scene) -> Scene:
+        """A scene with numbers on its level lines where the user asked for them. Bad usage where there are none."""
+        from vectorplot.scene.lines.added_lines import with_numbers
+
+        if not self.label_levels:
+            return scene
+        if not any(not section.slices for item in scene.items for section in item.curves.sections):
+            raise click.UsageError("--label-levels: there are no level lines, expected --levels too")
+        return with_numbers(scene)
 
     def of_scene(self, scene: Scene) -> SurfaceLines:
         """The lines that these are in a scene. Errors: InputError as of even_sections and round_sections."""

@@ -28,12 +28,14 @@ def labels_in_place(
     *,
     mm: float = 1.0,
 ) -> SceneLabels:
-    """The labels of a scene where a picture of it has its place on the page.
+    """The labels of a scene where a picture of it has its place on the page, and the numbers of its level lines.
 
     anchors: what they name in the scene as it was given; strokes: of the picture; hidden, style, text: as of draw; mm:
     how long a millimetre is in units of the page.
     """
-    from vectorplot.drawing.lettering.scene_labels import labels_on_page, seen_labels
+    from vectorplot.drawing.lettering.level_numbers import level_numbers
+    from vectorplot.drawing.lettering.scene_labels import labels_on_page, seen_labels, with_letters
 
     seen = seen_labels(scene, view, faces, placement, anchors, style != "plain", mm)
-    return labels_on_page(seen, placement, strokes, hidden, text, mm)
+    named = labels_on_page(seen, placement, strokes, hidden, text, mm)
+    return with_letters(named, level_numbers(scene, strokes, text, mm), placement, mm)

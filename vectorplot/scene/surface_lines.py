@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -50,6 +50,8 @@ class Section:
         Whether pictures are painted slice by slice between them.
     index : bool
         Whether the lines are of the kind index, those that are drawn heavier, instead of section.
+    numbered : bool
+        Whether the offsets stand on the lines, which are interrupted, where they are straight enough.
 
     Raises
     ------
@@ -73,6 +75,7 @@ class Section:
     offsets: tuple[float, ...]
     slices: bool = False
     index: bool = False
+    numbered: bool = field(default=False, repr=False)
 
     def __post_init__(self) -> None:
         normal = np.array(self.normal, dtype=np.float64)
@@ -114,7 +117,7 @@ class Section:
         normal = np.linalg.solve(matrix[:3, :3].T, self.normal)
         length, away = float(np.linalg.norm(normal)), float(matrix[:3, 3] @ normal)
         x, y, z = (normal / length).tolist()
-        return Section((x, y, z), tuple((offset + away) / length for offset in self.offsets), self.slices, self.index)
+        return replace(self, normal=(x, y, z), offsets=tuple((offset + away) / length for offset in self.offsets))
 
     @property
     def kind(self) -> LineKind:

@@ -212,6 +212,26 @@ def labels_on_page(
     return SceneLabels(concatenated(tuple(parts)), written, grown(boxes, HALO_MM * mm))
 
 
+def with_letters(labels: SceneLabels, letters: Sequence[Lettering], placement: Placement, mm: float) -> SceneLabels:
+    """Labels, and more letters that stand on lines, those that would stand in a label left out."""
+    free = [text for text in letters if not _overlap(text.boxes, labels.boxes)]
+    if not free:
+        return labels
+    strokes = label_paths([line for text in free for line in _lines(text)], 0, placement)
+    boxes = grown(np.concatenate([text.boxes for text in free]), HALO_MM * mm)
+    return SceneLabels(
+        concatenated((labels.strokes, strokes)),
+        Texts.joined([labels.texts, *(text.texts for text in free)]),
+        np.concatenate([labels.boxes, boxes]),
+    )
+
+
+def _overlap(boxes: Floats, others: Floats) -> bool:
+    """Whether bounds of any of boxes (b,4,2) overlap those of others (c,4,2)."""
+    low, high = boxes.min(axis=1)[:, None], boxes.max(axis=1)[:, None]
+    return bool(((low < others.max(axis=1)) & (high > others.min(axis=1))).all(axis=2).any())
+
+
 def _asked(label: Label) -> str:
     if not label.text.strip():
         return "centre"

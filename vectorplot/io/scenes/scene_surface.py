@@ -70,7 +70,9 @@ def curves_of(draft: CurveDraft, shape: Mesh | Surface | ImplicitSurface, bounds
     sections: tuple[Section, ...] = ()
     for planes in draft.planes:
         offsets = planes.offsets or even_offsets(shape, bounds, planes.normal, planes.count)
-        sections += with_index_lines(Section(planes.normal, offsets, planes.slices), planes.every)
+        sections += with_index_lines(
+            Section(planes.normal, offsets, planes.slices, numbered=planes.numbered), planes.every
+        )
     return replace(draft.lines, sections=sections)
 
 

@@ -80,7 +80,7 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
     for section in curves.sections:
         if section.offsets:
             word = "slices" if section.slices else "sections"
-            index = " index 1" if section.index else ""
+            index = " index 1" * section.index + " numbered" * section.numbered
             words.append(f"{word} normal {_numbers(section.normal)} at {_list(section.offsets)}{index}")
     words += [f"surface_curve {_quoted(path.function)} t {_numbers((path.start, path.end))}" for path in curves.paths]
     if curves.integral:

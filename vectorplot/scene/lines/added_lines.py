@@ -99,6 +99,21 @@ def without_level_lines(scene: Scene, normal: Vector = (0.0, 0.0, 1.0)) -> Scene
     return replace(scene, items=tuple(_without_levels(item, up) for item in scene.items))
 
 
+def with_numbers(scene: Scene) -> Scene:
+    """A scene with numbers on its index lines; where no item has any, on all sections but those between slices."""
+    sections = [section for item in scene.items for section in item.curves.sections]
+    index = any(section.index for section in sections)
+
+    def numbered(item: Item) -> Item:
+        own = tuple(
+            replace(section, numbered=section.numbered or section.index or not (index or section.slices))
+            for section in item.curves.sections
+        )
+        return replace(item, curves=replace(item.curves, sections=own))
+
+    return replace(scene, items=tuple(map(numbered, scene.items)))
+
+
 def _without_levels(item: Item, up: Vector) -> Item:
     ways = (up, (-up[0], -up[1], -up[2]))
     levels = [section for section in item.curves.sections if section.normal in ways and not section.slices]

@@ -106,7 +106,8 @@ def level_sections(heights: Sequence[float], every: int = USUAL_EVERY) -> tuple[
 
 
 def with_index_lines(section: Section, every: int) -> tuple[Section, ...]:
-    """The planes of a section, every k-th of them a section of index lines, as of `level_sections`."""
+    """The planes of a section, every k-th of them a section of index lines, as of `level_sections`; these alone are
+    numbered, where the section is."""
     if every < 0:
         raise InputError(f"index lines: every {every}, expected 0 or more")
     if not every or not section.offsets:
@@ -114,7 +115,7 @@ def with_index_lines(section: Section, every: int) -> tuple[Section, ...]:
     levels = np.array(sorted(section.offsets))
     index = _index_numbers(levels) % every == 0
     heavy = replace(section, offsets=tuple(levels[index].tolist()), index=True)
-    parts = heavy, replace(section, offsets=tuple(levels[~index].tolist()))
+    parts = heavy, replace(section, offsets=tuple(levels[~index].tolist()), numbered=False)
     return tuple(part for part in parts if part.offsets)
 
 

@@ -27,13 +27,15 @@ POLYHEDRON_WORDS = ("vertices", "revolution", "base_points", "box", "intersectio
 @dataclass(frozen=True)
 class Planes:
     """Parallel planes as the file asks for them: so many, evenly spread over the item, or at given distances; slices:
-    whether they cut it into slices; every: which of them are index lines, 0 for none."""
+    whether they cut it into slices; every: which of them are index lines, 0 for none; numbered: whether these, or else
+    all, have their numbers on them."""
 
     normal: Vector
     count: int
     offsets: tuple[float, ...]
     slices: bool = False
     every: int = 0
+    numbered: bool = False
 
 
 @dataclass(frozen=True)
@@ -199,13 +201,14 @@ def _planes(words: Words, start: int, at: int, owner: str, normal: Vector) -> tu
 
 
 def _with_index(words: Words, planes: Planes, at: int, owner: str) -> tuple[Planes, int]:
-    """The planes with every k-th of them an index line, where 'index' stands behind them."""
-    if words.words[at] != "index":
-        return planes, at
-    every = words.whole(at + 1, owner, "index")
-    if every < 1:
-        words.fail(at + 1, f"{owner}index: every {every}, expected 1 or more")
-    return replace(planes, every=every), at + 2
+    """The planes with every k-th of them an index line, where 'index' stands behind them, and numbered where that word
+    does."""
+    if words.words[at] == "index":
+        every = words.whole(at + 1, owner, "index")
+        if every < 1:
+            words.fail(at + 1, f"{owner}index: every {every}, expected 1 or more")
+        planes, at = replace(planes, every=every), at + 2
+    return (replace(planes, numbered=True), at + 1) if words.words[at] == "numbered" else (planes, at)
 
 
 def _with_planes(words: Words, start: int, owner: str, draft: CurveDraft, planes: Planes) -> CurveDraft:
