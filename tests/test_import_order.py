@@ -31,7 +31,6 @@ ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), 
 
 FOR_PROGRAMS = {
     "features/implicit/implicit_cusps.py",
-    "features/terrains/label_places.py",
     "scene/terrains/tints.py",
     "surfaces/curvature.py",
 }
