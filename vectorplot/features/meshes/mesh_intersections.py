@@ -145,9 +145,9 @@ def _may_meet(faces: Faces, part: Ints, one: Ints, two: Ints, tolerance: float) 
     if not len(slim) or len(one) < FEWEST_PAIRS:
         return close
     position, face, _ = _corners_of(faces, slim)
-    of, corner = np.divmod(
-        np.unique(part[slim[face]] * faces.points.shape[1] + faces.corners[position]), faces.points.shape[1]
-    )
+    # Sorted by hand: the keys come nearly in order, which a sort makes use of and the hash table of np.unique does not.
+    key = np.sort(part[slim[face]] * faces.points.shape[1] + faces.corners[position])
+    of, corner = np.divmod(key[np.diff(key, prepend=-1) > 0], faces.points.shape[1])
     offsets = np.searchsorted(of, np.arange(int(part.max()) + 2))
     along = _longest_edges(faces, part)
     kept = np.flatnonzero((np.diff(offsets)[one] > 0) & (np.diff(offsets)[two] > 0))

@@ -40,7 +40,8 @@ def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float)
     if not len(sizes) or sizes.max() == 3:
         return ConvexFaces(corners, offsets, faces, np.zeros(len(corners), dtype=np.bool_))
     bad = np.zeros(len(sizes), dtype=np.bool_)
-    for size in np.unique(sizes[sizes > 3]).tolist():
+    met = np.flatnonzero(np.bincount(sizes))
+    for size in met[met > 3].tolist():
         same = np.flatnonzero(sizes == size)
         corner = [corners[offsets[same] + k] for k in range(size)]
         bad[same] = ~_planar_convex([points[:, c] for c in corner], tolerance)
