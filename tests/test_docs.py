@@ -22,6 +22,7 @@ from vectorplot.cli.paint import paint
 from vectorplot.cli.render import render
 from vectorplot.cli.sheet import sheet
 from vectorplot.cli.speed import speed
+from vectorplot.cli.try_ import try_
 
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("*/*.md"))]
@@ -78,7 +79,7 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
 
 
 @pytest.mark.parametrize(
-    "command", [accuracy, animate, draw, info, paint, render, replay, sheet, speed], ids=lambda command: command.name
+    "command", [accuracy, animate, draw, info, paint, render, replay, sheet, speed, try_], ids=lambda command: command.name
 )
 def test_every_option_is_on_the_page_of_the_command(command):
     page = (DOCS / "command.md").read_text(encoding="utf-8")
