@@ -17,9 +17,7 @@ from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.item import Item
-from vectorplot.scene.item import Pattern as Pattern
 from vectorplot.scene.light import Exposure, Light, check_exposure
-from vectorplot.scene.material import Material as Material
 from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.naming.scales import BoxAxes, Colouring
 from vectorplot.scene.pages.page import Page
