@@ -79,7 +79,9 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
 
 
 @pytest.mark.parametrize(
-    "command", [accuracy, animate, draw, info, paint, render, replay, sheet, speed, try_], ids=lambda command: command.name
+    "command",
+    [accuracy, animate, draw, info, paint, render, replay, sheet, speed, try_],
+    ids=lambda command: command.name,
 )
 def test_every_option_is_on_the_page_of_the_command(command):
     page = (DOCS / "command.md").read_text(encoding="utf-8")
