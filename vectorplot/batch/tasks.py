@@ -61,9 +61,8 @@ def fingerprint(*said: str, files: Iterable[str | os.PathLike[str]] = ()) -> str
 
     Notes
     -----
-    Two pictures with the same one of these are the same but with a probability of about 1e-38.
-
-    Source: SHA-256, FIPS 180-4, cut to 128 bits.
+    It is the first 128 bits of a SHA-256 sum: two pictures with the same one of these are the same but with a
+    probability of about 1e-38.
 
     Examples
     --------

@@ -37,8 +37,8 @@ class PictureVerb(click.Command):
 
 
 def is_folder(out: str) -> bool:
-    """Whether a name is that of a folder: it ends in a slash, or there is one."""
-    return out.endswith(("/", os.sep)) or (out != "-" and Path(out).is_dir())
+    """Whether a name is that of a folder: it ends in a slash, or there is one of a name without a suffix."""
+    return out.endswith(("/", os.sep)) or (out != "-" and not Path(out).suffix and Path(out).is_dir())
 
 
 def make_pictures(
