@@ -187,7 +187,7 @@ def paint(
     seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
     view, true = seen.view, ordered.facets.normals
     page, world = placement.page, placement.page_from_world
-    lit, here = exposed_scene(view, scene)
+    lit, here = exposed_scene(view, seen.scene)
     seen = replace(seen, scene=lit)
     normals = np.full((3, len(view.corners)), np.nan)
     if smooth and fills == "painted":

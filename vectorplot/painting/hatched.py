@@ -66,8 +66,8 @@ def hatched(
 
     ordered = ordered_faces(walk, toned, shown, projection, demand, budget)
     seen, plane = seen_on_page(walk, ordered, placement, budget)
-    toned, lights = exposed_scene(seen.view, toned)
-    seen = replace(seen, scene=toned)
+    lit, lights = exposed_scene(seen.view, seen.scene)
+    seen = replace(seen, scene=lit)
     # Planes have one shade each: no light varies on them.
     normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, crease_angle_deg)
     lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)

@@ -40,6 +40,14 @@ def test_around_the_point_lines_stay_a_width_apart(count, opening):
         assert inked <= opening * radius * 0.75 or inked <= 4 * WIDTH
 
 
+@pytest.mark.parametrize("count", [8, 9, 12, 16])
+def test_lines_at_equal_angles_have_ends_whichever_is_called_the_widest_gap(count):
+    for turn in np.linspace(0.0, 1.0, 40):
+        middle = (50.0 + turn, 40.0 - 0.3 * turn)
+        near, _ = reaches(thinned_ends(star(count, middle), WIDTH, np.eye(4)), middle)
+        assert np.isfinite(near).all() and np.count_nonzero(near < 1e-6) == 1
+
+
 def test_corners_and_crossings_keep_their_ends():
     for few in (star(7), star(1)):
         assert np.array_equal(thinned_ends(few, WIDTH, np.eye(4)).points, few.points)

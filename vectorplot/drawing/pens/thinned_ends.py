@@ -100,7 +100,7 @@ def _cuts(ends: Floats, inner: Floats, width_mm: float) -> Floats:
 
 def _spacing(angle: Floats, offsets: Ints) -> Floats:
     """(n,) the angle from each line to its neighbours, on average, of the lines through several points, one after the
-    other; those next to the widest gap of all about a point count one neighbour only."""
+    other; those next to the widest gap of all about a point count the other neighbour only, where that is nearer."""
     before = ragged.preceding(offsets)
     gap = np.mod(angle - angle[before], 2.0 * np.pi)
     widest = np.maximum.reduceat(gap, offsets[:-1])
@@ -108,4 +108,5 @@ def _spacing(angle: Floats, offsets: Ints) -> Floats:
     back = np.where(outside, np.nan, gap)
     ahead = np.empty_like(back)
     ahead[before] = back
-    return np.maximum(np.where(np.isnan(back), ahead, np.where(np.isnan(ahead), back, 0.5 * (back + ahead))), ROUNDING)
+    one = np.where(np.isnan(back), ahead, np.where(np.isnan(ahead), back, 0.5 * (back + ahead)))
+    return np.maximum(np.where(np.isnan(one), gap, one), ROUNDING)
