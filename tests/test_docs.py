@@ -8,6 +8,7 @@ import shlex
 import shutil
 from pathlib import Path
 
+import numpy as np
 import pytest
 from support.paths import ROOT
 
@@ -23,6 +24,7 @@ from vectorplot.cli.render import render
 from vectorplot.cli.sheet import sheet
 from vectorplot.cli.speed import speed
 from vectorplot.cli.try_ import try_
+from vectorplot.geometry.columns import dot
 
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("*/*.md"))]
@@ -147,3 +149,14 @@ def test_the_page_of_the_textbook_names_every_file_of_it():
     named = {name for name in textbook.__all__ if f"`{name}`" in page}
     files = {path.stem for path in (ROOT / "vectorplot" / "textbook").rglob("[a-z]*.py")}
     assert {getattr(textbook, name).__module__.rpartition(".")[2] for name in named} == files
+
+
+@pytest.mark.capability("GB.2/3-notes")
+def test_the_page_of_the_textbook_says_what_became_of_the_remarks_on_languages():
+    page = (DOCS / "textbook.md").read_text(encoding="utf-8")
+    said = page.partition("## What the book says of languages")[2]
+    assert "(B.2)" in said and "(B.3)" in said
+    # What is said there is true of the kit it names: a call for a whole array, on views of the same memory.
+    points = np.arange(12.0).reshape(4, 3)
+    assert np.shares_memory(points, points.T)
+    assert dot(points.T, points.T).tolist() == [sum(x * x for x in point) for point in points.tolist()]

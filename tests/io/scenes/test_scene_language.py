@@ -9,6 +9,7 @@ import pytest
 from support.paths import DATA
 from support.scene_texts import PYRAMID
 
+import vectorplot as vp
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.bodies.bodies_of_revolution import revolution
 from vectorplot.geometry.bodies.solids import box
@@ -326,3 +327,25 @@ def test_every_scene_of_the_gallery_loads_without_a_warning(path):
 
 def test_empty_text_is_an_empty_scene():
     assert parse_scene("").items == () and parse_scene(" \n# nothing\n").items == ()
+
+
+@pytest.mark.capability("G3.L-mathobj")
+def test_objects_that_are_no_polyhedra_have_words_too():
+    text = "\n".join(
+        [
+            "RING surface torus 3 1",
+            'SADDLE surface graph "x*y" x -1 1 y -1 1',
+            'LEVEL surface implicit "x^2 + y^2 + z^2 - 1" box -2 2 -2 2 -2 2',
+            'FREE surface function "u" "v" "u*v" u 0 1 v 0 1',
+            "HILL surface landscape heights 0 1 0, 1 3 1, 0 1 0 x 0 2 y 0 2 akima",
+            "LAND terrain heights 0 1 0, 1 3 1, 0 1 0",
+            "LOAF surface torus 3 1 slices z 12",
+            "BALL surface sphere 2",
+            "WIRE curve akima 0 0 0, 1 0 1, 2 1 0, 3 3 1, 4 0 0",
+        ]
+    )
+    scene = parse_scene(text)
+    assert [item.name for item in scene.items] == [line.split()[0] for line in text.splitlines()]
+    for item in scene.items:
+        lines = vp.draw(vp.Scene((item,)), camera=vp.Camera((9.0, -12.0, 8.0)), tolerance_mm=0.2)
+        assert sum(len(paths) for layer in lines.layers for paths in layer.strokes), item.name
