@@ -39,7 +39,6 @@ def test_files_lie_where_the_book_has_them(workplace):
     assert run(["replay", "turn"]) == run(["replay", "video/turn.vd1"]) == 0
 
 
-@pytest.mark.capability("GA.3-pencil")
 def test_the_pencil_is_animated_recorded_and_replayed(tmp_path, monkeypatch, capsys):
     for folder, name in ((DATA, "pencil.scene"), (ANIM, "pencil.anim")):
         (tmp_path / folder.name).mkdir()

@@ -3,12 +3,68 @@
 from __future__ import annotations
 
 import os
+import shutil
 import signal
 import subprocess
 import sys
 import urllib.request
 
+import pytest
+from support.paths import ROOT
+
+from vectorplot.animation.movies.reader import read_movie
 from vectorplot.cli.main import run
+
+
+@pytest.fixture
+def pencils(tmp_path, monkeypatch):
+    """A folder with the pencil and its animation, of four frames, where the book has them; and what is served there."""
+    for folder, name in (("data", "pencil.scene"), ("anim", "pencil.anim")):
+        (tmp_path / folder).mkdir()
+        shutil.copy(ROOT / folder / name, tmp_path / folder)
+    path = tmp_path / "anim" / "pencil.anim"
+    path.write_text(path.read_text(encoding="utf-8").replace("frames 48", "frames 4"), encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    served = []
+
+    async def serve(answers, started, timeout):
+        started("http://127.0.0.1/")
+        served.append(answers)
+
+    monkeypatch.setattr("vectorplot.viewer.server.serve", serve)
+    return served
+
+
+@pytest.mark.capability("GA.3-pencil")
+def test_the_pencil_is_tried_animated_and_recorded(pencils, tmp_path):
+    assert run(["try", "pencil", "--no-browser"]) == 0
+    assert pencils[0].source.scene(None).title == "Pencil" and pencils[0].film is None
+    assert run(["try", "pencil", "-a", "pencil", "--no-browser"]) == 0
+    assert len(pencils[1].film) == 4
+    assert not (tmp_path / "video").exists()
+    assert run(["try", "pencil", "-a", "pencil", "-v", "pencil"]) == 0
+    assert sorted(path.name for path in (tmp_path / "video").iterdir()) == ["pencil.vd1", "pencil.vd2"]
+    assert len(read_movie("video/pencil")) == 4
+    assert run(["replay", "pencil"]) == 0
+
+
+@pytest.mark.capability("GA.3-cli")
+@pytest.mark.parametrize(
+    ("options", "status", "pages"),
+    [
+        ([], 0, 1),
+        (["-a", "pencil"], 0, 1),
+        (["-a", "anim/pencil.anim", "-v", "video/turn"], 0, 0),
+        (["-v", "turn"], 2, 0),
+        (["-a", "none"], 1, 0),
+        (["-a"], 2, 0),
+    ],
+    ids=lambda given: " ".join(given) or "alone" if isinstance(given, list) else None,
+)
+def test_options_show_a_page_or_make_a_movie(pencils, options, status, pages, capsys):
+    assert run(["try", "pencil", "--no-browser", *options]) == status
+    assert len(pencils) == pages
+    assert bool(capsys.readouterr().err.strip()) == (status != 0)
 
 
 def test_it_stops_by_a_signal_and_leaves_with_status_0(cube):

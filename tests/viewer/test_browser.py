@@ -13,6 +13,8 @@ import pytest
 from playwright.sync_api import sync_playwright
 from support.paths import ROOT
 
+from vectorplot.animate import animate
+from vectorplot.animation.animation import Animation
 from vectorplot.viewer.answers import Answers
 from vectorplot.viewer.server import Server, serving
 from vectorplot.viewer.sources import Source
@@ -27,11 +29,11 @@ PATIENCE_MS = 12_000
 class Served:
     """A server in a thread of its own."""
 
-    def __init__(self, path):
+    def __init__(self, path, film=None):
         self.address, self.end, ready = "", None, threading.Event()
 
         async def all_of_it():
-            server = Server(Answers(Source(path)))
+            server = Server(Answers(Source(path), film))
             loop = asyncio.get_running_loop()
             async with serving(server) as address:
                 self.address, self.end = address, lambda: loop.call_soon_threadsafe(server.stop.set)
@@ -266,6 +268,28 @@ def test_a_town_turns_fifteen_times_a_second(opened):
         assert rate >= 15.0
     finally:
         town.stop()
+
+
+def test_a_film_plays_in_the_mode_of_the_page_until_somebody_turns_the_scene(opened, file):
+    scene = Source(file).scene(None)
+    turning = Animation(lambda time: scene.items[0].turned("z", 90.0 * time), frames=5, fps=50.0, mode="shading")
+    other = Served(file, animate(turning))
+    try:
+        page = opened(other.address)
+        assert page.locator("[name=mode][value=shading]").is_checked()
+        page.get_by_role("button", name="Play").press("Enter")
+        for number in (2, 5, 1):
+            page.wait_for_selector(f"#stage[data-frame='{number}']", timeout=PATIENCE_MS)
+        page.locator("[name=mode][value=lines]").check(force=True)
+        assert page.locator("#play").get_attribute("aria-pressed") == "true"
+        page.wait_for_selector("#stage[data-frame='3']", timeout=PATIENCE_MS)
+        page.locator("#stage").press("a")
+        until(page, "document.getElementById('play').getAttribute('aria-pressed') === 'false'")
+        still(page)
+        page.locator("#frame").fill("4")
+        page.wait_for_selector("#stage[data-frame='4']", timeout=PATIENCE_MS)
+    finally:
+        other.stop()
 
 
 def test_the_end_of_the_server_is_told(opened, file):

@@ -11,10 +11,13 @@ import threading
 import aiohttp
 import pytest
 
+from vectorplot.animate import animate
+from vectorplot.animation.animation import Animation
 from vectorplot.viewer.answers import Answers
 from vectorplot.viewer.jobs import Jobs, SupersededError
 from vectorplot.viewer.server import Server, serving
 from vectorplot.viewer.sources import Source
+from vectorplot.viewer.state import first_state
 
 TEXT = "camera eye 5 -7 4\nDIE red box solid 1 2 1\n"
 
@@ -26,11 +29,11 @@ def source(tmp_path):
     return Source(path)
 
 
-def talk(source, conversation):
+def talk(source, conversation, film=None):
     """What a conversation with the server comes to."""
 
     async def all_of_it():
-        server = Server(Answers(source))
+        server = Server(Answers(source, film))
         async with serving(server) as address, aiohttp.ClientSession() as session:
             return await conversation(server, address, session)
 
@@ -211,3 +214,24 @@ def test_meshes_have_no_text(tmp_path):
     path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n", encoding="utf-8")
     assert Source(path).text() is None
     assert len(Source(path).scene(None).items) == 1
+
+
+def test_frames_of_a_film_are_made_in_the_mode_of_the_page(source):
+    scene = source.scene(None)
+    film = animate(Animation(lambda time: scene.items[0].turned("z", 90.0 * time), frames=3, mode="shading"))
+
+    async def conversation(server, address, session):
+        _, _, told = await asked(session, address, "start")
+        state = first_state(scene).values()
+        shown = zip((0, 2, 2, 3, True, "1"), ("lines", "lines", *4 * ["shading"]), strict=True)
+        frames = [
+            await asked(session, address, "frame", frame=number, state={**state, "mode": mode})
+            for number, mode in shown
+        ]
+        return json.loads(told)["film"], frames
+
+    told, frames = talk(source, conversation, film)
+    assert told == {"frames": 3, "fps": 25.0, "mode": "shading"}
+    assert [status for status, _, _ in frames] == [200, 200, 200, 422, 422, 422]
+    assert len({pixels for _, _, pixels in frames[:3]}) == 3
+    assert "3 frames" in json.loads(frames[3][2])["cause"]

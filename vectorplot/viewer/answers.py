@@ -10,7 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.animation.modes import MODES
 from vectorplot.errors import InputError
+from vectorplot.film import Film
 from vectorplot.save import write
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
@@ -40,9 +42,10 @@ Answer = Callable[[Asked, Job], Any]
 
 @dataclass(frozen=True)
 class Answers:
-    """All that the page asks, about the scene of a source."""
+    """All that the page asks, about the scene of a source; film: what it plays, if anything moves."""
 
     source: Source
+    film: Film | None = None
 
     def by_name(self, name: str) -> Answer | None:
         """The answer to a question; None where there is no such question."""
@@ -52,15 +55,18 @@ class Answers:
             "keys": self.keys,
             "fit": self.fit,
             "picture": self.picture,
+            "frame": self.frame,
             "save": self.save,
             "command": self.command,
         }
         return known.get(name)
 
     def start(self, asked: Asked, job: Job) -> dict[str, Any]:
-        """The name of the file, its text, and the keys."""
-        name = self.source.path.name
-        return {"name": name, "text": self.source.text(), "keys": {key: says for key, (says, _) in KEYS.items()}}
+        """The name of the file, its text, the keys; mode and frames of the film, and how many of these a second."""
+        name, keys = self.source.path.name, {key: says for key, (says, _) in KEYS.items()}
+        film = None if self.film is None else self.film.animation
+        moves = {"frames": 0} if film is None else {"frames": len(film), "fps": film.fps, "mode": film.mode}
+        return {"name": name, "text": self.source.text(), "keys": keys, "film": moves}
 
     def scene(self, asked: Asked, job: Job) -> tuple[bytes, str]:
         """What moves: lines in the world as 32-bit floats, and before them what else the page has to know."""
@@ -107,6 +113,17 @@ class Answers:
     def picture(self, asked: Asked, job: Job) -> tuple[bytes, str]:
         """The exact picture."""
         return for_browser(picture(_state(asked), self._scene(asked), progress=job.progress))
+
+    def frame(self, asked: Asked, job: Job) -> tuple[bytes, str]:
+        """A frame of the film, by its number from 0, in the mode of the page: painted where that is of pixels, but for
+        a film of pixels, which has no other."""
+        number, film = asked.get("frame"), self.film
+        count = 0 if film is None else len(film)
+        if film is None or type(number) is not int or not 0 <= number < count:
+            raise InputError(f"viewer: expected the number of one of {count} frames")
+        if not film.pixels:
+            film = replace(film, mode=MODES[as_written(_state(asked), "svg").mode])
+        return for_browser(film.picture(number, progress=job.progress))
 
     def save(self, asked: Asked, job: Job) -> tuple[bytes, str]:
         """The picture as a file. Shaded pixels become painted polygons where the format has none."""

@@ -151,6 +151,7 @@ function paintOver() {
 }
 let waiting = 0, job = null, from = 0;
 function move() {
+  playing = false;
   stage.classList.add("moves");
   stage.dataset.exact = "no";
   if (!drawn) { drawn = true; requestAnimationFrame(paintMoving); }
@@ -185,6 +186,43 @@ function turn(now) {
   if (state?.rotating) requestAnimationFrame(turn);
 }
 
+// --- the film -------------------------------------------------------------------------------------------------------
+let playing = false, fps = 0, run = 0;
+async function frame(number) {
+  job?.abort();
+  clearTimeout(waiting);
+  job = new AbortController();
+  const mine = job;
+  const answer = await ask("frame", { frame: number - 1 }, mine.signal);
+  const address = URL.createObjectURL(await answer.blob());
+  if (mine.signal.aborted) { URL.revokeObjectURL(address); throw new Superseded(); }
+  const former = exact.src;
+  exact.src = address;
+  await exact.decode().catch(() => {});
+  if (former) URL.revokeObjectURL(former);
+  stage.classList.remove("moves", "works", "night");
+  clear(at("over"));
+  at("frame").value = number;
+  document.querySelector("output[for=frame]").textContent = number;
+  stage.dataset.frame = number;
+}
+async function play() {
+  playing = !playing;
+  const mine = ++run;
+  if (state.rotating) press("f");
+  at("play").setAttribute("aria-pressed", playing);
+  try {
+    while (playing && mine === run && !gone) {
+      const began = performance.now(), now = Number(at("frame").value);
+      await frame(now < Number(at("frame").max) ? now + 1 : 1);
+      await new Promise((done) => { setTimeout(done, Math.max(0, 1000 / fps - (performance.now() - began))); });
+    }
+  } catch (error) { told(error); }
+  if (mine === run) { playing = false; at("play").setAttribute("aria-pressed", false); }
+}
+at("play").addEventListener("click", play);
+at("frame").addEventListener("input", () => { playing = false; frame(Number(at("frame").value)).catch(told); });
+
 // --- keys -----------------------------------------------------------------------------------------------------------
 const pending = [];
 let sending = false;
@@ -205,7 +243,7 @@ async function press(key) {
 }
 async function fulfil(wish) {
   if (wish === "ps") await save("ps");
-  if (wish === "video") say("The page records no movies: vectorplot animate does.");
+  if (wish === "video") say("Movies are recorded by the command: try SCENE -a ANIMATION -v NAME.");
   if (wish === "quit") await fetch("quit", { method: "POST", headers: { "Content-Type": "application/json" }, body: "{}" }).catch(() => {});
 }
 let known = {};
@@ -266,7 +304,11 @@ stage.addEventListener("wheel", (event) => {
 }, { passive: false });
 
 // --- controls -------------------------------------------------------------------------------------------------------
-at("modes").addEventListener("change", (event) => change({ mode: event.target.value }));
+at("modes").addEventListener("change", (event) => {
+  const goesOn = playing;
+  change({ mode: event.target.value });
+  if (goesOn) play();
+});
 for (const [id, field] of Object.entries(CHECKS)) at(id).addEventListener("change", () => change({ [field]: at(id).checked }));
 at("along").addEventListener("change", () => press(at("along").checked ? "G" : "g"));
 const radians = (value) => (value * Math.PI) / 180;
@@ -362,6 +404,9 @@ async function begin() {
     name = start.name;
     fileText = start.text;
     known = start.keys;
+    fps = start.film.fps;
+    at("film").hidden = !start.film.frames;
+    at("frame").max = start.film.frames || 1;
     at("name").textContent = name;
     document.title = `${name} – vectorplot`;
     at("key-list").replaceChildren(...Object.entries(known).map(([key, says]) => {
@@ -387,7 +432,7 @@ async function begin() {
       failed(error);
     }
     const before = kept();
-    let first = scene.first;
+    let first = start.film.mode ? { ...scene.first, mode: start.film.mode } : scene.first;
     if (before) {
       try { first = (await (await ask("keys", { keys: [], state: before })).json()).state; } catch (error) { told(error); }
     }
