@@ -12,7 +12,7 @@ from vectorplot.geometry import box, prism
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.scene import Cut
-from vectorplot.surfaces import Ellipsoid, Sphere, Torus, rod
+from vectorplot.surfaces import Cylinder, Ellipsoid, Sphere, Torus, rod
 from vectorplot.testing.shapes import without
 
 EYE = np.array([7.0, -11.0, 6.0])
@@ -128,6 +128,28 @@ def test_open_meshes_have_no_faces_and_one_line_says_so():
     assert len(told) == 1 and len(after.items) == 1
 
 
+@pytest.mark.parametrize("text", ["x > 5", "x < 5", "x < 0", "x + y > 3.5, z > 2.5, x < 3", "x + z > 3.9, y < 0"])
+def test_what_is_open_and_not_cut_is_not_told(text):
+    scene = vp.Scene((vp.Item("open", without(box((2, 2, 2)), 5)), vp.Item("far", box((1, 1, 1)).moved(9, 9, 9))))
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        cut_scene(vp.cut(scene, text), CAMERA)
+
+
+@pytest.mark.parametrize(("text", "told"), [("z > 0.5", True), ("z > 3", False), ("x + y > 1.5, z > 0.9", False)])
+def test_open_surfaces_are_told_where_they_are_cut_alone(text, told):
+    scene = vp.Scene((vp.Item("tube", Cylinder(1.0, 0.0, 1.0)),))
+    with warnings.catch_warnings(record=True) as found:
+        warnings.simplefilter("always")
+        cut_scene(vp.cut(scene, text), CAMERA)
+    assert bool(found) == told
+
+
+def test_planes_beyond_all_numbers_of_the_scene_have_a_side_of_the_eye():
+    near, far = (Cut.of(text).region(CAMERA).normals for text in ("x = -1e308", "x = 1e308"))
+    assert near == ((1.0, 0.0, 0.0),) and far == ((-1.0, -0.0, -0.0),)
+
+
 @pytest.mark.parametrize("verb", ["draw", "paint", "render"])
 def test_every_verb_cuts_and_files_say_the_same(verb):
     text = 'camera eye 7 -11 6 target 0 0 0\nA red box 2 2 2 solid\ncut "x > 1, y = 1" colour blue'
@@ -162,7 +184,11 @@ def replace_cuts(away: str) -> vp.Scene:
     ("text", "cause"),
     [
         ("y", "expected conditions"),
-        ("3 < 4", "without x, y or z"),
+        ("3 < 4", "x, y and z have no effect"),
+        ("x = x", "x, y and z have no effect"),
+        ("1e308x = -1e308x", "out of range"),
+        ("1e-320x = 1", "out of range"),
+        ("x = 1e400", "out of range"),
         ("q = 1", "is not a sum"),
         ("", "expected conditions"),
     ],

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.curves.curve import is_curve
 from vectorplot.effects.cutting.hatches import WAYS, Way, hatch_section, ways_of_parts, without_overlaps
 from vectorplot.effects.cutting.sections import Body
 from vectorplot.errors import InputError, InputWarning
@@ -121,16 +120,12 @@ def cut_scene(scene: Scene, camera: Camera | str | None = None) -> Scene:
     regions = [cut.region(seen) for cut in scene.cuts]
     bodies = [Body(item) for item in scene.items]
     kept = [_kept(body, regions) for body in bodies]
-    _tell([body.item.name for body in bodies if any(map(body.is_met_by, regions)) and _shows_open(body)])
+    _tell([body.item.name for body in bodies if any(map(body.is_opened_by, regions))])
     added = _faces_of_cuts(scene, bodies, regions)
     for number, (cut, region) in enumerate(zip(scene.cuts, regions, strict=True)):
         if cut.away != "gone":
             added += _away(scene, cut, bodies, region, regions[:number])
     return replace(scene, items=(*kept, *added), cuts=())
-
-
-def _shows_open(body: Body) -> bool:
-    return not is_curve(body.item.shape) and body.is_open
 
 
 def _tell(names: list[str]) -> None:

@@ -9,10 +9,11 @@ from typing import Any
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.curves.curve import is_curve
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.parameter_lines import domain_borders
 from vectorplot.features.parametric.sections import plane_sections
-from vectorplot.geometry.cuts.divided_meshes import section_sides
+from vectorplot.geometry.cuts.divided_meshes import divided_mesh, section_sides
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.cuts.section_faces import PlaneFrame, region_of_sides, window
 from vectorplot.geometry.mesh import Mesh
@@ -62,6 +63,21 @@ class Body:
         corners = self.bounds[np.array(list(np.ndindex(2, 2, 2))), np.arange(3)]
         return bool((region.heights(corners) > 0.0).any(axis=1).all())
 
+    def is_opened_by(self, region: HalfSpaces) -> bool:
+        """Whether a region takes away a part of a piece that is not closed, and leaves another."""
+        shape = self.item.shape
+        if is_curve(shape) or not self.is_open or not self.is_met_by(region):
+            return False
+        if isinstance(shape, Mesh):
+            return _is_opened(shape, region)
+        if not is_parametrised(shape):
+            return False
+        u, v = np.meshgrid(*shape.domain.grid(LOOKS, LOOKS), indexing="ij")
+        with np.errstate(all="ignore"):
+            points = np.asarray(shape.points(u, v)).reshape(-1, 3)
+        gone = (region.heights(points[np.isfinite(points).all(axis=1)]) > 0.0).all(axis=0)
+        return bool(gone.any() and not gone.all())
+
     def face(
         self, frame: PlaneFrame, region: HalfSpaces, number: int, others: list[HalfSpaces], within: HalfSpaces | None
     ) -> Any:
@@ -100,6 +116,24 @@ def _closed_pieces(mesh: Mesh) -> Mesh | None:
     number, piece = pieces_of_faces(len(mesh.vertices), mesh.corners, mesh.offsets)
     is_open = np.bincount(piece[mesh.corner_face], loose[mesh.corners], number) > 0
     return chosen_faces(mesh, ~is_open[piece]) if not is_open.all() else None
+
+
+def _is_opened(mesh: Mesh, region: HalfSpaces) -> bool:
+    """Whether a region parts a piece of a mesh that does not close."""
+    number, piece = pieces_of_faces(len(mesh.vertices), mesh.corners, mesh.offsets)
+    loose = unbalanced_vertices(len(mesh.vertices), mesh.corners, mesh.offsets)
+    is_open = np.bincount(piece[mesh.corner_face], loose[mesh.corners], number) > 0
+    if mesh.present is not None:
+        is_open = np.ones(number, dtype=np.bool_)
+    some = chosen_faces(mesh, is_open[piece])
+    divided = divided_mesh(some, region)
+    whole = divided.place >= 0
+    if divided.inside.face_count and divided.outside.face_count > np.count_nonzero(whole):
+        return True
+    # A plane along edges parts pieces, but no face.
+    number, piece = pieces_of_faces(len(some.vertices), some.corners, some.offsets)
+    left = np.bincount(piece, whole, number)
+    return bool(((left > 0) & (left < np.bincount(piece, minlength=number))).any())
 
 
 def _is_closed(surface: Surface) -> bool:

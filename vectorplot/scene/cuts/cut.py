@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import dataclass, replace
 
@@ -101,7 +102,7 @@ class Cut:
         Raises
         ------
         InputError
-            For what is no condition, and for one without x, y or z.
+            For what is no condition, for one on which x, y and z have no effect, and for numbers out of range.
 
         Examples
         --------
@@ -176,6 +177,8 @@ def _side_of_eye(plane: CutPlane, camera: Camera) -> float:
     normal = np.array(plane.normal)
     foot = plane.offset * normal
     way = camera.axes[2] if camera.parallel else np.asarray(camera.eye) - foot
+    # To length 1 at most, for squares of large numbers have no room.
+    way = way / max(float(np.abs(way).max()), 1.0)
     height = float(way @ normal)
     if abs(height) <= EDGE_ON_SINE * float(np.linalg.norm(way)):
         x, y, z = plane.normal
@@ -196,10 +199,13 @@ def _planes(condition: str, text: str) -> list[CutPlane]:
     found = []
     for sign, left, right in zip(signs, sides, sides[1:], strict=False):
         # Larger less smaller: positive in what is taken away.
-        a, b, c, d = ((left - right) if sign != "<" else (right - left)).tolist()
-        length = float(np.hypot(np.hypot(a, b), c))
-        if not 0.0 < length < np.inf:
-            raise InputError(f"cut {text!r}: a condition without x, y or z")
+        with np.errstate(over="ignore"):
+            a, b, c, d = ((left - right) if sign != "<" else (right - left)).tolist()
+        length = math.hypot(a, b, c)
+        if length == 0.0:
+            raise InputError(f"cut {text!r}: a condition on which x, y and z have no effect")
+        if not (math.isfinite(length) and math.isfinite(d / length)):
+            raise InputError(f"cut {text!r}: numbers out of range")
         found.append(CutPlane((a / length, b / length, c / length), -d / length + 0.0, sign == "="))
     return found
 
@@ -214,6 +220,8 @@ def _linear(side: str, text: str) -> np.ndarray:
             raise InputError(f"cut {text!r}: {side[at:]!r} is not a sum of numbers, x, y and z")
         result["xyz".find(axis) if axis else 3] += float(sign + "1") * float(number or 1.0)
         at = term.end()
-    if not side or not np.isfinite(result).all():
+    if not np.isfinite(result).all():
+        raise InputError(f"cut {text!r}: numbers out of range")
+    if not side:
         raise InputError(f"cut {text!r}: expected conditions such as y = 0, x + 2y > 3 or 0 < x < 2")
     return result
