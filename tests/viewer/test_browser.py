@@ -23,7 +23,7 @@ pytestmark = pytest.mark.slow
 
 CHROMIUM = shutil.which("chromium")
 TEXT = 'title "Die"\npage 60x40 margin 2\ncamera eye 5 -7 4\nlight LAMP position 6 -5 8\nDIE red box solid 1 2 1\n'
-PATIENCE_MS = 12_000
+PATIENCE_MS = 30_000
 
 
 class Served:
@@ -288,6 +288,32 @@ def test_a_film_plays_in_the_mode_of_the_page_until_somebody_turns_the_scene(ope
         still(page)
         page.locator("#frame").fill("4")
         page.wait_for_selector("#stage[data-frame='4']", timeout=PATIENCE_MS)
+    finally:
+        other.stop()
+
+
+HALF_ARRIVED = """const whole = window.fetch;
+window.fetch = async (what, how) => {
+  const answer = await whole(what, how);
+  if (what !== "ask/frame") return answer;
+  document.title = "half arrived";
+  const stalled = (body) => how.signal.addEventListener("abort", () => body.error(how.signal.reason));
+  return new Response(new ReadableStream({ start: stalled }));
+};"""
+
+
+def test_a_frame_of_which_half_has_arrived_is_given_up_without_a_word(opened, file):
+    scene = Source(file).scene(None)
+    other = Served(file, animate(Animation(lambda time: scene.items[0].turned("z", time), frames=2)))
+    try:
+        page = opened(other.address)
+        page.evaluate(HALF_ARRIVED)
+        page.get_by_role("button", name="Play").press("Enter")
+        until(page, "document.title === 'half arrived'")
+        page.locator("#stage").press("a")
+        until(page, "document.getElementById('play').getAttribute('aria-pressed') === 'false'")
+        still(page)
+        assert not page.locator("#gone").is_visible()
     finally:
         other.stop()
 

@@ -17,9 +17,10 @@ async function ask(what, more = {}, signal = undefined) {
   let answer;
   try {
     const body = JSON.stringify({ page, state, text, ...more });
-    answer = await fetch(`ask/${what}`, { method: "POST", headers: { "Content-Type": "application/json" }, body, signal });
+    const arriving = await fetch(`ask/${what}`, { method: "POST", headers: { "Content-Type": "application/json" }, body, signal });
+    answer = new Response(await arriving.blob(), arriving);
   } catch (error) {
-    if (error.name !== "AbortError") ended();
+    if (!signal?.aborted) ended();
     throw new Superseded();
   }
   if (answer.status === 409) throw new Superseded();
@@ -217,8 +218,9 @@ async function play() {
       await frame(now < Number(at("frame").max) ? now + 1 : 1);
       await new Promise((done) => { setTimeout(done, Math.max(0, 1000 / fps - (performance.now() - began))); });
     }
-  } catch (error) { told(error); }
-  if (mine === run) { playing = false; at("play").setAttribute("aria-pressed", false); }
+  } catch (error) { told(error); } finally {
+    if (mine === run) { playing = false; at("play").setAttribute("aria-pressed", false); }
+  }
 }
 at("play").addEventListener("click", play);
 at("frame").addEventListener("input", () => { playing = false; frame(Number(at("frame").value)).catch(told); });
