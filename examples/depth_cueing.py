@@ -2,7 +2,8 @@
 
 First the edges of a wire model, all in one shade and then each in the mean of the shades of its ends. Then a row of
 equal boxes: the light alone would give them equal colours, and ambient light, a fifth of the palette, goes to the
-nearer ones. Source: Glaeser, sections 4.4 and 4.5, figures 2 and 6.
+nearer ones. Last a colonnade with exact hidden lines, each thinner and paler in five steps the farther away it is.
+Source: Glaeser, sections 4.4 and 4.5, figures 2 and 6.
 """
 
 import sys
@@ -43,9 +44,34 @@ def boxes() -> vp.Drawing:
     return vp.paint(scene, camera, page=vp.Page(100, 70, 3), shadows="none")
 
 
+def colonnade() -> vp.Drawing:
+    """Two rows of columns on a tiled floor, by five pens for each kind of line."""
+    column = revolution([(0.5, 0, 0), (0.5, 0, 0.2), (0.36, 0, 0.3), (0.3, 0, 3.6), (0.5, 0, 4)], 18)
+    slab = box((1.2, 1.2, 0.25))
+    tile = box((1.9, 1.9, 0.1))
+    items = []
+    for k in range(9):
+        for side in (-2.4, 2.4):
+            place = (side, 2.6 * k, 0)
+            for name, part, at in (("COLUMN", column, (0, 0, 0)), ("SLAB", slab, (-0.6, -0.6, 4))):
+                moved = translated(translated(part.vertices, at), place)
+                items.append(vp.Item(f"{name} {k} {side:+.0f}", vp.Mesh(moved, part.corners, part.offsets)))
+        for across in (-1.95, 0.05):
+            moved = translated(tile.vertices, (across, 2.6 * k - 0.95, -0.1))
+            items.append(vp.Item(f"TILE {k} {across:+.0f}", vp.Mesh(moved, tile.corners, tile.offsets)))
+    camera = vp.Camera(eye=(0.7, -7, 2.4), target=(0, 6, 1.9), fov_deg=50)
+    drawing = vp.draw(
+        vp.Scene(tuple(items), title="Colonnade"), camera, page=vp.Page(120, 84, 3), depth_cue="width,shade"
+    )
+    widths = {round(layer.pen.width_mm, 3) for layer in drawing.layers if layer.name.startswith("contour")}
+    assert widths == {0.1, 0.2, 0.3, 0.4, 0.5}, "a fifth less in every step"
+    return drawing
+
+
 def main(folder: Path) -> None:
     vp.save(wires("wireframe"), folder / "depth_cueing_none.svg")
     vp.save(wires("depth-cue"), folder / "depth_cueing_wires.svg")
+    vp.save(colonnade(), folder / "depth_cueing_strokes.svg")
     drawing = boxes()
     vp.save(drawing, folder / "depth_cueing_boxes.svg")
 

@@ -21,6 +21,7 @@ from vectorplot.linework.line_options import check_line_options, check_longest, 
 from vectorplot.linework.placed_lines import placed_lines
 from vectorplot.linework.traceable import traceable
 from vectorplot.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
+from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
@@ -47,6 +48,7 @@ def draw(
     dashes: str | Mapping[str, str] | Iterable[str] | None = None,
     scale_pens: bool = False,
     thin_ends: bool = False,
+    depth_cue: DepthCue | str | None = None,
     background: str | None = None,
     halo_mm: float = 0.0,
     hatch: Hatching | Stippling | None = None,
@@ -100,6 +102,10 @@ def draw(
         Widths and dashes are those on A4, and in proportion to it on other pages.
     thin_ends : bool
         Lines that converge, as in the apex of a cone, stop early in turn, before their ink makes a blot.
+    depth_cue : DepthCue or str, optional
+        Strokes are thinner (width) or paler (shade) the farther away they are, in five steps or so many as stand behind
+        the word, as in "width,8" or "width,shade,3"; or none. Each step of a layer is a layer with a pen of its own.
+        Where None as the scene says.
     background : str, optional
         The colour of the paper, drawn on a layer that is not plotted; as the style says where None.
     halo_mm : float
@@ -144,8 +150,8 @@ def draw(
     InputError
         As of `io.scene_of`.
         For unknown words and layers, impossible cameras, and widths and angles out of range; for a tolerance or a
-        budget that is not finite and positive; for hidden lines, a halo, a hatching or layers other than by kind in a
-        wireframe, which has colours of its own.
+        budget that is not finite and positive; for hidden lines, a halo, a hatching, a depth cue or layers other than
+        by kind in a wireframe, which has colours of its own.
     TypeError
         For what is nothing of that kind.
 
@@ -183,9 +189,10 @@ def draw(
     check_word("text", text, TEXT_WORDS)
     allowed, threads = budget_of(budget), threads_of(jobs)
     others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(asked)}
+    others["depth_cue"] = depth_cue_of(depth_cue) is not None
     check_look(chosen.look, hidden=hidden != "none", **others)
     kinds = line_kinds((DRAWN if chosen.look == "plain" else WIRES) if lines is None else lines)
-    subject = subject_of(scene, camera, explain, progress)
+    subject = subject_of(scene, camera, explain, progress, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
     sheet, strip = left_of_bar(page_of(page, seen, width, fit), bar)
     finish = Finish(
@@ -222,7 +229,10 @@ def draw(
         hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget)
         hatches = hatches if labels is None else labels.interrupted(hatches, placement.page_from_world)
     found = finish.layered(walk, seen, view, strokes, hatches, hatch, placement.page)
-    inks, letters = finish.inked(walk, found, placement), finish.letters(found)
+    letters, cue = finish.letters(found), seen.depth_cue
+    if cue is not None and finish.plain:
+        found = finish.cued(walk, found, view, cue, placement)
+    inks = finish.inked(walk, found, placement)
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
     return beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)

@@ -26,6 +26,7 @@ from vectorplot.painting.painted_paper import background as background_of
 from vectorplot.painting.painted_paper import paper
 from vectorplot.plan import accuracy_of_paint, plan_paint, with_accuracy
 from vectorplot.scene.coincidence.twins import without_twins
+from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.pages.fitted_pages import FittedPage
@@ -59,6 +60,7 @@ def paint(
     fills: Literal["painted", "visible", "erasing"] = "painted",
     lines: str | Iterable[str] = (),
     crease_angle_deg: float = 25.0,
+    depth_cue: DepthCue | str | None = None,
     background: str | None = None,
     tolerance_mm: float = 0.02,
     title: str = "",
@@ -106,6 +108,8 @@ def paint(
         polygons (none: all kinds).
     crease_angle_deg : float
         Sharper edges are creases, and meshes look round where faces meet at less; 0 to 180 degrees.
+    depth_cue : DepthCue or str, optional
+        As of draw, for lines on top; with blank polygons, whose lines have the shades of items, only none.
     background : str, optional
         The colour of the paper, in place of that of the scene.
     tolerance_mm : float
@@ -160,9 +164,13 @@ def paint(
     """
     _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
     check_word("text", text, TEXT_WORDS)
+    if fills == "erasing" and depth_cue_of(depth_cue) is not None:
+        raise InputError("depth_cue does not go with fills that are erasing, whose lines have the shades of items")
     budget_of(budget)
     threads = threads_of(jobs)
-    subject = subject_of(scene, camera, explain, progress, lights=lights, exposure=exposure, background=background)
+    subject = subject_of(
+        scene, camera, explain, progress, lights=lights, exposure=exposure, background=background, depth_cue=depth_cue
+    )
     scene = subject.scene
     sheet, strip = left_of_bar(page_of(page, scene, width, fit), subject.bar)
     kinds = line_kinds(lines)
@@ -221,7 +229,7 @@ def paint(
         polygons = cut_out(polygons, blanks, world) if fills == "visible" else Fills.joined(polygons, blanks)
         layers = (replace(layers[0], marks=(polygons,)),)
     if found is not None:
-        layers += ruler.layers(found)
+        layers += ruler.layers(found, walk, scene.depth_cue, paper(scene)[0].tolist())
     if labels is not None:
         layers = labels.on_top(layers, False, None, world)
         layers, placement = room_for_labels(layers, placement, labels, sheet)

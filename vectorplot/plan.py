@@ -118,6 +118,8 @@ def plan_draw(
     stages.append(Stage("strokes", "lines on the page, those that lie on each other once"))
     stages += _label_stages(scene)
     stages.append(Stage("layers", "what shares a pen"))
+    if style == "plain":
+        stages += _cue_stages(scene)
     stages.append(Stage("pen", "strokes joined, in an order that keeps the pen on the paper"))
     return tuple(stages)
 
@@ -129,6 +131,12 @@ def plan_panorama() -> tuple[Stage, ...]:
         Stage("layers", "what shares a pen"),
         Stage("pen", "strokes joined, in an order that keeps the pen on the paper"),
     )
+
+
+def _cue_stages(scene: Scene) -> list[Stage]:
+    """The stage that divides lines by their depth, where the scene says so."""
+    cue = scene.depth_cue
+    return [] if cue is None else [Stage("depth cue", f"{' and '.join(cue.by)} of lines by depth, {cue.steps} steps")]
 
 
 def _label_stages(scene: Scene) -> list[Stage]:
@@ -198,6 +206,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
         stages.append(Stage("transparency", "what one sees through"))
     if lines or any(map(is_annotation, scene.items)):
         stages.append(Stage("lines", "drawn over the picture, with exact hidden lines"))
+        stages += _cue_stages(scene)
     stages += _label_stages(scene)
     stages.append(Stage("average", "the pixels of the picture"))
     return tuple(stages)
@@ -263,5 +272,6 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
     shown += ["axes, dimensions and centre lines"] if any(map(is_annotation, scene.items)) else []
     if shown:
         stages.append(Stage("lines", ", ".join(shown) + " on top"))
+        stages += _cue_stages(scene)
     stages += _label_stages(scene)
     return tuple(stages)

@@ -23,6 +23,7 @@ from vectorplot.rendering.pixels_beside_bar import PIXELS_PER_MM, pixels_beside_
 from vectorplot.rendering.render_options import check_lights, check_render_options, check_whole, usual_samples
 from vectorplot.rendering.scene_shadows import ShadowMaps, scene_lighting, tapered_for
 from vectorplot.scene.coincidence.twins import without_twins
+from vectorplot.scene.depth_cue import DepthCue
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.pages.page import Page
@@ -88,6 +89,7 @@ def render(
     samples: int | None = None,
     crease_angle_deg: float = 25.0,
     lines: str | Iterable[str] = (),
+    depth_cue: DepthCue | str | None = None,
     background: str | None = None,
     budget: float = 1.0,
     jobs: int | None = None,
@@ -130,6 +132,8 @@ def render(
         Faces that meet at less look round; 0 to 180 degrees.
     lines : str or iterable of str
         Words of LineKind, or one text with commas between them, drawn over the picture with exact hidden lines.
+    depth_cue : DepthCue or str, optional
+        As of draw, for lines over the picture.
     background : str, optional
         A palette, a plain colour or #rrggbb.
     budget : float
@@ -184,7 +188,7 @@ def render(
     settings = MapSettings(shadow_size, shadow_bits, shadow_casters, shadow_focus)
     budget_of(budget)
     threads = threads_of(jobs)
-    subject = subject_of(scene, camera, explain, progress, lights=lights, exposure=exposure)
+    subject = subject_of(scene, camera, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
     check_lights(seen.lights)
     whole, size = size, pixels_left_of_bar(size, bar)
@@ -227,9 +231,10 @@ def render(
         found = found and labels.interrupted(found, placement.page_from_world)
         pixels = with_lines(with_blanks(pixels, labels.blanks(paper)), labels.strokes, samples * LETTER_PIXELS)
     if found is not None:
-        from vectorplot.rendering.lines_over_pixels import with_lines
+        from vectorplot.rendering.lines_over_pixels import wide_layers, with_layers
 
-        pixels = with_lines(pixels, found, float(samples))
+        layers = wide_layers(found, float(samples))
+        pixels = with_layers(pixels, ruler.cued(layers, walk, seen.depth_cue, paper[0].tolist()))
     averages = walk.run("average", averaged_light, pixels, samples)
     return Image(pixels_beside_bar(averages, bar, whole, behind), seen.title)
 

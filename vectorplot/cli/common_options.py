@@ -15,7 +15,7 @@ from vectorplot.cli.cut_options import CUT_OPTIONS, CutOptions
 from vectorplot.cli.line_options import LINE_OPTIONS, LineOptions
 from vectorplot.cli.many.pictures import PictureVerb, is_folder, make_pictures
 from vectorplot.cli.many.workers import WORKER_OPTIONS, WorkerOptions
-from vectorplot.cli.options import KINDS, at_least, between, exposure, format_of, kinds, light
+from vectorplot.cli.options import KINDS, at_least, between, depth_cue, exposure, format_of, kinds, light
 from vectorplot.cli.picture import Report, Source, make_picture, picture_contents
 from vectorplot.cli.view_options import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
 
@@ -48,6 +48,13 @@ EXPOSURE = click.option(
     type=exposure,
     metavar="FACTOR",
     help="To the intensities of all lights; fitted: the brightest face as bright as can be.  [default: of the scene]",
+)
+
+DEPTH_CUE = click.option(
+    "--depth-cue",
+    type=depth_cue,
+    metavar="WORD,...[,N]",
+    help="Lines thinner (width) or paler (shade) the farther away, in N steps (5); or none.  [default: of the scene]",
 )
 
 BACKGROUND = click.option(

@@ -8,6 +8,7 @@ import click
 
 from vectorplot.cli.common_options import (
     BACKGROUND,
+    DEPTH_CUE,
     DRAWING_FORMATS,
     FRAME,
     TEXT,
@@ -48,6 +49,7 @@ if TYPE_CHECKING:
     *STROKE_OPTIONS,
     click.option("--scale-pens", is_flag=True, help="Widths and dashes are those on A4, and grow with the page."),
     click.option("--thin-ends", is_flag=True, help="Lines that converge stop early in turn, before they blot."),
+    DEPTH_CUE,
     BACKGROUND,
     click.option(
         "--halo",
@@ -113,12 +115,13 @@ def _all_round(
     given = click.get_current_context().params
     unlike = {name: given[name] for name in ("eye", "target", "up", "twist", "fov", "height", "near", "far", "view")}
     flags = {name: given[name] or None for name in ("parallel", "scale_pens", "thin_ends")}
+    cue = {"depth-cue": told["depth_cue"]}
     halo = {"halo": told["halo_mm"] or None, "no-fit": None if told["fit"] else True, "hatch": hatched or None}
     if told["text"] != "strokes":
         raise click.UsageError("letters of panoramas are strokes: --text does not go with --panorama")
-    for name, value in {**unlike, **flags, **halo, "hidden": told["hidden"]}.items():
+    for name, value in {**unlike, **flags, **halo, **cue, "hidden": told["hidden"]}.items():
         if value is not None and value != "none":
             raise click.UsageError(f"--{name.replace('_', '-')} does not go with --panorama")
-    unused = ("camera", "fit", "hidden", "halo_mm", "scale_pens", "thin_ends", "text")
+    unused = ("camera", "fit", "hidden", "halo_mm", "scale_pens", "thin_ends", "depth_cue", "text")
     rest = {name: value for name, value in told.items() if name not in unused}
     return panorama(scene, Panorama(standing, strips=strips), **rest)

@@ -12,6 +12,7 @@ from vectorplot.errors import InputError
 from vectorplot.words import LINE_WORDS, line_words
 
 if TYPE_CHECKING:
+    from vectorplot.scene.depth_cue import DepthCue
     from vectorplot.scene.light import Exposure, Light
 
 Value = TypeVar("Value")
@@ -165,6 +166,16 @@ def exposure(text: str) -> Exposure:
     except InputError as error:
         raise click.BadParameter(error.cause) from None
     return factor
+
+
+def depth_cue(text: str) -> DepthCue | str:
+    """The word none, or width, shade or both, and a number of steps."""
+    from vectorplot.scene.depth_cue import DepthCue
+
+    try:
+        return text if text == "none" else DepthCue.read(text)
+    except InputError as error:
+        raise click.BadParameter(error.cause) from None
 
 
 def said_or_none(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:

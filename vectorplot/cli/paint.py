@@ -8,6 +8,7 @@ import click
 
 from vectorplot.cli.common_options import (
     BACKGROUND,
+    DEPTH_CUE,
     DRAWING_FORMATS,
     EXPOSURE,
     FRAME,
@@ -53,6 +54,7 @@ if TYPE_CHECKING:
     ),
     lines_option("Lines on top, or on blank polygons"),
     crease_angle_option("Sharper edges are creases; meshes look round where faces meet at less."),
+    DEPTH_CUE,
     BACKGROUND,
     TOLERANCE,
     TITLE,

@@ -8,6 +8,7 @@ import click
 
 from vectorplot.cli.common_options import (
     BACKGROUND,
+    DEPTH_CUE,
     EXPOSURE,
     LIGHTS,
     crease_angle_option,
@@ -55,6 +56,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     ),
     crease_angle_option("Sharper edges stay sharp."),
     lines_option("Lines on top"),
+    DEPTH_CUE,
     BACKGROUND,
 )
 def render(scene: Scene, *, shadow_bits: str, **told: Any) -> Image:

@@ -24,6 +24,11 @@ from vectorplot.words import LineKind, check_colour
 
 if TYPE_CHECKING:
     from vectorplot.drawing.lettering.scene_labels import SceneLabels
+    from vectorplot.scene.depth_cue import DepthCue
+
+
+PAPER = "white"
+"""What strokes fade to where nobody names the colour of the paper."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +83,16 @@ class Finish:
         if not self.scale_pens:
             return found
         return tuple(replace(layer, pen=scaled_pen(layer.pen, pen_scale(page))) for layer in found)
+
+    def cued(
+        self, walk: Walk, layers: tuple[Layer, ...], view: View, cue: DepthCue, placement: Placement
+    ) -> tuple[Layer, ...]:
+        """The layers with their strokes by depth."""
+        from vectorplot.effects.depth_cues import depth_cued
+        from vectorplot.shading.light.palettes import palette
+
+        paper = palette(self.background or PAPER)[-1].tolist()
+        return walk.run("depth cue", depth_cued, layers, view, cue, paper, placement.page_from_world)
 
     def inked(self, walk: Walk, layers: tuple[Layer, ...], placement: Placement) -> tuple[Layer, ...]:
         """The layers with strokes that are joined, fitted with curves, and in the order of a pen."""

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -12,11 +12,13 @@ from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.linework.labels_in_place import labels_in_place
 from vectorplot.linework.lines_in_place import lines_in_place, with_smooth_surfaces
+from vectorplot.scene.depth_cue import DepthCue
 from vectorplot.scene.naming.annotations import only_annotations
 from vectorplot.scene.naming.label_anchors import LabelAnchors
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
+from vectorplot.stages.walk import Walk
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import LineKind
 
@@ -55,9 +57,20 @@ class Ruler:
         strokes = self._found(self.scene, OUTLINES, None) if strokes is None else strokes
         return labels_in_place(self.scene, *self._view, self.placement, anchors, strokes, text=text, mm=mm)
 
-    def layers(self, found: Paths) -> tuple[Layer, ...]:
-        """The visible lines in layers by kind."""
-        return inked(layers_by_kind(found), "none", self.placement.page_from_world, self.tolerance_mm)
+    def layers(self, found: Paths, walk: Walk, cue: DepthCue | None, paper: Sequence[int]) -> tuple[Layer, ...]:
+        """The visible lines in layers by kind, by depth too where there is a cue; paper: its colour."""
+        world = self.placement.page_from_world
+        return inked(self.cued(layers_by_kind(found), walk, cue, paper), "none", world, self.tolerance_mm)
+
+    def cued(
+        self, layers: tuple[Layer, ...], walk: Walk, cue: DepthCue | None, paper: Sequence[int]
+    ) -> tuple[Layer, ...]:
+        """Layers of lines, their strokes by depth where there is a cue."""
+        if cue is None or not walk.calls_for("depth cue"):
+            return layers
+        from vectorplot.effects.depth_cues import depth_cued
+
+        return walk.run("depth cue", depth_cued, layers, self.view, cue, paper, self.placement.page_from_world)
 
     def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
         """The visible lines as polylines. scene: this one, whatever patterns it has."""

@@ -14,15 +14,21 @@ from vectorplot.shading.raster.png import Bytes
 
 def with_blanks(pixels: Bytes, blanks: Fills) -> Bytes:
     """The picture with polygons over it."""
-    return _with_layers(pixels, (Layer("blank", Pen(), (blanks,)),))
+    return with_layers(pixels, (Layer("blank", Pen(), (blanks,)),))
 
 
 def with_lines(pixels: Bytes, found: Paths, width: float) -> Bytes:
     """The picture with lines of some width in pixels over it."""
+    return with_layers(pixels, wide_layers(found, width))
+
+
+def wide_layers(found: Paths, width: float) -> tuple[Layer, ...]:
+    """Lines of some width in pixels, in layers by kind."""
     layers = layers_by_kind(long_strokes(found))
-    return _with_layers(pixels, tuple(replace(layer, pen=replace(layer.pen, width_mm=width)) for layer in layers))
+    return tuple(replace(layer, pen=replace(layer.pen, width_mm=width)) for layer in layers)
 
 
-def _with_layers(pixels: Bytes, layers: tuple[Layer, ...]) -> Bytes:
+def with_layers(pixels: Bytes, layers: tuple[Layer, ...]) -> Bytes:
+    """The picture with layers over it."""
     rows, columns = pixels.shape[:2]
     return painted(pixels, Drawing(float(columns), float(rows), layers))

@@ -1,4 +1,5 @@
 from .cuts.cut import Cut, CutPlane
+from .depth_cue import DepthCue
 from .hatching import Hatching, Stippling
 from .item import Item, Pattern
 from .light import Light
@@ -26,6 +27,7 @@ __all__ = [
     "Colouring",
     "Cut",
     "CutPlane",
+    "DepthCue",
     "FieldLines",
     "GeodesicLines",
     "GeodesicsBetween",

@@ -15,6 +15,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.cuts.cut import Cut
+from vectorplot.scene.depth_cue import DepthCue
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Exposure, Light, check_exposure
@@ -56,6 +57,8 @@ class Scene(Movable["Scene"]):
     exposure : float or {"fitted"}
         What the intensities of all lights are taken times; fitted: so that the brightest face is as bright as a light
         can make it.
+    depth_cue : DepthCue, optional
+        How lines tell how far away they are (None: not at all).
 
     Raises
     ------
@@ -84,6 +87,7 @@ class Scene(Movable["Scene"]):
     box: BoxAxes | None = None
     cuts: tuple[Cut, ...] = ()
     exposure: Exposure = 1.0
+    depth_cue: DepthCue | None = None
 
     def __post_init__(self) -> None:
         if self.background is not None:

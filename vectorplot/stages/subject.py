@@ -10,6 +10,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import plan_cuts
 from vectorplot.scene.coincidence.seamless_scene import without_seams
+from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.pages.page import Page
@@ -54,8 +55,10 @@ def subject_of(
     lights: Sequence[Light] | None = None,
     exposure: Exposure | None = None,
     background: str | None = None,
+    depth_cue: DepthCue | str | None = None,
 ) -> Subject:
-    """What a picture of anything that has a shape is of. lights, exposure, background: in place of those of the scene.
+    """What a picture of anything that has a shape is of. lights, exposure, background, depth_cue: in place of those of
+    the scene.
 
     Errors: as of scene_of, camera_of and scaled.
     """
@@ -64,6 +67,7 @@ def subject_of(
     given, camera = (given, camera) if chart is None else (chart.scene, chart.camera)
     given = given if background is None else replace(given, background=background)
     given = given if exposure is None else replace(given, exposure=exposure)
+    given = given if depth_cue is None else replace(given, depth_cue=depth_cue_of(depth_cue))
     seamless = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(seamless)
     anchors, seen_from = label_anchors(given), camera_of(camera, seamless)

@@ -10,6 +10,7 @@ import click
 from vectorplot.cli.common_options import (
     BACKGROUND,
     BUDGET,
+    DEPTH_CUE,
     FRAME,
     JOBS,
     LIGHTS,
@@ -31,10 +32,12 @@ from vectorplot.cli.view_options import CAMERA_OPTIONS, PAGE_OPTIONS, CameraOpti
 
 MODE_WORDS = ("wire", "lines", "shading", "shadows", "erasing", "pixels")
 
+_LINES = ("lines", "crease_angle_deg", "depth_cue", "background")
+
 VERBS = {
-    "draw": {"lines", "crease_angle_deg", "style", "hidden", "pens", "dashes", "background", "tolerance_mm", "title"},
-    "paint": {"lines", "crease_angle_deg", "lights", "shadows", "background", "tolerance_mm", "title"},
-    "render": {"lines", "crease_angle_deg", "lights", "shadows", "background"},
+    "draw": {*_LINES, "style", "hidden", "pens", "dashes", "tolerance_mm", "title"},
+    "paint": {*_LINES, "lights", "shadows", "tolerance_mm", "title"},
+    "render": {*_LINES, "lights", "shadows"},
 }
 """The options that go with each verb, beside those for camera, page and work."""
 
@@ -61,6 +64,7 @@ VERBS = {
     *STROKE_OPTIONS,
     LIGHTS,
     shadows_option(("auto", "none"), "Whether lights cast shadows."),
+    DEPTH_CUE,
     BACKGROUND,
     TOLERANCE,
     TITLE,

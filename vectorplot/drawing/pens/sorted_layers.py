@@ -86,7 +86,7 @@ def sorted_layers(
 
 
 def not_plotted(layers: Sequence[Layer], unplotted: Sequence[str], others: Sequence[str]) -> tuple[Layer, ...]:
-    """The layers, those of these names there to be looked at only.
+    """The layers, those of these names there to be looked at only, with all their steps of depth.
 
     others: names that layers may have where there are such lines, beside kinds. Errors: InputError for a name that no
     layer has or may have.
@@ -95,7 +95,8 @@ def not_plotted(layers: Sequence[Layer], unplotted: Sequence[str], others: Seque
     for name in unplotted:
         if name not in known:
             raise unknown("unplotted", name, tuple(dict.fromkeys(layer.name for layer in layers)))
-    return tuple(replace(layer, plotted=False) if layer.name in unplotted else layer for layer in layers)
+    named = {layer.name for layer in layers if layer.name.rpartition(" depth ")[0] in unplotted}.union(unplotted)
+    return tuple(replace(layer, plotted=False) if layer.name in named else layer for layer in layers)
 
 
 def _by_several(paths: Paths, items: Sequence[str], colours: Sequence[str], words: Sequence[str]) -> tuple[Layer, ...]:

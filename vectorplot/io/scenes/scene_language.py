@@ -23,6 +23,7 @@ from vectorplot.io.scenes.scene_statements import (
     read_camera,
     read_colouring,
     read_cut,
+    read_depth_cue,
     read_exposure,
     read_label,
     read_light,
@@ -240,6 +241,9 @@ class _Reader(ItemReader):
         elif word == "exposure":
             exposure, self.at = read_exposure(source, self.at)
             self.settings = replace(now, exposure=exposure)
+        elif word == "depth_cue":
+            cue, self.at = read_depth_cue(source, self.at)
+            self.settings = replace(now, depth_cue=cue)
         elif word == "box_axes":
             box, self.at = read_box_axes(source, self.at)
             self.settings = replace(now, box=box)

@@ -9,6 +9,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.scene.cuts.cut import AWAY, Cut
+from vectorplot.scene.depth_cue import CUES, DepthCue
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.naming.labels import (
     HIDDEN,
@@ -302,6 +303,23 @@ def read_box_axes(words: Words, at: int) -> tuple[BoxAxes, int]:
         return BoxAxes(names, size), after
     except InputError as error:
         words.fail(at, error.cause)
+
+
+def read_depth_cue(words: Words, at: int) -> tuple[DepthCue, int]:
+    """The depth cue that the words from ``depth_cue`` on describe, and the word behind them."""
+    after = at + 1
+    while words.words[after] in CUES:
+        after += 1
+    by = tuple(dict.fromkeys(words.words[at + 1 : after]))
+    if not by:
+        words.fail(after, f"depth_cue: expected {' or '.join(map(repr, CUES))}, got {words.shown(after)}")
+    if not words.is_number(after):
+        return DepthCue(by), after
+    steps = words.whole(after, "", "depth_cue")
+    try:
+        return DepthCue(by, steps), after + 1
+    except InputError as error:
+        words.fail(after, error.cause)
 
 
 def read_exposure(words: Words, at: int) -> tuple[Exposure, int]:

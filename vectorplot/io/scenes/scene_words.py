@@ -54,7 +54,19 @@ ANNOTATION_WORDS = ("axes", "arrow", "dimension", "diameter", "leader", "centre_
 """The words for lines and labels that make items of their own."""
 
 SCENE_WORDS = (
-    *("camera", "light", "page", "background", "title", "label", "cut", "colour_by", "box_axes", "exposure"),
+    *(
+        "camera",
+        "light",
+        "page",
+        "background",
+        "title",
+        "label",
+        "cut",
+        "colour_by",
+        "box_axes",
+        "exposure",
+        "depth_cue",
+    ),
     *("include", "assembly", "end"),
     *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )

@@ -71,6 +71,8 @@ def write_scene(scene: Scene) -> str:
         blocks.append(f"background {_colour(scene.background)}")
     if scene.exposure != 1.0:
         blocks.append(f"exposure {scene.exposure if scene.exposure == 'fitted' else format(scene.exposure, '.17g')}")
+    if scene.depth_cue is not None:
+        blocks.append(f"depth_cue {' '.join(scene.depth_cue.by)} {scene.depth_cue.steps}")
     if scene.colouring is not None:
         blocks.append(_colouring(scene.colouring))
     if scene.box is not None:

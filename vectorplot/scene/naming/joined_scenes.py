@@ -38,6 +38,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         next((scene.colouring for scene in scenes if scene.colouring), None),
         next((scene.box for scene in scenes if scene.box), None),
         exposure=next((scene.exposure for scene in scenes if scene.exposure != 1.0), 1.0),
+        depth_cue=next((scene.depth_cue for scene in scenes if scene.depth_cue), None),
     )
 
 
