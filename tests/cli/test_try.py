@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import urllib.request
+from pathlib import Path
 
 import pytest
 from support.paths import ROOT
@@ -40,7 +41,7 @@ def test_the_pencil_is_tried_animated_and_recorded(pencils, tmp_path):
     assert run(["try", "pencil", "--no-browser"]) == 0
     assert pencils[0].source.scene(None).title == "Pencil" and pencils[0].film is None
     assert run(["try", "pencil", "-a", "pencil", "--no-browser"]) == 0
-    assert len(pencils[1].film) == 4
+    assert len(pencils[1].film(pencils[1].source.scene(None))) == 4
     assert not (tmp_path / "video").exists()
     assert run(["try", "pencil", "-a", "pencil", "-v", "pencil"]) == 0
     assert sorted(path.name for path in (tmp_path / "video").iterdir()) == ["pencil.vd1", "pencil.vd2"]
@@ -55,7 +56,10 @@ def test_the_pencil_is_tried_animated_and_recorded(pencils, tmp_path):
         ([], 0, 1),
         (["-a", "pencil"], 0, 1),
         (["-a", "anim/pencil.anim", "-v", "video/turn"], 0, 0),
-        (["-v", "turn"], 2, 0),
+        (["-a", "pencil", "-v", "turn.svg"], 0, 0),
+        (["-v", "turn"], 0, 1),
+        (["-v", "none/turn"], 1, 0),
+        (["-v", "none/turn.pdf"], 1, 0),
         (["-a", "none"], 1, 0),
         (["-a"], 2, 0),
     ],
@@ -64,6 +68,8 @@ def test_the_pencil_is_tried_animated_and_recorded(pencils, tmp_path):
 def test_options_show_a_page_or_make_a_movie(pencils, options, status, pages, capsys):
     assert run(["try", "pencil", "--no-browser", *options]) == status
     assert len(pencils) == pages
+    assert not pages or pencils[0].video == (Path("video/turn.vd1") if "-v" in options else None)
+    assert Path("turn.svg").exists() == ("turn.svg" in options)
     assert bool(capsys.readouterr().err.strip()) == (status != 0)
 
 

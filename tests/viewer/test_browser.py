@@ -7,6 +7,7 @@ import json
 import shutil
 import threading
 import time
+import zipfile
 from urllib.parse import unquote
 
 import pytest
@@ -15,6 +16,7 @@ from support.paths import ROOT
 
 from vectorplot.animate import animate
 from vectorplot.animation.animation import Animation
+from vectorplot.animation.movies.reader import read_movie
 from vectorplot.viewer.answers import Answers
 from vectorplot.viewer.server import Server, serving
 from vectorplot.viewer.sources import Source
@@ -29,11 +31,11 @@ PATIENCE_MS = 30_000
 class Served:
     """A server in a thread of its own."""
 
-    def __init__(self, path, film=None):
+    def __init__(self, path, film=None, video=None):
         self.address, self.end, ready = "", None, threading.Event()
 
         async def all_of_it():
-            server = Server(Answers(Source(path), film))
+            server = Server(Answers(Source(path), film, video))
             loop = asyncio.get_running_loop()
             async with serving(server) as address:
                 self.address, self.end = address, lambda: loop.call_soon_threadsafe(server.stop.set)
@@ -273,7 +275,7 @@ def test_a_town_turns_fifteen_times_a_second(opened):
 def test_a_film_plays_in_the_mode_of_the_page_until_somebody_turns_the_scene(opened, file):
     scene = Source(file).scene(None)
     turning = Animation(lambda time: scene.items[0].turned("z", 90.0 * time), frames=5, fps=50.0, mode="shading")
-    other = Served(file, animate(turning))
+    other = Served(file, lambda scene: animate(turning))
     try:
         page = opened(other.address)
         assert page.locator("[name=mode][value=shading]").is_checked()
@@ -303,8 +305,7 @@ window.fetch = async (what, how) => {
 
 
 def test_a_frame_of_which_half_has_arrived_is_given_up_without_a_word(opened, file):
-    scene = Source(file).scene(None)
-    other = Served(file, animate(Animation(lambda time: scene.items[0].turned("z", time), frames=2)))
+    other = Served(file, lambda scene: animate(Animation(lambda time: scene.items[0].turned("z", time), frames=2)))
     try:
         page = opened(other.address)
         page.evaluate(HALF_ARRIVED)
@@ -314,6 +315,64 @@ def test_a_frame_of_which_half_has_arrived_is_given_up_without_a_word(opened, fi
         until(page, "document.getElementById('play').getAttribute('aria-pressed') === 'false'")
         still(page)
         assert not page.locator("#gone").is_visible()
+    finally:
+        other.stop()
+
+
+def recorded(page, *keys):
+    """Record a few keys."""
+    page.locator("#stage").press("v")
+    page.wait_for_selector("#recording:visible", timeout=PATIENCE_MS)
+    for key in keys:
+        before = page.url
+        page.keyboard.press(key)
+        until(page, f"location.href !== {before!r}")
+    page.keyboard.press("v")
+
+
+@pytest.mark.capability("G4.4-interactive")
+def test_what_is_done_is_recorded_and_drawn_as_a_movie(opened, tmp_path):
+    page = opened()
+    page.select_option("#movie-format", "vd1")
+    with page.expect_download() as download:
+        recorded(page, "a", "a", "e")
+    assert download.value.suggested_filename == "die.zip"
+    with zipfile.ZipFile(download.value.path()) as archive:
+        assert archive.namelist() == ["die.vd1", "die.vd2"]
+        archive.extractall(tmp_path)
+    movie = read_movie(tmp_path / "die")
+    # Keys within one twenty-fifth of a second are one frame.
+    assert 2 <= len(movie) <= 4 and movie.frames[0] != movie.frames[-1]
+    told = f"Saved die.zip: {len(movie)} frames"
+    until(page, f"document.getElementById('movie-told').textContent === {told!r}")
+    assert page.locator("#making").is_hidden() and page.locator("#recording").is_hidden()
+    page.locator("#record").press("Enter")
+    assert page.get_attribute("#record", "aria-pressed") == "true"
+
+
+def test_a_recording_goes_to_its_file_and_its_drawing_can_be_stopped(opened, file, tmp_path, monkeypatch):
+    began = threading.Event()
+
+    def endless(state, scene, *, progress):
+        began.set()
+        while True:
+            progress("lines", 0.5)
+            time.sleep(0.01)
+
+    video = tmp_path / "turn.svg"
+    other = Served(file, video=video)
+    try:
+        page = opened(other.address)
+        with monkeypatch.context() as patched:
+            patched.setattr("vectorplot.viewer.recorded.picture", endless)
+            recorded(page, "a")
+            page.wait_for_selector("#stop-movie:visible", timeout=PATIENCE_MS)
+            assert began.wait(PATIENCE_MS / 1000) and page.locator("#record").is_disabled()
+            page.click("#stop-movie")
+            until(page, "document.getElementById('movie-told').textContent === 'Nothing was saved'")
+        recorded(page, "a")
+        until(page, "document.getElementById('movie-told').textContent.startsWith('Saved')")
+        assert video.read_bytes().count(b"<animate") and not list(tmp_path.glob("*.tmp"))
     finally:
         other.stop()
 

@@ -15,7 +15,7 @@ from vectorplot.animate import animate
 from vectorplot.animation.animation import Animation
 from vectorplot.viewer.answers import Answers
 from vectorplot.viewer.jobs import Jobs, SupersededError
-from vectorplot.viewer.server import Server, serving
+from vectorplot.viewer.server import STATIC, Server, serving
 from vectorplot.viewer.sources import Source
 from vectorplot.viewer.state import first_state
 
@@ -49,7 +49,7 @@ def test_the_page_comes_with_strict_headers_and_nothing_from_elsewhere(source):
     async def conversation(server, address, session):
         assert address.startswith("http://127.0.0.1:") and server.token in address and len(server.token) >= 24
         found = {}
-        for name in ("", "viewer.js", "projection.js", "viewer.css", "icon.svg"):
+        for name in STATIC:
             async with session.get(address + name) as answer:
                 assert answer.status == 200
                 found[name] = await answer.text()
@@ -218,7 +218,9 @@ def test_meshes_have_no_text(tmp_path):
 
 def test_frames_of_a_film_are_made_in_the_mode_of_the_page(source):
     scene = source.scene(None)
-    film = animate(Animation(lambda time: scene.items[0].turned("z", 90.0 * time), frames=3, mode="shading"))
+
+    def film(scene):
+        return animate(Animation(lambda time: scene.items[0].turned("z", 90.0 * time), frames=3, mode="shading"))
 
     async def conversation(server, address, session):
         _, _, told = await asked(session, address, "start")
@@ -235,3 +237,34 @@ def test_frames_of_a_film_are_made_in_the_mode_of_the_page(source):
     assert [status for status, _, _ in frames] == [200, 200, 200, 422, 422, 422]
     assert len({pixels for _, _, pixels in frames[:3]}) == 3
     assert "3 frames" in json.loads(frames[3][2])["cause"]
+
+
+def test_frames_are_those_of_the_edited_text(source):
+    def film(scene):
+        return animate(Animation(lambda time: scene.items[0].turned("z", 90.0 * time), frames=2, mode="shading"))
+
+    async def conversation(server, address, session):
+        state = first_state(source.scene(None)).values()
+        texts = (None, TEXT.replace("red", "blue"), TEXT.replace("1 2 1", "1 two 1"), None)
+        return [await asked(session, address, "frame", frame=1, state=state, text=text) for text in texts]
+
+    frames = talk(source, conversation, film)
+    assert [status for status, _, _ in frames] == [200, 200, 422, 200]
+    assert frames[0] == frames[3] and json.loads(frames[2][2])["line"] == 2
+
+
+def test_a_movie_comes_behind_lines_that_say_how_far_it_is(source):
+    frames = [first_state(source.scene(None)).values(), {"azimuth": 0.2}]
+
+    async def conversation(server, address, session):
+        good = await asked(session, address, "movie", frames=frames, fps=25, format="svg")
+        bad = await asked(session, address, "movie", frames=[], fps=25, format="svg")
+        wrong = await session.post(f"{address}ask/movie", json=[])
+        return good, bad, wrong.status, server.movies.latest
+
+    good, bad, wrong, latest = talk(source, conversation)
+    *progress, head = [json.loads(line) for line in good[2].partition(b"<?xml")[0].splitlines()]
+    assert head["name"] == "die.svg" and good[2][-head["bytes"] :].startswith(b"<?xml")
+    assert progress and all(line["of"] in (1, 2) for line in progress)
+    assert "recorded" in json.loads(bad[2].splitlines()[-1])["cause"]
+    assert wrong == 400 and latest == {}

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import os
+from collections.abc import Callable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 import click
 
-from vectorplot.cli.films.frames import write_frames
+from vectorplot.cli.films.frames import check_out
 from vectorplot.cli.options import between
+from vectorplot.cli.picture import check_place
 from vectorplot.cli.progress import progress_bar, told_warnings
 
 if TYPE_CHECKING:
@@ -22,7 +25,10 @@ MISSING = "try needs aiohttp: pip install 'vectorplot[viewer]'"
 @click.argument("scene_file", type=click.Path(), metavar="SCENE")
 @click.option("-a", "--animation", metavar="FILE", help="Play it in the page: a file, or a name in the folder anim.")
 @click.option(
-    "-v", "--video", metavar="NAME", help="With -a: record NAME.vd1 and NAME.vd2, in the folder video, and end."
+    "-v",
+    "--video",
+    metavar="NAME",
+    help="Where recordings go: NAME.vd1 and NAME.vd2 in the folder video, or an .mp4, .svg, .pdf; with -a: record it.",
 )
 @click.option("--no-browser", is_flag=True, help="Print the address and open no browser.")
 @click.option("--timeout", type=between(0.0, 1e6), metavar="S", help="Stop after so many seconds.")
@@ -31,21 +37,25 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
     hidden lines, painted or shaded, edited beside its picture, and saved as PS, SVG, PDF, DXF or PNG.
 
     A file without a folder is looked for in the current one and then in data/; its suffix .scene may be left out.
-    An animation moves it there, frame by frame; together with -v it becomes a movie, and no page is shown.
+    An animation moves it there, frame by frame; together with -v it becomes a movie, and no page is shown. Key v in the
+    page records what one does there.
     Ctrl-C stops it, and q in the page.
     """
     from vectorplot.animation.folders import data_file
     from vectorplot.errors import InputError
     from vectorplot.viewer.sources import Source
 
-    if video is not None and animation is None:
-        raise click.UsageError("-v records what an animation moves: give -a FILE too")
+    file = None if video is None else _file(video)
     source = Source(Path(data_file(scene_file)))
-    film = None if animation is None else _film(animation, source.scene(None))
-    if video is not None and film is not None:
-        with told_warnings(quiet=False), progress_bar(quiet=False) as progress:
-            write_frames(film, len(film), None, video, film.fps, None, progress)
-        return
+    film = None if animation is None else _film(animation)
+    if film is not None:
+        # What is wrong with it is said before any page is shown.
+        first = film(source.scene(None))
+        if file is not None:
+            with told_warnings(quiet=False), progress_bar(quiet=False) as progress:
+                file.parent.mkdir(exist_ok=True)
+                first.save(file, progress=progress)
+            return
     try:
         import aiohttp  # noqa: F401  # what is missing is said before any work
     except ImportError:
@@ -63,13 +73,29 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
         if not no_browser:
             webbrowser.open(address)
 
-    asyncio.run(serve(Answers(source, film), started, timeout))
+    asyncio.run(serve(Answers(source, film, file), started, timeout))
 
 
-def _film(animation: str, scene: Scene) -> Film:
-    """The film of an animation, found as the book has it, of a scene."""
+def _film(animation: str) -> Callable[[Scene], Film]:
+    """What an animation, found as the book has it, makes of a scene."""
     from vectorplot.animate import animate
     from vectorplot.animation.animation_file import read_animation
     from vectorplot.animation.folders import animation_file
 
-    return animate(read_animation(animation_file(animation), scene))
+    path = animation_file(animation)
+    return lambda scene: animate(read_animation(path, scene))
+
+
+def _file(video: str) -> Path:
+    """The file of a movie: one with a suffix of its own, or as the book has it. Bad usage for other suffixes, and an
+    OSError where nothing can be written there."""
+    from vectorplot.animation.folders import VIDEOS, movie_to_write
+    from vectorplot.save_frames import MOVIES, ONE_FILE
+
+    suffix = Path(video).suffix[1:].lower()
+    if suffix in ONE_FILE:
+        check_out(video, None)
+        return Path(video)
+    name = movie_to_write(video[: -len(suffix) - 1] if suffix in MOVIES else video)
+    check_place(os.fspath(name) if name.parent != VIDEOS else os.fspath(VIDEOS))
+    return name.with_name(f"{name.name}.vd1")

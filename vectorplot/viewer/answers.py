@@ -5,7 +5,8 @@ from __future__ import annotations
 import json
 import struct
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -20,7 +21,8 @@ from vectorplot.viewer.commands import command_line
 from vectorplot.viewer.jobs import Job
 from vectorplot.viewer.keys import KEYS, pressed
 from vectorplot.viewer.moving import moving
-from vectorplot.viewer.pictures import for_browser, picture
+from vectorplot.viewer.pictures import drawable, for_browser, picture
+from vectorplot.viewer.recorded import MOVIES, movie_formats, write_recorded
 from vectorplot.viewer.sources import Source
 from vectorplot.viewer.state import ViewerState, first_state, fitting_fov_deg, page_of_state
 
@@ -39,13 +41,21 @@ MOST_KEYS = 1000
 Asked = Mapping[str, Any]
 Answer = Callable[[Asked, Job], Any]
 
+ERRORS = (InputError, OSError, MemoryError)
+"""What the page is told; all else is a fault of the program."""
+
 
 @dataclass(frozen=True)
 class Answers:
-    """All that the page asks, about the scene of a source; film: what it plays, if anything moves."""
+    """All that the page asks, about the scene of a source.
+
+    film: what it plays of a scene, if anything moves; video: the file that recordings go to, else they are handed over.
+    """
 
     source: Source
-    film: Film | None = None
+    film: Callable[[Scene], Film] | None = None
+    video: Path | None = None
+    _films: dict[int, tuple[Scene, Film]] = field(default_factory=dict, repr=False)
 
     def by_name(self, name: str) -> Answer | None:
         """The answer to a question; None where there is no such question."""
@@ -64,9 +74,10 @@ class Answers:
     def start(self, asked: Asked, job: Job) -> dict[str, Any]:
         """The name of the file, its text, the keys; mode and frames of the film, and how many of these a second."""
         name, keys = self.source.path.name, {key: says for key, (says, _) in KEYS.items()}
-        film = None if self.film is None else self.film.animation
-        moves = {"frames": 0} if film is None else {"frames": len(film), "fps": film.fps, "mode": film.mode}
-        return {"name": name, "text": self.source.text(), "keys": keys, "film": moves}
+        film = self._film(self.source.scene(None))
+        moves = {"frames": 0} if film is None else {"frames": len(film), "fps": film.fps, "mode": film.animation.mode}
+        movies = {"formats": movie_formats(), "file": None if self.video is None else str(self.video)}
+        return {"name": name, "text": self.source.text(), "keys": keys, "film": moves, "movies": movies}
 
     def scene(self, asked: Asked, job: Job) -> tuple[bytes, str]:
         """What moves: lines in the world as 32-bit floats, and before them what else the page has to know."""
@@ -117,7 +128,7 @@ class Answers:
     def frame(self, asked: Asked, job: Job) -> tuple[bytes, str]:
         """A frame of the film, by its number from 0, in the mode of the page: painted where that is of pixels, but for
         a film of pixels, which has no other."""
-        number, film = asked.get("frame"), self.film
+        number, film = asked.get("frame"), self._film(self._scene(asked))
         count = 0 if film is None else len(film)
         if film is None or type(number) is not int or not 0 <= number < count:
             raise InputError(f"viewer: expected the number of one of {count} frames")
@@ -142,6 +153,21 @@ class Answers:
         name, scene = str(self.source.path), self._scene(asked)
         return {"line": command_line(as_written(_state(asked), format_), scene, name, f"picture.{format_}")}
 
+    def movie(self, asked: Asked, job: Job) -> tuple[str, bytes, str]:
+        """What was recorded, drawn exactly: the name of a movie, its content, and its media type. Where it goes to a
+        file there is no content."""
+        name, content = write_recorded(asked, self._scene(asked), self.source.path.stem, self.video, job)
+        return name, content, MOVIES.get(str(asked.get("format")), "")
+
+    def _film(self, scene: Scene) -> Film | None:
+        """The film of a scene; the last one is kept."""
+        if self.film is None:
+            return None
+        kept = self._films.get(0)
+        if kept is None or kept[0] is not scene:
+            kept = self._films[0] = scene, self.film(scene)
+        return kept[1]
+
     def _scene(self, asked: Asked) -> Scene:
         text = asked.get("text")
         if text is not None and not isinstance(text, str):
@@ -151,14 +177,22 @@ class Answers:
 
 def as_written(state: ViewerState, format_: str) -> ViewerState:
     """The state whose picture is written: pixels only as PNG, otherwise painted polygons in their place."""
-    if format_ == "png":
-        return state
-    return replace(state, mode="shadows" if state.mode == "pixels" else state.mode, depth_buffer=False)
+    return state if format_ == "png" else drawable(state)
 
 
 def json_bytes(values: Any) -> bytes:
     """Values as JSON; numbers that are none become null."""
     return json.dumps(values, allow_nan=False).encode()
+
+
+def told(error: Exception) -> dict[str, Any]:
+    """What the page is told of an error: the cause, and the line where there is one."""
+    if isinstance(error, InputError):
+        return {"cause": error.cause, "line": error.line, "file": error.file}
+    if isinstance(error, MemoryError):
+        return {"cause": "there is not enough memory for this", "line": None, "file": None}
+    cause = getattr(error, "strerror", None) or str(error)
+    return {"cause": cause, "line": None, "file": getattr(error, "filename", None)}
 
 
 def _state(asked: Asked) -> ViewerState:

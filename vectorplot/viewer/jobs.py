@@ -21,9 +21,13 @@ class SupersededError(Exception):
 
 @dataclass(eq=False)
 class Job:
-    """Work of one page; progress is handed to the verbs, which stop where it raises SupersededError."""
+    """Work of one page; progress is handed to the verbs, which stop where it raises SupersededError.
+
+    frames: how many are done, and how many there are, where it makes a movie.
+    """
 
     stopped: threading.Event = field(default_factory=threading.Event)
+    frames: tuple[int, int] = (0, 0)
 
     def progress(self, stage: str, fraction: float) -> None:
         """Let the work go on, or stop it."""
@@ -37,10 +41,12 @@ class Jobs:
     def __init__(self) -> None:
         self.latest: dict[str, Job] = {}
         self.pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="picture")
-        self.running: set[Future[object]] = set()
 
-    async def run(self, page: str, work: Callable[[Job], Made]) -> Made:
-        """What the work makes. Errors: SupersededError where the page asks for something newer first."""
+    def submit(self, page: str, work: Callable[[Job], Made]) -> tuple[Job, Future[Made]]:
+        """The job of a page's work, and what will come of it: SupersededError where it is stopped.
+
+        What the page has asked for before is stopped.
+        """
         if page not in self.latest and len(self.latest) >= MOST_PAGES:
             page = next(iter(self.latest))
         before = self.latest.pop(page, None)
@@ -53,16 +59,24 @@ class Jobs:
             job.progress("begin", 0.0)
             return work(job)
 
+        return job, self.pool.submit(working)
+
+    async def run(self, page: str, work: Callable[[Job], Made]) -> Made:
+        """What the work makes. Errors: SupersededError where the page asks for something newer first."""
+        job, made = self.submit(page, work)
         try:
-            return await asyncio.get_running_loop().run_in_executor(self.pool, working)
+            return await asyncio.wrap_future(made)
         finally:
-            # Also where nobody waits any more because the page has gone.
-            job.stopped.set()
-            if self.latest.get(page) is job:
-                del self.latest[page]
+            self.end(page, job)
+
+    def end(self, page: str, job: Job) -> None:
+        """Stop a job that nobody waits for any more, because it is done or its page has gone."""
+        job.stopped.set()
+        if self.latest.get(page) is job:
+            del self.latest[page]
 
     def close(self) -> None:
         """Stop all work; waits for what is running to notice."""
-        for job in self.latest.values():
+        for job in list(self.latest.values()):
             job.stopped.set()
         self.pool.shutdown(wait=True, cancel_futures=True)

@@ -179,7 +179,7 @@ KEYS: dict[str, tuple[str, Change]] = {
     "z": ("depth buffer", _with(depth_buffer=True)),
     "Z": ("painter's order", _with(depth_buffer=False)),
     "p": ("PostScript file", _with(wish="ps")),
-    "v": ("video file", _with(wish="video")),
+    "v": ("begin and end a movie", _with(wish="video")),
     "q": ("quit", _with(wish="quit")),
     "Escape": ("quit", _with(wish="quit")),
 }

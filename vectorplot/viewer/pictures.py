@@ -99,6 +99,11 @@ def picture(state: ViewerState, scene: Scene, *, progress: Progress | None = Non
     return render(scene, camera, **told)
 
 
+def drawable(state: ViewerState) -> ViewerState:
+    """The state with painted polygons where it shows pixels."""
+    return replace(state, mode="shadows" if state.mode == "pixels" else state.mode, depth_buffer=False)
+
+
 def for_browser(made: Drawing | Image) -> tuple[bytes, str]:
     """A picture as SVG, or as PNG where it is of pixels or has very many marks, and its media type."""
     if isinstance(made, Image) or sum(len(mark) for layer in made.layers for mark in layer.marks) > MOST_MARKS:

@@ -14,8 +14,7 @@ from typing import Any
 
 from aiohttp import web
 
-from vectorplot.errors import InputError
-from vectorplot.viewer.answers import Answers
+from vectorplot.viewer.answers import ERRORS, Answers, json_bytes, told
 from vectorplot.viewer.jobs import Jobs, SupersededError
 
 HOST = "127.0.0.1"
@@ -23,13 +22,12 @@ HOST = "127.0.0.1"
 MOST_BYTES = 2 << 20
 """The largest request."""
 
-STATIC = {"": ("index.html", "text/html"), "viewer.js": ("viewer.js", "text/javascript")} | {
-    name: (name, kind)
-    for name, kind in (
-        ("projection.js", "text/javascript"),
-        ("viewer.css", "text/css"),
-        ("icon.svg", "image/svg+xml"),
-    )
+SCRIPTS = ("page.js", "viewer.js", "recorder.js", "recording.js", "canvases.js", "projection.js", "program.js")
+"""What the page runs, from its address inwards."""
+
+STATIC = {"": ("index.html", "text/html"), "viewer.css": ("viewer.css", "text/css")} | {
+    "icon.svg": ("icon.svg", "image/svg+xml"),
+    **{name: (name, "text/javascript") for name in SCRIPTS},
 }
 """The files of the page and their media types, by the ends of their addresses."""
 
@@ -46,6 +44,9 @@ HEADERS = {
 }
 """What every answer says: nothing from elsewhere, nothing kept."""
 
+TOLD_S = 0.2
+"""So often the page is told how many frames of a movie are drawn."""
+
 Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 
@@ -56,6 +57,7 @@ class Server:
     answers: Answers
     token: str = field(default_factory=lambda: secrets.token_urlsafe(18))
     jobs: Jobs = field(default_factory=Jobs)
+    movies: Jobs = field(default_factory=Jobs)
     stop: asyncio.Event = field(default_factory=asyncio.Event)
 
     def app(self) -> web.Application:
@@ -71,6 +73,7 @@ class Server:
             app.router.add_get(f"{base}/{name}", self._file)
         app.router.add_get(f"{base}/alive", self._alive)
         app.router.add_post(f"{base}/quit", self._quit)
+        app.router.add_post(f"{base}/ask/movie", self._movie)
         app.router.add_post(f"{base}/ask/{{what}}", self._ask)
         return app
 
@@ -112,36 +115,66 @@ class Server:
         return web.json_response({})
 
     async def _ask(self, request: web.Request) -> web.Response:
-        answer = self.answers.by_name(request.match_info["what"])
+        what = request.match_info["what"]
+        answer = self.answers.by_name(what)
         if answer is None:
             return web.Response(status=404, text="no such question")
+        asked = await _asked(request)
         try:
-            asked = await request.json()
-        except (json.JSONDecodeError, UnicodeDecodeError, RecursionError):
-            return web.Response(status=400, text="not JSON")
-        if not isinstance(asked, Mapping):
-            return web.Response(status=400, text="expected a mapping")
-        page = f"{str(asked.get('page'))[:64]} {request.match_info['what']}"
-        try:
-            made = await self.jobs.run(page, lambda job: answer(asked, job))
+            made = await self.jobs.run(f"{_page(asked)} {what}", lambda job: answer(asked, job))
         except SupersededError:
             return web.Response(status=409, text="superseded")
-        except (InputError, OSError, MemoryError) as error:
+        except ERRORS as error:
             return web.json_response(told(error), status=422)
         if isinstance(made, tuple):
             content, kind = made
             return web.Response(body=content, content_type=kind)
         return web.json_response(made)
 
+    async def _movie(self, request: web.Request) -> web.StreamResponse:
+        """Lines of JSON, how many frames are drawn, and behind the last one the movie. It stops where the page goes."""
+        asked = await _asked(request)
+        response = web.StreamResponse(headers={**HEADERS, "Content-Type": "application/octet-stream"})
+        await response.prepare(request)
+        page = _page(asked)
+        job, made = self.movies.submit(page, lambda job: self.answers.movie(asked, job))
+        waiting = asyncio.wrap_future(made)
+        try:
+            while not waiting.done():
+                await asyncio.wait([waiting], timeout=TOLD_S)
+                done, of = job.frames
+                await response.write(_line({"done": done, "of": of or 1}))
+            name, content, kind = waiting.result()
+            await response.write(_line({"name": name, "kind": kind, "bytes": len(content)}) + content)
+        except SupersededError:
+            await response.write(_line({"superseded": True}))
+        except ConnectionError:
+            pass
+        except ERRORS as error:
+            await response.write(_line(told(error)))
+        finally:
+            self.movies.end(page, job)
+        return response
 
-def told(error: Exception) -> dict[str, Any]:
-    """What the page is told of an error: the cause, and the line where there is one."""
-    if isinstance(error, InputError):
-        return {"cause": error.cause, "line": error.line, "file": error.file}
-    if isinstance(error, MemoryError):
-        return {"cause": "there is not enough memory for this", "line": None, "file": None}
-    cause = getattr(error, "strerror", None) or str(error)
-    return {"cause": cause, "line": None, "file": getattr(error, "filename", None)}
+
+async def _asked(request: web.Request) -> Mapping[str, Any]:
+    """What the page tells. Errors: HTTPBadRequest for what is no mapping."""
+    try:
+        asked = await request.json()
+    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError):
+        raise web.HTTPBadRequest(reason="not JSON") from None
+    if not isinstance(asked, Mapping):
+        raise web.HTTPBadRequest(reason="expected a mapping")
+    return asked
+
+
+def _page(asked: Mapping[str, Any]) -> str:
+    """The name of the page that asks."""
+    return str(asked.get("page"))[:64]
+
+
+def _line(values: Mapping[str, Any]) -> bytes:
+    return json_bytes(values) + b"\n"
 
 
 @asynccontextmanager
@@ -156,6 +189,7 @@ async def serving(server: Server) -> AsyncIterator[str]:
     finally:
         server.stop.set()
         server.jobs.close()
+        server.movies.close()
         await runner.cleanup()
 
 
