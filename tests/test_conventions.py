@@ -61,7 +61,7 @@ def test_memory_that_cannot_be_had_is_one_line(verb, tmp_path, capsys, monkeypat
         raise MemoryError
 
     monkeypatch.setattr("vectorplot.io.read_file.read", without_memory)
-    monkeypatch.setattr("vectorplot.cli.info.read", without_memory, raising=False)
+    monkeypatch.setattr("vectorplot.cli.commands.info.read", without_memory, raising=False)
     scene = tmp_path / "a.scene"
     scene.write_text("A box 1 1 1", encoding="utf-8")
     out = [] if verb == "info" else ["-o", str(tmp_path / "a.png")]

@@ -9,7 +9,7 @@ import pytest
 from click.testing import CliRunner
 
 import vectorplot as vp
-from vectorplot.cli.draw import draw
+from vectorplot.cli.commands.draw import draw
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.effects.panoramas.sectors import bearings_and_elevations, with_chords
 from vectorplot.geometry import box

@@ -47,9 +47,9 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch):
 
 
 def test_every_option_of_the_command_is_in_the_readme():
-    from vectorplot.cli.draw import draw
-    from vectorplot.cli.paint import paint
-    from vectorplot.cli.render import render
+    from vectorplot.cli.commands.draw import draw
+    from vectorplot.cli.commands.paint import paint
+    from vectorplot.cli.commands.render import render
 
     for parameter in (*draw.params, *paint.params, *render.params):
         for option in (*parameter.opts, *parameter.secondary_opts):

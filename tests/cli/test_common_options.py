@@ -8,6 +8,9 @@ import pytest
 from click.testing import CliRunner
 
 import vectorplot as vp
+from vectorplot.cli.commands.draw import draw
+from vectorplot.cli.commands.paint import paint
+from vectorplot.cli.commands.render import render
 from vectorplot.cli.common_options import (
     DRAWING_FORMATS,
     LIGHTS,
@@ -17,10 +20,7 @@ from vectorplot.cli.common_options import (
     lines_option,
     picture_verb,
 )
-from vectorplot.cli.draw import draw
 from vectorplot.cli.options import at_least
-from vectorplot.cli.paint import paint
-from vectorplot.cli.render import render
 from vectorplot.cli.strokes.hatching_options import hatching_from
 from vectorplot.cli.verbs import vectorplot
 from vectorplot.cli.view_options import PAGE_OPTIONS, CameraOptions, PageOptions

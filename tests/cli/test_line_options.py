@@ -6,11 +6,11 @@ import pytest
 from click.testing import CliRunner
 
 from vectorplot import scene as scenes
+from vectorplot.cli.commands.draw import draw
+from vectorplot.cli.commands.paint import paint
+from vectorplot.cli.commands.render import render
 from vectorplot.cli.common_options import Told
-from vectorplot.cli.draw import draw
 from vectorplot.cli.line_options import LineOptions, Planes
-from vectorplot.cli.paint import paint
-from vectorplot.cli.render import render
 from vectorplot.io.read_file import read
 
 ALL = ["--sections", "x,3", "--levels", "4", "--isophotes", "5"]

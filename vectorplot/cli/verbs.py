@@ -5,16 +5,16 @@ from __future__ import annotations
 import click
 
 from vectorplot import __version__
-from vectorplot.cli.accuracy import accuracy
-from vectorplot.cli.draw import draw
+from vectorplot.cli.commands.accuracy import accuracy
+from vectorplot.cli.commands.draw import draw
+from vectorplot.cli.commands.info import info
+from vectorplot.cli.commands.paint import paint
+from vectorplot.cli.commands.render import render
+from vectorplot.cli.commands.sheet import sheet
+from vectorplot.cli.commands.speed import speed
+from vectorplot.cli.commands.try_ import try_
 from vectorplot.cli.films.animate import animate
 from vectorplot.cli.films.replay import replay
-from vectorplot.cli.info import info
-from vectorplot.cli.paint import paint
-from vectorplot.cli.render import render
-from vectorplot.cli.sheet import sheet
-from vectorplot.cli.speed import speed
-from vectorplot.cli.try_ import try_
 from vectorplot.errors import printable
 from vectorplot.words import nearest
 
