@@ -12,7 +12,7 @@ from vectorplot.drawing.drawing import CurvedStrokes, Drawing
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing import assert_drawing_is_right, curves_in_space
 

@@ -459,8 +459,8 @@ def wordy(*at: Floats) -> str:
 @pytest.mark.parametrize("kind", ["surface", "graph", "implicit", "curve"])
 def test_functions_that_fail_are_named_in_every_verb(verb, wrong, kind: str) -> None:
     from vectorplot.curves.function import curve_of_function
-    from vectorplot.surfaces.function import surface_of_function
-    from vectorplot.surfaces.graphs import graph
+    from vectorplot.surfaces.function_surface import surface_of_function
+    from vectorplot.surfaces.graphs.graph import graph
     from vectorplot.surfaces.implicit_function import implicit_of_function
     from vectorplot.surfaces.surface import Domain
 
@@ -479,7 +479,7 @@ def test_functions_that_fail_are_named_in_every_verb(verb, wrong, kind: str) -> 
 @pytest.mark.hard(69)
 @pytest.mark.parametrize("verb", ["paint", "render", "draw"])
 def test_where_a_function_is_not_finite_one_looks_through(verb: str) -> None:
-    from vectorplot.surfaces.graphs import graph
+    from vectorplot.surfaces.graphs.graph import graph
     from vectorplot.surfaces.surface import Domain
 
     def with_hole(x: Floats, y: Floats) -> Floats:

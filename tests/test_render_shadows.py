@@ -15,7 +15,7 @@ from vectorplot.curves.circle import Circle
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.plan import chosen_shadows
 from vectorplot.render import render
-from vectorplot.surfaces.families.spiral import spiral_surface
+from vectorplot.surfaces.families.swept.spiral import spiral_surface
 from vectorplot.testing.shapes import box
 
 

@@ -23,7 +23,7 @@ from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParabol
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid, Paraboloid
 from vectorplot.surfaces.families.quadric import implicit_ellipsoid
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing import assert_drawing_is_right, visible_by_rays
 

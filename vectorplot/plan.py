@@ -17,8 +17,8 @@ from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import Stage
 from vectorplot.stages.walk import StageReport as StageReport
 from vectorplot.stages.walk import Walk as Walk
-from vectorplot.surfaces.balls import ball_of
-from vectorplot.surfaces.capped_quadrics import capped_quadric_of
+from vectorplot.surfaces.quadric_bodies.balls import ball_of
+from vectorplot.surfaces.quadric_bodies.capped_quadrics import capped_quadric_of
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.words import FEATURE_KINDS, LineKind
 

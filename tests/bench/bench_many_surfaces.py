@@ -17,8 +17,8 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.placed_surfaces import PlacedSurface
 from vectorplot.surfaces.surface import Domain, Surface
 
 pytestmark = pytest.mark.bench

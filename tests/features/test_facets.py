@@ -15,7 +15,7 @@ from vectorplot.surfaces.families.hyperboloid import Hyperboloid
 from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
 from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.surface import Domain
 
 

@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.features.facet_demands import Within
 from vectorplot.features.facets import facets
-from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
 
 SQUARE = Domain(-1.0, 1.0, -1.0, 1.0)

@@ -30,7 +30,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.families.revolution import revolution_surface
+from vectorplot.surfaces.families.swept.revolution import revolution_surface
 from vectorplot.testing import assert_on_both, assert_same_curve, curves_in_space
 
 TURN = 2.0 * np.pi

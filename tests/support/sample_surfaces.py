@@ -13,19 +13,19 @@ from vectorplot.surfaces.families.capped import Capped, Frustum, rod
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.helical import helical_surface
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
 from vectorplot.surfaces.families.minimal import helicoid_to_catenoid, minimal_spiral_surface
 from vectorplot.surfaces.families.quadric import Quadric
-from vectorplot.surfaces.families.revolution import revolution_surface
-from vectorplot.surfaces.families.rotoidal import rotoidal_surface
-from vectorplot.surfaces.families.spiral import spiral_surface
+from vectorplot.surfaces.families.swept.helical import helical_surface
+from vectorplot.surfaces.families.swept.revolution import revolution_surface
+from vectorplot.surfaces.families.swept.rotoidal import rotoidal_surface
+from vectorplot.surfaces.families.swept.spiral import spiral_surface
+from vectorplot.surfaces.families.swept.translation import translation_surface
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.families.translation import translation_surface
-from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.graph_regions import Disc
-from vectorplot.surfaces.graphs import graph, graph_over_disc
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.graphs.graph import graph, graph_over_disc
+from vectorplot.surfaces.graphs.graph_regions import Disc
 from vectorplot.surfaces.splines.landscape import landscape
 from vectorplot.surfaces.splines.spline_surface import nurbs_surface, spline_surface
 from vectorplot.surfaces.surface import Domain, hessians, is_parametrised

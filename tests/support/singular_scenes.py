@@ -13,9 +13,9 @@ from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.cylinder import Cone
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.implicit_function import implicit_of_function
-from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit
 
 Points = tuple[tuple[float, float, float], ...]

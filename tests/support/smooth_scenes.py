@@ -15,15 +15,15 @@ from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.helical import helical_surface
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid, Paraboloid
 from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
 from vectorplot.surfaces.families.quadric import implicit_ellipsoid, implicit_sphere
+from vectorplot.surfaces.families.swept.helical import helical_surface
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.function import FunctionSurface, surface_of_function
-from vectorplot.surfaces.graphs import graph
-from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
+from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box, rotation
 

@@ -14,16 +14,16 @@ from vectorplot.curves.line import Line
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_z
 from vectorplot.surfaces.curvature import first_form, gaussian_curvature, mean_curvature
-from vectorplot.surfaces.families.helical import helical_surface
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid
 from vectorplot.surfaces.families.minimal import helicoid_to_catenoid, minimal_spiral_surface
-from vectorplot.surfaces.families.motions import Rotoid, Screw, SpiralMotion
-from vectorplot.surfaces.families.revolution import revolution_surface
-from vectorplot.surfaces.families.rotoidal import rotoidal_surface
-from vectorplot.surfaces.families.spiral import spiral_surface
+from vectorplot.surfaces.families.swept.helical import helical_surface
+from vectorplot.surfaces.families.swept.motions import Rotoid, Screw, SpiralMotion
+from vectorplot.surfaces.families.swept.revolution import revolution_surface
+from vectorplot.surfaces.families.swept.rotoidal import rotoidal_surface
+from vectorplot.surfaces.families.swept.spiral import spiral_surface
+from vectorplot.surfaces.families.swept.translation import translation_surface
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.families.translation import translation_surface
 
 POINT = np.array([2, 0.5, -1])
 THROUGH_POINT = Line(POINT, (1, 0, 0))

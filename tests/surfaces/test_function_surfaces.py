@@ -12,9 +12,9 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.surfaces.curvature import gaussian_curvature, mean_curvature
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.graph_regions import Disc, PolygonRegion
-from vectorplot.surfaces.graphs import graph, graph_over_disc
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.graphs.graph import graph, graph_over_disc
+from vectorplot.surfaces.graphs.graph_regions import Disc, PolygonRegion
 from vectorplot.surfaces.surface import Domain, is_hole
 
 TORUS = Torus(3, 1)

@@ -6,7 +6,7 @@ from vectorplot.features.facets import facets
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs import Graph
+from vectorplot.surfaces.graphs.graph import Graph
 from vectorplot.surfaces.jumps import jumping_cells, jumps
 from vectorplot.surfaces.surface import Domain
 

@@ -10,9 +10,9 @@ from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.normals import normal_partials, unit_normals
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.placed_surfaces import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Domain, Surface
 

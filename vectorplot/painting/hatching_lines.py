@@ -19,7 +19,7 @@ from vectorplot.scene.lines.integral_lines import KnownCurves
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.capped_quadrics import capped_quadric_of
+from vectorplot.surfaces.quadric_bodies.capped_quadrics import capped_quadric_of
 from vectorplot.surfaces.surface import Surface, is_parametrised
 
 ROUGH = 96

@@ -7,8 +7,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
-from vectorplot.surfaces.balls import ball_of, bounds_of_balls
-from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
+from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
+from vectorplot.surfaces.quadric_bodies.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.tolerances.of_numbers import LARGEST
 

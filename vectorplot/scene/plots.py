@@ -15,8 +15,8 @@ from vectorplot.geometry.repair.degenerate import without_stutter
 from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.scene.item import Item
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.families.tube import tube as tube_surface
-from vectorplot.surfaces.graphs import graph as graph_surface
+from vectorplot.surfaces.families.swept.tube import tube as tube_surface
+from vectorplot.surfaces.graphs.graph import graph as graph_surface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_numbers import COMPUTED
 from vectorplot.words import DRAWN, LineKind

@@ -22,8 +22,8 @@ from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.naming.scales import BoxAxes, Colouring
 from vectorplot.scene.pages.page import Page
-from vectorplot.surfaces.balls import ball_of, bounds_of_balls
-from vectorplot.surfaces.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
+from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
+from vectorplot.surfaces.quadric_bodies.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.words import check_colour
 

@@ -10,8 +10,8 @@ import numpy as np
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.function import FunctionSurface
-from vectorplot.surfaces.graphs import Graph, PolarGraph
+from vectorplot.surfaces.function_surface import FunctionSurface
+from vectorplot.surfaces.graphs.graph import Graph, PolarGraph
 
 
 def tell_what_is_cut_off(scene: Scene) -> None:

@@ -3,11 +3,9 @@ from .families.capped import Capped, Frustum, rod
 from .families.cyclide import ImplicitCyclide, dupin_cyclide
 from .families.cylinder import Cone, Cylinder
 from .families.ellipsoid import Ellipsoid, Sphere
-from .families.helical import helical_surface
 from .families.hyperbolic_paraboloid import HyperbolicParaboloid
 from .families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
 from .families.minimal import IsotropicCurve, MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
-from .families.motions import Motion, Rotoid, Screw, SpiralMotion, Translation
 from .families.quadric import (
     Quadric,
     implicit_cone,
@@ -16,21 +14,23 @@ from .families.quadric import (
     implicit_plane,
     implicit_sphere,
 )
-from .families.revolution import revolution_surface
-from .families.rotoidal import rotoidal_surface
-from .families.spiral import spiral_surface
-from .families.swept import Swept
+from .families.swept.helical import helical_surface
+from .families.swept.motions import Motion, Rotoid, Screw, SpiralMotion, Translation
+from .families.swept.revolution import revolution_surface
+from .families.swept.rotoidal import rotoidal_surface
+from .families.swept.spiral import spiral_surface
+from .families.swept.swept import Swept
+from .families.swept.translation import translation_surface
+from .families.swept.tube import tube
 from .families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
-from .families.translation import translation_surface
-from .families.tube import tube
-from .function import FunctionSurface, surface_of_function
-from .graph_regions import Disc, PolygonRegion, Region
-from .graphs import Graph, PolarGraph, graph, graph_over_disc
-from .height_grid import densified_grid, grid_of_scattered
+from .function_surface import FunctionSurface, surface_of_function
+from .graphs.graph import Graph, PolarGraph, graph, graph_over_disc
+from .graphs.graph_regions import Disc, PolygonRegion, Region
+from .graphs.height_grid import densified_grid, grid_of_scattered
 from .implicit_function import ImplicitFunction, implicit_of_function
 from .inversion import InvertedImplicit, InvertedSurface, inverted
 from .normals import unit_normals
-from .placed import PlacedImplicit, PlacedSurface
+from .placed_surfaces import PlacedImplicit, PlacedSurface
 from .splines.landscape import landscape
 from .splines.spline_surface import SplineSurface, nurbs_surface, spline_surface
 from .surface import Domain, ImplicitSurface, Surface

@@ -11,7 +11,7 @@ from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
 
 SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]

@@ -9,8 +9,8 @@ from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.placed_surfaces import PlacedSurface
 from vectorplot.surfaces.surface import Domain
 
 TURN = 2.0 * np.pi

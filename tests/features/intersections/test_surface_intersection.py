@@ -15,8 +15,8 @@ from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.quadric import implicit_ellipsoid, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.placed_surfaces import PlacedSurface
 from vectorplot.surfaces.surface import Domain
 
 QUARTER = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])

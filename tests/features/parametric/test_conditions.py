@@ -20,8 +20,8 @@ from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.surface import Domain
 
 SURFACES = {

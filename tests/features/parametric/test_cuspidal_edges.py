@@ -9,7 +9,7 @@ from vectorplot.features.parametric.cuspidal_edges import singular_lines
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
 
 TURN = 2.0 * np.pi

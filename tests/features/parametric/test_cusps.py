@@ -10,7 +10,7 @@ from vectorplot.features.parametric.cusps import contour_cusps, contour_with_cus
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.surface import Domain
 
 

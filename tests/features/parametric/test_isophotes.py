@@ -9,7 +9,7 @@ from vectorplot.features.parametric.isophotes import isophotes, point_light_isop
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Domain
 

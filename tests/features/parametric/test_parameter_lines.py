@@ -10,8 +10,8 @@ from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graph_regions import Disc
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs.graph_regions import Disc
 
 
 def test_parameter_lines_of_the_torus_are_closed_circles_within_the_tolerance():

@@ -21,14 +21,14 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.revolution import revolution_surface
+from vectorplot.surfaces.families.swept.revolution import revolution_surface
 from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
-from vectorplot.surfaces.function import surface_of_function
-from vectorplot.surfaces.graph_regions import Disc
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs.graph_regions import Disc
 from vectorplot.surfaces.implicit_function import implicit_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
-from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 from vectorplot.testing.shapes import box

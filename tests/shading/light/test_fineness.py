@@ -28,7 +28,7 @@ from vectorplot.surfaces.families.cyclide import dupin_cyclide
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_measuring import TRUE_CONTOUR
 

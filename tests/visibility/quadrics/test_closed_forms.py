@@ -16,10 +16,10 @@ from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
-from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.quadric_bodies.balls import ball_of
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
 from vectorplot.visibility.quadrics.hidden_arcs import visible_arcs

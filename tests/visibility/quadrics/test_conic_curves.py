@@ -11,8 +11,8 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.view import look
-from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.quadric_bodies.balls import ball_of
 from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
 from vectorplot.visibility.quadrics.conic_arcs import joined_arcs
 from vectorplot.visibility.quadrics.conic_curves import conic_curves

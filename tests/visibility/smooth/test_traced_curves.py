@@ -11,7 +11,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.surface import Domain
 from vectorplot.visibility.smooth.sheets.family import ParameterCurves
 from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised

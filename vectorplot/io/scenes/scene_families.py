@@ -41,18 +41,18 @@ from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.elliptic_sections import EllipticSections
-from vectorplot.surfaces.families.helical import helical_surface
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
 from vectorplot.surfaces.families.minimal import MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
 from vectorplot.surfaces.families.quadric import Quadric
-from vectorplot.surfaces.families.revolution import revolution_surface
-from vectorplot.surfaces.families.rotoidal import rotoidal_surface
-from vectorplot.surfaces.families.spiral import spiral_surface
-from vectorplot.surfaces.families.swept import Swept
+from vectorplot.surfaces.families.swept.helical import helical_surface
+from vectorplot.surfaces.families.swept.revolution import revolution_surface
+from vectorplot.surfaces.families.swept.rotoidal import rotoidal_surface
+from vectorplot.surfaces.families.swept.spiral import spiral_surface
+from vectorplot.surfaces.families.swept.swept import Swept
+from vectorplot.surfaces.families.swept.translation import translation_surface
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.families.translation import translation_surface
-from vectorplot.surfaces.graph_regions import Disc
+from vectorplot.surfaces.graphs.graph_regions import Disc
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 from vectorplot.tolerances.of_numbers import ROUNDING

@@ -8,9 +8,9 @@ from typing import Any
 from vectorplot.arrays import Floats
 from vectorplot.curves.function import FunctionCurve, curve_of_function
 from vectorplot.io.expressions.expression import Expression
-from vectorplot.surfaces.function import FunctionSurface, surface_of_function
-from vectorplot.surfaces.graph_regions import Disc
-from vectorplot.surfaces.graphs import Graph, PolarGraph, graph, graph_over_disc
+from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
+from vectorplot.surfaces.graphs.graph import Graph, PolarGraph, graph, graph_over_disc
+from vectorplot.surfaces.graphs.graph_regions import Disc
 from vectorplot.surfaces.implicit_function import ImplicitFunction, implicit_of_function
 from vectorplot.surfaces.surface import Domain
 

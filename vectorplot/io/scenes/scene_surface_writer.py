@@ -32,15 +32,15 @@ from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
 from vectorplot.surfaces.families.minimal import HelicoidCurve, MinimalSurface, SpiralCurve
-from vectorplot.surfaces.families.motions import Rotoid, Screw, SpiralMotion, Translation
 from vectorplot.surfaces.families.quadric import Quadric
-from vectorplot.surfaces.families.swept import Swept
+from vectorplot.surfaces.families.swept.motions import Rotoid, Screw, SpiralMotion, Translation
+from vectorplot.surfaces.families.swept.swept import Swept
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.function import FunctionSurface
-from vectorplot.surfaces.graphs import Graph, PolarGraph
+from vectorplot.surfaces.function_surface import FunctionSurface
+from vectorplot.surfaces.graphs.graph import Graph, PolarGraph
 from vectorplot.surfaces.implicit_function import ImplicitFunction
 from vectorplot.surfaces.inversion import InvertedSurface
-from vectorplot.surfaces.placed import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.splines.spline_surface import SplineSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 from vectorplot.surfaces.trims.trimmed import TrimmedSurface

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.io.meshes.mesh_file import TextFile, check_announced, text_file
-from vectorplot.surfaces.height_grid import MOST_POINTS
+from vectorplot.surfaces.graphs.height_grid import MOST_POINTS
 from vectorplot.surfaces.terrains.terrain import Terrain
 
 _HEAD_LINE = re.compile(rb"[ \t]*([A-Za-z_]+)[ \t]+([^\s]+)[ \t\r]*\n")

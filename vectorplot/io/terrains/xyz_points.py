@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.meshes.mesh_file import TextFile, joined, text_file
-from vectorplot.surfaces.height_grid import MOST_POINTS
+from vectorplot.surfaces.graphs.height_grid import MOST_POINTS
 from vectorplot.surfaces.terrains.terrain import Terrain, terrain_of_points
 from vectorplot.tolerances.of_parameters import OFF_REGULAR_GRID
 

@@ -22,7 +22,7 @@ from vectorplot.curves.splines.homogeneous import (
 )
 from vectorplot.curves.splines.kinds import AkimaSpline, BSpline, SplineKind
 from vectorplot.errors import InputError
-from vectorplot.surfaces.placed import MovableSurface
+from vectorplot.surfaces.placed_surfaces import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 

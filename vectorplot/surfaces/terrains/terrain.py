@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.parameters import number, parameter_range, positive
 from vectorplot.errors import InputError
-from vectorplot.surfaces.height_grid import MOST_POINTS, densified_grid, grid_of_scattered
+from vectorplot.surfaces.graphs.height_grid import MOST_POINTS, densified_grid, grid_of_scattered
 
 Pair = tuple[float, float]
 

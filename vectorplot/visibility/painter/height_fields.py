@@ -11,7 +11,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.graphs import vertical
+from vectorplot.surfaces.graphs.graph import vertical
 from vectorplot.visibility.painter.plans import Plan, largest_plan
 from vectorplot.visibility.painter.precedence import Precedence
 from vectorplot.visibility.projected_faces import newell

@@ -18,8 +18,8 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.lines.curve_light import curve_light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.balls import Ball, ball_of
-from vectorplot.surfaces.capped_quadrics import capped_quadric_of
+from vectorplot.surfaces.quadric_bodies.balls import Ball, ball_of
+from vectorplot.surfaces.quadric_bodies.capped_quadrics import capped_quadric_of
 from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines, kinds_of

@@ -10,8 +10,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.quadric_bodies.balls import ball_of
 from vectorplot.visibility.quadrics.bodies.covers import ball_covers, disc_boxes
 from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
 

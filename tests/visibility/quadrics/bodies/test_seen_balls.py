@@ -9,10 +9,10 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.placed import PlacedSurface
+from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
 from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
 
 SHEARED = np.array([[1.0, 0.2, 0.0], [0.0, 0.8, -0.3], [0.4, 0.0, 1.2]])

@@ -9,8 +9,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.balls import ball_of
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.quadric_bodies.balls import ball_of
 from vectorplot.testing.shapes import box, prism
 from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
 from vectorplot.visibility.quadrics.lines.ball_meetings import (

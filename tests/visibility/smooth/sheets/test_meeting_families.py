@@ -13,7 +13,7 @@ from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere
-from vectorplot.surfaces.function import surface_of_function
+from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.smooth.tracing.meetings import meetings

@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
-from vectorplot.surfaces.balls import Ball
+from vectorplot.surfaces.quadric_bodies.balls import Ball
 from vectorplot.visibility.quadrics.bodies.unit_bodies import UnitBodies, bodies_in_sight
 
 

@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
-from vectorplot.surfaces.capped_quadrics import CappedQuadric
+from vectorplot.surfaces.quadric_bodies.capped_quadrics import CappedQuadric
 from vectorplot.visibility.quadrics.bodies.seen_balls import same_numbers
 from vectorplot.visibility.quadrics.bodies.unit_bodies import UnitBodies, bodies_in_sight
 

@@ -11,7 +11,7 @@ from vectorplot.curves.splines.kinds import CubicSpline, InterpolatingSpline
 from vectorplot.curves.splines.spline_curve import spline_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import cross, normalize
-from vectorplot.surfaces.function import FunctionSurface, surface_of_function
+from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
 from vectorplot.surfaces.surface import Domain
 
 STEPS = 512

@@ -11,8 +11,8 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.curves.second_derivatives import second_derivatives
-from vectorplot.surfaces.families.motions import Motion
-from vectorplot.surfaces.placed import MovableSurface
+from vectorplot.surfaces.families.swept.motions import Motion
+from vectorplot.surfaces.placed_surfaces import MovableSurface
 from vectorplot.surfaces.surface import Domain
 
 

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from vectorplot.curves.curve import Curve
-from vectorplot.surfaces.families.motions import Translation
-from vectorplot.surfaces.families.swept import Swept
+from vectorplot.surfaces.families.swept.motions import Translation
+from vectorplot.surfaces.families.swept.swept import Swept
 
 
 def translation_surface(generator: Curve, path: Curve) -> Swept:

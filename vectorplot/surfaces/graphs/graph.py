@@ -12,9 +12,9 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.derivatives import NumericFunction, cut_off, numeric_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import from_components
-from vectorplot.surfaces.function import ranges_of
-from vectorplot.surfaces.graph_regions import Disc, Region
-from vectorplot.surfaces.placed import MovableSurface
+from vectorplot.surfaces.function_surface import ranges_of
+from vectorplot.surfaces.graphs.graph_regions import Disc, Region
+from vectorplot.surfaces.placed_surfaces import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
 

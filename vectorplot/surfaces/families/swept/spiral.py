@@ -6,8 +6,8 @@ import numpy as np
 
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import number
-from vectorplot.surfaces.families.motions import SpiralMotion
-from vectorplot.surfaces.families.swept import Swept
+from vectorplot.surfaces.families.swept.motions import SpiralMotion
+from vectorplot.surfaces.families.swept.swept import Swept
 
 
 def spiral_surface(generator: Curve, growth: float, *, start: float = 0.0, end: float = 2.0 * np.pi) -> Swept:

@@ -6,8 +6,8 @@ import numpy as np
 
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import number
-from vectorplot.surfaces.families.motions import Rotoid
-from vectorplot.surfaces.families.swept import Swept
+from vectorplot.surfaces.families.swept.motions import Rotoid
+from vectorplot.surfaces.families.swept.swept import Swept
 
 
 def rotoidal_surface(

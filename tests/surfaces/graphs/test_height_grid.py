@@ -7,7 +7,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
 from vectorplot.geometry.repair.winding import is_closed_oriented
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.height_grid import densified_grid, grid_of_scattered
+from vectorplot.surfaces.graphs.height_grid import densified_grid, grid_of_scattered
 
 
 def hills(x, y):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.curves.curve import Curve
-from vectorplot.surfaces.families.motions import Screw
-from vectorplot.surfaces.families.swept import Swept
+from vectorplot.surfaces.families.swept.motions import Screw
+from vectorplot.surfaces.families.swept.swept import Swept
 
 
 def revolution_surface(generator: Curve, *, start: float = 0.0, end: float = 2.0 * np.pi) -> Swept:

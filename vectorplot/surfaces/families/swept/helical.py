@@ -6,8 +6,8 @@ import numpy as np
 
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import number
-from vectorplot.surfaces.families.motions import Screw
-from vectorplot.surfaces.families.swept import Swept
+from vectorplot.surfaces.families.swept.motions import Screw
+from vectorplot.surfaces.families.swept.swept import Swept
 
 
 def helical_surface(generator: Curve, rise: float, *, start: float = 0.0, end: float = 2.0 * np.pi) -> Swept:

@@ -1,0 +1,1 @@
+"""Graphs of functions, the regions they stand above, and heights on grids."""
