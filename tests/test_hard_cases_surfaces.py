@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.line import Line
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere

@@ -458,7 +458,7 @@ def wordy(*at: Floats) -> str:
 @pytest.mark.parametrize("wrong", [raising, complex_valued, wrongly_shaped, wordy])
 @pytest.mark.parametrize("kind", ["surface", "graph", "implicit", "curve"])
 def test_functions_that_fail_are_named_in_every_verb(verb, wrong, kind: str) -> None:
-    from vectorplot.curves.function import curve_of_function
+    from vectorplot.curves.function_curve import curve_of_function
     from vectorplot.surfaces.function_surface import surface_of_function
     from vectorplot.surfaces.graphs.graph import graph
     from vectorplot.surfaces.implicit_function import implicit_of_function

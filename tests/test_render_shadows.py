@@ -11,7 +11,7 @@ import pytest
 from support.rendered import FINE, GLASS, SIZE, SUN, inside_out, levels, sphere
 
 import vectorplot as vp
-from vectorplot.curves.circle import Circle
+from vectorplot.curves.families.circle import Circle
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.plan import chosen_shadows
 from vectorplot.render import render

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.curves.circle import Circle
-from vectorplot.curves.cylinder_intersections import cylinder_intersection
-from vectorplot.curves.function import curve_of_function
-from vectorplot.curves.helix import Helix
-from vectorplot.curves.line import Line
-from vectorplot.curves.loxodrome import Loxodrome
-from vectorplot.curves.placed import PlacedCurve
+from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families.cylinder_intersections import cylinder_intersection
+from vectorplot.curves.families.helix import Helix
+from vectorplot.curves.families.line import Line
+from vectorplot.curves.families.loxodrome import Loxodrome
+from vectorplot.curves.function_curve import curve_of_function
+from vectorplot.curves.placed_curves import PlacedCurve
 from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.errors import InputError
 

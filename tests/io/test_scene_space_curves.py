@@ -9,14 +9,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import is_curve
-from vectorplot.curves.cylinder_intersections import cylinder_intersection
-from vectorplot.curves.function import curve_of_function
-from vectorplot.curves.helix import Helix
-from vectorplot.curves.line import Line
-from vectorplot.curves.loxodrome import Loxodrome
-from vectorplot.curves.placed import PlacedCurve
+from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families.cylinder_intersections import cylinder_intersection
+from vectorplot.curves.families.helix import Helix
+from vectorplot.curves.families.line import Line
+from vectorplot.curves.families.loxodrome import Loxodrome
+from vectorplot.curves.function_curve import curve_of_function
+from vectorplot.curves.placed_curves import PlacedCurve
 from vectorplot.curves.splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline
 from vectorplot.curves.splines.spline_curve import nurbs_curve, spline_curve
 from vectorplot.draw import draw

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.curves.function import curve_of_function
+from vectorplot.curves.function_curve import curve_of_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.scene.extent import smooth_bounds

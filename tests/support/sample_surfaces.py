@@ -4,9 +4,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.curves.circle import Circle
-from vectorplot.curves.function import curve_of_function
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families.line import Line
+from vectorplot.curves.function_curve import curve_of_function
 from vectorplot.curves.splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.surfaces.families.capped import Capped, Frustum, rod

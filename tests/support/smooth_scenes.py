@@ -6,7 +6,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from vectorplot.curves.circle import Circle
+from vectorplot.curves.families.circle import Circle
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light

@@ -7,10 +7,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.curves.circle import Circle
-from vectorplot.curves.function import curve_of_function
-from vectorplot.curves.helix import Helix
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families.helix import Helix
+from vectorplot.curves.families.line import Line
+from vectorplot.curves.function_curve import curve_of_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_z
 from vectorplot.surfaces.curvature import first_form, gaussian_curvature, mean_curvature

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.helix import Helix
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families.helix import Helix
+from vectorplot.curves.families.line import Line
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.families.cyclide import dupin_cyclide

@@ -7,7 +7,7 @@ from support.drawn import drawn, on_page, plate
 from sweeps.sweep import Sweep
 
 import vectorplot as vp
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.line import Line
 from vectorplot.features.zeros.scalar_field import Function
 from vectorplot.features.zeros.zero_manifold import ZeroManifold, zero_manifold_of_f_uv
 from vectorplot.geometry.polylines import segments

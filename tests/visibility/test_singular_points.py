@@ -11,7 +11,7 @@ from support.drawn import drawn
 from support.singular_scenes import eyes, lines_through, singular_surfaces, turned
 from support.smooth_seen import chords_seen
 
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.line import Line
 from vectorplot.draw import draw
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.cameras.camera import Camera

@@ -2,14 +2,14 @@ from .bezier.arcs import EllipseArc, arc_path
 from .bezier.elliptic_arcs import EllipseArcs
 from .bezier.fit import fitted_curve, fitted_paths
 from .bezier.paths import BezierPath, BezierPaths
-from .circle import Circle
 from .curve import Curve, is_curve
-from .cylinder_intersections import cylinder_branches, cylinder_intersection
-from .function import FunctionCurve, curve_of_function
-from .helix import Helix
-from .line import Line
-from .loxodrome import Loxodrome
-from .placed import PlacedCurve
+from .families.circle import Circle
+from .families.cylinder_intersections import cylinder_branches, cylinder_intersection
+from .families.helix import Helix
+from .families.line import Line
+from .families.loxodrome import Loxodrome
+from .function_curve import FunctionCurve, curve_of_function
+from .placed_curves import PlacedCurve
 from .splines.basis import Basis
 from .splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline, SplineKind
 from .splines.spline_curve import SplineCurve, nurbs_curve, spline_curve

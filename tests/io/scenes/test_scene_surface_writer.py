@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.sample_surfaces import FAMILIES, same_surface
 
-from vectorplot.curves.helix import Helix
-from vectorplot.curves.line import Line
-from vectorplot.curves.placed import PlacedCurve
+from vectorplot.curves.families.helix import Helix
+from vectorplot.curves.families.line import Line
+from vectorplot.curves.placed_curves import PlacedCurve
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_surface_writer import surface_text

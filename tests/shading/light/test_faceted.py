@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.curves.circle import Circle
+from vectorplot.curves.families.circle import Circle
 from vectorplot.features.facet_demands import Within
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material

@@ -9,7 +9,7 @@ from vectorplot.accuracy.of_curves.curve_chords import chords_of
 from vectorplot.arrays import Floats
 from vectorplot.curves.bezier.fit import fitted_curve
 from vectorplot.curves.bezier.paths import BezierPath
-from vectorplot.curves.function import curve_of_function
+from vectorplot.curves.function_curve import curve_of_function
 from vectorplot.testing.curve_distance import hausdorff
 from vectorplot.tolerances.of_measuring import FINEST_FIT_MM, PART_OF_FINEST
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.accuracy.approximation import Approximation, Study, Way, decades
 from vectorplot.arrays import Floats
-from vectorplot.curves.loxodrome import Loxodrome
+from vectorplot.curves.families.loxodrome import Loxodrome
 from vectorplot.features.integral.integral_curves import integral_curves
 from vectorplot.features.integral.integration import USUAL, Accuracy
 from vectorplot.features.integral.tangent_fields import loxodromes

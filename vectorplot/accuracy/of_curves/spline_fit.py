@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.accuracy.approximation import Approximation, Study, Way
 from vectorplot.accuracy.of_curves.bezier_fit import rosette
 from vectorplot.arrays import Floats
-from vectorplot.curves.function import curve_of_function
+from vectorplot.curves.function_curve import curve_of_function
 from vectorplot.curves.splines.kinds import AkimaSpline, CubicSpline, InterpolatingSpline, SplineKind
 from vectorplot.curves.splines.spline_curve import SplineCurve, spline_curve
 

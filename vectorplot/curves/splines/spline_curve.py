@@ -11,16 +11,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.placed import MovableCurve
+from vectorplot.curves.placed_curves import MovableCurve
 from vectorplot.curves.splines.basis import Basis, checked_basis, refined_controls
-from vectorplot.curves.splines.homogeneous import (
+from vectorplot.curves.splines.kinds import BSpline, SplineKind
+from vectorplot.curves.splines.weighted_controls import (
     Homogeneous,
     checked_controls,
     checked_weights,
     first_quotient,
     second_quotient,
 )
-from vectorplot.curves.splines.kinds import BSpline, SplineKind
 from vectorplot.errors import InputError
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import ROUNDING

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.line import Line
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import thin_line

@@ -6,12 +6,12 @@ from collections.abc import Callable
 from math import degrees, pi
 from typing import Any
 
-from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.cylinder_intersections import cylinder_branches
-from vectorplot.curves.helix import Helix
-from vectorplot.curves.line import Line
-from vectorplot.curves.loxodrome import Loxodrome
+from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families.cylinder_intersections import cylinder_branches
+from vectorplot.curves.families.helix import Helix
+from vectorplot.curves.families.line import Line
+from vectorplot.curves.families.loxodrome import Loxodrome
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_formulas import (
     Formulas,

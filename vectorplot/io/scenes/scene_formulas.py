@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.function import FunctionCurve, curve_of_function
+from vectorplot.curves.function_curve import FunctionCurve, curve_of_function
 from vectorplot.io.expressions.expression import Expression
 from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
 from vectorplot.surfaces.graphs.graph import Graph, PolarGraph, graph, graph_over_disc

@@ -10,15 +10,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.curves.circle import Circle
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.cylinder_intersections import CylinderBranch, cylinder_intersection
 from vectorplot.curves.derivatives import NumericFunction
-from vectorplot.curves.function import FunctionCurve
-from vectorplot.curves.helix import Helix
-from vectorplot.curves.line import Line
-from vectorplot.curves.loxodrome import Loxodrome
-from vectorplot.curves.placed import PlacedCurve
+from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families.cylinder_intersections import CylinderBranch, cylinder_intersection
+from vectorplot.curves.families.helix import Helix
+from vectorplot.curves.families.line import Line
+from vectorplot.curves.families.loxodrome import Loxodrome
+from vectorplot.curves.function_curve import FunctionCurve
+from vectorplot.curves.placed_curves import PlacedCurve
 from vectorplot.curves.splines.spline_curve import SplineCurve
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_formulas import Formulas

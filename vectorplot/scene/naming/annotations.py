@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.line import Line
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.scene.item import Item

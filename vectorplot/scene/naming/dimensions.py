@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.circle import Circle
-from vectorplot.curves.line import Line
+from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families.line import Line
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import cross, normalize

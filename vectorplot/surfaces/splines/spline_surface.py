@@ -13,14 +13,14 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.splines.akima import weighted
 from vectorplot.curves.splines.basis import Basis, checked_basis, refined_controls
-from vectorplot.curves.splines.homogeneous import (
+from vectorplot.curves.splines.kinds import AkimaSpline, BSpline, SplineKind
+from vectorplot.curves.splines.weighted_controls import (
     Homogeneous,
     checked_controls,
     checked_weights,
     first_quotient,
     second_quotient,
 )
-from vectorplot.curves.splines.kinds import AkimaSpline, BSpline, SplineKind
 from vectorplot.errors import InputError
 from vectorplot.surfaces.placed_surfaces import MovableSurface
 from vectorplot.surfaces.surface import Domain

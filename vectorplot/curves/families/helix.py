@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.circle import Circle
+from vectorplot.curves.families.circle import Circle
 from vectorplot.curves.parameters import number
-from vectorplot.curves.placed import MovableCurve
+from vectorplot.curves.placed_curves import MovableCurve
 
 
 @dataclass(frozen=True, eq=False)

@@ -8,7 +8,7 @@ import warnings
 import numpy as np
 import pytest
 
-from vectorplot.curves.function import curve_of_function
+from vectorplot.curves.function_curve import curve_of_function
 from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.errors import InputError, InputWarning
 
