@@ -57,8 +57,8 @@ from .parametric.cuspidal_edges import singular_lines
 from .parametric.cusps import Cusps, contour_cusps, contour_with_cusps
 from .parametric.isophotes import isophotes, point_light_isophotes
 from .parametric.parameter_lines import borders, parameter_lines, u_lines, v_lines
-from .parametric.sections import level_lines, plane_sections, section_by_implicit
 from .parametric.surface_curves import SurfaceCurves
+from .parametric.surface_sections import level_lines, plane_sections, section_by_implicit
 from .terrains.label_places import LabelPlaces, label_places
 from .terrains.places import places_on_terrain
 from .terrains.roads import roads

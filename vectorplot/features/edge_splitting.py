@@ -13,7 +13,7 @@ from typing import Protocol
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.divided_triangles import divided
+from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.tessellation import edges_of
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import cross

@@ -11,7 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Demand, Net, refined
 from vectorplot.features.level_nets import level_net
 from vectorplot.features.normal_jumps import cut_where_normals_jump
-from vectorplot.features.parametric.holes import ways_between
+from vectorplot.features.parametric.holes.holes import ways_between
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.patch_nets import TOO_LONG, Patch, first_net
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET

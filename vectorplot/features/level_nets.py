@@ -9,9 +9,9 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import Edges, Net, Vertices
-from vectorplot.features.implicit.implicit_singular_lines import SingularLines, singular_lines, usual_gradient
 from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
-from vectorplot.features.implicit.singular_set import led_into_singular_set
+from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines, singular_lines, usual_gradient
+from vectorplot.features.implicit.singular.singular_set import led_into_singular_set
 from vectorplot.features.patch_nets import HALF
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.surface import ImplicitSurface

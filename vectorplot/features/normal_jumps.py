@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.divided_triangles import divided
+from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.edge_splitting import Between, Net, Vertices
 from vectorplot.features.tessellation import edges_of
 

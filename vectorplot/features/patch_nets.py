@@ -10,8 +10,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices
-from vectorplot.features.parametric.holed_triangles import cut_at_holes
-from vectorplot.features.parametric.holes import beside_rim_chords, is_known, ways_between
+from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
+from vectorplot.features.parametric.holes.holes import beside_rim_chords, is_known, ways_between
 from vectorplot.features.parametric.poles import Pole
 from vectorplot.features.tessellation import UNEVEN, grid_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface

@@ -5,7 +5,7 @@ import pytest
 
 from vectorplot.features.intersections.mesh_section import mesh_section
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.sections import plane_sections
+from vectorplot.features.parametric.surface_sections import plane_sections
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.families.cylinder import Cylinder

@@ -9,7 +9,7 @@ from support.effort import examples
 from vectorplot.errors import InputError
 from vectorplot.features.intersections.surface_intersection import surface_intersection
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.sections import section_by_implicit
+from vectorplot.features.parametric.surface_sections import section_by_implicit
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere

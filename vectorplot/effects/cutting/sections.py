@@ -12,7 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.parameter_lines import domain_borders
-from vectorplot.features.parametric.sections import plane_sections
+from vectorplot.features.parametric.surface_sections import plane_sections
 from vectorplot.geometry.cuts.divided_meshes import divided_mesh, section_sides
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.cuts.section_faces import PlaneFrame, region_of_sides, window

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.implicit.implicit_singular_lines import SingularLines, singular_lines
 from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
-from vectorplot.features.implicit.singular_set import led_into_lines
+from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines, singular_lines
+from vectorplot.features.implicit.singular.singular_set import led_into_lines
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import chained
 from vectorplot.surfaces.surface import ImplicitSurface

@@ -13,10 +13,10 @@ from vectorplot.features.implicit.curve_band import Band, Nodes, curve_band
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.implicit_folds import without_folds
 from vectorplot.features.implicit.implicit_mesh import ImplicitMesh, implicit_mesh, sheets_apart
-from vectorplot.features.implicit.implicit_nodes import joined_at_nodes, special_points
 from vectorplot.features.implicit.implicit_refinement import CurveInSpace, Picture, curve_in_space, refined_chords
-from vectorplot.features.implicit.implicit_singular_lines import SingularLines
 from vectorplot.features.implicit.polygonize import onto_surface
+from vectorplot.features.implicit.singular.implicit_nodes import joined_at_nodes, special_points
+from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines
 from vectorplot.features.meshes.level_segments import level_segments
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, unresolved

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.conditions import Condition
-from vectorplot.features.parametric.holes import up_to_rims
+from vectorplot.features.parametric.holes.holes import up_to_rims
 from vectorplot.features.parametric.poles import through_poles
 from vectorplot.features.parametric.stacked_conditions import C, StackedConditions, alone
 from vectorplot.features.parametric.surface_curves import SurfaceCurves

@@ -10,8 +10,8 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
-from vectorplot.features.parametric.hole_rims import hole_rims
-from vectorplot.features.parametric.holes import is_known
+from vectorplot.features.parametric.holes.hole_rims import hole_rims
+from vectorplot.features.parametric.holes.holes import is_known
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.features.parametric.wrapping import wrapped

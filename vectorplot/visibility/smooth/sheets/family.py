@@ -9,9 +9,9 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
-from vectorplot.features.implicit.singular_equations import SingularEquations, line_tangents, onto_lines
+from vectorplot.features.implicit.singular.singular_equations import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.parametric.conditions import SurfaceCondition
-from vectorplot.features.parametric.holes import beside_rim_chords
+from vectorplot.features.parametric.holes.holes import beside_rim_chords
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.stacked import of_some

@@ -9,9 +9,9 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_mesh import ImplicitMesh, mesh_with_lines
-from vectorplot.features.implicit.implicit_singular_lines import singular_lines, usual_gradient
 from vectorplot.features.implicit.polygonize import polygonized
-from vectorplot.features.implicit.singular_equations import CuspidalEdges
+from vectorplot.features.implicit.singular.implicit_singular_lines import singular_lines, usual_gradient
+from vectorplot.features.implicit.singular.singular_equations import CuspidalEdges
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed_surfaces import PlacedImplicit

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.parametric.holes import into_surface, is_known
+from vectorplot.features.parametric.holes.holes import into_surface, is_known
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.normals import tangent_planes, unit_normals

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.parametric.holed_triangles import cut_at_holes
+from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
 from vectorplot.surfaces.jumps import jumping_cells, jumps
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised

@@ -28,8 +28,8 @@ from vectorplot.features.implicit.implicit_curves import (
     implicit_point_light_isophotes,
 )
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
-from vectorplot.features.implicit.singular_curves import refined_line
-from vectorplot.features.implicit.singular_equations import CuspidalEdges, DoubleLines
+from vectorplot.features.implicit.singular.singular_curves import refined_line
+from vectorplot.features.implicit.singular.singular_equations import CuspidalEdges, DoubleLines
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.item import Item

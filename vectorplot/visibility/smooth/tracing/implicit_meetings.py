@@ -12,7 +12,7 @@ from vectorplot.features.implicit.implicit_curves import implicit_intersection
 from vectorplot.features.intersections.implicit_mesh_section import implicit_mesh_section
 from vectorplot.features.parametric.conditions import ImplicitSection
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.sections import section_by_implicit
+from vectorplot.features.parametric.surface_sections import section_by_implicit
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
 from vectorplot.visibility.smooth.events.roots import roots_along

@@ -22,13 +22,13 @@ from vectorplot.features.parametric.contour import contours, parallel_contours
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.cuspidal_edges import singular_lines
 from vectorplot.features.parametric.cusps import contours_with_cusps
-from vectorplot.features.parametric.hole_rims import hole_rims
+from vectorplot.features.parametric.holes.hole_rims import hole_rims
 from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
 from vectorplot.features.parametric.parameter_lines import domain_borders, parameter_lines
-from vectorplot.features.parametric.sections import plane_sections
 from vectorplot.features.parametric.stacked_conditions import stacked, stacks
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.surface_paths import surface_path
+from vectorplot.features.parametric.surface_sections import plane_sections
 from vectorplot.features.zeros.zero_doubts import JUMPS
 from vectorplot.geometry.budget import unheard
 from vectorplot.scene.item import Item

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.implicit.implicit_singular_lines import SLOW, SingularLines, usual_gradient
 from vectorplot.features.implicit.polygonize import checked_values
-from vectorplot.features.implicit.singular_equations import SingularEquations, onto_lines
+from vectorplot.features.implicit.singular.implicit_singular_lines import SLOW, SingularLines, usual_gradient
+from vectorplot.features.implicit.singular.singular_equations import SingularEquations, onto_lines
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import Polylines, closed_round

@@ -9,10 +9,10 @@ import numpy as np
 import pytest
 
 from vectorplot.features.implicit.implicit_curves import implicit_plane_sections
-from vectorplot.features.implicit.implicit_singular_lines import SingularLines, singular_lines
 from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
 from vectorplot.features.implicit.polygonize import polygonized
-from vectorplot.features.implicit.singular_curves import refined_line
+from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines, singular_lines
+from vectorplot.features.implicit.singular.singular_curves import refined_line
 from vectorplot.geometry.polylines import Polylines
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.divided_triangles import divided
-from vectorplot.features.parametric.holes import is_known, ways_between
+from vectorplot.features.conforming_triangles import divided
+from vectorplot.features.parametric.holes.holes import is_known, ways_between
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.tessellation import edges_of
 from vectorplot.surfaces.surface import Surface

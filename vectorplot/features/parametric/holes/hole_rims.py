@@ -8,8 +8,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
-from vectorplot.features.parametric.holed_triangles import cut_at_holes
-from vectorplot.features.parametric.holes import beside_rim_chords, is_known
+from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
+from vectorplot.features.parametric.holes.holes import beside_rim_chords, is_known
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.budget import unresolved

@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
-from vectorplot.features.implicit.singular_equations import (
+from vectorplot.features.implicit.singular.singular_equations import (
     CuspidalEdges,
     DoubleLines,
     SingularEquations,

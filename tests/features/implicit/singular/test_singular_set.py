@@ -3,9 +3,9 @@ import pytest
 
 from vectorplot.features.facet_demands import Within
 from vectorplot.features.facets import facets
-from vectorplot.features.implicit.implicit_singular_lines import singular_lines
 from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
-from vectorplot.features.implicit.singular_set import led_into_lines, led_into_singular_set
+from vectorplot.features.implicit.singular.implicit_singular_lines import singular_lines
+from vectorplot.features.implicit.singular.singular_set import led_into_lines, led_into_singular_set
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit
 from vectorplot.surfaces.implicit_function import ImplicitFunction

@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.errors import InputWarning
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.sections import level_lines, plane_sections, section_by_implicit
+from vectorplot.features.parametric.surface_sections import level_lines, plane_sections, section_by_implicit
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid

@@ -8,9 +8,9 @@ from vectorplot import features, surfaces
 from vectorplot.features.facet_demands import Within
 from vectorplot.features.facets import facets
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.hole_rims import hole_rims
-from vectorplot.features.parametric.holed_triangles import cut_at_holes
-from vectorplot.features.parametric.holes import beside_rim_chords, into_surface, is_known
+from vectorplot.features.parametric.holes.hole_rims import hole_rims
+from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
+from vectorplot.features.parametric.holes.holes import beside_rim_chords, into_surface, is_known
 from vectorplot.features.parametric.parameter_lines import domain_borders, u_lines, v_lines
 from vectorplot.testing.curve_points import curves_in_space
 

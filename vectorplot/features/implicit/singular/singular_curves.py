@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.implicit.implicit_singular_lines import STRAYS
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing, curves_of_lines, no_curves
-from vectorplot.features.implicit.singular_equations import SingularEquations, onto_lines
+from vectorplot.features.implicit.singular.implicit_singular_lines import STRAYS
+from vectorplot.features.implicit.singular.singular_equations import SingularEquations, onto_lines
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, refined
 from vectorplot.geometry.polylines import Polylines, closed_round

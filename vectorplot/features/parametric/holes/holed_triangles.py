@@ -7,8 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.parametric.holes import around, into_surface, is_known, just_inside, last_alike, ways_between
-from vectorplot.features.parametric.resolved_rims import resolved
+from vectorplot.features.parametric.holes.holes import (
+    around,
+    into_surface,
+    is_known,
+    just_inside,
+    last_alike,
+    ways_between,
+)
+from vectorplot.features.parametric.holes.resolved_rims import resolved
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_parameters import REPEATED_OF_DOMAIN
 
