@@ -34,7 +34,7 @@ from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import page_of
 from vectorplot.shading.light.exposure import exposed_scene
-from vectorplot.shading.light.fineness import picture_fineness
+from vectorplot.shading.light.fineness.picture_fineness import picture_fineness
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals
 from vectorplot.shading.light.palettes import PALETTE_SIZE

@@ -32,7 +32,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import view_of
 from vectorplot.shading.depth.coplanar import coplanar_faces
 from vectorplot.shading.light.exposure import exposed_scene
-from vectorplot.shading.light.faceted import FacetedScene, faceted
+from vectorplot.shading.light.fineness.faceted import FacetedScene, faceted
 from vectorplot.shading.light.palettes import palette
 from vectorplot.shading.raster.image import Image
 from vectorplot.shading.raster.scene_pixels import picture_of

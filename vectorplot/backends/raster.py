@@ -19,7 +19,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.scene.pages.paper import MM_PER_INCH
-from vectorplot.shading.raster.coverage import GUARD_BAND
+from vectorplot.shading.raster.pixel_coverage import GUARD_BAND
 from vectorplot.shading.raster.pixel_lines import line_pixels
 from vectorplot.shading.raster.png import DPI, Bytes
 from vectorplot.shading.raster.png import png_bytes as pixels_as_png

@@ -16,8 +16,8 @@ from vectorplot.painting.painted_paper import background, paper
 from vectorplot.painting.seen import Seen, finer, shades_of_faces
 from vectorplot.scene.pages.page import Page
 from vectorplot.shading.light.face_shades import Shades
+from vectorplot.shading.light.fineness.refinement import shade_error
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, opacities
-from vectorplot.shading.light.refinement import shade_error
 from vectorplot.stages.walk import Walk
 
 if TYPE_CHECKING:

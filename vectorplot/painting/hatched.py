@@ -19,7 +19,7 @@ from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.exposure import exposed_scene
-from vectorplot.shading.light.fineness import picture_fineness
+from vectorplot.shading.light.fineness.picture_fineness import picture_fineness
 from vectorplot.shading.light.illumination import AMBIENT
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals

@@ -24,7 +24,7 @@ from vectorplot.painting.seen import Seen, without_unseen_facets
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of
-from vectorplot.shading.light.faceted import FacetedScene, faceted
+from vectorplot.shading.light.fineness.faceted import FacetedScene, faceted
 from vectorplot.shading.light.flat_regions import plane_numbers
 from vectorplot.shading.light.painted_colours import opacities
 from vectorplot.stages.walk import Walk

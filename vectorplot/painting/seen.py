@@ -11,9 +11,9 @@ from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import Shades
-from vectorplot.shading.light.faceted import FacetedScene
+from vectorplot.shading.light.fineness.faceted import FacetedScene
+from vectorplot.shading.light.fineness.refinement import SHORTEST_MM, refined
 from vectorplot.shading.light.painted_colours import Lighting, corner_shades_of
-from vectorplot.shading.light.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 from vectorplot.visibility.painter.painters_order import Painted
 from vectorplot.visibility.painter.unseen import unseen_faces

@@ -26,8 +26,8 @@ from vectorplot.scene.view import View, look
 from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
 from vectorplot.testing.shapes import box, numbered, random_convex_solids, rotated_boxes, rotation
 from vectorplot.textbook.orders.graph_orders import graph_triangles
+from vectorplot.visibility.painter.cuts.slices import cut_into_slices
 from vectorplot.visibility.painter.image_faces import drawn_faces
-from vectorplot.visibility.painter.slices import cut_into_slices
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces
 

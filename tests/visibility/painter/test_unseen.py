@@ -14,8 +14,8 @@ from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.painting.seen import without_unseen_facets
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.view import look, view_of
-from vectorplot.shading.light.faceted import faceted
-from vectorplot.shading.light.fineness import picture_fineness
+from vectorplot.shading.light.fineness.faceted import faceted
+from vectorplot.shading.light.fineness.picture_fineness import picture_fineness
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.unseen import unseen_faces
 from vectorplot.visibility.projected_faces import project_faces

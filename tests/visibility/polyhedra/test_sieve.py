@@ -10,7 +10,7 @@ from vectorplot.geometry import box
 from vectorplot.speed.scenes import bars, boxes, weave
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra import hidden_lines
-from vectorplot.visibility.polyhedra.cells import entered
+from vectorplot.visibility.polyhedra.covered_cells import entered
 from vectorplot.visibility.polyhedra.lines import edge_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.polyhedra.pairs import Segments, clip_pairs

@@ -20,8 +20,8 @@ from vectorplot.geometry.budget import USUAL
 from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
+from vectorplot.shading.light.fineness.refinement import SHORTEST_MM, refined
 from vectorplot.shading.light.painted_colours import Lighting
-from vectorplot.shading.light.refinement import SHORTEST_MM, refined
 from vectorplot.visibility.painter.image_faces import ImageFaces
 
 DecalsOf = Callable[[int, Lighting, Bools], Sequence[Decals]]

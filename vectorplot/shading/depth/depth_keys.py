@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.shading.raster import coverage
-from vectorplot.shading.raster.coverage import Boxes, Fragments, Snapped
+from vectorplot.shading.raster.pixel_coverage import Boxes, Fragments, Snapped
 
 Keys = NDArray[np.int64]
 

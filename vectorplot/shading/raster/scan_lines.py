@@ -16,7 +16,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping.clipped_polygons import Polygons
-from vectorplot.shading.raster.coverage import GUARD_BAND, SUBPIXELS
+from vectorplot.shading.raster.pixel_coverage import GUARD_BAND, SUBPIXELS
 
 SPECK_RADIUS = 0.4
 """In pixels: the centre lies well inside, and no other one."""

@@ -16,7 +16,7 @@ from vectorplot.geometry.cameras.pixel_window import PixelWindow
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.view import View
-from vectorplot.shading.raster.coverage import GUARD_BAND
+from vectorplot.shading.raster.pixel_coverage import GUARD_BAND
 from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE
 from vectorplot.tolerances.of_numbers import INFINITE
 

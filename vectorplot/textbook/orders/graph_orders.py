@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Ints
-from vectorplot.visibility.painter.slices import eye_coordinate, slice_order
+from vectorplot.visibility.painter.cuts.slices import eye_coordinate, slice_order
 
 
 def graph_triangles(rows: int, columns: int) -> Ints:

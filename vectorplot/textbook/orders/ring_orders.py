@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.visibility.painter.slices import eye_coordinate, slice_order
+from vectorplot.visibility.painter.cuts.slices import eye_coordinate, slice_order
 
 
 def sliced_meridian(meridian: ArrayLike) -> Floats:

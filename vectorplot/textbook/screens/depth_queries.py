@@ -13,7 +13,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping.clipped_polygons import Polygons
 from vectorplot.shading.depth.depth_buffer import DepthBuffer
-from vectorplot.shading.raster.coverage import SUBPIXELS
+from vectorplot.shading.raster.pixel_coverage import SUBPIXELS
 from vectorplot.shading.raster.pixel_lines import line_pixels
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT

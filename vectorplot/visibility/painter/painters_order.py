@@ -14,7 +14,9 @@ from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.polylines import joined
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
+from vectorplot.visibility.painter.cuts.cutting import Pairs, cut_into_order
+from vectorplot.visibility.painter.cuts.ribbons import in_slices, ribbon_order, ribbons
+from vectorplot.visibility.painter.cuts.splitting import dense
 from vectorplot.visibility.painter.groups import group_ranks
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks
@@ -31,8 +33,6 @@ from vectorplot.visibility.painter.pairs.face_pairs import (
     face_relations,
 )
 from vectorplot.visibility.painter.precedence import Precedence, among_things
-from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons
-from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
 PAIRS_AT_ONCE = 1 << 20

@@ -16,7 +16,7 @@ from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.scene.coincidence.twins import first_twins
 from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra import grid as grids
-from vectorplot.visibility.polyhedra.cells import covered_cells, entered
+from vectorplot.visibility.polyhedra.covered_cells import covered_cells, entered
 from vectorplot.visibility.polyhedra.grid import Entries, Floats32, Grid, Pieces
 from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, joined, solid_occluders
 from vectorplot.visibility.polyhedra.pairs import Hits, Segments, clip_pairs

@@ -353,7 +353,7 @@ def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind], creas
                     found = mesh_plane_sections(item.shape, section.normal, section.offsets)
                     parts.append(_lines_of_curves(view, found, section.kind, number, item.curves.smooth))
             if LineKind.INTEGRAL in wanted and item.curves.integral:
-                from vectorplot.visibility.polyhedra.integral_lines import item_integral_lines
+                from vectorplot.visibility.polyhedra.mesh_integral_lines import item_integral_lines
 
                 for lines in item.curves.integral:
                     found = item_integral_lines(item, lines)

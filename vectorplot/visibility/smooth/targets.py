@@ -14,7 +14,7 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.sheets.sheet import Sheet
+from vectorplot.visibility.smooth.sheets.surface_sheet import Sheet
 
 if TYPE_CHECKING:
     import shapely

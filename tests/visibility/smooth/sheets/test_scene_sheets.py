@@ -16,7 +16,7 @@ from vectorplot.surfaces.families.hyperboloid import Paraboloid
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.placed_surfaces import PlacedSurface
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.sheets.sheet import Sheet
+from vectorplot.visibility.smooth.sheets.surface_sheet import Sheet
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 

@@ -22,8 +22,8 @@ from vectorplot.tolerances.of_numbers import NEGLIGIBLE_PART
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import Links, component_ranks
 from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
-from vectorplot.visibility.painter.pairs.coverage import Covered, coverage
 from vectorplot.visibility.painter.pairs.outlines import Outlines, overlapping
+from vectorplot.visibility.painter.pairs.polygon_coverage import Covered, coverage
 from vectorplot.visibility.painter.sheets.units import units_of
 
 GRID_OF_WIDTH = 1.0 / 128.0

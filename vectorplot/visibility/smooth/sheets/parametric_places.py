@@ -16,7 +16,7 @@ from vectorplot.surfaces.stacked import StackedSurfaces, of_some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.tolerances.of_parameters import OFF_RIM, OUTSIDE_DOMAIN
-from vectorplot.visibility.smooth.sheets.sheet import solved
+from vectorplot.visibility.smooth.sheets.surface_sheet import solved
 
 LONGEST_STEP = 0.05
 """Part of the domain that one step of Newton may go: a longer one leads anywhere."""

@@ -13,7 +13,7 @@ from vectorplot.surfaces.placed_surfaces import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.visibility.smooth.sheets.parametric_places import StackedSheets
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
-from vectorplot.visibility.smooth.sheets.sheet import OnSheet, Sheet
+from vectorplot.visibility.smooth.sheets.surface_sheet import OnSheet, Sheet
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,8 +9,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import joined
+from vectorplot.visibility.painter.cuts.splitting import dense, halves, height_span
 from vectorplot.visibility.painter.image_faces import ImageFaces, over_corners
-from vectorplot.visibility.painter.splitting import dense, halves, height_span
 
 TRIED = 5
 """So many faces of each cell are tried as its dividing plane; the one that cuts least and divides most evenly is

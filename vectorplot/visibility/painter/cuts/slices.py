@@ -9,7 +9,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.geometry.polylines import joined, some
-from vectorplot.visibility.painter.cutting import Pairs, cut_into_order
+from vectorplot.visibility.painter.cuts.cutting import Pairs, cut_into_order
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
 from vectorplot.visibility.painter.pairs.face_pairs import APART, face_relations

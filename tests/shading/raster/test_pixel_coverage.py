@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.shading.raster import coverage
-from vectorplot.shading.raster.coverage import SUBPIXELS
+from vectorplot.shading.raster.pixel_coverage import SUBPIXELS
 
 SIDE = 64
 

@@ -9,7 +9,7 @@ from vectorplot.features.facet_demands import Within
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.faceted import faceted
+from vectorplot.shading.light.fineness.faceted import faceted
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing.shapes import box
 

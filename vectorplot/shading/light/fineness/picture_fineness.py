@@ -22,10 +22,10 @@ from vectorplot.scene.placement import box_corners
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import point_shades, view_eye, view_lights
-from vectorplot.shading.light.faceted import without_curved_mirror
+from vectorplot.shading.light.fineness.faceted import without_curved_mirror
+from vectorplot.shading.light.fineness.refinement import shade_error
 from vectorplot.shading.light.illumination import homogeneous_light, towards
 from vectorplot.shading.light.nearness import Nearby, nearby, triangles_of_item
-from vectorplot.shading.light.refinement import shade_error
 
 DEEP, DEEP_IN_LIGHT = 40.0, 3.0
 """By how many times the tolerance triangles may be off the surface where that can be seen from the eye only, along the

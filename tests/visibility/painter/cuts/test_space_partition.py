@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from vectorplot.visibility.painter.cuts.space_partition import partitioned
 from vectorplot.visibility.painter.image_faces import polygons_of
-from vectorplot.visibility.painter.space_partition import partitioned
 
 COUNT = 60
 

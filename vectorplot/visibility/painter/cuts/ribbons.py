@@ -18,13 +18,13 @@ from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ABOUT_AXIS
-from vectorplot.visibility.painter.cutting import cut_into_order
+from vectorplot.visibility.painter.cuts.cutting import cut_into_order
+from vectorplot.visibility.painter.cuts.slices import cut_into_slices, pairs_in_slices, related, slice_order
+from vectorplot.visibility.painter.cuts.splitting import dense
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, polygons_of, view_points
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
 from vectorplot.visibility.painter.pairs.face_pairs import drawn_before
-from vectorplot.visibility.painter.slices import cut_into_slices, pairs_in_slices, related, slice_order
-from vectorplot.visibility.painter.splitting import dense
 from vectorplot.visibility.projected_faces import Bytes
 
 TURN = 2.0 * np.pi

@@ -10,6 +10,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
 from vectorplot.geometry.budget import USUAL
 from vectorplot.geometry.polylines import joined
+from vectorplot.visibility.painter.cuts.space_partition import partitioned
+from vectorplot.visibility.painter.cuts.splitting import dense, halves, height_span, in_two
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.face_pairs import (
@@ -19,8 +21,6 @@ from vectorplot.visibility.painter.pairs.face_pairs import (
     drawn_before,
     face_relations,
 )
-from vectorplot.visibility.painter.space_partition import partitioned
-from vectorplot.visibility.painter.splitting import dense, halves, height_span, in_two
 
 MOST_ROUNDS = 64
 """After so many rounds of cutting what is still in circles is ordered by a tree of planes."""

@@ -22,9 +22,9 @@ from vectorplot.scene.view import look
 from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import box, numbered
 from vectorplot.textbook.orders.graph_orders import graph_triangles
+from vectorplot.visibility.painter.cuts.ribbons import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces, view_points
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.ribbons import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
 

@@ -22,8 +22,8 @@ from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.fineness import picture_fineness
-from vectorplot.shading.light.refinement import SHADE_ERROR
+from vectorplot.shading.light.fineness.picture_fineness import picture_fineness
+from vectorplot.shading.light.fineness.refinement import SHADE_ERROR
 from vectorplot.surfaces.families.cyclide import dupin_cyclide
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere

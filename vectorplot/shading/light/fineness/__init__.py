@@ -1,0 +1,1 @@
+"""How fine triangles have to be, so that a shaded picture shows none of them."""
