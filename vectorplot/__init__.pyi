@@ -11,7 +11,7 @@ from .effects.cutting.cut_scenes import cut
 from .errors import InputError, InputWarning
 from .film import Film
 from .geometry.cameras.camera import Camera
-from .geometry.cameras.panorama import Panorama
+from .geometry.cameras.panoramic_view import Panorama
 from .geometry.mesh import Mesh
 from .geometry.strokes import Strokes
 from .paint import paint

@@ -14,10 +14,10 @@ from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.linework.checked_options import check_line_options, check_longest, check_look
 from vectorplot.linework.finish import Finish
 from vectorplot.linework.hatched_in_place import hatched_in_place
 from vectorplot.linework.labels_in_place import labels_in_place
-from vectorplot.linework.line_options import check_line_options, check_longest, check_look
 from vectorplot.linework.placed_lines import placed_lines
 from vectorplot.linework.traceable import traceable
 from vectorplot.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy

@@ -15,7 +15,7 @@ from vectorplot.effects.panoramas.standing import eye_of
 from vectorplot.effects.panoramas.strips import panorama_on_page
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.panorama import Panorama
+from vectorplot.geometry.cameras.panoramic_view import Panorama
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.io.anything import scene_of
 from vectorplot.linework.finish import Finish

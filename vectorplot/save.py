@@ -16,14 +16,14 @@ from vectorplot.shading.raster.image import Image
 
 # Module and function of each format; a backend is imported when it is called for.
 _BACKENDS = {
-    "svg": ("svg.document", "svg_bytes"),
+    "svg": ("svg.svg_document", "svg_bytes"),
     "ps": ("cairo.surfaces", "ps_bytes"),
     "eps": ("cairo.surfaces", "eps_bytes"),
     "pdf": ("cairo.surfaces", "pdf_bytes"),
     "png": ("cairo.surfaces", "png_bytes"),
-    "tex": ("tikz.picture", "tikz_bytes"),
-    "dxf": ("dxf.document", "dxf_bytes"),
-    "json": ("json.document", "json_bytes"),
+    "tex": ("tikz.tikz_picture", "tikz_bytes"),
+    "dxf": ("dxf.dxf_document", "dxf_bytes"),
+    "json": ("json.json_document", "json_bytes"),
 }
 
 _BINARY = getattr(os, "O_BINARY", 0)

@@ -15,8 +15,8 @@ from vectorplot.accuracy import measuring
 from vectorplot.accuracy.approximation import decades
 from vectorplot.accuracy.catalogue import APPROXIMATIONS
 from vectorplot.accuracy.curves_of_error import Accuracy, ErrorCurve, Sample
+from vectorplot.accuracy.error_plots import plot
 from vectorplot.accuracy.error_tables import HEAD, as_csv, as_json, as_text, listed
-from vectorplot.accuracy.plots import plot
 from vectorplot.cli.main import run
 
 NAMES = [one.name for one in APPROXIMATIONS]

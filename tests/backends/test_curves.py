@@ -22,7 +22,7 @@ from support.backend_samples import (
 )
 
 from vectorplot.backends.cairo.surfaces import png_bytes
-from vectorplot.backends.svg.document import svg_bytes
+from vectorplot.backends.svg.svg_document import svg_bytes
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Pen
 from vectorplot.drawing.strokes.curved_strokes import curved_strokes
 from vectorplot.drawing.strokes.stroke_paths import concatenated

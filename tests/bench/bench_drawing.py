@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.duplicates import without_duplicates
+from vectorplot.drawing.strokes.duplicates.duplicates import without_duplicates
 from vectorplot.drawing.strokes.join import joined
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered, travel_mm

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.backends.svg.document import svg_bytes
+from vectorplot.backends.svg.svg_document import svg_bytes
 from vectorplot.drawing.fills_without_overlaps import visible_fills
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_hulls import hull_mesh

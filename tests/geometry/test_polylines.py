@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.backends.page.areas import Polygons
-from vectorplot.backends.svg.strips import Strips
+from vectorplot.backends.svg.shaded_strips import Strips
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated

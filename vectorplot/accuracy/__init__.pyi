@@ -1,8 +1,8 @@
 from .approximation import Approximation, Study, Way
 from .catalogue import APPROXIMATIONS
 from .curves_of_error import Accuracy, ErrorCurve, Sample
+from .error_plots import plot
 from .measuring import measured
-from .plots import plot
 
 __all__ = [
     "APPROXIMATIONS",

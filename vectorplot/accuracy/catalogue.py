@@ -6,7 +6,7 @@ from vectorplot.accuracy.approximation import Approximation
 from vectorplot.accuracy.of_curves.arc_fit import ARC_FIT
 from vectorplot.accuracy.of_curves.bezier_fit import BEZIER_FIT
 from vectorplot.accuracy.of_curves.drawn_curves import DRAWN_CURVES
-from vectorplot.accuracy.of_curves.integral_curves import FIELD_STEPS, INTEGRAL_CURVES
+from vectorplot.accuracy.of_curves.loxodromes import FIELD_STEPS, INTEGRAL_CURVES
 from vectorplot.accuracy.of_curves.spline_fit import SPLINE_FIT
 from vectorplot.accuracy.of_curves.zero_crossings_on_grids import ZERO_MANIFOLD
 from vectorplot.accuracy.of_light.refracted_rays import REFRACTION

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from vectorplot.accuracy.curves_of_error import Accuracy
+from vectorplot.accuracy.error_plots import plot
 from vectorplot.accuracy.error_tables import as_csv, as_json
-from vectorplot.accuracy.plots import plot
 from vectorplot.save import write, write_whole
 
 

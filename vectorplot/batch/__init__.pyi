@@ -1,4 +1,4 @@
-from .answers import Submits
+from .calls import Submits
 from .executors import Here, Processes, cluster
 from .film_frames import frame_tasks
 from .running import Outcome, Tally, results, run

@@ -11,9 +11,9 @@ from functools import partial
 from pathlib import Path
 from typing import Generic, TypeVar
 
-from vectorplot.batch.answers import Lost, Submits, answers
+from vectorplot.batch.calls import Lost, Submits, answers
 from vectorplot.batch.executors import Here
-from vectorplot.batch.records import Records
+from vectorplot.batch.finished_pictures import Records
 from vectorplot.batch.tasks import Task
 from vectorplot.errors import InputError, InputWarning, printable
 from vectorplot.save import write_whole

@@ -13,7 +13,7 @@ import click
 
 from vectorplot.cli.cut_options import CUT_OPTIONS, CutOptions
 from vectorplot.cli.line_options import LINE_OPTIONS, LineOptions
-from vectorplot.cli.many.pictures import PictureVerb, is_folder, make_pictures
+from vectorplot.cli.many.picture_per_file import PictureVerb, is_folder, make_pictures
 from vectorplot.cli.many.workers import WORKER_OPTIONS, WorkerOptions
 from vectorplot.cli.options import KINDS, at_least, between, depth_cue, exposure, format_of, kinds, light
 from vectorplot.cli.picture import Report, Source, make_picture, picture_contents

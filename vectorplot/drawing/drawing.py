@@ -269,7 +269,7 @@ class Drawing:
         save(self, path)
 
     def _repr_svg_(self) -> str:
-        from vectorplot.backends.svg.document import svg_text
+        from vectorplot.backends.svg.svg_document import svg_text
 
         return svg_text(self)
 

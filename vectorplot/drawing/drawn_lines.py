@@ -8,8 +8,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.duplicates import without_duplicates
-from vectorplot.drawing.strokes.smooth_duplicates import without_smooth_duplicates
+from vectorplot.drawing.strokes.duplicates.duplicates import without_duplicates
+from vectorplot.drawing.strokes.duplicates.smooth_duplicates import without_smooth_duplicates
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, fitted_picture

@@ -17,12 +17,12 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh, whole_numbers
 from vectorplot.geometry.repair.mesh_repair import mended
-from vectorplot.io.meshes.cells import faces_of_cells
+from vectorplot.io.meshes.finite_elements import faces_of_cells
 from vectorplot.io.read_file import read
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.joined_scenes import renamed_labels, together
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.terrains.terrain import terrain_scene
+from vectorplot.scene.terrains.terrain_scene import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.surfaces.terrains.terrain import Terrain
 from vectorplot.tolerances.of_numbers import SINGLE_ULP, ULP

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Literal
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.hatching.hatch_layers import hatch_layers
 from vectorplot.drawing.layers import FRAME_PEN, letter_pen
-from vectorplot.drawing.pens.paper import pen_scale, sheet_layer
 from vectorplot.drawing.pens.pen_rules import PenRule, frame_pen, pen_of, scaled_pen
+from vectorplot.drawing.pens.sheet_layer import pen_scale, sheet_layer
 from vectorplot.drawing.pens.sorted_layers import layer_words, not_plotted, sorted_layers
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.scene.hatching import Hatching, Stippling

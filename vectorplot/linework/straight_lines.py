@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools
-from vectorplot.drawing.strokes.shared_kinds import with_shared_kinds
+from vectorplot.drawing.strokes.duplicates.shared_kinds import with_shared_kinds
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.stages.walk import Walk

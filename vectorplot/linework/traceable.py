@@ -9,8 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.geometry.budget import Budget
-from vectorplot.linework.balls import balls, behind_balls
 from vectorplot.linework.curved_lines import lines_and_chords, smooth_sheets
+from vectorplot.linework.quadric_lines import balls, behind_balls
 from vectorplot.linework.seen_parts import seen_parts
 from vectorplot.linework.straight_lines import straight_lines
 from vectorplot.scene.placement import Placement

@@ -14,8 +14,8 @@ from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Scene
 from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
 from .terrains.level_lines import level_sections, round_heights
-from .terrains.terrain import terrain_mesh, terrain_scene
 from .terrains.terrain_lines import Roads, WaterCourses, Watersheds
+from .terrains.terrain_scene import terrain_mesh, terrain_scene
 from .terrains.tints import TINTS, hill_light, tinted
 from .view import View, look
 

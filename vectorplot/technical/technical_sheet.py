@@ -26,7 +26,10 @@ from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import camera_of, page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import StageReport
-from vectorplot.technical.annotations import (
+from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of
+from vectorplot.technical.round_edges import centre_lines_of, round_edges
+from vectorplot.technical.section_views import ROOM_MM, SheetSection, sections_of
+from vectorplot.technical.view_annotations import (
     TEXT_MM,
     Annotation,
     OverallDimension,
@@ -34,9 +37,6 @@ from vectorplot.technical.annotations import (
     views_of,
     without_annotations,
 )
-from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of
-from vectorplot.technical.round_edges import centre_lines_of, round_edges
-from vectorplot.technical.sections import ROOM_MM, SheetSection, sections_of
 from vectorplot.tolerances.of_extent import SAME_PLANE_OF_EXTENT
 from vectorplot.words import check_word, unknown
 

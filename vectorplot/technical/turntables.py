@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.batch.answers import Submits
+from vectorplot.batch.calls import Submits
 from vectorplot.batch.running import results
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing

@@ -12,7 +12,7 @@ from .curves import (
     branch_count,
 )
 from .drawing_checks import assert_drawing_is_right, edge_points
-from .integral_curves import assert_geodesic, assert_integral_curve
+from .integral_curve_assertions import assert_geodesic, assert_integral_curve
 from .rays.sight import Sight, visible_by_rays
 from .shapes import hard_shapes
 

@@ -10,9 +10,9 @@ from .screens.device import DepthCueing, Device
 from .screens.drawn_pixels import with_lines, with_polygons, with_rubber_bands, with_smooth_polygons
 from .screens.erasing_faces import Erased, erasing_edges, interleaved
 from .screens.framebuffer import Framebuffer, cleared, pixel_colours, swapped_buffers, with_colour, with_pixels
-from .viewing.frames import basis_of, basis_of_gaze, frame_from_world, world_from_frame
+from .viewing.bases import basis_of, basis_of_gaze, frame_from_world, world_from_frame
 from .viewing.frustum import Frustum
-from .viewing.homogeneous import dehomogenized, homogeneous, transformed
+from .viewing.homogeneous_points import dehomogenized, homogeneous, transformed
 from .viewing.viewing_matrices import (
     ViewVolume,
     camera_matrix,

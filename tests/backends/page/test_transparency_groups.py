@@ -15,7 +15,7 @@ from support.fill_samples import colour_at, fan, flat, page_of, pictures, shaded
 import vectorplot as vp
 from vectorplot.backends.page.areas import areas
 from vectorplot.backends.page.transparency_groups import beside_a_side, groups_of, outline
-from vectorplot.backends.svg.document import svg_bytes, svg_text
+from vectorplot.backends.svg.svg_document import svg_bytes, svg_text
 from vectorplot.drawing.fills import FillKind
 
 DARK, BLUE = (16, 20, 24), (0, 0, 255)

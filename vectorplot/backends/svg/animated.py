@@ -8,7 +8,7 @@ from dataclasses import replace
 from xml.sax.saxutils import escape
 
 from vectorplot.backends.page.page_texts import plain_text
-from vectorplot.backends.svg.document import svg_bytes
+from vectorplot.backends.svg.svg_document import svg_bytes
 from vectorplot.drawing.drawing import Drawing
 
 _SVG = re.compile(rb"^(.*?<svg\b[^>]*>)(?:<defs ?/>)?(.*)</svg>\s*$", re.DOTALL)

@@ -12,7 +12,7 @@ from vectorplot.backends.page.merged_triangles import merged, slopes
 from vectorplot.backends.page.underlaps import grown, underlaps
 from vectorplot.backends.svg.path_data import path_data
 from vectorplot.backends.svg.ramps import NONE, Ramps, item_ramps
-from vectorplot.backends.svg.strips import SHADE_ERROR, Strips, joined_strips, nearly_flat, strips_of
+from vectorplot.backends.svg.shaded_strips import SHADE_ERROR, Strips, joined_strips, nearly_flat, strips_of
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import some

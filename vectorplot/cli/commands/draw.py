@@ -109,7 +109,7 @@ def _all_round(
     scene: Scene, standing: tuple[float, ...], strips: int | None, hatched: bool, told: dict[str, Any]
 ) -> Drawing:
     """The panorama from a place. Bad usage for options that a panorama has nothing to do for."""
-    from vectorplot.geometry.cameras.panorama import Panorama
+    from vectorplot.geometry.cameras.panoramic_view import Panorama
     from vectorplot.panorama import panorama
 
     given = click.get_current_context().params

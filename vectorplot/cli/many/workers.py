@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 if TYPE_CHECKING:
     from collections.abc import Iterable
 
-    from vectorplot.batch.answers import Submits
+    from vectorplot.batch.calls import Submits
     from vectorplot.batch.running import Outcome
     from vectorplot.batch.tasks import Task
     from vectorplot.cli.progress import Progress

@@ -12,7 +12,7 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.fills_without_overlaps import planes_of_fills
 from vectorplot.drawing.hatching.densities import even_spacings, thresholds
 from vectorplot.drawing.hatching.followed_lines import FollowedLines, dark_parts
-from vectorplot.drawing.hatching.frames import PageFrame, PlaneFrame, plane_frame
+from vectorplot.drawing.hatching.hatching_frames import PageFrame, PlaneFrame, plane_frame
 from vectorplot.drawing.hatching.scan import Scanned, scanned
 from vectorplot.drawing.hatching.stippling import stippled
 from vectorplot.drawing.hatching.toned_regions import TonedRegions, toned_regions

@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills_without_overlaps import in_space
-from vectorplot.drawing.hatching.frames import PageFrame
+from vectorplot.drawing.hatching.hatching_frames import PageFrame
 from vectorplot.drawing.hatching.scan import scanned
 from vectorplot.drawing.hatching.toned_regions import TonedRegions
 from vectorplot.geometry import ragged

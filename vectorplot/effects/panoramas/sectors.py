@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.drawing import NO_CURVE, Paths
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.panorama import Panorama
+from vectorplot.geometry.cameras.panoramic_view import Panorama
 from vectorplot.scene.pages.page import Page
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 

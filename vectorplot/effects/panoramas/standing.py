@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.features.terrains.places import places_on_terrain
-from vectorplot.geometry.cameras.panorama import Panorama
+from vectorplot.geometry.cameras.panoramic_view import Panorama
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.scene.scene import Scene
 

@@ -16,7 +16,7 @@ from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.effects.panoramas.sectors import Trace, lines_all_round, with_chords
 from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.panorama import MOST_STRIPS, Panorama
+from vectorplot.geometry.cameras.panoramic_view import MOST_STRIPS, Panorama
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, fitted_picture

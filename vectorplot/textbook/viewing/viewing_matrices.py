@@ -15,8 +15,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.textbook.viewing.frames import basis_of_gaze, frame_from_world
-from vectorplot.textbook.viewing.homogeneous import dehomogenized, homogeneous
+from vectorplot.textbook.viewing.bases import basis_of_gaze, frame_from_world
+from vectorplot.textbook.viewing.homogeneous_points import dehomogenized, homogeneous
 
 
 def window_transform(source: ArrayLike, target: ArrayLike) -> Floats:

@@ -7,9 +7,9 @@ import signal
 
 import pytest
 
-from vectorplot.batch.records import RECORD
+from vectorplot.batch.finished_pictures import RECORD
 from vectorplot.cli.main import run
-from vectorplot.cli.many.pictures import files_of, out_names
+from vectorplot.cli.many.picture_per_file import files_of, out_names
 from vectorplot.cli.stopping import stoppable
 
 

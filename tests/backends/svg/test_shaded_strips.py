@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.backends.svg.strips import SHADE_ERROR, strips_of
+from vectorplot.backends.svg.shaded_strips import SHADE_ERROR, strips_of
 
 
 def worst_error(corners, colours) -> tuple[float, int]:

@@ -15,7 +15,7 @@ from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import Surface, is_parametrised
 from vectorplot.testing.curve_points import Curves, polylines_of
 from vectorplot.testing.curves import assert_on_surface, places_near
-from vectorplot.testing.mesh_curves import assert_mesh_geodesic, assert_mesh_integral_curve
+from vectorplot.testing.mesh_curve_assertions import assert_mesh_geodesic, assert_mesh_integral_curve
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 

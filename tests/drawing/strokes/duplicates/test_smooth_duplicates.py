@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.sample_paths import length_mm, polylines
 
-from vectorplot.drawing.strokes.smooth_duplicates import without_smooth_duplicates
+from vectorplot.drawing.strokes.duplicates.smooth_duplicates import without_smooth_duplicates
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 
 TOL = 1e-4

@@ -11,7 +11,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.drawing.strokes.duplicates import nearly_collinear, pairs_in_crowds
+from vectorplot.drawing.strokes.duplicates.duplicates import nearly_collinear, pairs_in_crowds
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View

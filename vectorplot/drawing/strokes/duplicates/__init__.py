@@ -1,0 +1,1 @@
+"""Lines that lie on each other: drawn once, and of one kind."""
