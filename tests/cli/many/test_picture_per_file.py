@@ -69,16 +69,16 @@ def test_bad_input_is_a_line_and_the_others_are_made(parts, tmp_path, capsys):
 
 
 def test_a_signal_leaves_what_is_finished(parts, tmp_path, monkeypatch, capsys):
-    from vectorplot.batch import records
+    from vectorplot.batch import finished_pictures
 
-    real = records.Records.add
+    real = finished_pictures.Records.add
 
     def add(self, path, *rest):
         real(self, path, *rest)
         if path.endswith("b.svg"):
             os.kill(os.getpid(), signal.SIGTERM)
 
-    monkeypatch.setattr(records.Records, "add", add)
+    monkeypatch.setattr(finished_pictures.Records, "add", add)
     with stoppable():
         assert run(["draw", str(parts), "-o", str(tmp_path / "out") + "/"]) == 143
     assert capsys.readouterr().err == "vectorplot: terminated\n"

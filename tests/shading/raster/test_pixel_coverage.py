@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.shading.raster import coverage
+from vectorplot.shading.raster import pixel_coverage
 from vectorplot.shading.raster.pixel_coverage import SUBPIXELS
 
 SIDE = 64
@@ -13,21 +13,21 @@ SIDE = 64
 
 def times_covered(points, corners, columns, rows):
     """(rows, columns) how many triangles cover each pixel, small ones by boxes and the others by tiles."""
-    grid = coverage.snap(np.asarray(points, dtype=np.float64))
-    x, y = coverage.corner_grid(grid, np.asarray(corners))
-    box, triangles = coverage.boxes(x, y, columns, rows), coverage.turned_right(x, y)
+    grid = pixel_coverage.snap(np.asarray(points, dtype=np.float64))
+    x, y = pixel_coverage.corner_grid(grid, np.asarray(corners))
+    box, triangles = pixel_coverage.boxes(x, y, columns, rows), pixel_coverage.turned_right(x, y)
     stride, padded = (-(-side // SIDE) * SIDE for side in (columns, rows))
     count = np.zeros(stride * padded, dtype=np.intp)
     kept = (box.left < box.right) & (box.top < box.bottom) & (triangles.area > 0)
-    for found in coverage.small_fragments(triangles, box, np.flatnonzero(kept & box.small), stride):
+    for found in pixel_coverage.small_fragments(triangles, box, np.flatnonzero(kept & box.small), stride):
         count += np.bincount(found.pixel, minlength=len(count))
     large = np.flatnonzero(kept & ~box.small)
-    index, column, row = coverage.tile_pairs(box, large, SIDE)
-    met = coverage.may_cover(triangles, index, column * SIDE, row * SIDE, SIDE)
+    index, column, row = pixel_coverage.tile_pairs(box, large, SIDE)
+    met = pixel_coverage.may_cover(triangles, index, column * SIDE, row * SIDE, SIDE)
     index, left, top = index[met], column[met] * SIDE, row[met] * SIDE
     for begin in range(0, len(index), 50):
         part = slice(begin, begin + 50)
-        found = coverage.covered(triangles, index[part], left[part], top[part], (SIDE, SIDE), stride, np.int64)
+        found = pixel_coverage.covered(triangles, index[part], left[part], top[part], (SIDE, SIDE), stride, np.int64)
         count += np.bincount(found.pixel, minlength=len(count))
     return count.reshape(padded, stride)[:rows, :columns]
 
@@ -105,7 +105,7 @@ def test_coverage_is_that_of_plain_integer_arithmetic():
 
 
 def test_triangles_far_larger_than_the_raster_cover_all_of_it_once():
-    far = coverage.GUARD_BAND
+    far = pixel_coverage.GUARD_BAND
     points = [(-far, -far), (far, -far), (far, far), (-far, far)]
     assert (times_covered(points, [[0, 1, 2], [0, 2, 3]], 200, 100) == 1).all()
 

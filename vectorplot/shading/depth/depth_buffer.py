@@ -16,7 +16,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.shading.depth.depth_code import DepthCode
 from vectorplot.shading.depth.depth_keys import KEY_BITS, THINNEST, Task, front_keys, keys_before
-from vectorplot.shading.raster import coverage
+from vectorplot.shading.raster import pixel_coverage
 from vectorplot.shading.raster.screen import ScreenTriangles, raster_size
 
 FINEST_BITS = 48
@@ -226,9 +226,9 @@ def _task(triangles: ScreenTriangles, depth_code: DepthCode, columns: int, top: 
     used = _used(triangles)
     depths = np.zeros(len(used))
     depths[used] = depth_code.scaled(triangles.points[used, 2])
-    grid = coverage.snap(triangles.points)
-    beside = triangles.points[:, :2].T * float(coverage.SUBPIXELS) - grid
-    grid[1] -= top << coverage.SUBPIXEL_BITS
+    grid = pixel_coverage.snap(triangles.points)
+    beside = triangles.points[:, :2].T * float(pixel_coverage.SUBPIXELS) - grid
+    grid[1] -= top << pixel_coverage.SUBPIXEL_BITS
     sheet, slopes = np.zeros(0, dtype=np.intp), np.zeros((3, 0))
     if triangles.sheet is not None and triangles.slopes is not None:
         start, by_column, by_row = triangles.slopes

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry.chunks import mapped, slices
-from vectorplot.shading.raster import coverage
+from vectorplot.shading.raster import pixel_coverage
 from vectorplot.shading.raster.pixel_coverage import Boxes, Fragments, Snapped
 
 Keys = NDArray[np.int64]
@@ -139,7 +139,7 @@ def _cover(keys: Keys, task: Task, number: Ints, take: Take) -> None:
     def small_ones(some: slice) -> tuple[Ints, list[tuple[Ints, Keys]]]:
         planes = _planes(task, number[some])
         small = np.flatnonzero(planes.box.small)
-        every = coverage.small_fragments(planes.triangles, planes.box, small, task.stride)
+        every = pixel_coverage.small_fragments(planes.triangles, planes.box, small, task.stride)
         return planes.number[~planes.box.small], [(found.pixel, _keys(task, planes, found)) for found in every]
 
     for larger, found in mapped(small_ones, slices(len(number), SMALL_AT_ONCE)):
@@ -151,10 +151,10 @@ def _cover(keys: Keys, task: Task, number: Ints, take: Take) -> None:
 
 def _planes(task: Task, number: Ints) -> Planes:
     """The triangles of some numbers that can cover a pixel of the raster."""
-    x, y = coverage.corner_grid(task.grid, task.corners[number])
-    box = coverage.boxes(x, y, task.columns, task.rows)
+    x, y = pixel_coverage.corner_grid(task.grid, task.corners[number])
+    box = pixel_coverage.boxes(x, y, task.columns, task.rows)
     kept = np.flatnonzero((box.left < box.right) & (box.top < box.bottom))
-    triangles = coverage.turned_right(x[:, kept], y[:, kept])
+    triangles = pixel_coverage.turned_right(x[:, kept], y[:, kept])
     with_area = np.flatnonzero(triangles.area)
     if len(with_area) < len(kept):
         kept, triangles = kept[with_area], triangles[with_area]
@@ -163,7 +163,7 @@ def _planes(task: Task, number: Ints) -> Planes:
     first, second, third = _snapped_depths(task, triangles, corner)
     rise, other = (second - first) / triangles.area, (third - first) / triangles.area
     # What the ownership of edges took away from the edge functions comes back here.
-    base = first + coverage.lowered(triangles, 1) * rise + coverage.lowered(triangles, 2) * other
+    base = first + pixel_coverage.lowered(triangles, 1) * rise + pixel_coverage.lowered(triangles, 2) * other
     return Planes(triangles, box[kept], number[kept], base, rise, other)
 
 
@@ -210,7 +210,7 @@ def _cover_by_tiles(keys: Keys, task: Task, number: Ints, take: Take) -> None:
 
 def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int, take: Take) -> None:
     """Offer the keys of some triangles, tile by tile; tiles in which everything is closer are passed over."""
-    ends = np.cumsum(coverage.tile_counts(planes.box, chosen, side))
+    ends = np.cumsum(pixel_coverage.tile_counts(planes.box, chosen, side))
     across = task.stride // side
     farthest = keys.reshape(-1, side, across, side).min(axis=(1, 3)).reshape(-1)
     nearest = task.nearest[planes.number]
@@ -218,17 +218,17 @@ def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int, take
     while begin < len(chosen):
         done = ends[begin - 1] if begin else 0
         end = max(begin + 1, int(np.searchsorted(ends, done + TILES_AT_ONCE, side="right")))
-        index, column, row = coverage.tile_pairs(planes.box, chosen[begin:end], side)
+        index, column, row = pixel_coverage.tile_pairs(planes.box, chosen[begin:end], side)
         begin = end
         tile = row * across + column
         open_ = np.flatnonzero(nearest[index] + 1.0 >= farthest[tile] >> task.number_bits)
         index, left, top, tile = index[open_], column[open_] * side, row[open_] * side, tile[open_]
-        met = np.flatnonzero(coverage.may_cover(planes.triangles, index, left, top, side))
+        met = np.flatnonzero(pixel_coverage.may_cover(planes.triangles, index, left, top, side))
         index, left, top, tile = index[met], left[met], top[met], tile[met]
-        step = max(1, coverage.CANDIDATES // side**2)
+        step = max(1, pixel_coverage.CANDIDATES // side**2)
         for first in range(0, len(index), step):
             part = slice(first, first + step)
-            found = coverage.covered(
+            found = pixel_coverage.covered(
                 planes.triangles, index[part], left[part], top[part], (side, side), task.stride, np.int64
             )
             take(found.pixel, _keys(task, planes, found))
