@@ -35,6 +35,7 @@ from .scene.surface_lines import Section, SurfaceLines
 from .shading.raster.image import Image
 from .technical.technical_sheet import technical_sheet
 from .technical.turntables import turntable
+from .viewer.notebook import show
 from .words import LineKind
 
 __version__: str
@@ -95,6 +96,7 @@ __all__ = [
     "save",
     "save_for_latex",
     "save_frames",
+    "show",
     "surface",
     "technical_sheet",
     "tube",

@@ -1,5 +1,6 @@
 from .commands import command_line
 from .keys import KEYS, pressed
+from .notebook import show
 from .pictures import picture
 from .state import ViewerState, first_state
 
@@ -10,4 +11,5 @@ __all__ = [
     "first_state",
     "picture",
     "pressed",
+    "show",
 ]

@@ -23,7 +23,7 @@ from vectorplot.viewer.keys import KEYS, pressed
 from vectorplot.viewer.moving import moving
 from vectorplot.viewer.pictures import drawable, for_browser, picture
 from vectorplot.viewer.recorded import MOVIES, movie_formats, write_recorded
-from vectorplot.viewer.sources import Source
+from vectorplot.viewer.sources import Given, Source
 from vectorplot.viewer.state import ViewerState, first_state, fitting_fov_deg, page_of_state
 
 SAVED = {
@@ -52,7 +52,7 @@ class Answers:
     film: what it plays of a scene, if anything moves; video: the file that recordings go to, else they are handed over.
     """
 
-    source: Source
+    source: Source | Given
     film: Callable[[Scene], Film] | None = None
     video: Path | None = None
     _films: dict[int, tuple[Scene, Film]] = field(default_factory=dict, repr=False)
@@ -77,7 +77,8 @@ class Answers:
         film = self._film(self.source.scene(None))
         moves = {"frames": 0} if film is None else {"frames": len(film), "fps": film.fps, "mode": film.animation.mode}
         movies = {"formats": movie_formats(), "file": None if self.video is None else str(self.video)}
-        return {"name": name, "text": self.source.text(), "keys": keys, "film": moves, "movies": movies}
+        told = {"name": name, "text": self.source.text(), "file": isinstance(self.source, Source)}
+        return {**told, "keys": keys, "film": moves, "movies": movies}
 
     def scene(self, asked: Asked, job: Job) -> tuple[bytes, str]:
         """What moves: lines in the world as 32-bit floats, and before them what else the page has to know."""

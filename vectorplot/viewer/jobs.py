@@ -23,11 +23,18 @@ class SupersededError(Exception):
 class Job:
     """Work of one page; progress is handed to the verbs, which stop where it raises SupersededError.
 
-    frames: how many are done, and how many there are, where it makes a movie.
+    frames: how many are done, and how many there are, where it makes a movie; heard is told of each.
     """
 
     stopped: threading.Event = field(default_factory=threading.Event)
     frames: tuple[int, int] = (0, 0)
+    heard: Callable[[int, int], None] | None = None
+
+    def frame(self, done: int, count: int) -> None:
+        """So many frames of so many are done."""
+        self.frames = (done, count)
+        if self.heard is not None:
+            self.heard(done, count)
 
     def progress(self, stage: str, fraction: float) -> None:
         """Let the work go on, or stop it."""
@@ -40,20 +47,24 @@ class Jobs:
 
     def __init__(self) -> None:
         self.latest: dict[str, Job] = {}
+        self.lock = threading.Lock()
         self.pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="picture")
 
-    def submit(self, page: str, work: Callable[[Job], Made]) -> tuple[Job, Future[Made]]:
+    def submit(
+        self, page: str, work: Callable[[Job], Made], heard: Callable[[int, int], None] | None = None
+    ) -> tuple[Job, Future[Made]]:
         """The job of a page's work, and what will come of it: SupersededError where it is stopped.
 
-        What the page has asked for before is stopped.
+        What the page has asked for before is stopped. heard: is told how many frames are done.
         """
-        if page not in self.latest and len(self.latest) >= MOST_PAGES:
-            page = next(iter(self.latest))
-        before = self.latest.pop(page, None)
+        job = Job(heard=heard)
+        with self.lock:
+            if page not in self.latest and len(self.latest) >= MOST_PAGES:
+                page = next(iter(self.latest))
+            before = self.latest.pop(page, None)
+            self.latest[page] = job
         if before is not None:
             before.stopped.set()
-        job = Job()
-        self.latest[page] = job
 
         def working() -> Made:
             job.progress("begin", 0.0)
@@ -67,13 +78,13 @@ class Jobs:
         try:
             return await asyncio.wrap_future(made)
         finally:
-            self.end(page, job)
+            self.end(job)
 
-    def end(self, page: str, job: Job) -> None:
+    def end(self, job: Job) -> None:
         """Stop a job that nobody waits for any more, because it is done or its page has gone."""
         job.stopped.set()
-        if self.latest.get(page) is job:
-            del self.latest[page]
+        with self.lock:
+            self.latest = {page: other for page, other in self.latest.items() if other is not job}
 
     def close(self) -> None:
         """Stop all work; waits for what is running to notice."""

@@ -64,7 +64,7 @@ def recorded_pictures(states: tuple[ViewerState, ...], scene: Scene, job: Job) -
     """
     before: tuple[ViewerState, Drawing] | None = None
     for number, state in enumerate(states):
-        job.frames = (number, len(states))
+        job.frame(number, len(states))
         job.progress("frames", number / len(states))
         shown = drawable(replace(state, landscape=states[0].landscape))
         if before is None or before[0] != shown:
@@ -74,7 +74,7 @@ def recorded_pictures(states: tuple[ViewerState, ...], scene: Scene, job: Job) -
             # Painted polygons keep the order in which they cover each other.
             before = shown, corresponding(made, scene) if shown.mode in ("lines", "wire") else made
         yield before[1]
-    job.frames = (len(states), len(states))
+    job.frame(len(states), len(states))
 
 
 def write_recorded(asked: Mapping[str, Any], scene: Scene, stem: str, file: Path | None, job: Job) -> tuple[str, bytes]:

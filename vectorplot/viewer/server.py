@@ -136,8 +136,7 @@ class Server:
         asked = await _asked(request)
         response = web.StreamResponse(headers={**HEADERS, "Content-Type": "application/octet-stream"})
         await response.prepare(request)
-        page = _page(asked)
-        job, made = self.movies.submit(page, lambda job: self.answers.movie(asked, job))
+        job, made = self.movies.submit(_page(asked), lambda job: self.answers.movie(asked, job))
         waiting = asyncio.wrap_future(made)
         try:
             while not waiting.done():
@@ -153,7 +152,7 @@ class Server:
         except ERRORS as error:
             await response.write(_line(told(error)))
         finally:
-            self.movies.end(page, job)
+            self.movies.end(job)
         return response
 
 

@@ -52,3 +52,19 @@ class Source:
             while len(self._kept) > KEPT:
                 self._kept.popitem(last=False)
         return found
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """A scene that is of no file, and has no text."""
+
+    shown: Scene
+    path: Path = Path("scene")
+
+    def text(self) -> str | None:
+        """None: there is nothing to edit."""
+        return None
+
+    def scene(self, text: str | None) -> Scene:
+        """The scene."""
+        return self.shown

@@ -338,6 +338,7 @@ export function viewer(root, program) {
       fileText = start.text;
       known = start.keys;
       fps = start.film.fps;
+      at("copy").hidden = !start.file;
       at("film").hidden = !start.film.frames;
       at("frame").max = start.film.frames || 1;
       recording.offers(start.movies);
@@ -385,7 +386,7 @@ export function viewer(root, program) {
   begin();
   return {
     ended,
-    goTo: (other) => { if (other && state) become({ ...state, ...other }); },
+    goTo: (other) => { if (other && state && JSON.stringify(other) !== JSON.stringify(state)) become({ ...state, ...other }); },
     removed() { gone = true; resized.disconnect(); job?.abort(); clearTimeout(waiting); recording.removed(); },
   };
 }

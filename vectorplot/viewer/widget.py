@@ -1,0 +1,112 @@
+"""The widget itself: questions of its page are messages, and so are the answers, which threads send."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from concurrent.futures import CancelledError, Future
+from typing import Any
+
+import anywidget
+import traitlets
+
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.shading.raster.image import Image
+from vectorplot.viewer.answers import ERRORS, Answers, json_bytes, told
+from vectorplot.viewer.jobs import Job, Jobs, SupersededError
+from vectorplot.viewer.pictures import picture
+from vectorplot.viewer.sources import Given, Source
+from vectorplot.viewer.state import ViewerState, first_state
+from vectorplot.viewer.widget_script import widget_script
+
+
+class ViewerWidget(anywidget.AnyWidget):
+    """The page of `vectorplot try` in a notebook; made by `vp.show`.
+
+    Parameters
+    ----------
+    source : Source or Given
+        The scene that is looked at.
+
+    Attributes
+    ----------
+    state : dict
+        The fields of a `ViewerState`, as last seen in the page. What is set is shown.
+    """
+
+    _esm = widget_script()
+    state = traitlets.Dict().tag(sync=True)
+
+    def __init__(self, source: Source | Given) -> None:
+        super().__init__(state=first_state(source.scene(None)).values())
+        self._answers = Answers(source)
+        self._jobs, self._movies = Jobs(), Jobs()
+        self.on_msg(self._heard)
+
+    def picture(self) -> Drawing | Image:
+        """What is seen, by the verb of its mode.
+
+        Returns
+        -------
+        Drawing or Image
+            Of the scene as it was given, or as its file is, from where it is looked at.
+
+        Raises
+        ------
+        InputError
+            As of the verbs, and for a state that makes no sense.
+        """
+        return picture(ViewerState.of(self.state), self._answers.source.scene(None))
+
+    def close(self) -> None:
+        """Take the widget away, and stop its work."""
+        self._jobs.close()
+        self._movies.close()
+        super().close()
+
+    def _heard(self, _widget: object, content: object, _buffers: object) -> None:
+        """A question of a page, or that it does not wait any more."""
+        if not isinstance(content, Mapping):
+            return
+        what, number, asked = str(content.get("what")), content.get("id"), content.get("asked")
+        page = f"{str(content.get('page'))[:64]} {what}"
+        jobs = self._movies if what == "movie" else self._jobs
+        if content.get("stop"):
+            job = jobs.latest.get(page)
+            if job is not None:
+                job.stopped.set()
+            return
+        answer: Callable[[Mapping[str, Any], Job], Any] | None = (
+            self._answers.movie if what == "movie" else self._answers.by_name(what)
+        )
+        if answer is None or not isinstance(asked, Mapping):
+            self.send({"id": number, "cause": "no such question", "line": None, "file": None})
+            return
+
+        def heard(done: int, count: int) -> None:
+            self.send({"id": number, "done": done, "of": count})
+
+        job, made = jobs.submit(page, lambda job: answer(asked, job), heard)
+
+        def tell(done: Future[Any]) -> None:
+            jobs.end(job)
+            message, buffers = _answered(done)
+            self.send({"id": number, **message}, buffers)
+
+        made.add_done_callback(tell)
+
+
+def _answered(done: Future[Any]) -> tuple[dict[str, Any], list[bytes]]:
+    """The message of an answer and what goes with it, as the page reads it."""
+    try:
+        made = done.result()
+    except (SupersededError, CancelledError):
+        return {"superseded": True}, []
+    except ERRORS as error:
+        return told(error), []
+    except Exception as error:
+        # The page would wait for ever.
+        return {"cause": f"{type(error).__name__}: {error}", "line": None, "file": None}, []
+    if not isinstance(made, tuple):
+        return {"name": "", "kind": "application/json"}, [json_bytes(made)]
+    *name, content, kind = made
+    return {"name": name[0] if name else "", "kind": kind}, [content]
