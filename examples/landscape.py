@@ -1,6 +1,7 @@
-"""A terrain through heights on a grid, with level lines, and drawn as a landscape with its outlines.
+"""A terrain through heights on a grid, with level lines, as a landscape with its outlines and as a map with heights.
 
-Akima's splines make no hills where there are none: the lake stays flat. Source: Glaeser, section 9.5, example 1.
+On the map the heights stand on the heavier lines, which end before them. Akima's splines make no hills where there are
+none: the lake stays flat. Source: Glaeser, section 9.5, example 1.
 """
 
 import sys
@@ -28,6 +29,17 @@ HEIGHTS = np.array(
 )
 
 
+def numbered(terrain) -> vp.Drawing:
+    """The terrain from above, with heights on every second level line."""
+    fine = vp.Section((0, 0, 1), tuple(np.arange(1.25, 9.0, 0.5)))
+    heavy = vp.Section((0, 0, 1), tuple(np.arange(1.5, 9.0)), index=True, numbered=True)
+    item = vp.Item("TERRAIN", terrain, curves=vp.SurfaceLines(sections=(fine, heavy)))
+    above = vp.Camera((14, 16, 60), target=(14, 16, 0), up=(0, 1, 0), parallel=True)
+    drawing = vp.draw(vp.Scene((item,), title="Map"), above, page=vp.Page(110, 122, 5), pens="section=0.13,index=0.3")
+    assert any(layer.name == "label" for layer in drawing.layers), "some lines are long enough for a number"
+    return drawing
+
+
 def main(folder: Path) -> None:
     terrain = landscape(HEIGHTS, (0, 28), (0, 32))
     levels = vp.SurfaceLines(sections=(vp.Section((0, 0, 1), tuple(np.arange(1.25, 9.0, 0.5))),))
@@ -35,6 +47,7 @@ def main(folder: Path) -> None:
     camera = vp.Camera((-30, -28, 34), target=(14, 16, 2), fov_deg=34)
     drawing = vp.draw(scene, camera, page=vp.Page(170, 110, 6))
     vp.save(drawing, folder / "landscape.svg")
+    vp.save(numbered(terrain), folder / "landscape_numbers.svg")
 
     lines = np.concatenate(curves_in_space(drawing, kind="section"))
     steps = 2 * lines[:, 2] + 0.5

@@ -84,6 +84,15 @@ def test_a_helix_keeps_its_elevation_and_ends_where_it_is_no_longer_real():
     assert np.abs(helix.points[:, 2] - turn).max() < 1e-8 and abs(helix.v[-1] - 9.0) < 1e-12
 
 
+def fitted_circle(x, y):
+    """The centre and the radius of the circle that fits points best, which are on it to eight digits."""
+    a, b, c = np.linalg.lstsq(np.stack([x, y, np.ones_like(x)], axis=1), x * x + y * y, rcond=None)[0]
+    centre = np.array([0.5 * a, 0.5 * b])
+    radius = np.sqrt(c + centre @ centre)
+    assert np.abs(np.hypot(x - centre[0], y - centre[1]) - radius).max() < 1e-8
+    return centre, radius
+
+
 @pytest.mark.slow
 @pytest.mark.capability("G9.5-potential")
 def test_level_lines_of_the_potential_and_their_trajectories_are_circles():
@@ -103,8 +112,15 @@ def test_level_lines_of_the_potential_and_their_trajectories_are_circles():
                 away = np.abs(y) > 0.1
                 ratio = ((x * x + y * y - 1.0) / y)[away]
                 assert np.ptp(ratio) < 1e-8
+                centre, radius = fitted_circle(x[away], y[away])
+                assert abs(centre[0]) < 1e-7 and radius == pytest.approx(np.hypot(1.0, centre[1]), rel=1e-8)
             else:
                 assert np.ptp(z) < 1e-8
+                # Circles of Apollonius, on which distances from 1 and -1 have one ratio.
+                centre, radius = fitted_circle(x, y)
+                ratio = height(x[0], y[0]) ** 2
+                assert centre == pytest.approx([(1.0 + ratio) / (1.0 - ratio), 0.0], rel=1e-7, abs=1e-7)
+                assert radius == pytest.approx(2.0 * np.sqrt(ratio) / abs(1.0 - ratio), rel=1e-7)
 
 
 @pytest.mark.slow
