@@ -125,9 +125,11 @@ install_all() {
     fi
     rm -f "$stamp"
     echo "setup.sh: installing vectorplot and what it needs" >&2
+    # For tests nothing is compiled before it is imported: of what they bring, most never is.
     what=.
-    [ "$goal" = run ] || what='.[test]'
-    .venv/bin/python -m pip install --quiet --disable-pip-version-check -e "$what" ||
+    when=--compile
+    [ "$goal" = run ] || { what='.[test]'; when=--no-compile; }
+    .venv/bin/python -m pip install --quiet --disable-pip-version-check "$when" -e "$what" ||
         fail "pip could not install the Python packages; is there a way to the package index?"
     # Compiled now, the package starts a tenth of a second sooner, also where Python may not write beside it later.
     .venv/bin/python -m compileall -q -j 0 vectorplot || true

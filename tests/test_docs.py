@@ -54,18 +54,13 @@ def checkout(tmp_path, monkeypatch):
 
 @pytest.mark.slow
 @pytest.mark.parametrize("page", [page for page in PAGES if blocks(page, "python")], ids=lambda page: page.name)
-def test_the_python_of_the_pages_runs(page, checkout):
+def test_the_python_of_the_pages_runs(page, checkout, capsys):
     code = "\n".join(blocks(page, "python"))
     exec(compile(code, page.name, "exec"), {})
     for name in re.findall(r'vp\.save\(\w+, "([^"]+)"\)', code):
         assert (checkout / name).stat().st_size > 100, name
-
-
-@pytest.mark.slow
-def test_the_painted_town_says_how_many_polygons_it_has(checkout, capsys):
-    (code,) = blocks(DOCS / "paint.md", "python")
-    exec(compile(code, "paint.md", "exec"), {})
-    assert "polygons" in capsys.readouterr().out
+    # The painted town says how many it has.
+    assert page.name != "paint.md" or "polygons" in capsys.readouterr().out
 
 
 @pytest.mark.slow

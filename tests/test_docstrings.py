@@ -58,43 +58,54 @@ def test_every_public_name_is_a_function_or_a_class():
     assert sorted([*FUNCTIONS, *CLASSES]) == sorted(vp.__all__)
 
 
-@pytest.mark.parametrize("name", [*FUNCTIONS, *METHODS])
-def test_a_function_explains_every_parameter_what_it_returns_and_what_it_refuses(name):
-    signature, found = inspect.signature(thing(name)), sections(thing(name))
-    assert named(found["Parameters"]) == [parameter for parameter in signature.parameters if parameter != "self"]
-    assert ("Returns" in found) == (signature.return_annotation != "None")
-    assert "InputError" in found["Raises"]
+# One test for all names: pytest takes longer to hold a test than it takes to read a docstring.
+def test_functions_explain_every_parameter_what_they_return_and_what_they_refuse():
+    for name in (*FUNCTIONS, *METHODS):
+        signature, found = inspect.signature(thing(name)), sections(thing(name))
+        assert named(found["Parameters"]) == [key for key in signature.parameters if key != "self"], name
+        assert ("Returns" in found) == (signature.return_annotation != "None"), name
+        assert "InputError" in found["Raises"], name
 
 
-@pytest.mark.parametrize("name", CLASSES)
-def test_a_class_explains_every_field(name):
-    shown = getattr(vp, name)
-    # What a kind is stands below each of its members.
-    fields = [] if issubclass(shown, enum.Enum) else list(inspect.signature(shown).parameters)
-    assert named(sections(shown).get("Parameters", "")) == fields
+def test_classes_explain_every_field():
+    for name in CLASSES:
+        shown = getattr(vp, name)
+        # What a kind is stands below each of its members.
+        fields = [] if issubclass(shown, enum.Enum) else list(inspect.signature(shown).parameters)
+        assert named(sections(shown).get("Parameters", "")) == fields, name
 
 
-@pytest.mark.parametrize("name", CLASSES)
-def test_a_class_that_checks_its_fields_says_what_it_refuses(name):
-    code = inspect.getsource(getattr(vp, name))
-    refuses = "raise InputError" in code or "check_colour(" in code
-    assert ("Raises" in sections(getattr(vp, name))) == refuses
+def test_classes_that_check_their_fields_say_what_they_refuse():
+    for name in CLASSES:
+        code = inspect.getsource(getattr(vp, name))
+        refuses = "raise InputError" in code or "check_colour(" in code
+        assert ("Raises" in sections(getattr(vp, name))) == refuses, name
 
 
-@pytest.mark.parametrize("name", [*vp.__all__, *METHODS])
-def test_docstrings_begin_with_one_sentence_and_keep_the_order_of_sections(name):
-    found = sections(thing(name))
+def assert_sections_are_in_order(name: str, shown) -> dict[str, str]:
+    """The sections of a docstring that begins with one sentence, without it."""
+    found = sections(shown)
     summary = found.pop("").strip()
-    assert summary.endswith(".") and "\n" not in summary
-    assert list(found) == [heading for heading in ORDER if heading in found]
+    assert summary.endswith(".") and "\n" not in summary, name
+    assert list(found) == [heading for heading in ORDER if heading in found], name
+    return found
 
 
-@pytest.mark.parametrize("name", [*vp.__all__, *METHODS])
-def test_the_examples_run(name):
-    shown = thing(name)
+def test_docstrings_begin_with_one_sentence_and_keep_the_order_of_sections():
+    for name in (*vp.__all__, *METHODS):
+        assert_sections_are_in_order(name, thing(name))
+
+
+def assert_its_examples_run(name: str, shown) -> None:
     (test,) = doctest.DocTestFinder(recurse=False).find(shown, name, module=inspect.getmodule(shown), globs={})
-    assert test.examples
-    assert doctest.DocTestRunner().run(test).failed == 0
+    assert test.examples, name
+    assert doctest.DocTestRunner().run(test).failed == 0, name
+
+
+@pytest.mark.parametrize("name", vp.__all__)
+def test_the_examples_run(name):
+    for each in (name, *(method for method in METHODS if method.startswith(f"{name}."))):
+        assert_its_examples_run(each, thing(each))
 
 
 ROOMS = sorted(stub.parent.name for stub in PACKAGE.glob("*/__init__.pyi"))
@@ -115,49 +126,44 @@ def in_room(name: str):
     return getattr(importlib.import_module(f"vectorplot.{room}"), shown)
 
 
-@pytest.mark.parametrize("name", IN_ROOMS)
-def test_what_a_room_offers_explains_every_parameter_and_what_it_returns(name):
-    shown, found = in_room(name), sections(in_room(name))
-    summary = found.pop("").strip()
-    assert summary.endswith(".") and "\n" not in summary
-    assert list(found) == [heading for heading in ORDER if heading in found]
-    if inspect.isfunction(shown):
-        signature = inspect.signature(shown)
-        assert named(found.get("Parameters", "")) == list(signature.parameters)
-        assert ("Returns" in found) == (signature.return_annotation != "None")
-    elif dataclasses.is_dataclass(shown):
-        assert named(found.get("Parameters", "")) == list(inspect.signature(shown).parameters)
-    if "raise InputError" in inspect.getsource(shown):
-        assert "InputError" in found["Raises"]
+@pytest.mark.parametrize("room", ROOMS)
+def test_what_a_room_offers_explains_every_parameter_and_what_it_returns(room):
+    for name in names_of(room):
+        shown = in_room(name)
+        found = assert_sections_are_in_order(name, shown)
+        if inspect.isfunction(shown):
+            signature = inspect.signature(shown)
+            assert named(found.get("Parameters", "")) == list(signature.parameters), name
+            assert ("Returns" in found) == (signature.return_annotation != "None"), name
+        elif dataclasses.is_dataclass(shown):
+            assert named(found.get("Parameters", "")) == list(inspect.signature(shown).parameters), name
+        if "raise InputError" in inspect.getsource(shown):
+            assert "InputError" in found["Raises"], name
 
 
 def with_sections(name: str) -> list[str]:
     """The public functions of a class of a room that explain what they are given."""
     own = {key: getattr(in_room(name), key) for key in vars(in_room(name)) if not key.startswith("_")}
     functions = {key: value for key, value in own.items() if callable(value) and not inspect.isclass(value)}
-    return [f"{name}.{key}" for key, value in functions.items() if "Parameters" in sections(value)]
+    return [key for key, value in functions.items() if "Parameters" in sections(value)]
 
 
-@pytest.mark.parametrize("name", [method for name in IN_ROOMS for method in with_sections(name)])
-def test_functions_of_classes_that_explain_what_they_are_given_explain_all_of_it(name):
-    *owner, key = name.split(".")
-    shown = getattr(in_room(".".join(owner)), key)
-    signature, found = inspect.signature(shown), sections(shown)
-    summary = found.pop("").strip()
-    assert summary.endswith(".") and "\n" not in summary
-    assert list(found) == [heading for heading in ORDER if heading in found]
-    assert named(found["Parameters"]) == [parameter for parameter in signature.parameters if parameter != "self"]
-    assert ("Returns" in found) == (signature.return_annotation != "None")
-    if "raise InputError" in inspect.getsource(shown):
-        assert "InputError" in found["Raises"]
+@pytest.mark.parametrize("room", ROOMS)
+def test_functions_of_classes_that_explain_what_they_are_given_explain_all_of_it(room):
+    for name in names_of(room):
+        for key in with_sections(name):
+            shown = getattr(in_room(name), key)
+            signature, found = inspect.signature(shown), assert_sections_are_in_order(f"{name}.{key}", shown)
+            assert named(found["Parameters"]) == [part for part in signature.parameters if part != "self"], (name, key)
+            assert ("Returns" in found) == (signature.return_annotation != "None"), (name, key)
+            if "raise InputError" in inspect.getsource(shown):
+                assert "InputError" in found["Raises"], (name, key)
 
 
-@pytest.mark.parametrize("name", IN_ROOMS)
-def test_the_examples_of_what_a_room_offers_run(name):
-    shown = in_room(name)
-    (test,) = doctest.DocTestFinder(recurse=False).find(shown, name, module=inspect.getmodule(shown), globs={})
-    assert test.examples
-    assert doctest.DocTestRunner().run(test).failed == 0
+@pytest.mark.parametrize("room", ROOMS)
+def test_the_examples_of_what_a_room_offers_run(room):
+    for name in names_of(room):
+        assert_its_examples_run(name, in_room(name))
 
 
 def own_types(hint: Any) -> Iterator[type]:

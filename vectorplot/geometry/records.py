@@ -33,8 +33,9 @@ R = TypeVar("R", bound=Record)
 def some(record: R, which: Ints | Bools) -> R:
     """Some of the elements, with all that is said of them: those with these indices, in this order; or those where a
     mask is true."""
+    chosen = np.flatnonzero(which) if which.dtype == np.bool_ else which
     values = {f: getattr(record, f.name) for f in fields(record)}
-    return replace(record, **{f.name: entries(f, v, which) for f, v in values.items() if v is not None})
+    return replace(record, **{f.name: entries(f, v, chosen) for f, v in values.items() if v is not None})
 
 
 def joined(records: Sequence[R]) -> R:

@@ -40,7 +40,7 @@ def from_components(*components: ArrayLike) -> Floats:
     """The vectors (..., k) with these k components, arrays or numbers of shapes that broadcast."""
     arrays = [np.asarray(c, dtype=np.float64) for c in components]
     # Of small arrays np.stack spends most of its time on checks.
-    result = np.empty((*np.broadcast_shapes(*(a.shape for a in arrays)), len(arrays)))
+    result = np.empty((*np.broadcast(*arrays).shape, len(arrays)))
     for axis, values in enumerate(arrays):
         result[..., axis] = values
     return result

@@ -15,6 +15,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+import vectorplot as vp
 from vectorplot.cli.main import run
 
 COMMAND = [sys.executable, "-m", "vectorplot.cli.main"]
@@ -50,6 +51,14 @@ def scene(tmp_path: Path) -> Path:
     path = tmp_path / "some.scene"
     path.write_text(SCENE, encoding="utf-8")
     return path
+
+
+@pytest.fixture(scope="module")
+def painted(tmp_path_factory: pytest.TempPathFactory) -> vp.Drawing:
+    """The picture of the scene, which is painted once for all who read its files."""
+    path = tmp_path_factory.mktemp("painted") / "some.scene"
+    path.write_text(SCENE, encoding="utf-8")
+    return vp.paint(vp.read(path))
 
 
 def shell(*arguments: object, **options: object) -> subprocess.CompletedProcess[bytes]:
@@ -111,13 +120,13 @@ def test_through_a_pipe_come_the_same_bytes_and_no_word(plain: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.capability("G4.X-postscript")
 @pytest.mark.parametrize("word", READERS)
-def test_readers_of_each_format_show_the_picture_of_the_png(word: str, scene: Path) -> None:
+def test_readers_of_each_format_show_the_picture_of_the_png(word: str, painted: vp.Drawing, tmp_path: Path) -> None:
     image = pytest.importorskip("PIL.Image")
     if shutil.which(READERS[word][0]) is None:
         pytest.skip(f"no {READERS[word][0]}")
-    out, ours = scene.parent / f"out.{word}", scene.parent / "ours.png"
-    assert run(["paint", str(scene), "-o", str(out)]) == 0
-    assert run(["paint", str(scene), "-o", str(ours)]) == 0
+    out, ours = tmp_path / f"out.{word}", tmp_path / "ours.png"
+    vp.save(painted, out)
+    vp.save(painted, ours)
     told = subprocess.run([part.format(out) for part in READERS[word]], capture_output=True, timeout=60, check=True)
     assert told.stderr == b""
     theirs = image.open(f"{out}.read.png").convert("RGB")
@@ -140,9 +149,9 @@ def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path) -> None
     assert tree.getroot().tag.endswith("svg")
     text = out.read_text(encoding="utf-8")
     assert not re.search(r"\b(nan|inf)\b", text)
-    painted = fills(scene)
-    assert kinds(painted) >= {"face", "shadow", "reflection", "glass", "clear_shadow", "light"} - {"light"}
-    assert all(len(fill["points"]) == len(fill["points3d"]) >= 3 for fill in painted)
+    found = fills(scene)
+    assert kinds(found) >= {"face", "shadow", "reflection", "glass", "clear_shadow", "light"} - {"light"}
+    assert all(len(fill["points"]) == len(fill["points3d"]) >= 3 for fill in found)
 
 
 @pytest.mark.slow

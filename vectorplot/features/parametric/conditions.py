@@ -181,7 +181,7 @@ class ParallelContour(_Alike):
 
     def sights(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) unit vectors to the eye, the same everywhere."""
-        return np.broadcast_to(np.asarray(self.direction), (*np.broadcast_shapes(np.shape(u), np.shape(v)), 3))
+        return np.broadcast_to(np.asarray(self.direction), (*np.broadcast(u, v).shape, 3))
 
 
 Contour = CentralContour | ParallelContour

@@ -60,7 +60,7 @@ def turned(points: Floats, angle: Floats) -> Floats:
     """The points (..., 3) turned about the z-axis by angles (...)."""
     cosine, sine = np.cos(angle), np.sin(angle)
     x, y, z = points[..., 0], points[..., 1], points[..., 2]
-    result = np.empty((*np.broadcast_shapes(x.shape, np.shape(cosine)), 3))
+    result = np.empty((*np.broadcast(x, cosine).shape, 3))
     result[..., 0] = x * cosine - y * sine
     result[..., 1] = x * sine + y * cosine
     result[..., 2] = z
@@ -227,7 +227,7 @@ class Rotoid:
         """(..., 3) turned about b, seen from it."""
         cosine, sine = np.cos(self.ratio * v), np.sin(self.ratio * v)
         across, z = p[..., 0] - weight * self.distance, p[..., 2]
-        result = np.empty((*np.broadcast_shapes(across.shape, np.shape(cosine)), 3))
+        result = np.empty((*np.broadcast(across, cosine).shape, 3))
         result[..., 0] = across * cosine + z * sine
         result[..., 1] = p[..., 1]
         result[..., 2] = z * cosine - across * sine
