@@ -7,13 +7,14 @@ from typing import Literal
 
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.drawing.pens.pen_rules import Pens, pen_rules
+from vectorplot.drawing.pens.scene_inks import style_of_scene
 from vectorplot.drawing.pens.sorted_layers import line_list
-from vectorplot.drawing.pens.style_file import style_of
 from vectorplot.drawing.pens.styles import Style
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.anything import scene_of
 from vectorplot.linework.checked_options import check_line_options, check_longest, check_look
 from vectorplot.linework.finish import Finish
 from vectorplot.linework.hatched_in_place import hatched_in_place
@@ -42,7 +43,7 @@ def draw(
     fit: bool = True,
     lines: str | Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
-    style: Style | str = "plain",
+    style: Style | str | None = None,
     hidden: Literal["none", "dashed", "solid"] | None = None,
     pens: Pens | None = None,
     dashes: str | Mapping[str, str] | Iterable[str] | None = None,
@@ -86,15 +87,15 @@ def draw(
         Words of LineKind, or one text with commas between them, DRAWN or WIRES where None; an item's own come first.
     crease_angle_deg : float
         Sharper edges are creases; 0 to 180 degrees.
-    style : Style or str
-        plain, plotter, book, draft, blueprint, or a file that ends in .toml; or a wireframe: nothing hides anything,
-        all lines have the middle shades of their items' palettes (wireframe), or go by their depth (depth-cue), on a
-        sheet in the scene's background or the darkest gray.
+    style : Style or str, optional
+        Where None what the scene says, else plain. One of plain, plotter, book, draft, blueprint, or a file that ends
+        in .toml; or a wireframe: nothing hides anything, all lines have the middle shades of their items' palettes
+        (wireframe), or go by their depth (depth-cue), on a sheet in the scene's background or the darkest gray.
     hidden : {"none", "dashed", "solid"}, optional
         Hidden lines are left out, dashed, or solid on a layer of their own; as the style says where None.
     pens : str, Pen, mapping or iterable of str, optional
-        What draws lines by kind, by item and by both, before what the style says: WIDTH, COLOUR or WIDTH:COLOUR, as in
-        "contour=0.5:black,hidden=0.18:gray,house=red,house.crease=0.2"; widths in mm, or with their unit (1.4pt). What
+        What draws lines by kind, by item and by both, before what style and scene say: WIDTH, COLOUR or WIDTH:COLOUR, as
+        in "contour=0.5:black,hidden=0.18:gray,house=red,house.crease=0.2"; widths in mm, or with their unit (1.4pt). What
         no kind and no item stands before is for all lines.
     dashes : str, mapping or iterable of str, optional
         DASH,GAP in mm, or with their units, by kind, item and both, as in "hidden=3,1"; or none.
@@ -180,7 +181,8 @@ def draw(
     >>> [layer.name for layer in drawing.layers if len(layer.strokes[0])]
     ['contour', 'hidden']
     """
-    chosen = style_of(style)
+    given = scene_of(scene)
+    chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)
     hidden = chosen.hidden if hidden is None else hidden
     layers = chosen.layers if layers is None else layers
@@ -192,14 +194,14 @@ def draw(
     others["depth_cue"] = depth_cue_of(depth_cue) is not None
     check_look(chosen.look, hidden=hidden != "none", **others)
     kinds = line_kinds((DRAWN if chosen.look == "plain" else WIRES) if lines is None else lines)
-    subject = subject_of(scene, camera, explain, progress, depth_cue=depth_cue)
+    subject = subject_of(given, camera, explain, progress, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
     sheet, strip = left_of_bar(page_of(page, seen, width, fit), bar)
     finish = Finish(
         look=chosen.look,
         hidden=hidden,
         layers=layers,
-        rules=(*chosen.rules, *(() if bar is None else bar.pens), *asked),
+        rules=(*chosen.rules, *(() if bar is None else bar.pens), *own, *asked),
         background=chosen.background if background is None else background,
         curved_mm=tolerance_mm if curves == "bezier" else None,
         longest_mm=longest_mm,

@@ -8,8 +8,8 @@ from functools import partial
 
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.pens.pen_rules import Pens, pen_rules
+from vectorplot.drawing.pens.scene_inks import style_of_scene
 from vectorplot.drawing.pens.sorted_layers import line_list, sorted_layers
-from vectorplot.drawing.pens.style_file import style_of
 from vectorplot.drawing.pens.styles import Style
 from vectorplot.effects.panoramas.standing import eye_of
 from vectorplot.effects.panoramas.strips import panorama_on_page
@@ -22,6 +22,7 @@ from vectorplot.linework.finish import Finish
 from vectorplot.linework.lines_in_place import lines_in_place
 from vectorplot.plan import plan_panorama
 from vectorplot.scene.coincidence.seamless_scene import without_seams
+from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import field_of_vision
 from vectorplot.scene.point_of_view import page_of
@@ -40,7 +41,7 @@ def panorama(
     width: float | str | None = None,
     lines: str | Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
-    style: Style | str = "plain",
+    style: Style | str | None = None,
     pens: Pens | None = None,
     dashes: str | Mapping[str, str] | Iterable[str] | None = None,
     background: str | None = None,
@@ -100,14 +101,15 @@ def panorama(
     >>> sum(len(strokes) for layer in round_about.layers for strokes in layer.strokes) > 10
     True
     """
-    chosen = style_of(style)
+    given = shown_apart(scene_of(scene))
+    chosen, own = style_of_scene(given.inks, style)
     if chosen.look != "plain":
         raise InputError(f"panorama: a picture in the style {chosen.look} shows all lines, and a panorama those seen")
     finish = Finish(
         look=chosen.look,
         hidden="none",
         layers=chosen.layers if layers is None else layers,
-        rules=(*chosen.rules, *pen_rules(pens, dashes)),
+        rules=(*chosen.rules, *own, *pen_rules(pens, dashes)),
         background=chosen.background if background is None else background,
         curved_mm=tolerance_mm if curves == "bezier" else None,
         longest_mm=longest_mm,
@@ -118,7 +120,7 @@ def panorama(
     threads = threads_of(jobs)
     round_about = place if isinstance(place, Panorama) else Panorama(tuple(place))
     kinds = line_kinds(DRAWN if lines is None else lines)
-    seamless = without_seams(scene_of(scene))
+    seamless = without_seams(given)
     eye = eye_of(round_about, seamless)
     sheet = page_of(page, seamless, width)
     walk = Walk(plan_panorama(), explain, progress, threads)

@@ -303,6 +303,12 @@ def _unknown(what: str, word: object, words: Iterable[str], near: str | None, mo
     return InputError(f"{what} {shown}: expected one of {', '.join(words)}{', ' + more if more else ''}{hint}")
 
 
+WIRE_STYLES = ("wireframe", "depth-cue")
+"""The styles of drawings in which nothing hides anything."""
+
+STYLE_WORDS = ("plain", *WIRE_STYLES, "plotter", "book", "draft", "blueprint")
+"""The styles of drawings that have a name."""
+
 TEXT_WORDS = ("strokes", "real")
 """What letters may be: strokes of a pen, or those of the fonts of whatever reads the file."""
 

@@ -77,9 +77,8 @@ class CutOptions:
     def of_scene(self, scene: Scene) -> Scene:
         """The scene with these cuts. Errors: InputError for unknown colours."""
         from vectorplot.scene.cuts.cut import Cut
-        from vectorplot.scene.cuts.exploded import exploded
+        from vectorplot.scene.cuts.exploded import exploded, shown_apart
 
-        if self.explode is not None:
-            scene = exploded(scene, *self.explode)
+        scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
         cuts = tuple(Cut.of(text, self.cut_away, self.cut_colour) for text in self.cut)
         return replace(scene, cuts=scene.cuts + cuts) if cuts else scene

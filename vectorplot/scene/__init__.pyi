@@ -1,4 +1,5 @@
 from .cuts.cut import Cut, CutPlane
+from .cuts.explosion import Explosion
 from .depth_cue import DepthCue
 from .hatching import Hatching, Stippling
 from .item import Item, Pattern
@@ -8,6 +9,7 @@ from .lines.integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, K
 from .material import Material
 from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
 from .naming.scales import BoxAxes, Colouring
+from .pages.inks import Inks
 from .pages.page import Page
 from .pages.paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
@@ -28,10 +30,12 @@ __all__ = [
     "Cut",
     "CutPlane",
     "DepthCue",
+    "Explosion",
     "FieldLines",
     "GeodesicLines",
     "GeodesicsBetween",
     "Hatching",
+    "Inks",
     "Item",
     "KnownCurves",
     "Label",

@@ -15,12 +15,14 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.cuts.cut import Cut
+from vectorplot.scene.cuts.explosion import Explosion
 from vectorplot.scene.depth_cue import DepthCue
 from vectorplot.scene.extent import in_range, smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.naming.scales import BoxAxes, Colouring
+from vectorplot.scene.pages.inks import Inks
 from vectorplot.scene.pages.page import Page
 from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.quadric_bodies.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
@@ -59,6 +61,10 @@ class Scene(Movable["Scene"]):
         can make it.
     depth_cue : DepthCue, optional
         How lines tell how far away they are (None: not at all).
+    inks : Inks, optional
+        The style, the pens and the dashes that the scene is drawn with.
+    explosion : Explosion, optional
+        Parts are moved apart where the scene is shown, before it is cut.
 
     Raises
     ------
@@ -88,6 +94,8 @@ class Scene(Movable["Scene"]):
     cuts: tuple[Cut, ...] = ()
     exposure: Exposure = 1.0
     depth_cue: DepthCue | None = None
+    inks: Inks | None = None
+    explosion: Explosion | None = None
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -124,7 +132,9 @@ class Scene(Movable["Scene"]):
         """
         labels = tuple(label.transformed(matrix) for label in self.labels)
         cuts = tuple(cut.transformed(matrix) for cut in self.cuts)
-        return replace(self, items=tuple(item.transformed(matrix) for item in self.items), labels=labels, cuts=cuts)
+        items = tuple(item.transformed(matrix) for item in self.items)
+        apart = None if self.explosion is None else self.explosion.transformed(matrix)
+        return replace(self, items=items, labels=labels, cuts=cuts, explosion=apart)
 
     def __repr__(self) -> str:
         return f"<Scene {self.title!r}: {len(self.items)} items, {len(self.lights)} lights>"

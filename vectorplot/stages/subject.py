@@ -10,6 +10,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import plan_cuts
 from vectorplot.scene.coincidence.seamless_scene import without_seams
+from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
@@ -62,7 +63,7 @@ def subject_of(
 
     Errors: as of scene_of, camera_of and scaled.
     """
-    given = scene_of(scene)
+    given = shown_apart(scene_of(scene))
     chart = _chart_of(given, camera)
     given, camera = (given, camera) if chart is None else (chart.scene, chart.camera)
     given = given if background is None else replace(given, background=background)

@@ -10,9 +10,9 @@ STROKE_OPTIONS = (
     click.option(
         "--style",
         type=style,
-        default="plain",
         metavar="STYLE",
-        help="plain, plotter, book, draft, blueprint, wireframe, depth-cue, or a file that ends in .toml.",
+        help="plain, plotter, book, draft, blueprint, wireframe, depth-cue, or a file that ends in .toml."
+        "  [default: what the scene says, or plain]",
     ),
     click.option(
         "--hidden",

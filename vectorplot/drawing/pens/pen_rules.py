@@ -9,23 +9,9 @@ from dataclasses import dataclass, replace
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.layers import ink
 from vectorplot.errors import InputError
+from vectorplot.scene.pages.inks import FINEST_MM, FRAME, HIDDEN, WIDEST_MM, check_item, target_of
 from vectorplot.scene.pages.paper import LENGTH, length_mm
 from vectorplot.words import COLOURS, LineKind, is_colour, nearest
-
-HIDDEN = "hidden"
-"""The kind of what something is in front of, whatever else it is."""
-
-FRAME = "frame"
-"""What draws the frame of a page and its title: a kind that no line of a scene is of."""
-
-PEN_KINDS = (*(kind.word for kind in LineKind), HIDDEN, FRAME)
-"""The kinds that rules are for."""
-
-WIDEST_MM = 1000.0
-"""Wider than any pen."""
-
-FINEST_MM = 0.01
-"""No pen is finer, or draws a shorter dash."""
 
 _NEXT = re.compile(r",(?=[^,=]*=)")
 """The commas between rules, where a rule has commas of its own."""
@@ -99,20 +85,8 @@ def _halves(text: str) -> tuple[str, str]:
     return target.strip(), value.strip()
 
 
-def _target(target: str) -> tuple[str | None, str | None]:
-    """Kind and item that a rule is for."""
-    if not target:
-        return None, None
-    if target.lower() in PEN_KINDS:
-        return target.lower(), None
-    item, dot, kind = target.rpartition(".")
-    if dot and item and kind.lower() in PEN_KINDS:
-        return kind.lower(), item
-    return None, target
-
-
 def _pen_rule(target: str, value: str | float | Pen) -> PenRule:
-    kind, item = _target(target)
+    kind, item = target_of(target)
     if isinstance(value, Pen):
         return PenRule(kind, item, value.width_mm, value.colour, value.dash_mm)
     if not isinstance(value, str):
@@ -127,7 +101,7 @@ def _pen_rule(target: str, value: str | float | Pen) -> PenRule:
 
 
 def _dash_rule(target: str, value: str) -> PenRule:
-    kind, item = _target(target)
+    kind, item = target_of(target)
     if value.strip().lower() == "none":
         return PenRule(kind, item, dash_mm=(0.0, 0.0))
     parts = value.split(",")
@@ -164,13 +138,9 @@ def pen_colour(word: str, owner: str = "") -> str:
 
 def check_targets(rules: Sequence[PenRule], items: Sequence[str]) -> None:
     """An InputError for a rule for an item that is not there, with the word that may be meant."""
-    known = {name.lower(): name for name in items}
     for rule in rules:
-        if rule.item is not None and rule.item not in items:
-            word = rule.item.lower()
-            near = nearest(word, PEN_KINDS) or known.get(word, known.get(nearest(word, known) or "", ""))
-            hint = f" (did you mean {near!r}?)" if near else ""
-            raise InputError(f"pen {rule.item!r}: no kind of line, and no item{hint}")
+        if rule.item is not None:
+            check_item(rule.item, items)
 
 
 def frame_pen(rules: Sequence[PenRule], pen: Pen) -> Pen:

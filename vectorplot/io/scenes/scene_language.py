@@ -31,13 +31,16 @@ from vectorplot.io.scenes.scene_statements import (
 )
 from vectorplot.io.scenes.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
 from vectorplot.io.scenes.statements.annotation_statements import begins_annotation, read_annotation
+from vectorplot.io.scenes.statements.ink_statements import INK_WORDS, pen_target, read_explosion, read_ink
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.naming.labels import Label
+from vectorplot.scene.pages.inks import check_item, target_of
 from vectorplot.scene.scene import Scene
+from vectorplot.words import WIRE_STYLES
 
 MAX_FILE_BYTES = 64 << 20
 """The largest scene file that is read."""
@@ -162,14 +165,17 @@ class _Reader(ItemReader):
         self.lights: list[Light] = []
         self.labels: list[tuple[int, Label]] = []
         self.annotations: list[Scene] = []
+        self.pens: list[tuple[int, str]] = []
         self.settings = Scene(items=())
         self.set: set[str] = set()
         self.lit: list[tuple[int, Draft]] = []
 
     def annotated(self) -> Scene:
         """The whole file: the scene, and behind its items the lines and labels of annotations."""
-        scene = self.scene()
-        return together([scene, *self.annotations])
+        scene = together([self.scene(), *self.annotations])
+        if scene.inks is not None:
+            self.check_pens(scene)
+        return scene
 
     def scene(self) -> Scene:
         """All statements and items up to the end of the text."""
@@ -195,6 +201,22 @@ class _Reader(ItemReader):
                 self.source.fail(index, error.cause)
         return replace(scene, labels=tuple(label for _, label in self.labels))
 
+    def check_pens(self, scene: Scene) -> None:
+        """An InputError for pens and dashes of items that are not there; items may come behind them."""
+        names = {item.name for item in scene.items}
+        said = [index for index, target in self.pens if self.words[index - 1] != "style"]
+        if said and scene.inks is not None and scene.inks.style in WIRE_STYLES:
+            cause = f"'{self.words[said[0] - 1]}' does not go with the style {scene.inks.style}"
+            self.source.fail(said[0] - 1, f"{cause}, which shows all lines, in colours of its own")
+        for index, target in self.pens:
+            item = target_of(target)[1]
+            # Cuts and explosions make items of their own.
+            if item is not None and not any(item == name or item.startswith(f"{name} ") for name in names):
+                try:
+                    check_item(item, tuple(names))
+                except InputError as error:
+                    self.source.fail(index, error.cause)
+
     def check_range(self) -> None:
         """An InputError for polyhedra, as they stand in the scene, whose coordinates leave the range of numbers."""
         bounds = [item.mesh.bounds for item in self.items if len(item.mesh.vertices)]
@@ -215,7 +237,7 @@ class _Reader(ItemReader):
             annotation, self.at = read_annotation(self.source, self.at)
             self.annotations.append(annotation)
             return
-        if word in self.set and word not in ("light", "label", "cut"):
+        if word in self.set and word not in ("light", "label", "cut", *INK_WORDS):
             self.fail(f"a second '{word}'")
         self.set.add(word)
         source, now = self.source, self.settings
@@ -232,6 +254,13 @@ class _Reader(ItemReader):
         elif word == "cut":
             cut, self.at = read_cut(source, self.at)
             self.settings = replace(now, cuts=(*now.cuts, cut))
+        elif word in INK_WORDS:
+            self.pens.append((self.at + 1, pen_target(source, self.at)))
+            inks, self.at = read_ink(source, self.at, now.inks, self.files)
+            self.settings = replace(now, inks=inks)
+        elif word == "explode":
+            explosion, self.at = read_explosion(source, self.at)
+            self.settings = replace(now, explosion=explosion)
         elif word == "page":
             page, self.at = read_page(source, self.at)
             self.settings = replace(now, page=page)

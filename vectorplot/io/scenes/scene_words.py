@@ -67,6 +67,7 @@ SCENE_WORDS = (
         "exposure",
         "depth_cue",
     ),
+    *("style", "pen", "dash", "explode"),
     *("include", "assembly", "end"),
     *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )

@@ -15,6 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.items.scene_hatching import hatch_text
 from vectorplot.io.scenes.reserved_words import RESERVED
 from vectorplot.io.scenes.scene_words import bare_word
+from vectorplot.io.scenes.statements.ink_statements import ink_texts
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.light import Light
@@ -85,6 +86,10 @@ def write_scene(scene: Scene) -> str:
     blocks.extend(_item(item, scene.lights) for item in scene.items)
     blocks.extend(map(_label, scene.labels))
     blocks.extend(map(_cut, scene.cuts))
+    if scene.explosion is not None:
+        blocks.append(f"explode {_numbers(scene.explosion.way)} {scene.explosion.factor:.17g}")
+    if scene.inks is not None:
+        blocks.extend(ink_texts(scene.inks))
     return "".join(block + "\n" for block in blocks)
 
 

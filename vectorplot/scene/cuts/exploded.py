@@ -9,17 +9,16 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
+from vectorplot.curves.curve import is_curve
 from vectorplot.curves.families.line import Line
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import shift_matrix
+from vectorplot.scene.cuts.explosion import direction_of
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
-
-AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-"""Axes by their names."""
 
 
 def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, traces: bool = True) -> Scene:
@@ -28,7 +27,8 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
     Parameters
     ----------
     scene : Scene
-        Its items are the parts, those of one group one part.
+        Its items are the parts, those of one group one part; curves that are in no group with a body stay, if there
+        are bodies.
     axis : {"x", "y", "z"} or (3,) array_like of float
         The first part stays, the others move along it.
     factor : float
@@ -61,14 +61,12 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
     >>> [item.name for item in apart.items], apart.items[1].shape.bounds[:, 2].tolist()
     (['a', 'b', 'b trace'], [1.5, 2.5])
     """
-    way = np.asarray(AXES.get(axis, (0.0, 0.0, 0.0)) if isinstance(axis, str) else axis, dtype=np.float64)
-    if way.shape != (3,) or not np.isfinite(way).all() or not way.any():
-        raise InputError(f"explode: an axis {axis!r}: expected x, y, z or a direction")
+    way = direction_of(axis)
     if not 1.0 <= factor < np.inf:
         raise InputError(f"explode: a factor of {factor:g}: expected a finite number, 1 or more")
-    way /= np.linalg.norm(way)
     keys = [item.group or f"{number} {item.name}" for number, item in enumerate(scene.items)]
-    parts = {key: [n for n, own in enumerate(keys) if own == key] for key in dict.fromkeys(keys)}
+    bodies = [key for key, item in zip(keys, scene.items, strict=True) if not is_curve(item.shape)] or keys
+    parts = {key: [n for n, own in enumerate(keys) if own == key] for key in dict.fromkeys(bodies)}
     boxes = {key: _box([scene.items[n] for n in which]) for key, which in parts.items()}
     spans = {key: _span([scene.items[n] for n in which], way) for key, which in parts.items()}
     order = sorted(parts, key=lambda key: float(spans[key].sum()))
@@ -79,7 +77,8 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
         low, high = spans[key].tolist()
         moved = max(moved, reached + room - low) if shifts else 0.0
         shifts[key], reached = moved, high + moved
-    items = [item.transformed(shift_matrix(*(shifts[key] * way))) for item, key in zip(scene.items, keys, strict=True)]
+    steps = [shifts.get(key, 0.0) * way for key in keys]
+    items = [item.transformed(shift_matrix(*step)) for item, step in zip(scene.items, steps, strict=True)]
     extent = float(np.ptp(scene.bounds, axis=0).max())
     for before, key in pairwise(order):
         low, step = spans[key][0], shifts[key] - shifts[before]
@@ -90,7 +89,12 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
         line = Line.through(foot + shifts[before] * way, foot + shifts[key] * way)
         name = scene.items[parts[key][0]].name
         items.append(Item(f"{name} trace", line, "black", lines=("trace",), occludes=False))
-    return replace(scene, items=tuple(items))
+    return replace(scene, items=tuple(items), explosion=None)
+
+
+def shown_apart(scene: Scene) -> Scene:
+    """The scene with its parts moved apart, if it says so itself."""
+    return scene if scene.explosion is None else exploded(scene, scene.explosion.way, scene.explosion.factor)
 
 
 def _box(items: list[Item]) -> Floats:

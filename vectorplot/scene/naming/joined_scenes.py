@@ -11,6 +11,7 @@ import numpy as np
 
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.labels import Label, renamed
+from vectorplot.scene.pages.inks import Inks
 from vectorplot.scene.scene import Scene
 
 
@@ -26,7 +27,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         return scenes[0]
     items = _told_apart([item for scene in scenes for item in scene.items])
     ends = np.cumsum([len(scene) for scene in scenes]).tolist()
-    parts = zip(scenes, ends, strict=True)
+    parts = list(zip(scenes, ends, strict=True))
     return Scene(
         items,
         tuple(light for scene in scenes for light in scene.lights),
@@ -37,9 +38,18 @@ def together(scenes: Sequence[Scene]) -> Scene:
         tuple(chain(*(renamed_labels(scene, items[end - len(scene) : end]) for scene, end in parts))),
         next((scene.colouring for scene in scenes if scene.colouring), None),
         next((scene.box for scene in scenes if scene.box), None),
+        cuts=tuple(cut for scene in scenes for cut in scene.cuts),
         exposure=next((scene.exposure for scene in scenes if scene.exposure != 1.0), 1.0),
         depth_cue=next((scene.depth_cue for scene in scenes if scene.depth_cue), None),
+        inks=next((_inks(scene, items[end - len(scene) : end]) for scene, end in parts if scene.inks), None),
+        explosion=next((scene.explosion for scene in scenes if scene.explosion), None),
     )
+
+
+def _inks(scene: Scene, items: Sequence[Item]) -> Inks | None:
+    """The pens of a scene whose items have other names now."""
+    names = {old.name: new.name for old, new in zip(reversed(scene.items), reversed(items), strict=True)}
+    return None if scene.inks is None else scene.inks.renamed(names)
 
 
 def _told_apart(items: Sequence[Item]) -> tuple[Item, ...]:
