@@ -94,8 +94,8 @@ def draw(
     hidden : {"none", "dashed", "solid"}, optional
         Hidden lines are left out, dashed, or solid on a layer of their own; as the style says where None.
     pens : str, Pen, mapping or iterable of str, optional
-        What draws lines by kind, by item and by both, before what style and scene say: WIDTH, COLOUR or WIDTH:COLOUR, as
-        in "contour=0.5:black,hidden=0.18:gray,house=red,house.crease=0.2"; widths in mm, or with their unit (1.4pt). What
+        What draws lines by kind, by item and by both, before what style and scene say: WIDTH, COLOUR or WIDTH:COLOUR,
+        as in "contour=0.5:black,hidden=0.18:gray,house=red,house.crease=0.2"; widths in mm, or with their unit. What
         no kind and no item stands before is for all lines.
     dashes : str, mapping or iterable of str, optional
         DASH,GAP in mm, or with their units, by kind, item and both, as in "hidden=3,1"; or none.
