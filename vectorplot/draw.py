@@ -19,6 +19,7 @@ from vectorplot.linework.checked_options import check_line_options, check_longes
 from vectorplot.linework.finish import Finish
 from vectorplot.linework.hatched_in_place import hatched_in_place
 from vectorplot.linework.labels_in_place import labels_in_place
+from vectorplot.linework.line_errors import chord_error_mm, fit_error_mm
 from vectorplot.linework.placed_lines import placed_lines
 from vectorplot.linework.traceable import traceable
 from vectorplot.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
@@ -221,6 +222,9 @@ def draw(
     shapes = traceable(walk, seen, view, faces, kinds, crease_angle_deg)
     placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed).with_halo(halo_mm)
     strokes, placement = placed.strokes(), placed.placement
+    for stage in ("visible lines", "counted lines"):
+        walk.measured(stage, "mm", lambda: view.tolerance * placement.scale)
+    walk.measured("curves", "mm", chord_error_mm, strokes)
     labels = None
     if walk.calls_for("labels"):
         beside = (subject.anchors, strokes, hidden, finish.look, text)
@@ -235,6 +239,7 @@ def draw(
     if cue is not None and finish.plain:
         found = finish.cued(walk, found, view, cue, placement)
     inks = finish.inked(walk, found, placement)
+    walk.measured("pen", "mm", fit_error_mm, inks)
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
     return beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)

@@ -39,6 +39,7 @@ from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals
 from vectorplot.shading.light.palettes import PALETTE_SIZE
 from vectorplot.stages.around_picture import beside_bar, left_of_bar, room_for_labels, titled
+from vectorplot.stages.facet_errors import outline_error
 from vectorplot.stages.subject import subject_of
 from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.words import LINE_WORDS, TEXT_WORDS, check_word, line_kinds
@@ -192,6 +193,7 @@ def paint(
     placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, annotation_points(scene))
     if fit:
         placement = subject.around(placement, ordered.view, sheet)
+    walk.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
     seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
     view, true = seen.view, ordered.facets.normals
     page, world = placement.page, placement.page_from_world
@@ -209,6 +211,8 @@ def paint(
         polygons = erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
         polygons = coloured(walk, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
+    for stage in ("order", "shadows"):
+        walk.measured(stage, "mm", lambda: view.tolerance * placement.scale)
     if walk.calls_for("visible fills"):
         from vectorplot.drawing.fills_without_overlaps import visible_fills
 

@@ -45,7 +45,13 @@ def accuracy_of_draw(tolerance_mm: float, smooth: bool) -> dict[str, str]:
 
 def accuracy_of_paint(tolerance_mm: float) -> dict[str, str]:
     """What the stages of paint say of their accuracy."""
-    return {"facets": f"asked for within {tolerance_mm:g} mm (--tolerance)"}
+    zero = f"distances below {ZERO_OF_EXTENT:g} of the extent are zero"
+    return {
+        "facets": f"outlines asked for within {tolerance_mm:g} mm (--tolerance)",
+        "order": zero,
+        "shades": "(--tolerance, --palette)",
+        "shadows": zero,
+    }
 
 
 def accuracy_of_render(facet_pixels: float, shadows: str, texels: int) -> dict[str, str]:

@@ -43,6 +43,7 @@ from vectorplot.shading.raster.screen import (
 )
 from vectorplot.shading.raster.supersampling import averaged_light
 from vectorplot.shading.shadows.map_settings import MapSettings
+from vectorplot.stages.facet_errors import facet_error
 from vectorplot.stages.subject import subject_of
 from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.visibility.painter.image_faces import outer_sides
@@ -207,10 +208,15 @@ def render(
     placement = picture_placement(view, *fine, fit, annotation_points(seen))
     if fit:
         placement = subject.around(placement, view, placement.page, AROUND_BOX)
+    walk.measured("facets", "samples", facet_error, facets, view, placement)
     system = pixel_system(placement)
     (seen, here), sides = exposed_scene(view, seen), outer_sides(view)
     region = tapered_for(triangles, system, fine, how) if walk.calls_for("shadows") else None
     lighting = scene_lighting(walk, seen, view, ShadowMaps(triangles, here, how, settings, region, sides))
+    if lighting.blocked and how != "exact":
+        from vectorplot.rendering.shadow_errors import wrong_shadows
+
+        walk.measured("shadows", "% wrong", wrong_shadows, seen, triangles, lighting)
     opacity = np.array([item.material.opacity for item in seen.items])
     mirror = np.array([item.material.is_mirror for item in seen.items], dtype=np.bool_)
     paper = palette(background or seen.background or BACKGROUND)[-1:]

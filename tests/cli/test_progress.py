@@ -55,3 +55,12 @@ def test_the_table_has_a_line_a_stage_and_a_total():
     assert [line.split()[0] for line in lines] == ["stage", "read", "ink", "total"]
     assert lines[2].split()[1:4] == ["500.0", "1234", "80.0"]
     assert lines[3].split()[1:] == ["750.0", "80.0"]
+
+
+def test_what_was_measured_of_a_stage_later_on_stands_beside_it():
+    ink = StageReport("ink", "strokes", 0.5, 1234, 80.0)
+    off = StageReport("ink", "strokes", 0.25, 0, 90.0, 0.0123, "mm")
+    lines = progress.table([ink, StageReport("write", "as svg", 0.5, 7, 90.0), off]).splitlines()
+    assert [line.split()[0] for line in lines] == ["stage", "ink", "write", "total"]
+    assert lines[1].split()[1:] == ["500.0", "1234", "80.0", "0.012", "mm", "strokes"]
+    assert lines[3].split()[1:] == ["1000.0", "90.0"]

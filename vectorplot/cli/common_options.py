@@ -86,7 +86,7 @@ JOBS = click.option(
     "--jobs", type=click.IntRange(1), metavar="N", help="Threads to work on.  [default: as many as processors]"
 )
 
-EXPLAIN = click.option("--explain", is_flag=True, help="Print stages, times, counts and memory on stderr.")
+EXPLAIN = click.option("--explain", is_flag=True, help="Print stages, times, counts, memory and errors on stderr.")
 
 QUIET = click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
 

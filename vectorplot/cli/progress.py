@@ -7,6 +7,7 @@ import time
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import replace
 from itertools import islice
 from typing import TYPE_CHECKING, Any
 
@@ -87,11 +88,26 @@ def told_warnings(*, quiet: bool) -> Iterator[None]:
 
 
 def table(reports: Sequence[StageReport]) -> str:
-    """What the stages cost, a line each: time, how much came out, the process's peak memory by then, and why."""
-    from vectorplot.stages.walk import STAGE_NAME
+    """What the stages cost, a line each: time, how much came out, the process's peak memory by then, how far off what
+    they approximate was measured to be, and why they ran."""
+    from vectorplot.stages.walk import ERROR_WIDTH, STAGE_NAME
 
-    head = f"{'stage':<{STAGE_NAME}}  {'ms':>9}  {'count':>9}  {'peak MB':>8}  why"
+    head = f"{'stage':<{STAGE_NAME}}  {'ms':>9}  {'count':>9}  {'peak MB':>8}  {'off by':<{ERROR_WIDTH}}  why"
     peak = max((report.peak_mb for report in reports), default=0.0)
-    total = sum(report.seconds for report in reports)
+    total = sum(report.seconds for report in reports if report.error is None)
     foot = f"{'total':<{STAGE_NAME}}  {1000.0 * total:9.1f}  {'':>9}  {peak:8.1f}"
-    return "\n".join([head, *map(str, reports), foot])
+    return "\n".join([head, *map(str, with_errors(reports)), foot])
+
+
+def with_errors(reports: Sequence[StageReport]) -> list[StageReport]:
+    """A report for each stage, with what was measured of it later on; measuring is not part of its time."""
+    found: list[StageReport] = []
+    last: dict[str, int] = {}
+    for report in reports:
+        if report.error is None or report.name not in last:
+            last[report.name] = len(found)
+            found.append(report)
+        else:
+            stage = found[last[report.name]]
+            found[last[report.name]] = replace(stage, error=report.error, unit=report.unit)
+    return found

@@ -14,6 +14,7 @@ from vectorplot.drawing.painted_fills import Overlay, fills_on_page, stacked
 from vectorplot.geometry.budget import Budget
 from vectorplot.painting.painted_paper import background, paper
 from vectorplot.painting.seen import Seen, finer, shades_of_faces
+from vectorplot.painting.shade_errors import shade_error_steps
 from vectorplot.scene.pages.page import Page
 from vectorplot.shading.light.face_shades import Shades
 from vectorplot.shading.light.fineness.refinement import shade_error
@@ -30,6 +31,7 @@ def coloured(
     """The polygons of the picture in their colours, with all that lies on them and is seen in them."""
     seen = replace(seen, faces=finer(seen, lighting, budget.facets, shade_error(tolerance_mm)))
     shades = walk.run("shades", shades_of_faces, seen, lighting)
+    walk.measured("shades", "of 255", shade_error_steps, seen, lighting)
     aura = aura_mm / seen.placement.scale
     decals, lighting = _decals(walk, seen, lighting, aura, budget)
     laid = _laid(seen, lighting, decals)

@@ -40,6 +40,8 @@ def measured(series: Series, repeat: int = 2, largest: int | None = None) -> Mea
         memory = peak_of(made)
         stages = []
         once = cpu_seconds(partial(made, explain=stages.append), 1)
+        once -= sum(stage.seconds for stage in stages if stage.error is not None)
+        stages = [stage for stage in stages if stage.error is None]
         times.append(once if once > LONG else min(once, cpu_seconds(made, repeat)))
     whole = sum(stage.seconds for stage in stages) or 1.0
     parts = tuple((stage.name, stage.seconds / whole) for stage in stages)

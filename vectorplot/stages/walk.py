@@ -26,22 +26,33 @@ class Stage:
 
 @dataclass(frozen=True)
 class StageReport:
-    """What a stage cost: seconds, how many things came out of it, and the process's peak memory so far in MB."""
+    """What a stage cost: seconds, how many things came out of it, and the process's peak memory so far in MB; or, in a
+    report of its own as soon as it can be told, error: what its approximation was measured to cost, in a unit."""
 
     name: str
     why: str
     seconds: float
     count: int
     peak_mb: float
+    error: float | None = None
+    unit: str = ""
 
     def __str__(self) -> str:
         """A line of what ``--explain`` prints."""
         cost = f"{1000.0 * self.seconds:9.1f}  {self.count:9d}  {self.peak_mb:8.1f}"
-        return f"{self.name:<{STAGE_NAME}}  {cost}  {printable(self.why)}"
+        return f"{self.name:<{STAGE_NAME}}  {cost}  {self.off:<{ERROR_WIDTH}}  {printable(self.why)}"
+
+    @property
+    def off(self) -> str:
+        """The error with its unit, in two digits; empty where there is none."""
+        return "" if self.error is None else f"{self.error:.2g} {self.unit}"
 
 
 STAGE_NAME = 16
 """So many letters names of stages have at most, mirror light and lines on meshes among them."""
+
+ERROR_WIDTH = 14
+"""The letters of an error with its unit."""
 
 
 class Walk:
@@ -91,6 +102,19 @@ class Walk:
         """Tell the listener what came out of a stage, besides its result."""
         if self._explain is not None:
             self._explain(StageReport(name, why, 0.0, count, peak_mb()))
+
+    def measured(
+        self, name: str, unit: str, measure: Callable[P, float | None], *args: P.args, **kwargs: P.kwargs
+    ) -> None:
+        """Tell the listener, if there is one and the plan has the stage, what its approximation cost in some unit;
+        nothing where there was nothing to approximate. It takes no time where nobody listens."""
+        if self._explain is None or name not in self._stages:
+            return
+        start = time.perf_counter()
+        error = measure(*args, **kwargs)
+        if error is not None:
+            seconds = time.perf_counter() - start
+            self._explain(StageReport(name, self._stages[name].why, seconds, 0, peak_mb(), error, unit))
 
     def run(self, name: str, function: Callable[P, R], *args: P.args, **kwargs: P.kwargs) -> R:
         """The result of a stage.
