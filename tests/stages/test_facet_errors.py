@@ -13,7 +13,7 @@ from vectorplot.scene.placement import fitted_picture
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.shading.light.corner_normals import TrueNormals
-from vectorplot.shading.light.faceted import FacetedScene
+from vectorplot.shading.light.fineness.faceted import FacetedScene
 from vectorplot.stages.facet_errors import facet_error, outline_error
 
 CAMERA = Camera.view("front")

@@ -8,7 +8,7 @@ from vectorplot.arrays import Ints
 from vectorplot.geometry import ragged
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
-from vectorplot.shading.light.faceted import FacetedScene
+from vectorplot.shading.light.fineness.faceted import FacetedScene
 
 MOST = 1 << 16
 """So many sides are measured at most, evenly among all."""
