@@ -14,8 +14,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conforming_triangles import divided
-from vectorplot.features.tessellation import edges_of
 from vectorplot.geometry import records
+from vectorplot.geometry.triangle_edges import edges_of
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 

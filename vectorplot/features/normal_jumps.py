@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.edge_splitting import Between, Net, Vertices
-from vectorplot.features.tessellation import edges_of
+from vectorplot.geometry.triangle_edges import edges_of
 
 HALVINGS = 40
 """How often the part of a side on which the normal turns over is halved."""

@@ -13,6 +13,7 @@ from vectorplot.features.parametric.curve_tracing import TURN
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.grid_triangulation import average_normals, cut_cells
+from vectorplot.geometry.triangle_edges import edges_of
 from vectorplot.surfaces.surface import Domain, Surface
 
 UNEVEN = 0.17
@@ -87,15 +88,6 @@ def finer_grids(columns: int, rows: int) -> list[tuple[int, int]]:
     """Columns and rows of grids to try one after the other: the one asked for, then finer ones."""
     finer = [(n * columns, n * rows) for n in FINER if n * n * columns * rows <= MOST_FINER]
     return [(columns, rows), *finer]
-
-
-def edges_of(triangles: Ints, count: int) -> tuple[Ints, Ints, Ints]:
-    """The edges (e,2) of triangles (t,3) of points 0 to count; (t,3) the edge from every corner to the next; (e,) how
-    many triangles an edge has."""
-    after = np.roll(triangles, -1, axis=1)
-    key = np.minimum(triangles, after) * count + np.maximum(triangles, after)
-    keys, sides, uses = np.unique(key.ravel(), return_inverse=True, return_counts=True)
-    return np.stack(np.divmod(keys, max(count, 1)), axis=1), sides.reshape(-1, 3), uses
 
 
 def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellation:

@@ -101,3 +101,15 @@ def test_a_scene_of_one_label_is_a_picture(tmp_path):
     for at in ((1.0, 2.0, 3.0), vp.OnPage(50, 60)):
         drawing = vp.draw(vp.Scene((), labels=(vp.Label("hello", at),)))
         assert len(drawing.layers[-1].strokes[0])
+
+
+@pytest.mark.parametrize("verb", [vp.draw, vp.paint])
+def test_strokes_and_fills_on_a_fitted_sheet_are_those_of_their_items(verb):
+    blocks = tuple(vp.Item(f"block {k}", box((2, 1, 1)).moved(0, 3 * k, 0), "red") for k in range(3))
+    drawings = [verb(vp.Scene(blocks, labels=LABELS), CAMERA, page=page) for page in ("fit", "A4")]
+
+    def items(drawing):
+        marks = (mark for layer in drawing.layers for mark in (*layer.strokes, *layer.fills))
+        return {drawing.items[k] for mark in marks for k in np.unique(mark.item).tolist() if k >= 0}
+
+    assert items(drawings[0]) == items(drawings[1]) == {"block 0", "block 1", "block 2"}

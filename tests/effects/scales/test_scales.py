@@ -12,9 +12,9 @@ from vectorplot.effects.scales.box_axes import with_box
 from vectorplot.effects.scales.colour_maps import COLOUR_MAPS, map_colours
 from vectorplot.effects.scales.coloured_scene import coloured
 from vectorplot.effects.scales.scaled_scene import scaled
-from vectorplot.effects.scales.value_bands import Valued, bands
 from vectorplot.errors import InputError
 from vectorplot.geometry import box as solid_box
+from vectorplot.geometry import ragged
 from vectorplot.io import parse_scene, write_scene
 from vectorplot.scene import BoxAxes, Colouring
 from vectorplot.surfaces import Sphere
@@ -33,41 +33,6 @@ def test_maps_run_from_their_first_colour_to_their_last(name):
 def test_an_unknown_map_gets_its_nearest():
     with pytest.raises(InputError, match="viridis"):
         map_colours("virdis", 4)
-
-
-@pytest.mark.parametrize(("scale", "away"), [(1.0, 0.0), (1e-6, 0.0), (1e6, 3e8)])
-def test_bands_have_all_of_the_area_and_only_their_numbers(scale, away):
-    rng = np.random.default_rng(5)
-    x, y = np.meshgrid(np.linspace(-1, 1, 13), np.linspace(-1, 1, 13), indexing="ij")
-    points = scale * np.stack([x.ravel(), y.ravel(), rng.uniform(0.0, 1.0, x.size)], axis=1)
-    corner = (np.arange(12)[:, None] * 13 + np.arange(12)).ravel()
-    triangles = np.concatenate(
-        [np.stack([corner, corner + 13, corner + 14], axis=1), np.stack([corner, corner + 14, corner + 1], axis=1)]
-    )
-    values = points[:, 2] + away
-    levels = away + scale * np.array([0.2, 0.5, 0.75])
-    parts = bands(Valued(points, values, triangles), levels)
-
-    def area(part):
-        a, b, c = (part.points[part.triangles[:, k], :2] for k in range(3))
-        one, two = b - a, c - a
-        return np.abs(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0]).sum() / 2.0
-
-    assert sum(map(area, parts)) == pytest.approx(4.0 * scale * scale, rel=1e-6)
-    slack = 1e-6 * scale
-    for part, low, high in zip(parts, [-np.inf, *levels], [*levels, np.inf], strict=True):
-        assert part.values.min() >= low - slack and part.values.max() <= high + slack
-
-
-def test_a_line_of_a_level_along_sides_has_no_comb():
-    x, y = np.meshgrid(np.linspace(-1, 1, 9), np.linspace(-1, 1, 9), indexing="ij")
-    noise = 1e-16 * np.random.default_rng(2).choice([-1.0, 1.0], x.size)
-    corner = (np.arange(8)[:, None] * 9 + np.arange(8)).ravel()
-    triangles = np.concatenate(
-        [np.stack([corner, corner + 9, corner + 10], axis=1), np.stack([corner, corner + 10, corner + 1], axis=1)]
-    )
-    whole = Valued(np.stack([x.ravel(), y.ravel(), 0.0 * x.ravel()], axis=1), x.ravel() + noise, triangles)
-    assert [len(part.triangles) for part in bands(whole, np.array([0.0]))] == [64, 64]
 
 
 @pytest.mark.parametrize(
@@ -177,3 +142,20 @@ def test_cuts_come_before_bands_and_boxes():
 def test_numbers_that_are_next_to_nothing_have_a_bar_too():
     scene = replace(CUBE, colouring=Colouring("1e-320*x"), box=BoxAxes())
     assert vp.draw(scene, camera="iso").layers[-1].name == "colour bar"
+
+
+@pytest.mark.parametrize("by", ["x*y", "z*z", lambda points: np.cos(3.0 * points[:, 0]) * points[:, 1]])
+def test_formulas_that_are_not_linear_divide_the_faces_of_a_box(by):
+    scene, bar = coloured(CUBE, Colouring(by, steps=12))
+    numbers = by if callable(by) else lambda points: eval(by, dict(zip("xyz", points.T, strict=True)))
+    step = (bar.high - bar.low) / 12
+    for item in scene.items:
+        band = bar.colours.index(item.colour)
+        fans, _ = ragged.fans(item.mesh.offsets)
+        middle = numbers(item.mesh.vertices[item.mesh.corners[fans]].mean(axis=1)) - bar.low
+        assert (middle > (band - 0.5) * step).all() and (middle < (band + 1.5) * step).all()
+
+
+def test_a_number_that_is_the_same_everywhere_divides_nothing():
+    scene, _ = coloured(CUBE, Colouring("0.1+0*x"))
+    assert sum(item.mesh.face_count for item in scene.items) == 12

@@ -5,6 +5,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.scene.terrains.terrain_scene import terrain_mesh
 from vectorplot.scene.terrains.tints import hill_light, tinted
 from vectorplot.surfaces.terrains.terrain import terrain
@@ -16,8 +17,9 @@ def hills(count=25):
 
 
 def area(mesh):
-    a, b, c = np.moveaxis(mesh.vertices[mesh.corners].reshape(-1, 3, 3), 1, 0)
-    return 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+    fans, of = ragged.fans(mesh.offsets)
+    a, b, c = np.moveaxis(mesh.vertices[mesh.corners[fans]], 1, 0)
+    return np.bincount(of, 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1))
 
 
 @pytest.mark.parametrize("heights", [[0.0], [-1.5, 0.1, 0.5, 1.9], [-0.05, 0.0, 0.05], [9.0], [-9.0], []])

@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats
-from vectorplot.drawing.drawing import Drawing, Layer
-from vectorplot.drawing.sheets.sheet import Sheet
+from vectorplot.drawing.drawing import Layer
+from vectorplot.drawing.sheets.sheet import moved_mark
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement
 
@@ -26,8 +26,7 @@ def with_room(layers: tuple[Layer, ...], placement: Placement, boxes: Floats) ->
     if (low == 0.0).all() and (high == size).all():
         return layers, placement
     width, height = (high - low).tolist()
-    whole = Page(width, height, margin)
-    moved = Sheet(whole).place(Drawing(page.width_mm, page.height_mm, layers), *(-low).tolist()).drawing()
+    moved = tuple(replace(layer, marks=tuple(moved_mark(mark, 1.0, -low) for mark in layer.marks)) for layer in layers)
     matrix = placement.page_from_image.copy()
     matrix[:2] -= low[:, None] * matrix[2]
-    return moved.layers, replace(placement, page=whole, page_from_image=matrix)
+    return moved, replace(placement, page=Page(width, height, margin), page_from_image=matrix)

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.texts import Texts
@@ -17,6 +17,8 @@ from vectorplot.scene.point_of_view import page_of
 from vectorplot.scene.scene import Scene
 
 NO_ITEM = -1
+
+Mark = Paths | CurvedStrokes | Fills | Texts
 
 
 @dataclass(frozen=True, eq=False)
@@ -121,14 +123,15 @@ class Sheet:
         """
         names = tuple(dict.fromkeys(name for placed in self.drawings for name in placed.drawing.items))
         number = {name: index for index, name in enumerate(names)}
-        merged: dict[tuple[str, Pen, bool], list[Paths | CurvedStrokes | Fills | Texts]] = {}
+        merged: dict[tuple[str, Pen, bool], list[Mark]] = {}
         curves = 0
         for placed in self.drawings:
             of_item = np.array([*(number[name] for name in placed.drawing.items), NO_ITEM], dtype=np.intp)
             taken = curves
             for layer in placed.drawing.layers:
                 marks = merged.setdefault((layer.name, layer.pen, layer.plotted), [])
-                marks.extend(_moved(mark, placed, of_item, taken) for mark in layer.marks)
+                moved = (moved_mark(mark, placed.scale, np.array([placed.x_mm, placed.y_mm])) for mark in layer.marks)
+                marks.extend(_renumbered(mark, of_item, taken) for mark in moved)
                 curves = max((curves, *(taken + int(paths.curve.max(initial=-1)) + 1 for paths in layer.strokes)))
         drawn = {key: tuple(mark for mark in marks if len(mark)) for key, marks in merged.items()}
         layers = tuple(Layer(name, pen, marks, plotted) for (name, pen, plotted), marks in drawn.items() if marks)
@@ -136,27 +139,15 @@ class Sheet:
         return Drawing(page.width_mm, page.height_mm, layers, names, self.title)
 
 
-def _moved(
-    mark: Paths | CurvedStrokes | Fills | Texts, placed: PlacedDrawing, of_item: Ints, curves: int
-) -> Paths | CurvedStrokes | Fills | Texts:
-    """A mark of a drawing on the sheet; of_item: the new numbers of items, and of none; curves: so many have numbers
-    already."""
-    scale, by = placed.scale, np.array([placed.x_mm, placed.y_mm])
+def moved_mark(mark: Mark, scale: float, by: Floats) -> Mark:
+    """A mark scale times larger about the lower left corner of its page, and then moved by (2,) mm."""
     if isinstance(mark, Texts):
         points = scale * mark.points + by
         return replace(mark, points=points, size_mm=scale * mark.size_mm, room_mm=scale * mark.room_mm)
     if isinstance(mark, Fills):
-        return replace(mark, points=scale * mark.points + by, item=of_item[mark.item])
+        return replace(mark, points=scale * mark.points + by)
     if isinstance(mark, Paths):
-        return replace(
-            mark,
-            points=scale * mark.points + by,
-            item=of_item[mark.item],
-            curve=np.where(mark.curve < 0, mark.curve, mark.curve + curves),
-            handles=scale * mark.handles,
-        )
-    paths = _moved(mark.paths, placed, of_item, curves)
-    assert isinstance(paths, Paths)
+        return _moved_paths(mark, scale, by)
     beziers = replace(mark.beziers, control=scale * mark.beziers.control + by, error=scale * mark.beziers.error)
     arcs = replace(
         mark.arcs,
@@ -164,4 +155,24 @@ def _moved(
         first=scale * mark.arcs.first,
         second=scale * mark.arcs.second,
     )
-    return CurvedStrokes(paths, beziers, arcs)
+    return CurvedStrokes(_moved_paths(mark.paths, scale, by), beziers, arcs)
+
+
+def _moved_paths(paths: Paths, scale: float, by: Floats) -> Paths:
+    return replace(paths, points=scale * paths.points + by, handles=scale * paths.handles)
+
+
+def _renumbered(mark: Mark, of_item: Ints, curves: int) -> Mark:
+    """A mark with new numbers (n+1,) of its items, the last one that of none, and of its curves, so many more."""
+    if isinstance(mark, Texts):
+        return mark
+    if isinstance(mark, Fills):
+        return replace(mark, item=of_item[mark.item])
+    if isinstance(mark, Paths):
+        return _renumbered_paths(mark, of_item, curves)
+    return replace(mark, paths=_renumbered_paths(mark.paths, of_item, curves))
+
+
+def _renumbered_paths(paths: Paths, of_item: Ints, curves: int) -> Paths:
+    curve = np.where(paths.curve < 0, paths.curve, paths.curve + curves)
+    return replace(paths, item=of_item[paths.item], curve=curve)

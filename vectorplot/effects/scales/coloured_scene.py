@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,13 +11,14 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.pens.pen_rules import PenRule
 from vectorplot.effects.scales.colour_maps import map_colours
-from vectorplot.effects.scales.value_bands import Valued, bands
+from vectorplot.effects.scales.value_refinement import linear_triangles, reached
 from vectorplot.errors import InputError
 from vectorplot.features.facet_demands import Within
 from vectorplot.features.facets import facets
 from vectorplot.features.feature_lines.mesh_bending import mesh_bending, smooth_normals
 from vectorplot.features.meshes.mesh_curves import face_triangles
-from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.cuts.level_bands import level_bands
+from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.scales import Colouring
@@ -30,6 +32,19 @@ LINE_MM = 0.25
 
 WORDS = ("x", "y", "z", "height", "slope", "curvature")
 """Numbers that every shape has at its points; all else is a formula."""
+
+
+PART_OF_STEP = 0.25
+"""Of the difference of two colours: how far numbers may be from linear in a triangle."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Valued:
+    """Triangles (t,3) of points (n,3), with a number (n,) at each."""
+
+    points: Floats
+    values: Floats
+    triangles: Ints
 
 
 @dataclass(frozen=True)
@@ -48,7 +63,8 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     """The scene with a band of every body for each colour, and the bar that explains them.
 
     Smooth surfaces become triangles within COLOURED_OF_EXTENT of the extent of the scene; their parameter lines, paths
-    and integral curves are left out. Cut faces keep their colour and their hatches.
+    and integral curves are left out. Triangles are divided until formulas and functions are linear in each within
+    PART_OF_STEP of a colour, or there are too many. Cut faces keep their colour and their hatches.
     Errors: InputError for an unknown map or word, a formula that is none, a scene without bodies, numbers that are not
     finite anywhere.
     """
@@ -69,10 +85,11 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
             items.append(item)
             continue
         lines = _kept_lines(item.curves)
-        for k, part in enumerate(bands(whole, levels)):
-            if len(part.triangles):
+        parts = level_bands(whole.points, whole.values, whole.triangles, levels)
+        for k in range(len(colours)):
+            mesh = parts.mesh(k)
+            if mesh.face_count:
                 name = f"{item.name} {k + 1}"
-                mesh = Mesh.from_triangles(part.points, part.triangles)
                 group = item.group or item.name
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
                 items.append(band)
@@ -89,7 +106,7 @@ def _kept_lines(lines: SurfaceLines) -> SurfaceLines:
     return replace(lines, columns=0, rows=0, paths=(), integral=(), terrain=())
 
 
-def _valued(item: Item, colouring: Colouring, size: float) -> Valued:
+def _valued(item: Item, colouring: Colouring, size: float) -> _Valued:
     """The triangles of an item and the numbers at their corners; what has none has the lowest there is."""
     shape, normals = item.shape, None
     if isinstance(shape, Mesh):
@@ -100,37 +117,57 @@ def _valued(item: Item, colouring: Colouring, size: float) -> Valued:
     else:
         mesh = item.mesh
     if not mesh.face_count:
-        return Valued(mesh.vertices, np.zeros(len(mesh.vertices)), np.zeros((0, 3), dtype=np.intp))
-    faces = face_triangles(mesh)
+        return _Valued(mesh.vertices, np.zeros(len(mesh.vertices)), np.zeros((0, TRIANGLE), dtype=np.intp))
+    points, triangles = mesh.vertices, face_triangles(mesh).triangles
     try:
-        values = _numbers(colouring, mesh, faces.triangles, normals)
+        if (numbers := _of_places(colouring.by)) is None:
+            values = _of_shape(str(colouring.by), mesh, triangles, normals)
+        else:
+            range_ = reached(points, triangles, numbers)
+            points, triangles = linear_triangles(points, triangles, numbers, PART_OF_STEP * range_ / colouring.steps)
+            values = numbers(points)
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
     known = np.isfinite(values)
     least = float(values[known].min()) if known.any() else np.nan
-    return Valued(mesh.vertices, np.where(known, values, least), faces.triangles)
+    return _Valued(points, np.where(known, values, least), triangles)
 
 
-def _numbers(colouring: Colouring, mesh: Mesh, triangles: Ints, normals: Floats | None) -> Floats:
-    """(v,) the numbers at the vertices of a mesh; normals (v,3): of the surface it stands for, if they are known."""
-    by, points = colouring.by, mesh.vertices
-    if not isinstance(by, str):
-        values = np.asarray(by(points), dtype=np.float64)
-        if values.shape != (len(points),):
-            raise InputError(f"colouring: the function gives numbers of shape {values.shape} for {len(points)} points")
-        return values
-    if by in ("x", "y", "z", "height"):
-        return np.asarray(points[:, 2 if by == "height" else "xyz".index(by)])
+def _of_shape(by: str, mesh: Mesh, triangles: Ints, normals: Floats | None) -> Floats:
+    """(v,) the numbers of WORDS at the vertices of a mesh; normals (v,3): of the surface it stands for, if they are
+    known."""
+    points = mesh.vertices
     if by == "slope":
         x, y, z = (smooth_normals(points, triangles) if normals is None else normals).T
         return np.asarray(np.degrees(np.arctan2(np.hypot(x, y), np.abs(z))))
     if by == "curvature":
         second = mesh_bending(face_triangles(mesh)).second
         return np.asarray(-0.5 * (second[:, 0] + second[:, 2]))
-    try:
-        formula = parse_expression(by, ("x", "y", "z"))
-    except InputError as error:
-        raise InputError(f"colouring by {by!r}: expected {', '.join(WORDS)} or a formula; {error.cause}") from None
-    with np.errstate(all="ignore"):
-        found = np.asarray(formula(x=points[:, 0], y=points[:, 1], z=points[:, 2]), dtype=np.float64)
-    return np.asarray(np.broadcast_to(found, (len(points),)))
+    return np.asarray(points[:, 2 if by == "height" else "xyz".index(by)])
+
+
+def _of_places(by: str | Callable[[Floats], Floats]) -> Callable[[Floats], Floats] | None:
+    """The numbers (n,) at points (n,3) that a formula or a function says; None for WORDS."""
+    if by in WORDS:
+        return None
+    if isinstance(by, str):
+        try:
+            formula = parse_expression(by, ("x", "y", "z"))
+        except InputError as error:
+            raise InputError(f"colouring by {by!r}: expected {', '.join(WORDS)} or a formula; {error.cause}") from None
+
+        def of_formula(points: Floats) -> Floats:
+            with np.errstate(all="ignore"):
+                found = np.asarray(formula(x=points[:, 0], y=points[:, 1], z=points[:, 2]), dtype=np.float64)
+            return np.asarray(np.broadcast_to(found, (len(points),)))
+
+        return of_formula
+    function = by
+
+    def of_function(points: Floats) -> Floats:
+        values = np.asarray(function(points), dtype=np.float64)
+        if values.shape != (len(points),):
+            raise InputError(f"colouring: the function gives numbers of shape {values.shape} for {len(points)} points")
+        return values
+
+    return of_function

@@ -14,8 +14,9 @@ from vectorplot.features.intersections.patches import MeshPatch
 from vectorplot.features.intersections.surface_intersection import doubts_about, joined, repeats_dropped
 from vectorplot.features.intersections.triangle_pairs import overlapping_triangles, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.tessellation import FREE, Tessellation, edges_of
+from vectorplot.features.tessellation import FREE, Tessellation
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.triangle_edges import edges_of
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
 

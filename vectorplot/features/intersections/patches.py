@@ -11,10 +11,11 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.curve_tracing import extent
 from vectorplot.features.parametric.wrapping import wrapped
-from vectorplot.features.tessellation import FREE, Tessellation, edges_of, surface_tessellation
+from vectorplot.features.tessellation import FREE, Tessellation, surface_tessellation
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.triangle_edges import edges_of
 from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import Surface

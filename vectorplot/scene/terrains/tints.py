@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import cos, radians, sin
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import number
 from vectorplot.errors import InputError
-from vectorplot.geometry.cuts.divided_triangles import divided_triangles
+from vectorplot.geometry.cuts.level_bands import level_bands
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
@@ -106,17 +106,14 @@ def tinted(
     if (np.diff(mesh.offsets) != TRIANGLE).any():
         raise InputError("tints: expected a terrain, a mesh of triangles")
     mixed = _mixed(colours, len(levels) + 1)
-    vertices, left = mesh.vertices, mesh.corners.reshape(-1, TRIANGLE)
-    items = []
-    for k, colour in enumerate(mixed):
-        low = left
-        if k < len(levels):
-            vertices, low, left = _cut(vertices, left, float(levels[k]))
-        if len(low):
-            used, corners = np.unique(low, return_inverse=True)
-            band = Mesh.from_triangles(vertices[used], corners.reshape(-1, TRIANGLE))
-            items.append(Item(f"{name}{k + 1}", band, colour, lines=("contour", "boundary", "section"), curves=curves))
-    return tuple(items)
+    cut = level_bands(mesh.vertices, mesh.vertices[:, 2], mesh.corners.reshape(-1, TRIANGLE), levels)
+    # A level line is level, to the last digit.
+    cut = replace(cut, points=np.column_stack([cut.points[:, :2], cut.values]))
+    lines = ("contour", "boundary", "section")
+    parts = ((k, cut.mesh(k)) for k in range(len(mixed)))
+    return tuple(
+        Item(f"{name}{k + 1}", part, mixed[k], lines=lines, curves=curves) for k, part in parts if part.face_count
+    )
 
 
 def _mixed(colours: Sequence[str], count: int) -> list[str]:
@@ -131,21 +128,3 @@ def _mixed(colours: Sequence[str], count: int) -> list[str]:
     parts = np.stack([np.interp(place, np.arange(len(given)), given[:, k]) for k in range(3)], axis=1)
     # Halves are rounded up: the mean of black and white is 80.
     return [f"#{r:02x}{g:02x}{b:02x}" for r, g, b in np.floor(parts + 0.5).astype(int).tolist()]
-
-
-def _cut(vertices: Floats, triangles: Ints, height: float) -> tuple[Floats, Ints, Ints]:
-    """The vertices, those on the level line added, and the triangles below it and above; what is on it counts as
-    above."""
-    cut = divided_triangles(triangles, vertices[:, 2] - height < 0.0)
-    a, b = vertices[cut.low], vertices[cut.high]
-    share = (height - a[:, 2]) / (b[:, 2] - a[:, 2])
-    points = a + share[:, None] * (b - a)
-    points[:, 2] = height
-    every = np.concatenate([vertices, points])
-    return every, _with_area(every, cut.below), _with_area(every, cut.above)
-
-
-def _with_area(vertices: Floats, triangles: Ints) -> Ints:
-    """The triangles whose corners are three points."""
-    a, b, c = (vertices[triangles[:, k]] for k in range(TRIANGLE))
-    return np.asarray(triangles[(a != b).any(axis=1) & (b != c).any(axis=1) & (c != a).any(axis=1)])

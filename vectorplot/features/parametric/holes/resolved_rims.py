@@ -10,7 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.parametric.holes.holes import is_known, ways_between
 from vectorplot.features.parametric.wrapping import wrapped
-from vectorplot.features.tessellation import edges_of
+from vectorplot.geometry.triangle_edges import edges_of
 from vectorplot.surfaces.surface import Surface
 
 ROUNDS = 12
