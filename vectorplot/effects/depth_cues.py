@@ -84,7 +84,7 @@ def _divided(paths: Paths, level: Floats, step: Ints, page_from_world: Floats) -
     rise = step[start + 1] - step[start]
     pieces = np.abs(rise) + 1
     segment = np.repeat(start, pieces)
-    place, way = ragged.place(pieces), np.repeat(np.sign(rise).astype(np.intp), pieces)
+    place, way = ragged.place(pieces), np.repeat(np.clip(rise, -1, 1), pieces)
     of_piece: Ints = step[segment] + way * place
     run = level[segment + 1] - level[segment]
     share = (of_piece + (way < 0) - level[segment]) / np.where(run != 0.0, run, 1.0)
