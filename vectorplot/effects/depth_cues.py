@@ -85,7 +85,7 @@ def _divided(paths: Paths, level: Floats, step: Ints, page_from_world: Floats) -
     pieces = np.abs(rise) + 1
     segment = np.repeat(start, pieces)
     place, way = ragged.place(pieces), np.repeat(np.clip(rise, -1, 1), pieces)
-    of_piece: Ints = step[segment] + way * place
+    of_piece = np.asarray(step[segment] + way * place, dtype=np.intp)
     run = level[segment + 1] - level[segment]
     share = (of_piece + (way < 0) - level[segment]) / np.where(run != 0.0, run, 1.0)
     low = np.where(place > 0, np.clip(share, 0.0, 1.0), 0.0)
