@@ -24,6 +24,7 @@ from vectorplot.cli.commands.try_ import try_
 from vectorplot.cli.films.animate import animate
 from vectorplot.cli.films.replay import replay
 from vectorplot.cli.main import run
+from vectorplot.cli.many.contact_sheet import contact_sheet
 from vectorplot.geometry.columns import dot
 
 DOCS = ROOT / "docs"
@@ -77,7 +78,7 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
 
 @pytest.mark.parametrize(
     "command",
-    [accuracy, animate, draw, info, paint, render, replay, sheet, speed, try_],
+    [accuracy, animate, contact_sheet, draw, info, paint, render, replay, sheet, speed, try_],
     ids=lambda command: command.name,
 )
 def test_every_option_is_on_the_page_of_the_command(command):

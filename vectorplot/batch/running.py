@@ -171,7 +171,11 @@ def run(
 
 
 def results(
-    calls: Sequence[Callable[[], Value]], executor: Submits | None = None, *, window: int = WINDOW
+    calls: Sequence[Callable[[], Value]],
+    executor: Submits | None = None,
+    *,
+    window: int = WINDOW,
+    tell: Callable[[], None] | None = None,
 ) -> list[Value]:
     """What calls give, in their order, such as the drawings of a contact sheet.
 
@@ -183,6 +187,8 @@ def results(
         As of `run`.
     window : int
         As of `run`.
+    tell : callable, optional
+        Is called after each that is done.
 
     Returns
     -------
@@ -217,6 +223,8 @@ def results(
         for text in () if isinstance(answer, Lost) else answer.warnings:
             warnings.warn(text, InputWarning, stacklevel=2)
         found[number] = value
+        if tell is not None:
+            tell()
     return [found[number] for number in range(len(calls))]
 
 

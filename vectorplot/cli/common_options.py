@@ -16,7 +16,7 @@ from vectorplot.cli.line_options import LINE_OPTIONS, LineOptions
 from vectorplot.cli.many.picture_per_file import PictureVerb, is_folder, make_pictures
 from vectorplot.cli.many.workers import WORKER_OPTIONS, WorkerOptions
 from vectorplot.cli.options import KINDS, at_least, between, depth_cue, exposure, format_of, kinds, light
-from vectorplot.cli.picture import Report, Source, make_picture, picture_contents
+from vectorplot.cli.picture import Report, Source, make_picture, picture_contents, picture_made
 from vectorplot.cli.view_options import CAMERA_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
 
 if TYPE_CHECKING:
@@ -233,6 +233,11 @@ def picture_verb(
             """What a file of pictures in a folder holds."""
             return picture_contents(name=Path(params["out"]).name, report=SILENT, **asked(params))[0]
 
+        def made(params: Mapping[str, Any]) -> Drawing | Image:
+            """The picture itself."""
+            said = asked(params)
+            return picture_made(said["source"], said["picture"], SILENT)
+
         @click.command(cls=PictureVerb, short_help=short_help, context_settings={"show_default": True})
         @with_options(
             INPUT,
@@ -261,6 +266,7 @@ def picture_verb(
 
         assert isinstance(command, PictureVerb)
         command.content = content
+        command.made = made
         return command
 
     return command_of

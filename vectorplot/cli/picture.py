@@ -115,11 +115,27 @@ def picture_contents(
     scene = walk.run("read", source.read)
     with located(scene):
         made = picture(scene, report)
-    if is_empty(made):
-        warnings.warn(f"{source.name}: nothing to draw: the picture is empty", InputWarning, stacklevel=2)
+    warn_of_nothing(source, made)
     if overlaid and isinstance(made, Drawing):
         return walk.run("write", write_for_latex, made, format_, name)
     return (walk.run("write", write, made, format_),)
+
+
+def picture_made(
+    source: Source, picture: Callable[[Scene, Report], Drawing | Image], report: Report
+) -> Drawing | Image:
+    """Read a scene and make a picture of it; an InputWarning says where there is nothing in it."""
+    scene = source.read()
+    with located(scene):
+        made = picture(scene, report)
+    warn_of_nothing(source, made)
+    return made
+
+
+def warn_of_nothing(source: Source, made: Drawing | Image) -> None:
+    """An InputWarning for a picture that shows nothing."""
+    if is_empty(made):
+        warnings.warn(f"{source.name}: nothing to draw: the picture is empty", InputWarning, stacklevel=3)
 
 
 @contextmanager

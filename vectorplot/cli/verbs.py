@@ -15,6 +15,7 @@ from vectorplot.cli.commands.speed import speed
 from vectorplot.cli.commands.try_ import try_
 from vectorplot.cli.films.animate import animate
 from vectorplot.cli.films.replay import replay
+from vectorplot.cli.many.contact_sheet import contact_sheet
 from vectorplot.errors import printable
 from vectorplot.words import nearest
 
@@ -43,6 +44,7 @@ vectorplot.add_command(paint)
 vectorplot.add_command(info)
 vectorplot.add_command(render)
 vectorplot.add_command(sheet)
+vectorplot.add_command(contact_sheet)
 vectorplot.add_command(animate)
 vectorplot.add_command(replay)
 vectorplot.add_command(accuracy)

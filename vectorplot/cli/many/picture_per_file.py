@@ -31,9 +31,11 @@ _QUOTED = re.compile(r'"([^"\r\n]{1,1000})"')
 
 
 class PictureVerb(click.Command):
-    """A command that makes pictures; content: the bytes of one, for the values of its parameters."""
+    """A command that makes pictures; content: the bytes of one, for the values of its parameters; made: the picture
+    itself."""
 
     content: Callable[[Mapping[str, Any]], bytes]
+    made: Callable[[Mapping[str, Any]], Any]
 
 
 def is_folder(out: str) -> bool:
@@ -138,14 +140,25 @@ def files_of(names: Sequence[str]) -> tuple[Path, ...]:
 
 
 def picture_content(verb: str, params: Mapping[str, Any]) -> bytes:
-    """What a worker does: a picture for the values of a command's parameters."""
-    command = getattr(import_module(f"vectorplot.cli.{verb}"), verb)
+    """What a worker does: a picture for the values of a command's parameters, as the content of a file."""
+    content: bytes = _by_command(verb, params, lambda command: command.content)
+    return content
+
+
+def picture_of(verb: str, params: Mapping[str, Any]) -> Any:
+    """The same, the drawing or image itself."""
+    return _by_command(verb, params, lambda command: command.made)
+
+
+def _by_command(
+    verb: str, params: Mapping[str, Any], what: Callable[[PictureVerb], Callable[[Mapping[str, Any]], Any]]
+) -> Any:
+    command: PictureVerb = getattr(import_module(f"vectorplot.cli.commands.{verb}"), verb)
     context = click.Context(command, info_name=verb)
     context.params = dict(params)
     try:
         with context:
-            content: bytes = command.content(params)
+            return what(command)(params)
     except click.UsageError as error:
         # Of options that what is in the file has no use for.
         raise InputError(error.format_message()) from None
-    return content
