@@ -1,7 +1,8 @@
 """Writes docs/stability.md: hard cases swept through their degeneracy, with plots, and the table of all hard cases.
 
 ``python docs/stability.py`` runs every sweep of tests/sweeps, some 350 drawings in half a minute, and writes
-docs/stability/*.svg. A test compares the page, but for the numbers that were measured, with what this would write.
+docs/stability/*.svg; docs/hard_case_pictures.py draws the pictures of the table. A test compares the page, but for the
+numbers that were measured, with what this would write.
 """
 
 from __future__ import annotations
@@ -16,7 +17,9 @@ from pathlib import Path
 from typing import NamedTuple
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests"))
+sys.path.insert(0, str(Path(__file__).resolve().parent))
 
+from hard_case_pictures import PICTURES
 from sweeps.all_sweeps import SWEEPS
 from sweeps.sweep import Sweep
 
@@ -129,11 +132,13 @@ def table() -> Iterator[str]:
         yield from (
             f"### {room.capitalize()}",
             "",
-            "| # | what is hard | what happens | what holds it |",
-            "|---|---|---|---|",
+            "| # | what is hard | what happens | what holds it | picture |",
+            "|---|---|---|---|---|",
         )
         for number, (case, answer) in cases.items():
-            yield f"| {number} | {case} | {answer} | {', '.join(dict.fromkeys(proved[int(number)]))} |"
+            held = ", ".join(dict.fromkeys(proved[int(number)]))
+            shown = f"![{case}](hard_cases/{number}.svg)" if int(number) in PICTURES else ""
+            yield f"| {number} | {case} | {answer} | {held} | {shown} |"
         yield ""
 
 

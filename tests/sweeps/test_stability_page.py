@@ -10,6 +10,8 @@ import pytest
 from support.paths import ROOT
 from sweeps.all_sweeps import SWEEPS
 
+from vectorplot.save import write
+
 
 @pytest.fixture(scope="module")
 def stability() -> ModuleType:
@@ -37,3 +39,16 @@ def test_every_sweep_has_its_plot_on_the_page(stability: ModuleType) -> None:
     plots = [f"stability/{stability.slug(sweep.name)}.svg" for sweep in SWEEPS]
     assert all(f"]({plot})" in page and (ROOT / "docs" / plot).stat().st_size > 5000 for plot in plots)
     assert len(list((ROOT / "docs" / "stability").iterdir())) == len(plots)
+
+
+def test_hard_cases_have_their_pictures(stability: ModuleType) -> None:
+    page, folder = stability.PAGE.read_text(encoding="utf-8"), ROOT / "docs" / "hard_cases"
+    stored = {path.name: path for path in folder.iterdir()}
+    assert set(stored) == {f"{number}.svg" for number in stability.PICTURES}
+    assert all(f"](hard_cases/{name})" in page and 800 < path.stat().st_size < 40_000 for name, path in stored.items())
+
+
+@pytest.mark.parametrize("number", [7, 12, 21, 26, 71])
+def test_pictures_of_hard_cases_are_fresh(stability: ModuleType, number: int) -> None:
+    stored = (ROOT / "docs" / "hard_cases" / f"{number}.svg").read_bytes()
+    assert write(stability.PICTURES[number].drawing(), "svg") == stored, "run: python docs/hard_case_pictures.py"
