@@ -127,9 +127,9 @@ install_all() {
     echo "setup.sh: installing vectorplot and what it needs" >&2
     # For tests nothing is compiled before it is imported: of what they bring, most never is.
     what=.
-    when=--compile
-    [ "$goal" = run ] || { what='.[test]'; when=--no-compile; }
-    .venv/bin/python -m pip install --quiet --disable-pip-version-check "$when" -e "$what" ||
+    now=1
+    [ "$goal" = run ] || { what='.[test]'; now=0; }
+    PIP_COMPILE=$now .venv/bin/python -m pip install --quiet --disable-pip-version-check -e "$what" ||
         fail "pip could not install the Python packages; is there a way to the package index?"
     # Compiled now, the package starts a tenth of a second sooner, also where Python may not write beside it later.
     .venv/bin/python -m compileall -q -j 0 vectorplot || true

@@ -106,7 +106,13 @@ class Crowd:
         result = np.zeros(len(places), dtype=np.bool_)
         for group in self.groups:
             at = np.flatnonzero(~result)
-            at = at[np.isfinite(group.tree.query(where[at], distance_upper_bound=reach)[0])]
+            away, nearest = group.tree.query(where[at], distance_upper_bound=reach)
+            at, nearest = at[np.isfinite(away)], nearest[np.isfinite(away)]
+            # Mostly what is nearest is on the sheet, and the others need not be looked at.
+            if len(at):
+                same = self.ground.on_one_sheet(places[at], group.places[nearest], reach)
+                result[at[same]] = True
+                at = at[~same]
             if len(at):
                 most = min(NEIGHBOURS, len(group.places))
                 away, which = group.tree.query(where[at], most, distance_upper_bound=reach)
