@@ -127,34 +127,65 @@ def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellat
     >>> torus.triangles.shape, torus.places.shape, bool(torus.border.any())
     ((60, 3), (60, 3, 2), False)
     """
+    nodes = grid_nodes(surface, columns, rows)
+    domain = surface.domain
+    ends = np.array([domain.u_start, domain.u_end, domain.v_start, domain.v_end])[:, None]
+    return nodes.tessellation(cell_corners(columns, rows), np.arange(columns * rows), ends)
+
+
+@dataclass(frozen=True, eq=False)
+class GridNodes:
+    """The points (n,) of an uneven grid on a surface, or of one grid after the other: places (n,d) and points (n,3);
+    numbers (n,): on seams and at poles several are one point; normals (n,3): as of `average_normals`; open_ways: the
+    axes, 0 for u and 1 for v, in which the domains are not closed."""
+
+    places: Floats
+    points: Floats
+    numbers: Ints
+    normals: Floats
+    open_ways: tuple[int, ...]
+
+    def tessellation(self, corners: Ints, cells: Ints, ends: Floats) -> Tessellation:
+        """The triangles of cells (k,), by their corners (4,k) among the points; ends (4,k) or (4,1): where u starts and
+        ends in their domains, and v."""
+        grid_triangles = cut_cells(corners, self.points[corners], self.normals[corners])
+        triangles = self.numbers[grid_triangles]
+        good = np.isfinite(self.points[grid_triangles]).all(axis=(1, 2))
+        good &= (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
+        triangles, grid_triangles = triangles[good], grid_triangles[good]
+        edges, sides, uses = edges_of(triangles, len(self.points))
+        own = self.places[grid_triangles]
+        rails = np.full(len(edges), FREE)
+        ends = np.repeat(np.broadcast_to(ends, (4, len(cells))), 2, axis=1)[:, good, None]
+        for axis in self.open_ways:
+            for end in ends[2 * axis : 2 * axis + 2]:
+                on = (own[..., axis] == end) & (np.roll(own[..., axis], -1, axis=1) == end)
+                rails[sides[on]] = axis
+        border = np.asarray(uses == 1, dtype=np.bool_)
+        rails[~border] = FREE
+        return Tessellation(self.points, triangles, own, np.repeat(cells, 2)[good], edges, sides, rails, border)
+
+
+def grid_nodes(surface: Surface, columns: int, rows: int) -> GridNodes:
+    """The points of a grid of columns times rows cells.
+
+    Errors: as of `surface_tessellation`.
+    """
     _check(columns, rows)
     domain = surface.domain
     places = _uneven_grid(domain, columns, rows)
     with np.errstate(all="ignore"):
         points = surface.points(*wrapped(domain, places[..., 0], places[..., 1]))
-    number = grid_numbers(surface, columns, rows).ravel()
+        normals = average_normals(points, closed_u=domain.closed_u, closed_v=domain.closed_v)
+    numbers = grid_numbers(surface, columns, rows)
+    open_ways = tuple(axis for axis, closed in enumerate((domain.closed_u, domain.closed_v)) if not closed)
+    return GridNodes(places.reshape(-1, 2), points.reshape(-1, 3), numbers.ravel(), normals.reshape(-1, 3), open_ways)
+
+
+def cell_corners(columns: int, rows: int) -> Ints:
+    """(4,c) the corners of the cells of a grid among its points, in cyclic order."""
     at = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)
-    corners = np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]]).reshape(4, -1)
-    normals = average_normals(points, closed_u=domain.closed_u, closed_v=domain.closed_v).reshape(-1, 3)
-    flat = points.reshape(-1, 3)
-    with np.errstate(invalid="ignore"):
-        grid_triangles = cut_cells(corners, flat[corners], normals[corners])
-    cells = np.repeat(np.arange(columns * rows), 2)
-    triangles = number[grid_triangles]
-    good = np.isfinite(flat[grid_triangles]).all(axis=(1, 2))
-    good &= (triangles != np.roll(triangles, -1, axis=1)).all(axis=1)
-    triangles, grid_triangles, cells = triangles[good], grid_triangles[good], cells[good]
-    edges, sides, uses = edges_of(triangles, len(flat))
-    own = places.reshape(-1, 2)[grid_triangles]
-    rails = np.full(len(edges), FREE)
-    for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
-        ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))[axis]
-        for end in () if closed else ends:
-            on = (own[..., axis] == end) & (np.roll(own[..., axis], -1, axis=1) == end)
-            rails[sides[on]] = axis
-    border = np.asarray(uses == 1, dtype=np.bool_)
-    rails[~border] = FREE
-    return Tessellation(flat, triangles, own, cells, edges, sides, rails, border)
+    return np.stack([at[:-1, :-1], at[1:, :-1], at[1:, 1:], at[:-1, 1:]]).reshape(4, -1)
 
 
 def _check(columns: int, rows: int) -> None:

@@ -77,6 +77,12 @@ class StackedSurfaces:
         return np.array([(d.u_start, d.u_end, d.v_start, d.v_end) for d in domains]).T
 
     @cached_property
+    def common_domain(self) -> Domain | None:
+        """The domain of all of them, if it is one."""
+        first = self.surfaces[0].domain
+        return first if (self.ends == self.ends[:, :1]).all() else None
+
+    @cached_property
     def kinds(self) -> tuple[_Kind, ...]:
         """Those that can be asked together."""
         members: dict[object, list[int]] = {}
@@ -106,7 +112,9 @@ class SurfaceRows:
 
     @cached_property
     def domain(self) -> Domain:
-        """Columns in place of numbers."""
+        """Columns in place of numbers, unless all have the same."""
+        if self.stack.common_domain is not None:
+            return self.stack.common_domain
         first = self.stack.surfaces[0].domain
         u_start, u_end, v_start, v_end = self.stack.ends[:, self.row]
         return cast(Domain, DomainRows(u_start, u_end, v_start, v_end, first.closed_u, first.closed_v))

@@ -1,5 +1,7 @@
 """Intersections of two parametrised surfaces, against closed forms and against sections with implicit surfaces."""
 
+from dataclasses import dataclass
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -7,7 +9,8 @@ from hypothesis import strategies as st
 from support.effort import examples
 
 from vectorplot.errors import InputError
-from vectorplot.features.intersections.surface_intersection import surface_intersection
+from vectorplot.features.intersections.surface_intersection import intersections_of_grids, surface_intersection
+from vectorplot.features.intersections.surface_patches import SurfaceGrids
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.surface_sections import section_by_implicit
 from vectorplot.geometry.rotations import rotation_about
@@ -219,3 +222,40 @@ def test_grids_that_are_too_coarse_or_too_fine_are_refused():
     for columns in (2, 1 << 20):
         with pytest.raises(InputError, match="tessellation"):
             surface_intersection(Sphere(1.0), Sphere(1.0), tracing=Tracing(columns=columns))
+
+
+@dataclass(frozen=True, eq=False)
+class Unplaced:
+    """A surface that says no more than it has to: it is intersected alone."""
+
+    surface: PlacedSurface
+
+    domain = property(lambda self: self.surface.domain)
+    points = property(lambda self: self.surface.points)
+    partials = property(lambda self: self.surface.partials)
+    second_partials = property(lambda self: self.surface.second_partials)
+
+
+def test_many_pairs_at_once_have_the_curves_of_each_alone():
+    rng = np.random.default_rng(3)
+    wave = surface_of_function(lambda u, v: (u, v, 0.3 * np.sin(3 * u) * np.cos(2 * v)), Domain(-1, 1, -1, 1))
+    made = [Torus(1.0, 0.3), Torus(1.2, 0.4), Cylinder(0.5, -1.0, 1.0), wave, Sphere(0.8)]
+    turned = [np.linalg.qr(rng.normal(size=(3, 3)))[0] for _ in made]
+    placed = [PlacedSurface(s, m, rng.uniform(-0.4, 0.4, 3)) for s, m in zip(made, turned, strict=True)]
+    # One that meets no other, and two that touch in a point.
+    placed += [PlacedSurface(Torus(1.0, 0.3), np.eye(3), (9.0, 0.0, 0.0)), *touching_balls()]
+    pairs = [(i, j) for i in range(len(placed)) for j in range(i + 1, len(placed)) if j < 6 or i == 6]
+    tracing, grids = Tracing(columns=15, rows=13), [SurfaceGrids(surface) for surface in placed]
+    found = intersections_of_grids([(grids[i], grids[j]) for i, j in pairs], tracing)
+    for (i, j), curves in zip(pairs, found, strict=True):
+        alone = surface_intersection(Unplaced(placed[i]), Unplaced(placed[j]), tracing=tracing)
+        assert residual(placed[i], placed[j], curves) < 1e-9
+        assert sorted(curves.closed) == sorted(alone.closed) and curves.doubts == alone.doubts
+        assert [len(x) for x in (curves.isolated, curves.nodes)] == [len(x) for x in (alone.isolated, alone.nodes)]
+        assert abs(length(curves) - length(alone)) <= 1e-3 * length(alone)
+    assert sum(map(len, found)) > 8 and max(map(len, found)) > 1
+    assert len(found[-1].isolated) == 1
+
+
+def touching_balls():
+    return [PlacedSurface(Sphere(1.0), QUARTER, (20.0 + x, 0.0, 0.0)) for x in (0.0, 2.0)]

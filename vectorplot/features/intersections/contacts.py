@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.patches import Patch
-from vectorplot.features.intersections.triangle_pairs import overlapping_in_cells
+from vectorplot.features.intersections.triangle_pairs import Boxes, overlapping_in_cells
 from vectorplot.geometry import records
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
@@ -60,14 +60,19 @@ def contacts(one: Patch, two: Patch, *, same: bool = False) -> Contacts:
     found = _stationary(one, two, i, j, same)
     if not len(found):
         return found
-    group = close_points(found.points, ONE_CONTACT_OF_CELL * float(np.median(found.cells)))
-    return found.of(np.unique(group, return_index=True)[1])
+    number = one.numbers(found.one)
+    kept = []
+    for own in (np.flatnonzero(number == k) for k in np.unique(number).tolist()):
+        group = close_points(found.points[own], ONE_CONTACT_OF_CELL * float(np.median(found.cells[own])))
+        kept.append(own[np.unique(group, return_index=True)[1]])
+    return found.of(np.concatenate(kept))
 
 
-def zero_height(one: Patch, two: Patch) -> float:
-    """The height below which patches touch."""
-    (size, large), (other_size, other_large) = one.size, two.size
-    return max(ZERO_OF_EXTENT * min(size, other_size), 16.0 * ROUNDING * max(large, other_large))
+def zero_height(one: Patch, two: Patch) -> Floats:
+    """(p,) the heights below which shapes touch."""
+    (size, large), (other_size, other_large) = one.sizes, two.sizes
+    apart = 16.0 * ROUNDING * np.maximum(large, other_large)
+    return np.asarray(np.maximum(ZERO_OF_EXTENT * np.minimum(size, other_size), apart))
 
 
 @dataclass(frozen=True, eq=False)
@@ -108,8 +113,10 @@ def _near_pairs(one: Patch, two: Patch, same: bool) -> tuple[Ints, Ints]:
     first, second = _beside(one, two), _beside(two, one)
     a = _middles(one, first)
     b = a if same else _middles(two, second)
-    cells = one.tessellation.cells[first], two.tessellation.cells[second]
-    i, j = overlapping_in_cells((a.low, a.high, cells[0]), (b.low, b.high, cells[1]))
+    i, j = overlapping_in_cells(
+        Boxes(a.low, a.high, one.tessellation.cells[first], one.numbers(a.places)),
+        Boxes(b.low, b.high, two.tessellation.cells[second], two.numbers(b.places)),
+    )
     if same:
         i, j = i[i < j], j[i < j]
         apart = one.cells_apart(a.places[i], a.places[j]) > DRIFT
@@ -165,7 +172,8 @@ def _stationary(one: Patch, two: Patch, i: Ints, j: Ints, same: bool) -> Contact
         good &= one.cells_apart(a, b) > 1.0
     a, b, cells = a[good], b[good], cells[good]
     last = _Pass.between(one, two, a, b)
-    bends, frames = last.principal(max(one.size[0], two.size[0]))
+    extent = np.maximum(one.sizes[0], two.sizes[0])[one.numbers(a)]
+    bends, frames = last.principal(extent)
     middle = 0.5 * (last.p + last.q)
     found = Contacts(a, b, middle, frames, ((last.p - last.q) * last.frames[:, 2]).sum(axis=1), bends, cells)
     return found.of(np.isfinite(found.heights) & np.isfinite(frames).all(axis=(1, 2)))
@@ -221,15 +229,15 @@ class _Pass:
         steps = np.where(good[None, :, None], np.stack(result), np.nan)
         return steps, np.asarray(np.fmax(np.linalg.norm(x, axis=1), np.linalg.norm(half, axis=1)))
 
-    def principal(self, extent: float) -> tuple[Floats, Floats]:
+    def principal(self, extent: Floats) -> tuple[Floats, Floats]:
         """Second derivatives (k,2) of the height difference along its principal directions, and frames (k,3,3) of
-        these directions and the normal."""
+        these directions and the normal; extent (k,): of the larger patch."""
         bend = self.bends[0] - self.bends[1]
         good = np.isfinite(bend).all(axis=(1, 2)) & np.isfinite(self.frames).all(axis=(1, 2))
         size, turned = np.linalg.eigh(np.where(good[:, None, None], bend, 0.0))
         directions = np.einsum("kji,kjc->kic", turned, self.frames[:, :2])
         least = FLAT_CONTACT * np.maximum(
-            np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0), 1.0 / max(extent, LEAST_DIVISOR)
+            np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0), 1.0 / np.maximum(extent, LEAST_DIVISOR)
         )
         size = np.where(np.abs(size) > least[:, None], size, 0.0)
         frames = np.concatenate([directions, self.frames[:, 2:]], axis=1)

@@ -9,7 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.double_curves import Course, followed
-from vectorplot.features.intersections.patches import Patch, SurfacePatch
+from vectorplot.features.intersections.patches import Patch
+from vectorplot.features.intersections.surface_patches import SurfacePatch
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_extent import END_RESIDUAL, END_SETTLED, ROUNDING_OF_POINTS, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import ON_BORDER_OF_CELL

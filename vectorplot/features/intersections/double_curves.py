@@ -150,10 +150,13 @@ def put_together(courses: list[Course], dimensions: tuple[int, int]) -> Courses:
 
 
 def refined_courses(
-    one: Patch, two: Patch, courses: Courses, *, zero: float, tolerance: float, picture: Picture | None
-) -> tuple[Courses, int]:
+    one: Patch, two: Patch, courses: Courses, *, pair: Ints, zero: Floats, tolerance: Floats, picture: Picture | None
+) -> tuple[Courses, Ints]:
     """The courses with points of both patches put in where chords deviate from the curve by more than the tolerance,
-    measured in the picture, and the number of chords beside which no curve was found."""
+    measured in the picture, and for each (m,) the number of chords beside which no curve was found.
+
+    pair (m,): the pairs of shapes that they are of; zero, tolerance (p,): of each pair.
+    """
     own = courses.one.shape[1]
 
     def both(places: Floats) -> tuple[Floats, Floats]:
@@ -167,15 +170,15 @@ def refined_courses(
         return points if picture is None else picture(points)
 
     whole = Traces(np.concatenate([courses.one, courses.two], axis=1), courses.last)
-    found = refined(whole, between, image, tolerance, MOST_POINTS)
-    return Courses(*both(found.lines.points), found.lines.last), int(found.unsure.sum())
+    found = refined(whole, between, image, tolerance[pair], MOST_POINTS, pair)
+    return Courses(*both(found.lines.points), found.lines.last), found.unsure
 
 
 def _between(
-    one: Patch, two: Patch, start: tuple[Floats, Floats], end: tuple[Floats, Floats], part: Floats, zero: float
+    one: Patch, two: Patch, start: tuple[Floats, Floats], end: tuple[Floats, Floats], part: Floats, zero: Floats
 ) -> tuple[Floats, Bools]:
     """Places on both patches, one beside the other, in the planes across chords at parts (k,) of them, and whether the
-    curve is there; start, end: places on both patches."""
+    curve is there; start, end: places on both patches; zero (p,): how far apart points of a pair of shapes may be."""
     share = part[:, None]
     a, chord = one.points(start[0]), one.points(end[0]) - one.points(start[0])
     point = a + share * chord
@@ -186,7 +189,7 @@ def _between(
     length = np.sqrt((chord * chord).sum(axis=1, keepdims=True))
     with np.errstate(all="ignore"):
         normal = np.where(length > 0.0, chord / length, 0.0)
-    there = meetings(one, two, at[0], at[1], in_planes(normal, point), zero)
+    there = meetings(one, two, at[0], at[1], in_planes(normal, point), zero[one.numbers(start[0])])
     off = one.points(there.one) - point
     near = np.sqrt((off * off).sum(axis=1)) <= STRAYED * length[:, 0]
     found = there.met & near & (length[:, 0] > 0.0)

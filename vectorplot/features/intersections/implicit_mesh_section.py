@@ -10,8 +10,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing, box_sides, mesh_of, no_curves
 from vectorplot.features.intersections.contacts import contacts
-from vectorplot.features.intersections.patches import MeshPatch
-from vectorplot.features.intersections.surface_intersection import doubts_about, joined, repeats_dropped
+from vectorplot.features.intersections.joined_courses import doubts_about, joined, repeats_dropped
+from vectorplot.features.intersections.patches import MeshPatch, SingleShape
 from vectorplot.features.intersections.triangle_pairs import overlapping_triangles, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.tessellation import FREE, Tessellation
@@ -27,7 +27,7 @@ ROUNDS = 3
 
 
 @dataclass(frozen=True, eq=False)
-class ImplicitPatch:
+class ImplicitPatch(SingleShape):
     """An implicit surface within its box as a patch of `intersections.patches`: places are its points; rails 0, 1, 2
     the sides of the box across x, y and z. mesh: the surface polygonised."""
 
@@ -189,7 +189,7 @@ def implicit_mesh_section(
     if not own.face_count or not len(two.faces):
         return ImplicitMeshSection(no_curves(doubts), np.zeros((0, 3)))
     one = ImplicitPatch(surface, own)
-    found = piercings(one.tessellation, two.tessellation, overlapping_triangles(one.tessellation, two.tessellation))
+    found = piercings(one.tessellation, two.tessellation, overlapping_triangles(one, two))
     # What happens where a plane goes on beside its face has nothing to do with the face.
     touching = contacts(one, two)
     plain = Tracing(tolerance=tracing.tolerance, picture=tracing.picture)

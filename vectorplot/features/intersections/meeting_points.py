@@ -48,10 +48,13 @@ def in_planes(normal: Floats, origin: Floats) -> Bound:
     return Bound(normal, origin, free, free)
 
 
-def zero_between(one: Patch, two: Patch) -> float:
-    """How far apart the points of a meeting may be: a part of the extent, but no less than rounding."""
-    (size, large), (other_size, other_large) = one.size, two.size
-    return max(MEETING_RESIDUAL * min(size, other_size), ROUNDING * max(large, other_large))
+def zero_between(one: Patch, two: Patch) -> Floats:
+    """(p,) how far apart the points of a meeting of two shapes may be: a part of the extent, but no less than
+    rounding."""
+    (size, large), (other_size, other_large) = one.sizes, two.sizes
+    return np.asarray(
+        np.maximum(MEETING_RESIDUAL * np.minimum(size, other_size), ROUNDING * np.maximum(large, other_large))
+    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -63,8 +66,8 @@ class Meetings:
     met: Bools
 
 
-def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Bound, zero: float) -> Meetings:
-    """The places near given ones at which the patches meet.
+def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Bound, zero: float | Floats) -> Meetings:
+    """The places near given ones at which the patches meet; zero, or zero (k,): how far apart the points may be.
 
     Newton's method: the point of both tangent planes that is nearest to the middle of the two points, or lies in the
     given plane, or on the given line; both places are moved towards it. This is the step of minimum norm.
@@ -73,7 +76,7 @@ def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Boun
     """
     a, b = one.on_rails(at_one, bound.rail_one), two.on_rails(at_two, bound.rail_two)
     met = np.zeros(len(a), dtype=np.bool_)
-    gap = np.full(len(a), np.inf)
+    zero = np.broadcast_to(np.asarray(zero, dtype=np.float64), len(a))
     active = np.arange(len(a))
     for _ in range(MOST_STEPS):
         if not len(active):
@@ -84,10 +87,9 @@ def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Boun
         d = np.sqrt(((p - q) ** 2).sum(axis=1))
         good = np.isfinite(d) & np.isfinite(steps).all(axis=(0, 2))
         # One more step after the last: it costs nothing and brings the plane or the line to rounding too.
-        close = d <= zero
+        close = d <= zero[active]
         done = close & (met[active] | (d == 0.0) & ~_is_held(own))
         met[active] = close
-        gap[active] = d
         moving = np.flatnonzero(good & ~done)
         active = active[moving]
         a[active] = one.on_rails(one.moved(a[active], steps[0, moving]), bound.rail_one[active])

@@ -9,8 +9,9 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.intersections.contacts import contacts
 from vectorplot.features.intersections.curve_ends import at_border
-from vectorplot.features.intersections.patches import MeshPatch, SurfacePatch
-from vectorplot.features.intersections.surface_intersection import Joined, doubts_about, joined, repeats_dropped
+from vectorplot.features.intersections.joined_courses import Joined, doubts_about, joined, repeats_dropped
+from vectorplot.features.intersections.patches import MeshPatch
+from vectorplot.features.intersections.surface_patches import SurfacePatch
 from vectorplot.features.intersections.triangle_pairs import overlapping_triangles, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
@@ -103,7 +104,7 @@ def mesh_section(surface: Surface, mesh: Mesh, *, tracing: Tracing = DEFAULT) ->
         one = SurfacePatch(surface, columns, rows)
         if not len(two.faces) or not len(one.tessellation.triangles):
             return MeshSection(no_curves(), np.zeros(0, dtype=np.intp), np.zeros((0, 3)))
-        pairs = overlapping_triangles(one.tessellation, two.tessellation)
+        pairs = overlapping_triangles(one, two)
         found = piercings(one.tessellation, two.tessellation, pairs)
         # What happens where a plane goes on beside its face has nothing to do with the face.
         touching = contacts(one, two)

@@ -2,44 +2,39 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
 from functools import cached_property
 from typing import Protocol
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.parametric.curve_tracing import extent
-from vectorplot.features.parametric.wrapping import wrapped
-from vectorplot.features.tessellation import FREE, Tessellation, surface_tessellation
+from vectorplot.features.tessellation import FREE, Tessellation
 from vectorplot.geometry import ragged
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.triangle_edges import edges_of
 from vectorplot.geometry.vectors import cross
-from vectorplot.surfaces.normals import unit_normals
-from vectorplot.surfaces.surface import Surface
-from vectorplot.tolerances.of_angles import LEAST_SINE_SQUARED
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
-
-LONGEST_STEP = 2.0
-"""Cells that a parameter is moved by at most in one step."""
-
-LONGEST_PART = 0.125
-"""Part of the domain that a parameter may be moved by all the same: near a pole that is not far."""
 
 
 class Patch(Protocol):
-    """A shape on which places (k,d) are points. All functions take many places at once."""
+    """A shape on which places (k,d) are points, or several that are asked as one. All functions take many places at
+    once."""
 
     @property
     def tessellation(self) -> Tessellation:
-        """Triangles near the shape, with the places of their corners."""
+        """Triangles near the shapes, with the places of their corners."""
         ...
 
     @property
-    def size(self) -> tuple[float, float]:
-        """The diagonal of the box around it, and its largest coordinate."""
+    def sizes(self) -> Floats:
+        """(2,p) of each of the shapes the diagonal of the box around it, and its largest coordinate."""
+        ...
+
+    def numbers(self, places: Floats) -> Ints:
+        """(k,) on which of the shapes places are."""
         ...
 
     def points(self, places: Floats) -> Floats:
@@ -71,124 +66,30 @@ class Patch(Protocol):
         ...
 
     def cells_apart(self, places: Floats, others: Floats) -> Floats:
-        """(k,) how many cells lie between places and others, the short way round."""
+        """(k,) how many cells lie between places and others, the short way round; infinite from shape to shape."""
         ...
 
 
-@dataclass(frozen=True, eq=False)
-class SurfacePatch:
-    """A parametrised surface, tessellated by columns times rows cells; places are (u, v), beyond seams too."""
+class SingleShape(ABC):
+    """What patches of one shape answer alike."""
 
-    surface: Surface
-    columns: int
-    rows: int
-
-    @cached_property
-    def tessellation(self) -> Tessellation:
-        """As `surface_tessellation` makes it."""
-        return surface_tessellation(self.surface, self.columns, self.rows)
-
-    @cached_property
+    @property
+    @abstractmethod
     def size(self) -> tuple[float, float]:
         """The diagonal of the box around it, and its largest coordinate."""
-        return extent(self.surface)
 
-    @cached_property
-    def cell(self) -> Floats:
-        """(2,) the size of a cell in u and v."""
-        return np.asarray(self.surface.domain.size, dtype=np.float64) / (self.columns, self.rows)
+    @property
+    def sizes(self) -> Floats:
+        """(2,1) the same."""
+        return np.array(self.size)[:, None]
 
-    def points(self, places: Floats) -> Floats:
-        """(k,3) points; NaN in holes."""
-        return self.surface.points(*self.home(places))
-
-    def normals(self, places: Floats) -> Floats:
-        """(k,3) unit normals."""
-        return unit_normals(self.surface, *self.home(places))
-
-    def moved(self, places: Floats, steps: Floats) -> Floats:
-        """(k,2) places moved; a direction in which the surface stands still is not moved in."""
-        along_u, along_v = self.surface.partials(*self.home(places))
-        long_u, long_v = (np.sqrt((a * a).sum(axis=1)) for a in (along_u, along_v))
-        with np.errstate(all="ignore"):
-            a, b = along_u / long_u[:, None], along_v / long_v[:, None]
-            a, b = (np.where(np.isfinite(x), x, 0.0) for x in (a, b))
-            cosine, by_a, by_b = (a * b).sum(axis=1), (a * steps).sum(axis=1), (b * steps).sum(axis=1)
-            sine = np.maximum(1.0 - cosine * cosine, LEAST_SINE_SQUARED)
-            change = np.stack([(by_a - cosine * by_b) / sine / long_u, (by_b - cosine * by_a) / sine / long_v], axis=1)
-        change = np.where(np.isfinite(change), change, 0.0)
-        # Each parameter by itself: near a pole one of them runs far while the other hardly moves.
-        longest = np.maximum(LONGEST_STEP * self.cell, LONGEST_PART * np.asarray(self.surface.domain.size))
-        return self._inside(places + np.clip(change, -longest, longest))
-
-    def along_rails(self, places: Floats, rails: Ints) -> Floats:
-        """(k,3) derivatives by the other parameter than the one that rails (k,), 0 or 1, keep."""
-        along_u, along_v = self.surface.partials(*self.home(places))
-        return np.where((rails == 0)[:, None], along_v, along_u)
-
-    def on_rails(self, places: Floats, rails: Ints) -> Floats:
-        """(k,2) places whose parameter that does not change on its rail is an end of the domain exactly."""
-        domain, result = self.surface.domain, places.copy()
-        ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
-        for axis in (0, 1):
-            x, (low, high) = places[:, axis], ends[axis]
-            result[:, axis] = np.where(rails == axis, np.where(x - low < high - x, low, high), x)
-        return result
-
-    def bends(self, places: Floats, frames: Floats) -> Floats:
-        """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
-        at = self.home(places)
-        along_u, along_v = self.surface.partials(*at)
-        uu, uv, vv = self.surface.second_partials(*at)
-        with np.errstate(all="ignore"):
-            product = cross(along_u, along_v)
-            height = product / (product * frames[:, 2]).sum(axis=1, keepdims=True)
-            bend = np.stack([(d * height).sum(axis=1) for d in (uu, uv, uv, vv)], axis=1).reshape(-1, 2, 2)
-            flat = np.stack([np.einsum("kij,kj->ki", frames[:, :2], d) for d in (along_u, along_v)], axis=2)
-            inverse = _inverse(flat)
-            return np.asarray(np.einsum("kji,kjl,klm->kim", inverse, bend, inverse))
-
-    def aligned(self, places: Floats, others: Floats) -> Floats:
-        """(k,2) the same places, as many whole periods on as brings them nearest to other places."""
-        return np.asarray(others + self._between(places, others))
-
-    def cells_apart(self, places: Floats, others: Floats) -> Floats:
-        """(k,) the larger number of cells in u and in v, the short way round."""
-        return np.asarray(np.abs(self._between(places, others) / self.cell).max(axis=-1, initial=0.0))
-
-    def home(self, places: Floats) -> tuple[Floats, Floats]:
-        """u and v (k,) within the domain."""
-        return wrapped(self.surface.domain, places[..., 0], places[..., 1])
-
-    def _between(self, places: Floats, others: Floats) -> Floats:
-        domain, d = self.surface.domain, places - others
-        turns = np.where((domain.closed_u, domain.closed_v), np.round(d / domain.size), 0.0)
-        return np.asarray(d - turns * domain.size)
-
-    def _inside(self, places: Floats) -> Floats:
-        domain = self.surface.domain
-        closed = np.array([domain.closed_u, domain.closed_v])
-        low = np.where(closed, -np.inf, (domain.u_start, domain.v_start))
-        high = np.where(closed, np.inf, (domain.u_end, domain.v_end))
-        return np.clip(places, low, high)
+    def numbers(self, places: Floats) -> Ints:
+        """(k,) zeros: there is but one."""
+        return np.zeros(len(places), dtype=np.intp)
 
 
 @dataclass(frozen=True, eq=False)
-class SurfaceGrids:
-    """A surface that is polygonised once by each grid, however many others it may meet."""
-
-    surface: Surface
-    made: dict[tuple[int, int], SurfacePatch] = field(default_factory=dict)
-
-    def patch(self, columns: int, rows: int) -> SurfacePatch:
-        """Its patch of so many columns times rows cells."""
-        if (columns, rows) not in self.made:
-            self.made[columns, rows] = SurfacePatch(self.surface, columns, rows)
-        return self.made[columns, rows]
-
-
-@dataclass(frozen=True, eq=False)
-class MeshPatch:
+class MeshPatch(SingleShape):
     """The faces of a mesh; places are x, y, z and the number of a triangle. Faces that are not planar and convex are
     cut into triangles; a planar face has one plane."""
 
@@ -329,9 +230,3 @@ class MeshPatch:
 def _triangle(places: Floats) -> Ints:
     """The triangle that a place on a mesh names; weighted means of one number are that number but for rounding."""
     return np.asarray(np.rint(places[..., 3]), dtype=np.intp)
-
-
-def _inverse(matrices: Floats) -> Floats:
-    """(k,2,2) inverses; not finite where there is none."""
-    (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
-    return np.asarray(np.stack([d, -b, -c, a], axis=1).reshape(-1, 2, 2) / (a * d - b * c)[:, None, None])

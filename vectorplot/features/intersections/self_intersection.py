@@ -7,8 +7,9 @@ import numpy as np
 from vectorplot.features.intersections.contacts import contacts
 from vectorplot.features.intersections.curve_ends import at_border
 from vectorplot.features.intersections.double_curves import DoubleCurves, no_double_curves
-from vectorplot.features.intersections.patches import SurfacePatch
-from vectorplot.features.intersections.surface_intersection import double_curves, joined
+from vectorplot.features.intersections.joined_courses import joined
+from vectorplot.features.intersections.surface_intersection import double_curves
+from vectorplot.features.intersections.surface_patches import SurfacePatch
 from vectorplot.features.intersections.triangle_pairs import overlapping_within, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.budget import unresolved
@@ -68,7 +69,7 @@ def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> Doubl
     own = patch.tessellation
     if _stands_over_a_plane(patch):
         return no_double_curves()
-    found = piercings(own, own, overlapping_within(own))
+    found = piercings(own, own, overlapping_within(patch))
     # Each curve stands there twice, with its two places exchanged.
     if len(concat(found.pairs)) > 2 * max(1, tracing.budget.points // POINTS_A_CURVE):
         return no_double_curves((unresolved("the surface meets itself in very many curves, none is drawn"),))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.intersections.double_curves import Course
+from vectorplot.features.intersections.double_curves import Course, put_together
 from vectorplot.features.intersections.meeting_points import Bound, meetings, sines
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.triangle_pairs import Piercings
@@ -47,10 +47,11 @@ class Traced:
     lost: int
 
 
-def traced(one: Patch, two: Patch, found: Piercings, zero: float, *, same: bool = False) -> Traced:
+def traced(one: Patch, two: Patch, found: Piercings, zero: Floats, *, same: bool = False) -> Traced:
     """The piercings brought onto the true patches and joined.
 
-    same: both patches are one, and every curve stands there twice, with its sides exchanged; one of them is kept.
+    zero (p,): how far apart points of both patches may be, of each pair of shapes; same: both patches are one, and
+    every curve stands there twice, with its sides exchanged; one of them is kept.
     """
     at_one, at_two, good = _refined(one, two, found, zero)
     if same:
@@ -58,7 +59,8 @@ def traced(one: Patch, two: Patch, found: Piercings, zero: float, *, same: bool 
         good &= one.cells_apart(at_one, at_two) > ONE_PLACE
     branches = concat(found.pairs)
     which = _segments_of(branches.points, branches.offsets, branches.closed, found.pairs)
-    courses, triangles, known, lost = [], [], set[int](), 0
+    paths: list[_Path] = []
+    known, lost = set[int](), 0
     for k in range(len(branches)):
         first, last = branches.offsets[k], branches.offsets[k + 1]
         points, closed = branches.points[first:last], bool(branches.closed[k])
@@ -80,19 +82,31 @@ def traced(one: Patch, two: Patch, found: Piercings, zero: float, *, same: bool 
         path = np.append(points, points[0]) if closed else points
         segment = np.append(own[: len(path) - 1], -1)
         segment[-1] = segment[-2]
-        whole = Course(_running_on(one, at_one[path]), _running_on(two, at_two[path]), closed or turns_over)
-        pieces = _kept(whole, good[path])
+        paths.append(_Path(path, segment, closed or turns_over))
         lost += int((~good[points]).sum())
-        courses += [p for p, _ in pieces]
-        triangles += [found.triangles[segment[i]] for _, i in pieces]
+    courses, triangles = [], []
+    whole = _running_on(one, two, [Course(at_one[p.points], at_two[p.points], p.closed) for p in paths])
+    for of, course in zip(paths, whole, strict=True):
+        pieces = _kept(course, good[of.points])
+        courses += [piece for piece, _ in pieces]
+        triangles += [found.triangles[of.segments[i]] for _, i in pieces]
     return Traced(courses, triangles, lost)
 
 
-def _refined(one: Patch, two: Patch, found: Piercings, zero: float) -> tuple[Floats, Floats, Bools]:
+@dataclass(frozen=True, eq=False)
+class _Path:
+    """The numbers of the piercings that follow one another, and of the segments from each to the next."""
+
+    points: Ints
+    segments: Ints
+    closed: bool
+
+
+def _refined(one: Patch, two: Patch, found: Piercings, zero: Floats) -> tuple[Floats, Floats, Bools]:
     """Places on both true patches, and which of them are near the triangles they come from, across one another."""
     count = len(found.one)
-    none = np.zeros((count, 3))
-    moved = meetings(one, two, found.one, found.two, Bound(none, none, found.rail_one, found.rail_two), zero)
+    none, number = np.zeros((count, 3)), one.numbers(found.one)
+    moved = meetings(one, two, found.one, found.two, Bound(none, none, found.rail_one, found.rail_two), zero[number])
     good = moved.met
     with np.errstate(invalid="ignore"):
         # Measured in space: near a pole a parameter may run far.
@@ -114,50 +128,69 @@ def _segments_of(points: Ints, offsets: Ints, closed: Bools, pairs: Ints) -> Int
     return np.asarray(order[np.minimum(np.searchsorted(own[order], key), max(len(own) - 1, 0))])
 
 
-def _running_on(patch: Patch, places: Floats) -> Floats:
-    """Places of a course (k,d) without jumps over seams."""
-    return np.asarray(
-        places + np.cumsum(np.concatenate([np.zeros_like(places[:1]), patch_jumps(patch, places)]), axis=0)
-    )
+def _running_on(one: Patch, two: Patch, courses: list[Course]) -> list[Course]:
+    """The courses without jumps over seams."""
+    if not courses:
+        return []
+    whole = put_together(courses, (courses[0].one.shape[1], courses[0].two.shape[1]))
+    ends = np.flatnonzero(whole.last)[:-1] + 1
+    places = []
+    for patch, own in ((one, whole.one), (two, whole.two)):
+        jumps = np.concatenate([np.zeros_like(own[:1]), patch.aligned(own[1:], own[:-1]) - own[1:]])
+        jumps[ends] = 0.0
+        parts = zip(np.split(own, ends), np.split(jumps, ends), strict=True)
+        places.append([at + np.cumsum(jump, axis=0) for at, jump in parts])
+    return [Course(a, b, course.closed) for a, b, course in zip(*places, courses, strict=True)]
 
 
-def patch_jumps(patch: Patch, places: Floats) -> Floats:
-    """(k-1,d) the periods that have to be added from a place to the next."""
-    return np.asarray(patch.aligned(places[1:], places[:-1]) - places[1:])
+def without_slips(one: Patch, two: Patch, courses: list[Course]) -> list[Course]:
+    """The courses without their zigzags and crowds of points."""
+    if not courses:
+        return []
+    whole = put_together(courses, (courses[0].one.shape[1], courses[0].two.shape[1]))
+    points, shallow = one.points(whole.one), sines(one, two, whole.one, whole.two) < SHALLOW
+    result, ends = [], np.flatnonzero(whole.last)[:-1] + 1
+    for course, own, flat in zip(courses, np.split(points, ends), np.split(shallow, ends), strict=True):
+        kept = _without_zigzags(own, flat)
+        kept = kept[_uncrowded(own[kept])]
+        result.append(course if len(kept) == len(course) else Course(course.one[kept], course.two[kept], course.closed))
+    return result
 
 
-def without_zigzags(one: Patch, two: Patch, course: Course) -> Course:
-    """The course without points from which it turns back where the patches are nearly tangent, or by very little (near
-    a pole): there the triangles meet in another order than the true points lie."""
-    shallow = sines(one, two, course.one, course.two) < SHALLOW
-    points, kept = one.points(course.one), np.arange(len(course))
+def _without_zigzags(points: Floats, shallow: Bools) -> Ints:
+    """The points (n,3) of a course that are left without those from which it turns back where the patches are nearly
+    tangent, or by very little (near a pole): there the triangles meet in another order than the true points lie."""
+    kept = np.arange(len(points))
     while len(kept) > 3:
         chord = np.diff(points[kept], axis=0)
         length = np.sqrt((chord * chord).sum(axis=1))
         cosine = (chord[1:] * chord[:-1]).sum(axis=1)
+        back = cosine < TURNED_BACK * length[1:] * length[:-1]
+        if not back.any():
+            break
         tiny = np.minimum(length[1:], length[:-1]) < TINY * np.median(length)
-        back = (cosine < TURNED_BACK * length[1:] * length[:-1]) & (shallow[kept[1:-1]] | tiny)
+        back &= shallow[kept[1:-1]] | tiny
         # Of neighbours that both turn, the first goes.
         back[1:] &= ~back[:-1]
         if not back.any():
             break
         kept = np.delete(kept, np.flatnonzero(back) + 1)
-    return course if len(kept) == len(course) else Course(course.one[kept], course.two[kept], course.closed)
+    return kept
 
 
-def without_crowds(one: Patch, course: Course) -> Course:
-    """The course without inner points that are much nearer to one neighbour than to the other: where an edge of one
-    tessellation passes close to an edge of the other."""
-    chord = np.diff(one.points(course.one), axis=0)
+def _uncrowded(points: Floats) -> Bools:
+    """The points (n,3) of a course without inner ones that are much nearer to one neighbour than to the other: where an
+    edge of one tessellation passes close to an edge of the other."""
+    kept = np.ones(len(points), dtype=np.bool_)
+    chord = np.diff(points, axis=0)
     length = np.sqrt((chord * chord).sum(axis=1))
     if len(length) < 4:
-        return course
+        return kept
     crowded = np.minimum(length[1:], length[:-1]) < CROWDED * np.maximum(length[1:], length[:-1])
     # Of two that are near to each other one stays.
     crowded[1:] &= ~crowded[:-1]
-    kept = np.ones(len(course), dtype=np.bool_)
     kept[1:-1] = ~crowded
-    return Course(course.one[kept], course.two[kept], course.closed)
+    return kept
 
 
 def _kept(course: Course, good: Bools) -> list[tuple[Course, Ints]]:

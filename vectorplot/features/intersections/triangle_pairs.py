@@ -7,10 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.tessellation import FREE, Tessellation
 from vectorplot.geometry.bounds.boxes import PAIRS_AT_ONCE, overlapping_boxes
+from vectorplot.tolerances.of_numbers import ULP
 
 Pair = tuple[Ints, Ints]
+
+APART_ROUNDING = 4.0 * ULP
+"""What rounding may add to coordinates that are moved apart, in parts of how far they are."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,43 +37,73 @@ class Piercings:
     triangles: Ints
 
 
-def overlapping_triangles(one: Tessellation, two: Tessellation) -> Pair:
-    """Pairs of triangles whose boxes overlap."""
-    return overlapping_in_cells((*one.boxes, one.cells), (*two.boxes, two.cells))
+@dataclass(frozen=True, eq=False)
+class Boxes:
+    """Boxes (t,) of triangles: smallest and largest coordinates (3,t); ascending cells: boxes of a cell lie together,
+    so that cells are compared first; numbers: of the shapes that they are of."""
+
+    low: Floats
+    high: Floats
+    cells: Ints
+    numbers: Ints
 
 
-def overlapping_within(own: Tessellation) -> Pair:
-    """Pairs of triangles of one tessellation, in both orders, whose boxes overlap and that share no corner."""
-    i, j = overlapping_triangles(own, own)
+def overlapping_triangles(one: Patch, two: Patch) -> Pair:
+    """Pairs of triangles whose boxes overlap, of shapes with the same number."""
+    return overlapping_in_cells(*(_boxes(patch) for patch in (one, two)))
+
+
+def _boxes(patch: Patch) -> Boxes:
+    own = patch.tessellation
+    return Boxes(*own.boxes, own.cells, patch.numbers(own.places[:, 0]))
+
+
+def overlapping_within(patch: Patch) -> Pair:
+    """Pairs of triangles of one patch, in both orders, whose boxes overlap and that share no corner."""
+    i, j = overlapping_triangles(patch, patch)
     apart = np.ones(len(i), dtype=np.bool_)
-    a, b = own.triangles[i], own.triangles[j]
+    a, b = patch.tessellation.triangles[i], patch.tessellation.triangles[j]
     for k in range(3):
         for m in range(3):
             apart &= a[:, k] != b[:, m]
     return i[apart], j[apart]
 
 
-def overlapping_in_cells(one: tuple[Floats, Floats, Ints], two: tuple[Floats, Floats, Ints]) -> Pair:
-    """Pairs of boxes of two kinds that overlap; a kind is smallest and largest coordinates (3,t) and ascending cells
-    (t,): boxes of a cell lie together, so that cells are compared first."""
-    starts = [np.flatnonzero(np.diff(cells, prepend=-1)) for _, _, cells in (one, two)]
+def overlapping_in_cells(one: Boxes, two: Boxes) -> Pair:
+    """Pairs of boxes that overlap, of shapes with the same number."""
+    both = one, two
+    starts = [np.flatnonzero(np.diff(boxes.cells, prepend=-1)) for boxes in both]
     if not len(starts[0]) or not len(starts[1]):
         none = np.zeros(0, dtype=np.intp)
         return none, none
-    low, high = (
-        [reduced.reduceat(kind[k], first, axis=1) for kind, first in zip((one, two), starts, strict=True)]
-        for k, reduced in ((0, np.minimum), (1, np.maximum))
-    )
-    i, j = overlapping_boxes(low[0], high[0], low[1], high[1])
-    sizes = [np.diff(first, append=len(kind[2])) for kind, first in zip((one, two), starts, strict=True)]
+    low = [np.minimum.reduceat(boxes.low, first, axis=1) for boxes, first in zip(both, starts, strict=True)]
+    high = [np.maximum.reduceat(boxes.high, first, axis=1) for boxes, first in zip(both, starts, strict=True)]
+    numbers = [boxes.numbers[first] for boxes, first in zip(both, starts, strict=True)]
+    i, j = overlapping_of_each(low, high, numbers)
+    sizes = [np.diff(first, append=len(boxes.cells)) for boxes, first in zip(both, starts, strict=True)]
     found = [(i[:0], j[:0])]
     for k in range(int(sizes[0].max())):
         for m in range(int(sizes[1].max())):
             there = (k < sizes[0][i]) & (m < sizes[1][j])
             a, b = starts[0][i[there]] + k, starts[1][j[there]] + m
-            near = ((one[0][:, a] <= two[1][:, b]) & (one[1][:, a] >= two[0][:, b])).all(axis=0)
+            near = ((one.low[:, a] <= two.high[:, b]) & (one.high[:, a] >= two.low[:, b])).all(axis=0)
             found.append((a[near], b[near]))
     return np.concatenate([f[0] for f in found]), np.concatenate([f[1] for f in found])
+
+
+def overlapping_of_each(low: list[Floats], high: list[Floats], numbers: list[Ints]) -> Pair:
+    """Pairs of boxes (3,n) and (3,m) that overlap, or all but do, with the same number: each number has a place of its
+    own in space."""
+    if not all(map(len, numbers)):
+        return numbers[0][:0], numbers[1][:0]
+    if not numbers[0].any() and not numbers[1].any():
+        return overlapping_boxes(low[0], high[0], low[1], high[1])
+    apart = 2.0 * float(max(high[0].max(), high[1].max()) - min(low[0].min(), low[1].min()))
+    away = [apart * number for number in numbers]
+    farthest = apart * (1 + int(max(number.max() for number in numbers))) + float(max(np.abs(x).max() for x in low))
+    low = [own + shift - APART_ROUNDING * farthest for own, shift in zip(low, away, strict=True)]
+    high = [own + shift for own, shift in zip(high, away, strict=True)]
+    return overlapping_boxes(low[0], high[0], low[1], high[1])
 
 
 def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:

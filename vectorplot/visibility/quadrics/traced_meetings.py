@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.intersections.patches import SurfaceGrids
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
@@ -31,7 +30,7 @@ from vectorplot.visibility.quadrics.lines.ruled_meetings import RuledCurves
 from vectorplot.visibility.quadrics.own_bodies import BodiesMeet
 from vectorplot.visibility.quadrics.quadrics_meet import QuadricsMeet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
-from vectorplot.visibility.smooth.tracing.meetings import curves_of_pair, curves_with_mesh
+from vectorplot.visibility.smooth.tracing.meetings import curves_of_pairs, curves_with_mesh
 from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together
 from vectorplot.words import LineKind
@@ -39,11 +38,10 @@ from vectorplot.words import LineKind
 
 @dataclass(frozen=True, eq=False)
 class _Part:
-    """A smooth part of a body: its sheet, polygonised once for all that it meets, the body's number, and the form (4,)
-    that is negative where the part is turned away."""
+    """A smooth part of a body: its sheet, the body's number, and the form (4,) that is negative where the part is
+    turned away."""
 
     sheet: ParametricSheet
-    grids: SurfaceGrids
     body: int
     form: Floats
 
@@ -71,13 +69,14 @@ def traced_meetings(
     needed = {*pairs.body[left].ravel().tolist(), *forms.in_faces[:, 0].tolist()}
     parts = {key: part for body in needed for key, part in _parts(scene, view, bodies, body).items()}
     found = [_of_lines(bodies, pairs, lines, wants)]
-    for (one, two), (of_one, of_two) in zip(pairs.body[left].tolist(), pairs.part[left].tolist(), strict=True):
-        names = " and ".join(scene.items[int(bodies.item[body])].name for body in (one, two))
-        first, second = parts[one, of_one], parts[two, of_two]
-        item = owner(int(bodies.item[one]), int(bodies.item[two]))
-        sheets, grids = (first.sheet, second.sheet), (first.grids, second.grids)
-        curves, unsure = curves_of_pair(sheets, grids, item, tracing)
-        found.append(_on_bodies(curves, (first, second)))
+    number = {key: k for k, key in enumerate(parts)}
+    sheets = [part.sheet for part in parts.values()]
+    bodies_of, parts_of = pairs.body[left].tolist(), pairs.part[left].tolist()
+    keys = [((a, p), (b, q)) for (a, b), (p, q) in zip(bodies_of, parts_of, strict=True)]
+    asked = [(number[one], number[two], owner(int(bodies.item[one[0]]), int(bodies.item[two[0]]))) for one, two in keys]
+    for (one, two), (curves, unsure) in zip(keys, curves_of_pairs(sheets, asked, tracing), strict=True):
+        names = " and ".join(scene.items[int(bodies.item[body])].name for body, _ in (one, two))
+        found.append(_on_bodies(curves, (parts[one], parts[two])))
         doubts += [(names, text) for text in unsure]
     for body, other in forms.in_faces.tolist():
         shape = scene.items[other].shape
@@ -98,7 +97,7 @@ def _parts(scene: Scene, view: View, bodies: Bodies, body: int) -> _Parts:
     for sheet in sheets_of_parametrised(view, shape, item, scene.items[item].hides):  # type: ignore[arg-type]
         number = _part_of(sheet) if body >= count else MANTLE
         (form,) = parts_shown(bodies, np.array([body]), np.array([number]))
-        result[body, number] = _Part(sheet, SurfaceGrids(sheet.surface), body, form)
+        result[body, number] = _Part(sheet, body, form)
     return result
 
 

@@ -10,9 +10,9 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.double_curves import DoubleCurves
 from vectorplot.features.intersections.mesh_section import mesh_section
-from vectorplot.features.intersections.patches import SurfaceGrids
 from vectorplot.features.intersections.self_intersection import self_intersections
-from vectorplot.features.intersections.surface_intersection import intersection_of_grids
+from vectorplot.features.intersections.surface_intersection import intersections_of_grids
+from vectorplot.features.intersections.surface_patches import SurfaceGrids
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
@@ -62,15 +62,16 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
             itself[number] = len(found) > 0 or bool(found.doubts)
             doubts += [(scene.items[sheet.item].name, text) for text in found.doubts]
             parts.append(_double(found, sheet, number, sheet, number, sheet.item))
-    grids = [SurfaceGrids(sheet.surface) if isinstance(sheet, ParametricSheet) else None for sheet in sheets]
+    pairs = []
     for one, two in near_sheets([sheet.vertices for sheet in sheets]):
         items = [i for i in sorted((sheets[one].item, sheets[two].item)) if wants[i]]
         # The sheets of one item are parts of one surface, which meet at its sharp edges only.
         if items and sheets[one].item != sheets[two].item:
-            part, unsure = _pair(sheets, grids, one, two, items[0], tracing)
-            names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
-            doubts += [(names, text) for text in unsure]
-            parts.append(part)
+            pairs.append((one, two, items[0]))
+    for (one, two, _), (part, unsure) in zip(pairs, _of_pairs(sheets, pairs, tracing), strict=True):
+        names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
+        doubts += [(names, text) for text in unsure]
+        parts.append(part)
     boxes = [_box(sheet.vertices) for sheet in sheets]
     for other, item in enumerate(scene.items):
         if not isinstance(item.shape, Mesh) or not item.shape.face_count or item.is_cut_face:
@@ -86,26 +87,29 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
     return Meetings(together(parts), itself, tuple(doubts))
 
 
-def _pair(
-    sheets: tuple[SmoothSheet, ...],
-    grids: Sequence[SurfaceGrids | None],
-    one: int,
-    two: int,
-    item: int,
-    tracing: Tracing,
-) -> tuple[Curves, tuple[str, ...]]:
-    """The curves of two sheets, given by their numbers."""
-    first, second = sheets[one], sheets[two]
-    if isinstance(first, ImplicitSheet):
-        if isinstance(second, ImplicitSheet):
-            return implicit_with_implicit(first, one, second, two, item, tracing)
-        return parametrised_with_implicit(second, two, first, one, item, tracing)
-    if isinstance(second, ImplicitSheet):
-        return parametrised_with_implicit(first, one, second, two, item, tracing)
-    first_grids, second_grids = grids[one], grids[two]
-    assert first_grids is not None and second_grids is not None
-    found = intersection_of_grids(first_grids, second_grids, tracing)
-    return _double(found, first, one, second, two, item), found.doubts
+def _of_pairs(
+    sheets: Sequence[SmoothSheet], pairs: Sequence[tuple[int, int, int]], tracing: Tracing
+) -> list[tuple[Curves, tuple[str, ...]]]:
+    """The curves of pairs of sheets, given by their numbers and the item whose the curves are; and doubts."""
+    parametrised = {k: sheet for k, sheet in enumerate(sheets) if isinstance(sheet, ParametricSheet)}
+    smooth = [pair for pair in pairs if pair[0] in parametrised and pair[1] in parametrised]
+    grids = {k: SurfaceGrids(parametrised[k].surface) for pair in smooth for k in pair[:2]}
+    curves = iter(intersections_of_grids([(grids[one], grids[two]) for one, two, _ in smooth], tracing))
+    result = []
+    for one, two, item in pairs:
+        first, second = sheets[one], sheets[two]
+        if not isinstance(first, ImplicitSheet) and not isinstance(second, ImplicitSheet):
+            found = next(curves)
+            result.append((_double(found, first, one, second, two, item), found.doubts))
+        elif isinstance(first, ImplicitSheet) and isinstance(second, ImplicitSheet):
+            result.append(implicit_with_implicit(first, one, second, two, item, tracing))
+        elif isinstance(first, ImplicitSheet):
+            assert isinstance(second, ParametricSheet)
+            result.append(parametrised_with_implicit(second, two, first, one, item, tracing))
+        else:
+            assert isinstance(second, ImplicitSheet)
+            result.append(parametrised_with_implicit(first, one, second, two, item, tracing))
+    return result
 
 
 def _with_mesh(
@@ -119,17 +123,15 @@ def _with_mesh(
     return as_curves(found, LineKind.INTERSECTION, item, family, section.normals), found.doubts
 
 
-def curves_of_pair(
-    sheets: tuple[ParametricSheet, ParametricSheet],
-    grids: tuple[SurfaceGrids, SurfaceGrids],
-    item: int,
-    tracing: Tracing,
-) -> tuple[Curves, tuple[str, ...]]:
-    """The curves of two sheets that are none of a scene's, with their grids, and doubts about them; item: whose they
-    are."""
-    if not _overlap(*(_box(sheet.vertices) for sheet in sheets)):
-        return no_curves(), ()
-    return _pair(sheets, grids, 0, 1, item, tracing)
+def curves_of_pairs(
+    sheets: Sequence[ParametricSheet], pairs: Sequence[tuple[int, int, int]], tracing: Tracing
+) -> list[tuple[Curves, tuple[str, ...]]]:
+    """The curves of pairs of sheets that are none of a scene's, given by their numbers and the item whose the curves
+    are; and doubts about them."""
+    boxes = [_box(sheet.vertices) for sheet in sheets]
+    near = [_overlap(boxes[one], boxes[two]) for one, two, _ in pairs]
+    found = iter(_of_pairs(sheets, [pair for pair, meets in zip(pairs, near, strict=True) if meets], tracing))
+    return [next(found) if meets else (no_curves(), ()) for meets in near]
 
 
 def curves_with_mesh(sheet: ParametricSheet, mesh: Mesh, item: int, tracing: Tracing) -> tuple[Curves, tuple[str, ...]]:

@@ -1,0 +1,280 @@
+"""Patches of parametrised surfaces: one of them, or many that are asked as one."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.features.intersections.patches import SingleShape
+from vectorplot.features.parametric.curve_tracing import extent
+from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.features.tessellation import GridNodes, Tessellation, cell_corners, grid_nodes
+from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import cross
+from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.stacked import StackedSurfaces
+from vectorplot.surfaces.surface import Surface
+from vectorplot.tolerances.of_angles import LEAST_SINE_SQUARED
+
+LONGEST_STEP = 2.0
+"""Cells that a parameter is moved by at most in one step."""
+
+LONGEST_PART = 0.125
+"""Part of the domain that a parameter may be moved by all the same: near a pole that is not far."""
+
+
+OFF_CELL = 0.5
+"""Part of its size that a surface may be off the corners of a cell; a torus of the usual grid is a hundredth off."""
+
+
+class OnSurfaces(ABC):
+    """What patches of parametrised surfaces know at places, which are (u, v), beyond seams too, and where there are
+    several the number of the one."""
+
+    columns: int
+    rows: int
+
+    @abstractmethod
+    def surface_at(self, places: Floats) -> Surface:
+        """The surface to be asked for parameters at these places (k,d)."""
+
+    def points(self, places: Floats) -> Floats:
+        """(k,3) points; NaN in holes."""
+        surface = self.surface_at(places)
+        return surface.points(*_home(surface, places))
+
+    def normals(self, places: Floats) -> Floats:
+        """(k,3) unit normals."""
+        surface = self.surface_at(places)
+        return unit_normals(surface, *_home(surface, places))
+
+    def moved(self, places: Floats, steps: Floats) -> Floats:
+        """(k,d) places moved; a direction in which the surface stands still is not moved in."""
+        surface = self.surface_at(places)
+        along_u, along_v = surface.partials(*_home(surface, places))
+        long_u, long_v = (np.sqrt((a * a).sum(axis=1)) for a in (along_u, along_v))
+        with np.errstate(all="ignore"):
+            a, b = along_u / long_u[:, None], along_v / long_v[:, None]
+            a, b = (np.where(np.isfinite(x), x, 0.0) for x in (a, b))
+            cosine, by_a, by_b = (a * b).sum(axis=1), (a * steps).sum(axis=1), (b * steps).sum(axis=1)
+            sine = np.maximum(1.0 - cosine * cosine, LEAST_SINE_SQUARED)
+            change = np.stack([(by_a - cosine * by_b) / sine / long_u, (by_b - cosine * by_a) / sine / long_v], axis=1)
+        change = np.where(np.isfinite(change), change, 0.0)
+        # Each parameter by itself: near a pole one of them runs far while the other hardly moves.
+        size = _size(surface)
+        longest = np.maximum(LONGEST_STEP * size / self.grid, LONGEST_PART * size)
+        return _with_numbers(_inside(surface, places[:, :2] + np.clip(change, -longest, longest)), places)
+
+    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,3) derivatives by the other parameter than the one that rails (k,), 0 or 1, keep."""
+        surface = self.surface_at(places)
+        along_u, along_v = surface.partials(*_home(surface, places))
+        return np.where((rails == 0)[:, None], along_v, along_u)
+
+    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+        """(k,d) places whose parameter that does not change on its rail is an end of the domain exactly."""
+        domain, result = self.surface_at(places).domain, places.copy()
+        ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
+        for axis in (0, 1):
+            x, (low, high) = places[:, axis], ends[axis]
+            result[:, axis] = np.where(rails == axis, np.where(x - low < high - x, low, high), x)
+        return result
+
+    def bends(self, places: Floats, frames: Floats) -> Floats:
+        """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
+        surface = self.surface_at(places)
+        at = _home(surface, places)
+        along_u, along_v = surface.partials(*at)
+        uu, uv, vv = surface.second_partials(*at)
+        with np.errstate(all="ignore"):
+            product = cross(along_u, along_v)
+            height = product / (product * frames[:, 2]).sum(axis=1, keepdims=True)
+            bend = np.stack([(d * height).sum(axis=1) for d in (uu, uv, uv, vv)], axis=1).reshape(-1, 2, 2)
+            flat = np.stack([np.einsum("kij,kj->ki", frames[:, :2], d) for d in (along_u, along_v)], axis=2)
+            inverse = _inverse(flat)
+            return np.asarray(np.einsum("kji,kjl,klm->kim", inverse, bend, inverse))
+
+    def aligned(self, places: Floats, others: Floats) -> Floats:
+        """(k,d) the same places, as many whole periods on as brings them nearest to other places."""
+        return _with_numbers(others[..., :2] + self._between(places, others), places)
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) the larger number of cells in u and in v, the short way round."""
+        cell = _size(self.surface_at(places)) / self.grid
+        return np.asarray(np.abs(self._between(places, others) / cell).max(axis=-1, initial=0.0))
+
+    @property
+    def grid(self) -> Ints:
+        """(2,) the numbers of columns and rows."""
+        return np.array([self.columns, self.rows])
+
+    def _between(self, places: Floats, others: Floats) -> Floats:
+        surface, d = self.surface_at(places), places[..., :2] - others[..., :2]
+        size = _size(surface)
+        turns = np.where((surface.domain.closed_u, surface.domain.closed_v), np.round(d / size), 0.0)
+        return np.asarray(d - turns * size)
+
+
+@dataclass(frozen=True, eq=False)
+class SurfacePatch(OnSurfaces, SingleShape):
+    """A parametrised surface, tessellated by columns times rows cells; places are (u, v)."""
+
+    surface: Surface
+    columns: int
+    rows: int
+
+    @cached_property
+    def nodes(self) -> GridNodes:
+        """The points of its grid."""
+        return grid_nodes(self.surface, self.columns, self.rows)
+
+    @cached_property
+    def ends(self) -> Floats:
+        """(4,1) where u starts and ends, and v."""
+        domain = self.surface.domain
+        return np.array([domain.u_start, domain.u_end, domain.v_start, domain.v_end])[:, None]
+
+    @cached_property
+    def tessellation(self) -> Tessellation:
+        """All triangles, as `surface_tessellation` makes them."""
+        corners = cell_corners(self.columns, self.rows)
+        return self.nodes.tessellation(corners, np.arange(corners.shape[1]), self.ends)
+
+    @cached_property
+    def cell_boxes(self) -> tuple[Floats, Floats]:
+        """(3,c) and (3,c) smallest and largest coordinates of the surface in every cell, about; those of a cell in a
+        hole are infinite, the smallest the larger ones."""
+        corners = self.nodes.points[cell_corners(self.columns, self.rows)]
+        corners = np.where(np.isfinite(corners).all(axis=2, keepdims=True), corners, np.nan)
+        low, high = np.fmin.reduce(corners).T, np.fmax.reduce(corners).T
+        known = np.isfinite(low).all(axis=0)
+        slack = OFF_CELL * np.linalg.norm(np.where(known, high - low, 0.0), axis=0)
+        return np.where(known, low - slack, np.inf), np.where(known, high + slack, -np.inf)
+
+    @cached_property
+    def size(self) -> tuple[float, float]:
+        """The diagonal of the box around it, and its largest coordinate."""
+        return extent(self.surface)
+
+    @cached_property
+    def cell(self) -> Floats:
+        """(2,) the size of a cell in u and v."""
+        return np.asarray(self.surface.domain.size, dtype=np.float64) / (self.columns, self.rows)
+
+    def surface_at(self, places: Floats) -> Surface:
+        """The surface."""
+        return self.surface
+
+    def home(self, places: Floats) -> tuple[Floats, Floats]:
+        """u and v (k,) within the domain."""
+        return _home(self.surface, places)
+
+
+@dataclass(frozen=True, eq=False)
+class SurfaceGrids:
+    """A surface that is polygonised once by each grid, however many others it may meet."""
+
+    surface: Surface
+    made: dict[tuple[int, int], SurfacePatch] = field(default_factory=dict)
+
+    def patch(self, columns: int, rows: int) -> SurfacePatch:
+        """Its patch of so many columns times rows cells."""
+        if (columns, rows) not in self.made:
+            self.made[columns, rows] = SurfacePatch(self.surface, columns, rows)
+        return self.made[columns, rows]
+
+
+@dataclass(frozen=True, eq=False)
+class StackedPatches(OnSurfaces):
+    """Patches (p,), at least one, of placed surfaces that are closed in the same directions, as one; the third number
+    of a place says on which of them it is. cells: those of each (c,) that count."""
+
+    patches: tuple[SurfacePatch, ...]
+    cells: tuple[Ints, ...]
+
+    @property
+    def columns(self) -> int:  # type: ignore[override]
+        """Cells along u of each."""
+        return self.patches[0].columns
+
+    @property
+    def rows(self) -> int:  # type: ignore[override]
+        """Cells along v of each."""
+        return self.patches[0].rows
+
+    @cached_property
+    def surfaces(self) -> StackedSurfaces:
+        """The surfaces."""
+        return StackedSurfaces(tuple(p.surface for p in self.patches if isinstance(p.surface, PlacedSurface)))
+
+    @cached_property
+    def sizes(self) -> Floats:
+        """(2,p) of each surface the diagonal of the box around it, and its largest coordinate."""
+        return np.array([patch.size for patch in self.patches]).T
+
+    @cached_property
+    def tessellation(self) -> Tessellation:
+        """The triangles of the cells that count, surface after surface; at those that do not there is a border too."""
+        own, count = [patch.nodes for patch in self.patches], (self.columns + 1) * (self.rows + 1)
+        number = np.repeat(np.arange(len(own)), count)
+        nodes = GridNodes(
+            np.column_stack([np.concatenate([nodes.places for nodes in own]), number]),
+            np.concatenate([nodes.points for nodes in own]),
+            np.concatenate([nodes.numbers for nodes in own]) + number * count,
+            np.concatenate([nodes.normals for nodes in own]),
+            own[0].open_ways,
+        )
+        cells, of = np.concatenate(self.cells), ragged.owner([len(cells) for cells in self.cells])
+        corners = cell_corners(self.columns, self.rows)[:, cells] + of * count
+        ends = np.concatenate([patch.ends for patch in self.patches], axis=1)[:, of]
+        return nodes.tessellation(corners, cells + of * (self.columns * self.rows), ends)
+
+    def surface_at(self, places: Floats) -> Surface:
+        """That of the patch of each place."""
+        return self.surfaces.at(self.numbers(places))
+
+    def numbers(self, places: Floats) -> Ints:
+        """(k,) the patches of places; weighted means of one number are that number but for rounding."""
+        return np.asarray(np.rint(places[..., 2]), dtype=np.intp)
+
+    def cells_apart(self, places: Floats, others: Floats) -> Floats:
+        """(k,) the larger number of cells in u and in v, the short way round; infinite between two patches."""
+        return np.where(self.numbers(places) == self.numbers(others), super().cells_apart(places, others), np.inf)
+
+
+def _home(surface: Surface, places: Floats) -> tuple[Floats, Floats]:
+    """u and v (k,) within the domain."""
+    return wrapped(surface.domain, places[..., 0], places[..., 1])
+
+
+def _size(surface: Surface) -> Floats:
+    """(2,) or (k,2) the lengths of the domain."""
+    return np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1).astype(np.float64)
+
+
+def _with_numbers(parameters: Floats, places: Floats) -> Floats:
+    """(k,d) places of these parameters (k,2) on the patches of other places."""
+    return np.concatenate([parameters, places[..., 2:]], axis=-1) if places.shape[-1] > 2 else parameters
+
+
+def _inside(surface: Surface, parameters: Floats) -> Floats:
+    domain = surface.domain
+    result = parameters.copy()
+    for axis, closed, low, high in (
+        (0, domain.closed_u, domain.u_start, domain.u_end),
+        (1, domain.closed_v, domain.v_start, domain.v_end),
+    ):
+        if not closed:
+            result[:, axis] = np.clip(parameters[:, axis], low, high)
+    return result
+
+
+def _inverse(matrices: Floats) -> Floats:
+    """(k,2,2) inverses; not finite where there is none."""
+    (a, b), (c, d) = matrices[:, 0].T, matrices[:, 1].T
+    return np.asarray(np.stack([d, -b, -c, a], axis=1).reshape(-1, 2, 2) / (a * d - b * c)[:, None, None])
