@@ -123,3 +123,38 @@ def test_a_stop_leaves_no_half_file(workplace):
     found = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=False)
     assert found.returncode == 143 and "terminated" in found.stderr
     assert sorted(path.name for path in workplace.iterdir()) == ["anim", "data"]
+
+
+def test_frames_are_told_what_pictures_are(workplace, capsys):
+    """The options of the verbs reach their frames, and what is on the scene moves with it."""
+    drawn = ["--halo", "1", "--hatch", "even", "--layers", "object", "--sections", "z,2", "--cut", "x+y=1"]
+    assert run(["animate", "die", "-a", "turn", "-o", "film.pdf", "--mode", "lines", *drawn, "--explain"]) == 0
+    stages = capsys.readouterr().err
+    assert {"hatching", "cuts"} <= set(stages.replace("\n", " ").split()) and "section" in stages
+    frames = {}
+    for words in (["--palette", "32"], ["--palette", "3"], ["--exposure", "0.5"], ["--flat", "--aura", "1"]):
+        assert run(["animate", "die", "-a", "turn", "-o", "frames/", "--mode", "shading", "--frames", "1", *words]) == 0
+        frames[" ".join(words)] = Path("frames/0001.svg").read_bytes()
+    assert len(set(frames.values())) >= 3
+    assert (
+        run(["animate", "die", "-a", "turn", "-o", "pixels/", "--mode", "pixels", "--frames", "1", "--levels", "4"])
+        == 0
+    )
+    capsys.readouterr()
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["--mode", "shading", "--hatch", "tone"], "--hatch does not go with"),
+        (["--mode", "lines", "--flat"], "--flat does not go with"),
+        (["--mode", "pixels", "--halo", "1"], "--halo does not go with"),
+        (["--mode", "lines", "--spacing", "1"], "--spacing goes with --hatch"),
+        (["--workers", "1", "--explain"], "--explain is of work in this process"),
+    ],
+    ids=lambda given: " ".join(given) if isinstance(given, list) else None,
+)
+def test_options_of_other_verbs_are_refused(workplace, words, said, capsys):
+    assert run(["animate", "die", "-a", "turn", "-o", "frames/", *words]) == 2
+    assert said in capsys.readouterr().err.splitlines()[-1]
+    assert not Path("frames").exists()

@@ -56,8 +56,8 @@ def frame_tasks(film: Film, folder: str | os.PathLike[str], *, format: str | Non
     written = format or ("png" if film.pixels else "svg")
     if written not in FORMATS:
         raise InputError(f"unknown format {written!r}; known are {', '.join(FORMATS)}")
-    # Neither the order of options nor the number of threads changes a frame.
-    options = {name: value for name, value in sorted(film.options.items()) if name != "jobs"}
+    # Neither the order of options, nor the number of threads, nor who is told of the stages changes a frame.
+    options = {name: value for name, value in sorted(film.options.items()) if name not in ("jobs", "explain")}
     same = replace(film, options=options)
     try:
         whole = hashlib.sha256(pickle.dumps(same, _PICKLE)).hexdigest()

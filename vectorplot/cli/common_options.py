@@ -175,18 +175,12 @@ class Told:
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
         draws them."""
-        from vectorplot.scene.lines.added_lines import line_kinds, with_lines, without_level_lines
-
-        scene = self.cuts.of_scene(scene)
-        keywords = self.keywords(scene)
-        charted = self.added.with_chart(scene)
-        added = self.added.of_scene(scene)
+        cut = self.cuts.of_scene(scene)
+        keywords = self.keywords(cut)
+        lined, kinds = self.added.in_scene(cut)
         if keywords.get("lines") is not None:
-            keywords["lines"] = tuple(dict.fromkeys((*keywords["lines"], *line_kinds(added))))
-        if self.added.levels is not None:
-            charted = without_level_lines(charted, self.added.levels.normal)
-        lined = with_lines(charted, sections=added.sections, isophotes=added.isophotes, detail=added.detail)
-        return self.added.with_numbers(lined), keywords
+            keywords["lines"] = tuple(dict.fromkeys((*keywords["lines"], *kinds)))
+        return lined, keywords
 
 
 def check_overlaid(out: str, format_: str) -> None:

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from vectorplot.geometry.cameras.camera import Point
     from vectorplot.scene.scene import Scene
     from vectorplot.scene.surface_lines import Section, SurfaceLines
+    from vectorplot.words import LineKind
 
 
 @dataclass(frozen=True)
@@ -134,6 +135,16 @@ class LineOptions:
     def of(cls, options: Mapping[str, Any]) -> LineOptions:
         """What a command with LINE_OPTIONS was told."""
         return cls(**{field.name: options[field.name] for field in fields(cls)})
+
+    def in_scene(self, scene: Scene) -> tuple[Scene, tuple[LineKind, ...]]:
+        """A scene with these lines, colours and box, and the kinds of the lines."""
+        from vectorplot.scene.lines.added_lines import line_kinds, with_lines, without_level_lines
+
+        charted, added = self.with_chart(scene), self.of_scene(scene)
+        if self.levels is not None:
+            charted = without_level_lines(charted, self.levels.normal)
+        lined = with_lines(charted, sections=added.sections, isophotes=added.isophotes, detail=added.detail)
+        return self.with_numbers(lined), line_kinds(added)
 
     def with_chart(self, scene: Scene) -> Scene:
         """A scene with the colours and the box that the user asked for. Bad usage for a map of no colours."""

@@ -111,3 +111,22 @@ def with_errors(reports: Sequence[StageReport]) -> list[StageReport]:
             stage = found[last[report.name]]
             found[last[report.name]] = replace(stage, error=report.error, unit=report.unit)
     return found
+
+
+def summed(reports: Sequence[StageReport]) -> list[StageReport]:
+    """The reports of many pictures as of one: times and counts together, of memory and errors the largest."""
+    found: dict[tuple[str, bool], StageReport] = {}
+    for one in reports:
+        key = one.name, one.error is None
+        before = found.get(key)
+        if before is None:
+            found[key] = one
+            continue
+        found[key] = replace(
+            before,
+            seconds=before.seconds + one.seconds,
+            count=before.count + one.count,
+            peak_mb=max(before.peak_mb, one.peak_mb),
+            error=None if before.error is None or one.error is None else max(before.error, one.error),
+        )
+    return list(found.values())

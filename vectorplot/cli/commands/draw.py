@@ -18,9 +18,9 @@ from vectorplot.cli.common_options import (
     lines_option,
     picture_verb,
 )
-from vectorplot.cli.options import at_least, layers, place
+from vectorplot.cli.options import at_least, place
 from vectorplot.cli.strokes.hatching_options import HATCHING_OPTIONS, hatching_from
-from vectorplot.cli.strokes.stroke_options import STROKE_OPTIONS
+from vectorplot.cli.strokes.stroke_options import HALO, LAYERS, STROKE_OPTIONS
 from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
@@ -51,21 +51,9 @@ if TYPE_CHECKING:
     click.option("--thin-ends", is_flag=True, help="Lines that converge stop early in turn, before they blot."),
     DEPTH_CUE,
     BACKGROUND,
-    click.option(
-        "--halo",
-        "halo_mm",
-        type=at_least(0.0),
-        default=0.0,
-        metavar="MM",
-        help="Gap beside lines that lie in front.",
-    ),
+    HALO,
     *HATCHING_OPTIONS,
-    click.option(
-        "--layers",
-        type=layers,
-        metavar="WORD,...",
-        help="What shares a layer: kind, object, colour, or several of these.  [default: kind, or what the style says]",
-    ),
+    LAYERS,
     click.option(
         "--unplotted",
         default="",

@@ -21,7 +21,7 @@ from vectorplot.cli.common_options import (
     picture_verb,
     shadows_option,
 )
-from vectorplot.cli.options import at_least
+from vectorplot.cli.face_options import FACE_OPTIONS
 from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
@@ -36,16 +36,7 @@ if TYPE_CHECKING:
     LIGHTS,
     EXPOSURE,
     shadows_option(("auto", "none"), "Whether lights cast shadows."),
-    click.option(
-        "--aura",
-        "aura_mm",
-        type=at_least(0.0),
-        default=0.0,
-        metavar="MM",
-        help="Width of the soft border of shadows.",
-    ),
-    click.option("--palette", type=click.IntRange(2, 256), default=32, metavar="N", help="Shades of every colour."),
-    click.option("--flat", is_flag=True, help="One shade for every plane: no gradients, nothing looks round."),
+    *FACE_OPTIONS,
     click.option(
         "--fills",
         type=click.Choice(["painted", "visible", "erasing"]),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -11,6 +11,8 @@ from vectorplot.cli.common_options import (
     BACKGROUND,
     BUDGET,
     DEPTH_CUE,
+    EXPLAIN,
+    EXPOSURE,
     FRAME,
     JOBS,
     LIGHTS,
@@ -22,24 +24,33 @@ from vectorplot.cli.common_options import (
     shadows_option,
     with_options,
 )
+from vectorplot.cli.cut_options import CUT_OPTIONS, CutOptions
+from vectorplot.cli.face_options import FACE_OPTIONS
 from vectorplot.cli.films.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, is_sequence, write_frames
+from vectorplot.cli.line_options import LINE_OPTIONS, LineOptions
 from vectorplot.cli.many.workers import WORKER_OPTIONS, WorkerOptions
 from vectorplot.cli.options import chosen, pixels
 from vectorplot.cli.picture import located
-from vectorplot.cli.progress import progress_bar, told_warnings
-from vectorplot.cli.strokes.stroke_options import STROKE_OPTIONS
+from vectorplot.cli.progress import progress_bar, summed, table, told_warnings
+from vectorplot.cli.strokes.hatching_options import HATCHING_OPTIONS, hatching_from
+from vectorplot.cli.strokes.stroke_options import HALO, LAYERS, STROKE_OPTIONS
 from vectorplot.cli.view_options import CAMERA_OPTIONS, PAGE_OPTIONS, CameraOptions, PageOptions, camera_from, page_from
+
+if TYPE_CHECKING:
+    from vectorplot.stages.walk import StageReport
 
 MODE_WORDS = ("wire", "lines", "shading", "shadows", "erasing", "pixels")
 
 _LINES = ("lines", "crease_angle_deg", "depth_cue", "background")
 
+_HATCH = ("hatch", "spacing", "angle", "cross", "along", "stipple", "hatch_width")
+
 VERBS = {
-    "draw": {*_LINES, "style", "hidden", "pens", "dashes", "tolerance_mm", "title"},
-    "paint": {*_LINES, "lights", "shadows", "tolerance_mm", "title"},
-    "render": {*_LINES, "lights", "shadows"},
+    "draw": {*_LINES, "style", "hidden", "pens", "dashes", "halo_mm", *_HATCH, "layers", "tolerance_mm", "title"},
+    "paint": {*_LINES, "lights", "exposure", "shadows", "aura_mm", "palette", "flat", "tolerance_mm", "title"},
+    "render": {*_LINES, "lights", "exposure", "shadows"},
 }
-"""The options that go with each verb, beside those for camera, page and work."""
+"""The options that go with each verb, beside those for camera, page, lines on all that is shown, cuts and work."""
 
 
 @click.command(short_help="Make the frames of a moving scene.", context_settings={"show_default": True})
@@ -62,16 +73,24 @@ VERBS = {
     lines_option("Kinds of lines", default=None, note="  [default: as of the verbs]"),
     crease_angle_option("Sharper edges are creases."),
     *STROKE_OPTIONS,
+    HALO,
+    *HATCHING_OPTIONS,
+    LAYERS,
     LIGHTS,
+    EXPOSURE,
     shadows_option(("auto", "none"), "Whether lights cast shadows."),
+    *FACE_OPTIONS,
     DEPTH_CUE,
     BACKGROUND,
     TOLERANCE,
     TITLE,
     FRAME,
+    *LINE_OPTIONS,
+    *CUT_OPTIONS,
     BUDGET,
     JOBS,
     *WORKER_OPTIONS,
+    EXPLAIN,
     QUIET,
 )
 def animate(
@@ -83,6 +102,7 @@ def animate(
     frames: int | None,
     fps: float | None,
     frame_format: str | None,
+    explain: bool,
     quiet: bool,
     **told: Any,
 ) -> None:
@@ -91,7 +111,8 @@ def animate(
 
     SCENE is looked for in the current folder and in the folder data, with and without .scene; the animation in the
     current folder and in the folder anim, with and without .anim. One fit holds for the whole film. Camera options
-    replace the fields of the camera in the scene file one by one, before it moves.
+    replace the fields of the camera in the scene file one by one, before it moves; sections and levels are of the scene
+    at rest and move with its items, and cuts stand still.
     """
     from vectorplot.animate import animate as film_of
     from vectorplot.animation.animation_file import read_animation
@@ -107,9 +128,12 @@ def animate(
     sequence = is_sequence(frames_out) and video is None
     if workers.given and not sequence:
         raise click.UsageError("--workers and --cluster make frames into a folder alone: give -o FOLDER/, no -v")
+    if workers.given and explain:
+        raise click.UsageError("--explain is of work in this process: it does not go with --workers and --cluster")
     camera, page = CameraOptions.of(told), PageOptions.of(told)
+    reports: list[StageReport] = []
     with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
-        scene = read(found(data_file))
+        scene, kinds = LineOptions.of(told).in_scene(CutOptions.of(told).of_scene(read(found(data_file))))
         scene = replace(scene, camera=camera_from(camera, scene), page=page_from(page, scene))
         moving = read_animation(animation_file(animation), scene)
         moving = replace(
@@ -121,6 +145,10 @@ def animate(
         options = _of_verb(MODES[moving.mode].verb, told)
         # Workers are as many as there is room for: threads of theirs would only be in each other's way.
         options["jobs"] = told["jobs"] or (1 if workers.given else None)
+        if "lines" in options:
+            options["lines"] = tuple(dict.fromkeys((*options["lines"], *kinds)))
+        if explain:
+            options["explain"] = reports.append
         with located(scene):
             film = film_of(
                 moving, width=told["width"], size=told["size"], fit=told["fit"], progress=progress, **options
@@ -132,6 +160,8 @@ def animate(
 
         tasks = frame_tasks(film, frames_out, format=frame_format)
         workers.run(tasks, len(film), "frames", quiet=quiet)
+    if explain:
+        click.echo(table(summed(reports)), err=True)
 
 
 def _of_verb(verb: str, told: dict[str, Any]) -> dict[str, Any]:
@@ -143,6 +173,11 @@ def _of_verb(verb: str, told: dict[str, Any]) -> dict[str, Any]:
             option = next(param for param in context.command.params if param.name == name).opts[0]
             raise click.UsageError(f"{option} does not go with frames that the verb {verb} makes")
     given = {name: told[name] for name in known if told[name] is not None}
+    if verb == "draw":
+        hatch, given = hatching_from({**dict.fromkeys(_HATCH), **given})
+        given = {**given, "hatch": hatch}
+    if verb == "paint":
+        given["smooth"] = not given.pop("flat")
     own = {name: told[name] for name in ("budget", "jobs")}
     if verb != "render":
         own["frame"] = told["frame"]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from vectorplot.cli.options import dash, pen, said_or_none, style
+from vectorplot.cli.options import at_least, dash, layers, pen, said_or_none, style
 
 STROKE_OPTIONS = (
     click.option(
@@ -37,4 +37,20 @@ STROKE_OPTIONS = (
         metavar="[WHAT=]DASH,GAP",
         help="Dashes of the same, in mm or with units (8pt,3pt), or none; repeat it for more.",
     ),
+)
+
+HALO = click.option(
+    "--halo",
+    "halo_mm",
+    type=at_least(0.0),
+    default=0.0,
+    metavar="MM",
+    help="Gap beside lines that lie in front.",
+)
+
+LAYERS = click.option(
+    "--layers",
+    type=layers,
+    metavar="WORD,...",
+    help="What shares a layer: kind, object, colour, or several of these.  [default: kind, or what the style says]",
 )
