@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import direction, number
+from vectorplot.cli.options import at_least, direction, number
 from vectorplot.errors import InputError
 
 if TYPE_CHECKING:
@@ -55,6 +55,13 @@ CUT_OPTIONS = (
     ),
     click.option("--cut-colour", metavar="COLOUR", help="Of cut faces.  [default: that of their bodies]"),
     click.option(
+        "--cut-spacing",
+        type=at_least(0.1),
+        metavar="MM",
+        help="From stroke to stroke of their hatches, on the page.  [default: by the extent of the scene]",
+    ),
+    click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
+    click.option(
         "--explode", type=_explosion, metavar="AXIS,FACTOR", help="Parts moved apart along x, y, z or X,Y,Z: z,1.5."
     ),
 )
@@ -67,6 +74,8 @@ class CutOptions:
     cut: tuple[str, ...] = ()
     cut_away: str = "gone"
     cut_colour: str | None = None
+    cut_spacing: float | None = None
+    cut_angle: float = 45.0
     explode: tuple[Point, float] | None = None
 
     @classmethod
@@ -80,5 +89,6 @@ class CutOptions:
         from vectorplot.scene.cuts.exploded import exploded, shown_apart
 
         scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
-        cuts = tuple(Cut.of(text, self.cut_away, self.cut_colour) for text in self.cut)
+        hatch = {"spacing_mm": self.cut_spacing, "angle_deg": self.cut_angle}
+        cuts = tuple(Cut.of(text, self.cut_away, self.cut_colour, **hatch) for text in self.cut)
         return replace(scene, cuts=scene.cuts + cuts) if cuts else scene

@@ -222,3 +222,53 @@ def test_exploded_parts_keep_their_order_and_their_room():
     assert [item.name for item in apart.items[3:]] == ["b trace"]
     with pytest.raises(vp.InputError, match="a factor"):
         vp.exploded(vp.Scene(tuple(items)), "z", 0.5)
+
+
+def _hatch(drawing: vp.Drawing) -> tuple[np.ndarray, np.ndarray]:
+    """(n,2) directions and middles of the strokes that hatch."""
+    ways, middles = [], []
+    for layer in drawing.layers:
+        for one in layer.strokes if layer.name.startswith("hatch") else ():
+            ends = np.stack([one.points[one.offsets[:-1]], one.points[one.offsets[1:] - 1]])
+            ways.append((ends[1] - ends[0]) / np.linalg.norm(ends[1] - ends[0], axis=1)[:, None])
+            middles.append(ends.mean(axis=0))
+    return np.concatenate(ways), np.concatenate(middles)
+
+
+@pytest.mark.parametrize(("size", "spacing", "angle"), [(1.0, 3.0, 30.0), (1e5, 1.5, -20.0)])
+def test_hatches_of_cut_faces_are_so_many_mm_apart_on_the_page(size, spacing, angle):
+    scene = vp.Scene((vp.Item("B", box((4 * size, 4 * size, 2 * size))),))
+    cut = vp.cut(scene, f"y = {2 * size}", spacing_mm=spacing, angle_deg=angle)
+    ways, middles = _hatch(vp.draw(cut, "front", page=vp.Page(100, 80)))
+    assert np.degrees(np.arctan(ways[:, 1] / ways[:, 0])) == pytest.approx(angle, abs=1e-6)
+    across = np.sort(middles @ np.array([-np.sin(np.radians(angle)), np.cos(np.radians(angle))]))
+    assert np.diff(across) == pytest.approx(spacing, abs=1e-6)
+    assert np.ptp(across) > 30.0
+
+
+def test_parts_that_touch_are_hatched_otherwise_in_mm_too():
+    parts = tuple(vp.Item(f"{k}", box((4, 4, 2)).moved(0, 0, 2 * k)) for k in range(2))
+    cut = cut_scene(vp.cut(vp.Scene(parts), "y = 2", spacing_mm=2.0, angle_deg=10.0), "front")
+    hatches = [item.hatch for item in cut.items[2:]]
+    assert {(one.spacing_mm, one.angle_deg) for one in hatches} == {(2.0, 10.0), (2.0, 100.0)}
+    fine = cut_scene(vp.cut(vp.Scene(parts[:1]), "y = 2", spacing_mm=0.1), "front").items[1].hatch
+    assert fine is not None and fine.width_mm == pytest.approx(0.05)
+
+
+def test_files_and_the_command_say_the_spacing(tmp_path):
+    scene = parse_scene('B red box solid 4 4 2 cut "y = 2" spacing 3 angle 30')
+    assert scene.cuts == (Cut.of("y = 2", spacing_mm=3.0, angle_deg=30.0),)
+    assert parse_scene(write_scene(scene)).cuts == scene.cuts
+    bare, out = tmp_path / "b.scene", tmp_path / "o.json"
+    bare.write_text("B red box solid 4 4 2")
+    told = ["--cut", "y=2", "--cut-spacing", "3", "--cut-angle", "30", "--view", "front"]
+    assert run(["draw", str(bare), "-o", str(out), *told]) == 0
+    vp.save(vp.draw(scene, "front"), tmp_path / "p.json")
+    assert len(out.read_text()) == pytest.approx(len((tmp_path / "p.json").read_text()), rel=0.2)
+    for words, cause in (
+        ("spacing 0.05", "0.1 mm or more"),
+        ("spacing x", "expected a number"),
+        ("spacin 3", "spacing"),
+    ):
+        with pytest.raises(vp.InputError, match=cause):
+            parse_scene(f'B red box solid 4 4 2 cut "y = 2" {words}')

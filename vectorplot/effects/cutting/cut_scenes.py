@@ -9,7 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.effects.cutting.hatches import WAYS, Way, hatch_section, ways_of_parts, without_overlaps
+from vectorplot.effects.cutting.hatches import (
+    WAYS,
+    Way,
+    hatch_section,
+    page_hatch,
+    turned,
+    ways_of_parts,
+    without_overlaps,
+)
 from vectorplot.effects.cutting.section_faces import Body
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.camera import Camera
@@ -32,7 +40,15 @@ MOVED = 0.5
 """Part of the scene's extent by which what is taken away is moved."""
 
 
-def cut(scene: Scene, cuts: Cut | str | Iterable[Cut | str], away: str = "gone", colour: str | None = None) -> Scene:
+def cut(
+    scene: Scene,
+    cuts: Cut | str | Iterable[Cut | str],
+    away: str = "gone",
+    colour: str | None = None,
+    *,
+    spacing_mm: float | None = None,
+    angle_deg: float = 45.0,
+) -> Scene:
     """The scene with cuts that are made where it is drawn, painted or rendered.
 
     Parameters
@@ -45,6 +61,8 @@ def cut(scene: Scene, cuts: Cut | str | Iterable[Cut | str], away: str = "gone",
         What becomes of what texts take away.
     colour : str, optional
         Of the faces at cuts that are texts.
+    spacing_mm, angle_deg : float
+        Of the hatches of these faces, as of `Cut`.
 
     Returns
     -------
@@ -54,7 +72,7 @@ def cut(scene: Scene, cuts: Cut | str | Iterable[Cut | str], away: str = "gone",
     Raises
     ------
     InputError
-        For texts that are no conditions, unknown words and colours.
+        For texts that are no conditions, unknown words and colours, and numbers out of range.
 
     Examples
     --------
@@ -65,7 +83,8 @@ def cut(scene: Scene, cuts: Cut | str | Iterable[Cut | str], away: str = "gone",
     (1, 'gone')
     """
     several = [cuts] if isinstance(cuts, Cut | str) else list(cuts)
-    found = tuple(cut if isinstance(cut, Cut) else Cut.of(cut, away, colour) for cut in several)
+    hatch = {"spacing_mm": spacing_mm, "angle_deg": angle_deg}
+    found = tuple(cut if isinstance(cut, Cut) else Cut.of(cut, away, colour, **hatch) for cut in several)
     return replace(scene, cuts=scene.cuts + found)
 
 
@@ -182,24 +201,23 @@ def _faces_of_cuts(scene: Scene, bodies: list[Body], regions: list[HalfSpaces]) 
         shown = [n for n, areas in enumerate(faces) if not areas[k].is_empty]
         for count, n in enumerate(shown):
             name = f"{bodies[k].item.name} cut" + (f" {count + 1}" if count else "")
-            colour = scene.cuts[planes[n][0]].colour
-            for face in _face_items(bodies[k].item, name, frames[n], faces[n][k], colour, way, extent):
+            one = scene.cuts[planes[n][0]]
+            for face in _face_items(bodies[k].item, name, frames[n], faces[n][k], one, way, extent):
                 result.append(replace(face, cut_by=tuple(regions)))
     return result
 
 
-def _face_items(
-    item: Item, name: str, frame: PlaneFrame, area: Any, colour: str | None, way: Way, extent: float
-) -> list[Item]:
+def _face_items(item: Item, name: str, frame: PlaneFrame, area: Any, cut: Cut, way: Way, extent: float) -> list[Item]:
     """Cut faces in a plane as an item, if there are any: their edges are lines of the body."""
     mesh = mesh_of_regions([(frame, area)])
     if not mesh.face_count:
         return []
-    section = hatch_section(frame, mesh.vertices, way, extent)
-    lines, curves = ("section", "cut"), SurfaceLines(sections=(section,))
-    face = Item(
-        name, mesh, colour or item.colour, item.material, (), lines, item.occludes, curves, item.group, Hatching("none")
-    )
+    hatch = page_hatch(cut, way)
+    section = hatch_section(frame, mesh.vertices, turned(cut, way), extent) if hatch.by == "none" else None
+    lines = ("section", "cut")
+    curves = NO_LINES if section is None else SurfaceLines(sections=(section,))
+    colour = cut.colour or item.colour
+    face = Item(name, mesh, colour, item.material, (), lines, item.occludes, curves, item.group, hatch)
     return [replace(face, is_cut_face=True)]
 
 
@@ -236,8 +254,9 @@ def _away(scene: Scene, cut: Cut, bodies: list[Body], region: HalfSpaces, before
             frame = PlaneFrame.of(region, side, scene.bounds.mean(axis=0))
             area = body.face(frame, region, side, met, None)
             name = f"{item.name} moved cut" + (f" {side + 1}" if side else "")
-            for face in _face_items(item, name, frame, area, cut.colour, WAYS[0], 1.0):
-                shown = replace(face, shape=face.mesh.reversed(), lines=(), curves=NO_LINES)
+            for face in _face_items(item, name, frame, area, cut, WAYS[0], 1.0):
+                bare = Hatching("none")
+                shown = replace(face, shape=face.mesh.reversed(), lines=(), curves=NO_LINES, hatch=bare)
                 result.append(shown.moved(*shift))
     return result
 

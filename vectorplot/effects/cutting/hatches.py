@@ -7,7 +7,10 @@ from typing import Any
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.drawing.layers import PENS
 from vectorplot.geometry.cuts.section_faces import PlaneFrame
+from vectorplot.scene.cuts.cut import Cut
+from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.surface_lines import Section
 from vectorplot.tolerances.of_angles import NO_AZIMUTH_SINE
 
@@ -19,6 +22,9 @@ SPACINGS = (1.0 / 90.0, 1.0 / 150.0, 1.0 / 60.0)
 
 WAYS = tuple((angle, spacing) for spacing in SPACINGS for angle in ANGLES_DEG)
 """Those of ISO 128-50, in the order in which they are taken: first the direction changes, then the spacing."""
+
+INK = 0.5
+"""Of a hatch that is closer than its pen is wide, at most so much of the paper is black."""
 
 Way = tuple[float, float]
 
@@ -62,6 +68,20 @@ def without_overlaps(areas: list[Any]) -> list[Any]:
         inner = [areas[k] for k in other[smaller & (one == part)].tolist()]
         every[part] = shapely.difference(areas[part], shapely.union_all(inner))
     return list(every)
+
+
+def turned(cut: Cut, way: Way) -> Way:
+    """A way of a part, turned to the angle that a cut asks for."""
+    return cut.angle_deg + way[0] - ANGLES_DEG[0], way[1]
+
+
+def page_hatch(cut: Cut, way: Way) -> Hatching:
+    """The hatch of the faces of a part, if a cut asks for a spacing on the page; else none."""
+    if cut.spacing_mm is None:
+        return Hatching("none")
+    spacing = cut.spacing_mm * way[1] / SPACINGS[0]
+    width = min(PENS["hatch"].width_mm, INK * spacing)
+    return Hatching("even", spacing, turned(cut, way)[0], along="surface", width_mm=width)
 
 
 def hatch_section(frame: PlaneFrame, points: Floats, way: Way, extent: float) -> Section:

@@ -207,7 +207,8 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
         words.fail(start, error.cause)
 
 
-_CUT_WORDS = (*AWAY, "colour")
+_CUT_NUMBERS = {"spacing": "spacing_mm", "angle": "angle_deg"}
+_CUT_WORDS = (*AWAY, "colour", *_CUT_NUMBERS)
 
 
 def read_cut(words: Words, at: int) -> tuple[Cut, int]:
@@ -219,14 +220,17 @@ def read_cut(words: Words, at: int) -> tuple[Cut, int]:
     text = words.string(at)
     at += 1
     away, colour = "gone", None
+    hatch: dict[str, float] = {}
     while (word := words.words[at]) in _CUT_WORDS:
         if word == "colour":
             colour, at = _known_colour(words, at + 1, "cut: ")
+        elif word in _CUT_NUMBERS:
+            hatch[_CUT_NUMBERS[word]], at = words.number(at + 1, "cut: ", word), at + 2
         else:
             away, at = word, at + 1
     _check_spelling(words, start, at, _CUT_WORDS)
     try:
-        return Cut.of(text, away, colour), at
+        return Cut.of(text, away, colour, **hatch), at
     except InputError as error:
         words.fail(start, error.cause)
 

@@ -155,7 +155,8 @@ def _cut(cut: Cut) -> str:
         terms = [f"{factor:+.17g}{axis}" for factor, axis in zip(plane.normal, "xyz", strict=True) if factor]
         conditions.append(f"{' '.join(terms)} {'=' if plane.to_eye else '>'} {plane.offset!r}")
     words = ["cut", dumps(", ".join(conditions)), *([cut.away] if cut.away != "gone" else [])]
-    return " ".join([*words, *([f"colour {_colour(cut.colour)}"] if cut.colour else [])])
+    hatch = [*([] if cut.spacing_mm is None else [f"spacing {cut.spacing_mm:.17g}"]), f"angle {cut.angle_deg:.17g}"]
+    return " ".join([*words, *([f"colour {_colour(cut.colour)}"] if cut.colour else []), *hatch])
 
 
 def _label(label: Label) -> str:
