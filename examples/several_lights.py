@@ -1,16 +1,17 @@
 """Shadows of three lamps: their grade at a point is the number of lamps that do not shine there.
 
 Where shadows of different lamps overlap, their common parts are painted over them, darker with each grade. A ray of
-each lamp passes the corner of the cube that casts the end of its shadow. Rays from points of the floor to the lamps
-count again. Source: Glaeser, section 6.3, figure 6.
+each lamp, in ochre, passes the corner of the cube that casts the end of its shadow. Rays from points of the floor to
+the lamps count again. Source: Glaeser, section 6.3, figure 6.
 """
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import shapely
-from diagrams import BLUE, INK, drawn, line, tinted, with_arrows, with_dots, with_faces
+from diagrams import INK, OCHRE, drawn, line, tinted, with_arrows, with_dots, with_faces
 
 import vectorplot as vp
 from vectorplot.effects import shadow_decals
@@ -19,8 +20,10 @@ from vectorplot.shading import palette
 from vectorplot.testing import visible_by_rays
 
 DATA = Path(__file__).resolve().parent.parent / "data"
-SHADES = ["#" + "".join(f"{byte:02x}" for byte in palette("orange")[at]) for at in (31, 22, 12, 0)]
+SHADES = ["#" + "".join(f"{byte:02x}" for byte in palette("gray")[at]) for at in (30, 22, 15, 8)]
 """The colours of grades 0 to 3."""
+
+PAGE = vp.Page(160, 128, 4)
 
 
 def main(folder: Path) -> None:
@@ -31,7 +34,7 @@ def main(folder: Path) -> None:
     on_floor = on_floor[np.argsort(decals.grade[on_floor], kind="stable")]
     parts = [points[decals.offsets[k] : decals.offsets[k + 1]] for k in on_floor]
 
-    camera = vp.Camera(eye=(6, -24, 21), target=(0, 0, 1), fov_deg=30)
+    camera = vp.Camera(eye=(9, -27, 14), target=(0, 0, 1), fov_deg=30)
     lamps = np.array([light.position for light in scene.lights])
     cube = next(item for item in scene.items if item.name == "CUBE").mesh.vertices
     # The ray of each lamp that passes over the corner of the cube which casts the end of its shadow.
@@ -39,19 +42,19 @@ def main(folder: Path) -> None:
     length = np.linalg.norm(hits - cube, axis=2)
     last = np.where((np.abs(hits) < (9, 7, 1)).all(axis=2), length, 0.0).argmax(axis=1)
     ends = hits[np.arange(3), last]
-    starts = cube[last] + 5.0 * (lamps - ends) / np.linalg.norm(lamps - ends, axis=1, keepdims=True)
     bodies = tuple(vp.Item(item.name, item.shape, INK) for item in scene.items)
-    rays = tuple(line(f"RAY{k}", a, b, BLUE) for k, (a, b) in enumerate(zip(starts, ends, strict=True)))
-    drawing = drawn(vp.Scene((*bodies, *rays), title="Grades"), camera, vp.Page(160, 105, 5), {INK: 0.3, BLUE: 0.5})
-    white = tuple(vp.Item(item.name, item.shape, "#ffffff") for item in scene.items[1:])
+    rays = tuple(line(f"RAY{k}", a, b, OCHRE) for k, (a, b) in enumerate(zip(lamps, ends, strict=True)))
+    drawing = drawn(vp.Scene((*bodies, *rays), title="Grades"), camera, PAGE, {INK: 0.35, OCHRE: 0.5})
+    white = tuple(vp.Item(item.name, item.shape, "#bcd3ea") for item in scene.items[1:])
     corners = np.array([(-9, -7, 0), (9, -7, 0), (9, 7, 0), (-9, 7, 0)], dtype=float)
     shades = [SHADES[0], *(SHADES[grade] for grade in decals.grade[on_floor])]
     drawing = with_faces(drawing, [corners, *parts], shades)
     drawing = tinted(drawing, vp.Scene(white, (vp.Light((2, -3, 5), parallel=True, intensity=1.0),)), camera)
     # The floor lies below the bodies.
     over, floor, *rest = drawing.layers
-    drawing = vp.Drawing(160, 105, (floor, over, *rest), title="Grades", page_from_world=drawing.page_from_world)
-    drawing = with_arrows(with_dots(drawing, cube[last], BLUE, 1.1), starts, ends, BLUE, 3.2)
+    drawing = replace(drawing, layers=(floor, over, *rest))
+    drawing = with_dots(with_dots(drawing, cube[last], INK, 0.9), lamps, OCHRE, 2.6)
+    drawing = with_arrows(drawing, lamps, ends, OCHRE, 3.2)
     vp.save(drawing, folder / "several_lights.svg")
 
     random = np.random.default_rng(3)

@@ -19,8 +19,8 @@ from vectorplot.geometry import CoordinateSystem, prism, rotation_x, rotation_z
 
 EYE, TWIST_DEG = (2.4, -2.2, 1.7), 25.0
 GABLE = [(-0.8, -0.6, 0), (0.8, -0.6, 0), (0.8, -0.6, 0.8), (0, -0.6, 1.5), (-0.8, -0.6, 0.8)]
-CAMERA = vp.Camera(eye=(9, -14, 8.3), target=(0, 0, 0.35), parallel=True, height=7.6)
-PAGE = vp.Page(88, 100, 0)
+CAMERA = vp.Camera(eye=(9.25, -13.85, 8.7), target=(0.25, 0.15, 0.75), parallel=True, height=6.1)
+PAGE = vp.Page(76, 80, 0)
 
 
 def main(folder: Path) -> None:

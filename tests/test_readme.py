@@ -46,6 +46,13 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch):
     assert (tmp_path / "crate.pdf").read_bytes().startswith(b"%PDF")
 
 
+def test_the_drawing_of_the_readme_is_the_picture_beside_it():
+    (text,) = (text for language, text in BLOCKS if language == "text")
+    assert (ROOT / "data" / "house.scene").read_text(encoding="utf-8").endswith(text)
+    commands = next(block for block in shell_blocks() if "mine.scene" in block).splitlines()
+    assert commands[0] == ". .venv/bin/activate" and all(line.startswith("vectorplot ") for line in commands[1:])
+
+
 def test_every_option_of_the_command_is_in_the_readme():
     from vectorplot.cli.commands.draw import draw
     from vectorplot.cli.commands.paint import paint
