@@ -149,10 +149,17 @@ def split(lines: L, bounds: Ints) -> list[L]:
     """The polylines in parts, with all that is said of them: part k has those from bounds[k] to bounds[k+1]."""
     ends = bounds.tolist()
     at = lines.offsets[bounds].tolist()
-    return [
-        _with_rows(lines, slice(*at[k : k + 2]), slice(begin, end), lines.offsets[begin : end + 1] - at[k])
-        for k, (begin, end) in enumerate(pairwise(ends))
-    ]
+    said = [(f, getattr(lines, f.name)) for f in fields(lines) if _BELONGS_TO in f.metadata]
+    of_points = [(f, values) for f, values in said if f.metadata[_BELONGS_TO] == "point" and values is not None]
+    of_lines = [(f, values) for f, values in said if f.metadata[_BELONGS_TO] == "line" and values is not None]
+
+    def part(k: int, begin: int, end: int) -> L:
+        points, which = slice(at[k], at[k + 1]), slice(begin, end)
+        rows = {f.name: entries(f, values, points) for f, values in of_points}
+        rows |= {f.name: entries(f, values, which) for f, values in of_lines}
+        return replace(lines, offsets=lines.offsets[begin : end + 1] - at[k], **rows)
+
+    return [part(k, begin, end) for k, (begin, end) in enumerate(pairwise(ends))]
 
 
 def with_points(lines: L, points: Ints, which: Ints, offsets: Ints) -> L:

@@ -46,9 +46,9 @@ def joined(records: Sequence[R]) -> R:
 
 def entries(f: Field[Any], values: NDArray[Any], which: Ints | Bools | slice) -> NDArray[Any]:
     """What the values of a field say of some of its elements."""
-    axis = values.ndim - 1 if f.metadata.get(_COLUMNS) else 0
     if isinstance(which, slice):
-        return values[..., which] if axis else values[which]
+        return values[..., which] if _COLUMNS in f.metadata else values[which]
+    axis = values.ndim - 1 if _COLUMNS in f.metadata else 0
     # take moves rows and columns several times as fast as an index between brackets does.
     return values.take(np.flatnonzero(which) if which.dtype == np.bool_ else which, axis=axis)
 

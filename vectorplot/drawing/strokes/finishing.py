@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from operator import itemgetter
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from vectorplot.drawing.strokes.rows import going_on, in_rows, without_dots
 from vectorplot.drawing.strokes.simplify import without_collinear_points
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped
 from vectorplot.geometry.polylines import split
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM, COLLINEAR_MM
 from vectorplot.words import LineKind
@@ -91,8 +93,10 @@ def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world
     """The strokes of each part, joined and in the order of the pen."""
     alike = len({pen.dash_mm for pen in pens}) == 1 and not thinned
     if len(parts) <= MANY_PARTS or not alike:
-        found = zip(parts, pens, strict=True)
-        return [pen_ordered(_drawn(paths, pen, hidden, world, thinned)) for paths, pen in found]
+        # The longest part begins first, so that the others are done beside it.
+        first = sorted(range(len(parts)), key=lambda k: -len(parts[k]))
+        done = mapped(lambda k: pen_ordered(_drawn(parts[k], pens[k], hidden, world, thinned)), first)
+        return [paths for _, paths in sorted(zip(first, done, strict=True), key=itemgetter(0))]
     every = concatenated(tuple(parts))
     part = ragged.owner([len(paths) for paths in parts])
     low, high = int(every.item.min(initial=0)), int(every.item.max(initial=0)) + 1

@@ -30,7 +30,7 @@ def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     with fewer than three corners is no longer present. Meshes without seams are returned themselves.
     Degenerate: vertices in one place that no common edge joins stay apart; so do closed meshes that touch.
     """
-    asked = [k for k, mesh in enumerate(meshes) if mesh.face_count < MANY_FACES or not mesh.is_closed]
+    asked = [k for k, mesh in enumerate(meshes) if len(mesh.offsets) <= MANY_FACES or not mesh.is_closed]
     result = list(meshes)
     for k, mesh in zip(asked, _joined_seams([meshes[k] for k in asked]), strict=True):
         result[k] = mesh
