@@ -70,7 +70,7 @@ def _stacked(meshes: Sequence[Mesh], first_vertex: Ints) -> tuple[Ints, Ints]:
     none = np.zeros(0, dtype=np.intp)
     corners = np.concatenate([none, *(mesh.corners for mesh in meshes)]) + np.repeat(first_vertex[:-1], counts)
     ends = np.concatenate([none, *(mesh.offsets[1:] for mesh in meshes)])
-    faces = np.array([mesh.face_count for mesh in meshes], dtype=np.intp)
+    faces = np.array([len(mesh.offsets) for mesh in meshes], dtype=np.intp) - 1
     return corners, np.concatenate([[0], ends + np.repeat(ragged.starts(counts), faces)])
 
 

@@ -62,7 +62,7 @@ def _faces(meshes: list[Mesh], first_vertex: Ints) -> tuple[Ints, Ints, Ints]:
     corner_counts = np.array([len(m.corners) for m in meshes], dtype=np.intp)
     corners = np.concatenate([m.corners for m in meshes] or [none]) + np.repeat(first_vertex[:-1], corner_counts)
     ends = np.concatenate([m.offsets[1:] for m in meshes] or [none])
-    face_counts = np.array([m.face_count for m in meshes], dtype=np.intp)
+    face_counts = np.array([len(m.offsets) for m in meshes], dtype=np.intp) - 1
     starts = ragged.offsets(corner_counts)[:-1]
     offsets = np.concatenate([[0], ends + np.repeat(starts, face_counts)])
     face_item = ragged.owner(face_counts)

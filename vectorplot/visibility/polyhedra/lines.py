@@ -287,7 +287,9 @@ def intersection_lines(
 
 def _parts(scene: Scene, view: View, solid: Bools) -> Ints:
     """(f,) numbers that faces have in common where they are of one item and hang together."""
-    whole = solid | np.array([_in_one_piece(item) for item in scene.items], dtype=np.bool_)
+    whole = solid.copy()
+    open_ = np.flatnonzero(~solid)
+    whole[open_] = [_in_one_piece(scene.items[k]) for k in open_.tolist()]
     if whole.all():
         return view.face_item
     some = np.flatnonzero(~whole[view.face_item])
