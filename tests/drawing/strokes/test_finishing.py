@@ -10,6 +10,8 @@ from support.sample_paths import length_mm, polylines
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.strokes import finishing
 from vectorplot.drawing.strokes.finishing import inked
+from vectorplot.drawing.strokes.stroke_paths import concatenated
+from vectorplot.geometry.chunks import threads
 from vectorplot.words import LineKind
 
 
@@ -60,3 +62,18 @@ def test_layers_without_strokes_stay_empty():
     empty = Layer("empty", Pen(), (polylines(),))
     done = inked((empty,) * 40 + layers(1), "none", np.eye(4))
     assert [len(layer.strokes[0]) for layer in done] == [0] * 40 + [1]
+
+
+def test_layers_of_all_sizes_come_out_in_their_places_on_any_number_of_threads():
+    chains = layers(9)
+    given = tuple(
+        replace(chains[0], name=str(k), marks=(concatenated(tuple(layer.marks[0] for layer in chains[k : k + size])),))
+        for k, size in ((0, 1), (1, 5), (6, 2), (8, 1))
+    )
+    done = []
+    for count in (1, 3):
+        with threads(count):
+            done.append([layer.strokes[0] for layer in inked(given, "none", np.eye(4))])
+    for one, other, low, high in zip(*done, (0.0, 3.0, 18.0, 24.0), (3.0, 18.0, 24.0, 27.0), strict=True):
+        assert one.points.tobytes() == other.points.tobytes()
+        assert (one.points[:, 0].min(), one.points[:, 0].max()) == (low, high)
