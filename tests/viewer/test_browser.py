@@ -10,6 +10,7 @@ import time
 import zipfile
 from urllib.parse import unquote
 
+import numpy as np
 import pytest
 from playwright.sync_api import sync_playwright
 from support.paths import ROOT
@@ -18,6 +19,7 @@ from vectorplot.animate import animate
 from vectorplot.animation.animation import Animation
 from vectorplot.animation.movies.reader import read_movie
 from vectorplot.viewer.answers import Answers
+from vectorplot.viewer.moving import MOST_SEGMENTS
 from vectorplot.viewer.server import Server, serving
 from vectorplot.viewer.sources import Source
 
@@ -270,6 +272,57 @@ def test_a_town_turns_fifteen_times_a_second(opened):
         assert rate >= 15.0
     finally:
         town.stop()
+
+
+@pytest.mark.filterwarnings("ignore:.*open mesh")
+def test_of_a_large_mesh_some_edges_move_and_all_are_drawn_when_it_is_still(opened, tmp_path):
+    """How many edges move is what a browser has to do for a frame: as many of 300,000 triangles as of these."""
+    path, size = tmp_path / "hills.obj", 72
+    column, row = np.meshgrid(np.arange(size), np.arange(size))
+    corner = (row * size + column)[:-1, :-1].ravel() + 1
+    lower = np.stack([corner, corner + 1, corner + size + 1], axis=1)
+    upper = np.stack([corner, corner + size + 1, corner + size], axis=1)
+    heights = 4.0 * np.sin(column / 7.0) * np.cos(row / 9.0)
+    points = np.stack([column, row, heights], axis=-1).reshape(-1, 3)
+    lines = ["v {} {} {}".format(*point) for point in points.round(4).tolist()]
+    lines += ["f {} {} {}".format(*face) for face in np.concatenate([lower, upper]).tolist()]
+    path.write_text("\n".join(lines), encoding="utf-8")
+    hills = Served(path)
+    try:
+        page = opened(hills.address)
+        rate = page.evaluate(FRAMES)
+        print(f"{rate:.0f} frames a second")
+        assert rate > 0.0 and MOST_SEGMENTS // 2 < int(page.get_attribute("#stage", "data-lines")) <= MOST_SEGMENTS
+        still(page)
+    finally:
+        hills.stop()
+
+
+def test_one_finger_turns_and_two_move_and_enlarge(opened):
+    page = opened(has_touch=True)
+    fingers = page.context.new_cdp_session(page)
+    before, box = state(page), page.locator("#stage").bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+
+    def touch(kind, *points):
+        told = [{"x": x + dx, "y": y + dy, "id": number} for number, (dx, dy) in enumerate(points)]
+        fingers.send("Input.dispatchTouchEvent", {"type": kind, "touchPoints": told})
+
+    touch("touchStart", (0, 0))
+    touch("touchMove", (60, 20))
+    touch("touchEnd")
+    still(page)
+    turned = state(page)
+    assert turned["azimuth"] < before["azimuth"] and turned["elevation"] > before["elevation"]
+    assert turned["fov_deg"] == before["fov_deg"] and turned["target"] == before["target"]
+    touch("touchStart", (-40, 0), (40, 0))
+    touch("touchMove", (-80, 10), (80, 10))
+    touch("touchEnd")
+    still(page)
+    moved = state(page)
+    assert moved["azimuth"] == turned["azimuth"] and moved["fov_deg"] < turned["fov_deg"]
+    assert moved["target"] != turned["target"]
+    assert page.locator("#stage.held").count() == 0
 
 
 def test_a_film_plays_in_the_mode_of_the_page_until_somebody_turns_the_scene(opened, file):

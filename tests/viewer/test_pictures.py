@@ -5,12 +5,14 @@ from __future__ import annotations
 import shlex
 from dataclasses import replace
 
+import click
 import pytest
 
 import vectorplot as vp
 from vectorplot.animation import MODES
 from vectorplot.cli.main import run
-from vectorplot.io import parse_scene
+from vectorplot.cli.options import light
+from vectorplot.io import parse_scene, write_scene
 from vectorplot.save import write
 from vectorplot.viewer import command_line, first_state, picture, pressed
 from vectorplot.viewer.answers import as_written
@@ -61,6 +63,41 @@ def test_moved_lights_are_in_the_command(scene):
     assert "--lights=" in command_line(state, scene, "a.scene", "b.svg")
     assert "--lights=" not in command_line(replace(state, light_azimuth=0.0), scene, "a.scene", "b.svg")
     assert shlex.split(command_line(state, scene, "it's $(x).scene", "b.svg"))[2] == "it's $(x).scene"
+
+
+def test_moved_lights_keep_their_colours_and_rays(scene, tmp_path):
+    lights = (
+        vp.Light((3, -4, 5), colour="orange", fading=True),
+        vp.Light((1, -1, 2), parallel=True, intensity=0.4, colour="#88aaff"),
+    )
+    path, lit = tmp_path / "lit.scene", replace(scene, lights=lights)
+    path.write_text(write_scene(lit), encoding="utf-8")
+    state = replace(first_state(lit), mode="shadows", light_azimuth=0.3)
+    words = shlex.split(command_line(state, lit, str(path), str(tmp_path / "it.svg")))
+    told = [light(word.removeprefix("--lights=")) for word in words if word.startswith("--lights=")]
+    assert [(one.colour, one.parallel, one.fading, one.intensity) for one in told] == [
+        ("orange", False, True, None),
+        ("#88aaff", True, False, 0.4),
+    ]
+    assert run([*words[1:], "--quiet"]) == 0
+    assert (tmp_path / "it.svg").read_bytes() == write(picture(state, lit), "svg")
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        ("1,2", "not a lamp"),
+        ("1,2,3,blu", "blu"),
+        ("1,2,3,2", "intensity"),
+        ("1,2,3,nan", "intensity"),
+        ("1,2,3,.5,.6", "twice"),
+        ("1,2,x", "x"),
+        ("1,2,3,", "colour"),
+    ],
+)
+def test_lamps_that_are_none_are_bad_usage(words, said):
+    with pytest.raises(click.BadParameter, match=said):
+        light(words)
 
 
 def test_pixels_are_painted_where_the_format_has_none(scene):

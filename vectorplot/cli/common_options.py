@@ -39,8 +39,8 @@ LIGHTS = click.option(
     multiple=True,
     # A tuple without lamps would be darkness; not a word about lamps leaves those of the scene.
     callback=lambda _context, _parameter, lamps: lamps or None,
-    metavar="X,Y,Z[,I]",
-    help="Lamp at a point, with an intensity from 0 to 1, in place of the lights of the scene; repeat it for more.",
+    metavar="X,Y,Z[,WORD...]",
+    help="Lamp in place of those of the scene; its intensity (0 to 1), a colour, parallel, fading; repeat it for more.",
 )
 
 EXPOSURE = click.option(

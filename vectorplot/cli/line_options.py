@@ -15,7 +15,6 @@ if TYPE_CHECKING:
     from vectorplot.geometry.cameras.camera import Point
     from vectorplot.scene.scene import Scene
     from vectorplot.scene.surface_lines import Section, SurfaceLines
-    from vectorplot.words import LineKind
 
 
 @dataclass(frozen=True)
@@ -136,7 +135,7 @@ class LineOptions:
         """What a command with LINE_OPTIONS was told."""
         return cls(**{field.name: options[field.name] for field in fields(cls)})
 
-    def in_scene(self, scene: Scene) -> tuple[Scene, tuple[LineKind, ...]]:
+    def in_scene(self, scene: Scene) -> tuple[Scene, tuple[str, ...]]:
         """A scene with these lines, colours and box, and the kinds of the lines."""
         from vectorplot.scene.lines.added_lines import line_kinds, with_lines, without_level_lines
 

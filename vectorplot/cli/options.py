@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
@@ -142,16 +142,37 @@ def kinds(text: str) -> tuple[str, ...]:
 
 
 def light(text: str) -> Light:
-    """A lamp at X,Y,Z, and after a fourth comma its intensity."""
+    """A lamp at X,Y,Z; after that, in any order, its intensity, its colour, and the words parallel and fading."""
     from vectorplot.scene.light import Light
 
-    parts = [number(part.strip()) for part in text.split(",")]
-    if len(parts) not in (3, 4):
-        raise click.BadParameter(f"{text!r} is not a lamp X,Y,Z or X,Y,Z,INTENSITY")
-    if len(parts) == 4 and not 0.0 <= parts[3] <= 1.0:
-        raise click.BadParameter(f"an intensity of {parts[3]:g} is not between 0 and 1")
-    x, y, z = parts[:3]
-    return Light((x, y, z), intensity=parts[3] if len(parts) == 4 else None)
+    place, words = text.split(",")[:3], [word.strip() for word in text.split(",")[3:]]
+    told: dict[str, Any] = {}
+    for word in words:
+        field, value = _of_light(word)
+        if field in told:
+            raise click.BadParameter(f"{text!r} says twice what its {field} is")
+        told[field] = value
+    if len(place) != 3:
+        raise click.BadParameter(f"{text!r} is not a lamp X,Y,Z, perhaps with {LIGHT_WORDS}")
+    x, y, z = (number(part.strip()) for part in place)
+    try:
+        return Light((x, y, z), **told)
+    except InputError as error:
+        raise click.BadParameter(error.cause) from None
+
+
+LIGHT_WORDS = "an intensity, a colour, parallel, fading"
+"""What may be said of a lamp."""
+
+
+def _of_light(word: str) -> tuple[str, Any]:
+    """The field of a light that a word is about, and its value."""
+    if word in ("parallel", "fading"):
+        return word, True
+    try:
+        return "intensity", float(word)
+    except ValueError:
+        return "colour", word
 
 
 def exposure(text: str) -> Exposure:

@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-import math
 import shlex
 from collections.abc import Iterable
-
-import numpy as np
 
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.viewer.pictures import request
 from vectorplot.viewer.state import ViewerState, camera_of_state, lights_of_state
-
-FAR = 10_000.0
-"""So many times the size of the scene away a lamp stands for parallel light."""
 
 
 def command_line(state: ViewerState, scene: Scene, source: str, out: str) -> str:
@@ -37,8 +31,7 @@ def command_line(state: ViewerState, scene: Scene, source: str, out: str) -> str
 
     Notes
     -----
-    Lights that were moved are white lamps in the command, those with parallel rays far away; line drawings have those
-    of the file.
+    Lights that were moved are lamps of the command, with their colours; line drawings have those of the file.
 
     Examples
     --------
@@ -56,7 +49,7 @@ def command_line(state: ViewerState, scene: Scene, source: str, out: str) -> str
     if asked.verb != "render" and state.landscape:
         words.append("--landscape")
     if asked.verb != "draw":
-        words += [f"--lights={_lamp(light, scene)}" for light in lights_of_state(state, scene) or ()]
+        words += [f"--lights={_lamp(light)}" for light in lights_of_state(state, scene) or ()]
     return shlex.join(words)
 
 
@@ -77,12 +70,13 @@ def _option(name: str, value: object) -> list[str]:
     return [f"--{name}={','.join(value) if isinstance(value, tuple) else value}"]
 
 
-def _lamp(light: Light, scene: Scene) -> str:
-    place = np.asarray(light.position)
-    if light.parallel:
-        low, high = scene.bounds
-        place = (low + high) / 2.0 + FAR * math.dist(low, high) * place / np.linalg.norm(place)
-    return _numbers(place) + ("" if light.intensity is None else f",{light.intensity!r}")
+def _lamp(light: Light) -> str:
+    words = [name for name in ("parallel", "fading") if getattr(light, name)]
+    if light.intensity is not None:
+        words.append(repr(light.intensity))
+    if light.colour != "white":
+        words.append(light.colour)
+    return ",".join([_numbers(light.position), *words])
 
 
 def _numbers(numbers: Iterable[float]) -> str:

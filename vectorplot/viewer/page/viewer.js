@@ -69,6 +69,7 @@ export function viewer(root, program) {
     if (stage.classList.contains("moves")) {
       paintMoving(at("moving"), state, scene);
       stage.dataset.frames = ++frames;
+      stage.dataset.lines = scene.segments;
     }
     over();
   }
