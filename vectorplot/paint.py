@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import Literal
 
@@ -10,7 +10,11 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.layers import letter_pen
 from vectorplot.drawing.painted_fills import placement_of_faces
+from vectorplot.drawing.pens.overlaid_pens import overlaid_pens
+from vectorplot.drawing.pens.pen_rules import Pens
+from vectorplot.drawing.pens.styles import Style
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.features.facet_demands import Within
@@ -18,6 +22,7 @@ from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
+from vectorplot.io.anything import scene_of
 from vectorplot.linework.ruler import PEN, Ruler
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.erased import erased
@@ -61,6 +66,9 @@ def paint(
     fills: Literal["painted", "visible", "erasing"] = "painted",
     lines: str | Iterable[str] = (),
     crease_angle_deg: float = 25.0,
+    style: Style | str | None = None,
+    pens: Pens | None = None,
+    dashes: str | Mapping[str, str] | Iterable[str] | None = None,
     depth_cue: DepthCue | str | None = None,
     background: str | None = None,
     tolerance_mm: float = 0.02,
@@ -109,6 +117,10 @@ def paint(
         polygons (none: all kinds).
     crease_angle_deg : float
         Sharper edges are creases, and meshes look round where faces meet at less; 0 to 180 degrees.
+    style : Style or str, optional
+        As of draw, without wireframes: its pens, dashes and paper.
+    pens, dashes
+        As of draw, for lines on top.
     depth_cue : DepthCue or str, optional
         As of draw, for lines on top; with blank polygons, whose lines have the shades of items, only none.
     background : str, optional
@@ -169,11 +181,24 @@ def paint(
         raise InputError("depth_cue does not go with fills that are erasing, whose lines have the shades of items")
     budget_of(budget)
     threads = threads_of(jobs)
+    given = scene_of(scene)
+    chosen = overlaid_pens(given.inks, style, pens, dashes)
+    if fills == "erasing" and (style is not None or pens is not None or dashes is not None):
+        raise InputError("style, pens and dashes do not go with fills that are erasing, whose lines are those of items")
     subject = subject_of(
-        scene, camera, explain, progress, lights=lights, exposure=exposure, background=background, depth_cue=depth_cue
+        given,
+        camera,
+        explain,
+        progress,
+        lights=lights,
+        exposure=exposure,
+        background=chosen.background if background is None else background,
+        depth_cue=depth_cue,
     )
-    scene = subject.scene
-    sheet, strip = left_of_bar(page_of(page, scene, width, fit), subject.bar)
+    scene, bar = subject.scene, subject.bar
+    names = tuple(item.name for item in scene.items)
+    over = chosen.of_scene(names, () if bar is None else bar.pens)
+    sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
     kinds = line_kinds(lines)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     walk = Walk(stages, explain, progress, threads)
@@ -233,17 +258,18 @@ def paint(
         polygons = cut_out(polygons, blanks, world) if fills == "visible" else Fills.joined(polygons, blanks)
         layers = (replace(layers[0], marks=(polygons,)),)
     if found is not None:
-        layers += ruler.layers(found, walk, scene.depth_cue, paper(scene)[0].tolist())
+        lines_ = over.layers(found, names)
+        layers += ruler.layers(lines_, walk, scene.depth_cue, paper(scene)[0].tolist())
+    letters = over.letters(letter_pen(layers))
     if labels is not None:
-        layers = labels.on_top(layers, False, None, world)
+        layers = labels.on_top(layers, False, None, world, letters)
         layers, placement = room_for_labels(layers, placement, labels, sheet)
         if isinstance(sheet, FittedPage):
             page, world = placement.page, placement.page_from_world
             layers = (replace(layers[0], marks=(*background_of(scene, page), *layers[0].marks)), *layers[1:])
-    layers = titled(layers, placement, title, frame, text=text)
-    names = tuple(item.name for item in scene.items)
+    layers = titled(layers, placement, title, frame, over.border(letters), text=text)
     drawing = Drawing(page.width_mm, page.height_mm, layers, names, scene.title, world)
-    return beside_bar(drawing, subject.bar, strip, scene.background)
+    return beside_bar(drawing, bar, strip, scene.background)
 
 
 def _check_options(

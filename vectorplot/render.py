@@ -3,19 +3,24 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.drawing.strokes.finishing import chain_lines_dashed
+from vectorplot.drawing.drawing import Pen
+from vectorplot.drawing.pens.overlaid_pens import overlaid_pens
+from vectorplot.drawing.pens.pen_rules import Pens, scaled_pen
+from vectorplot.drawing.pens.styles import Style
+from vectorplot.drawing.strokes.finishing import chain_lines_dashed, long_strokes, with_dashes
 from vectorplot.errors import InputWarning
 from vectorplot.features.facet_demands import Within
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
+from vectorplot.io.anything import scene_of
 from vectorplot.linework.ruler import Ruler
 from vectorplot.plan import accuracy_of_render, chosen_shadows, plan_render, with_accuracy
 from vectorplot.rendering.pixel_bands import pixels_in_bands
@@ -90,6 +95,9 @@ def render(
     samples: int | None = None,
     crease_angle_deg: float = 25.0,
     lines: str | Iterable[str] = (),
+    style: Style | str | None = None,
+    pens: Pens | None = None,
+    dashes: str | Mapping[str, str] | Iterable[str] | None = None,
     depth_cue: DepthCue | str | None = None,
     background: str | None = None,
     budget: float = 1.0,
@@ -133,6 +141,10 @@ def render(
         Faces that meet at less look round; 0 to 180 degrees.
     lines : str or iterable of str
         Words of LineKind, or one text with commas between them, drawn over the picture with exact hidden lines.
+    style : Style or str, optional
+        As of draw, without wireframes: its pens, dashes and paper.
+    pens, dashes
+        As of draw, for lines over the picture, 96 pixels an inch; without them lines are a pixel wide.
     depth_cue : DepthCue or str, optional
         As of draw, for lines over the picture.
     background : str, optional
@@ -189,8 +201,12 @@ def render(
     settings = MapSettings(shadow_size, shadow_bits, shadow_casters, shadow_focus)
     budget_of(budget)
     threads = threads_of(jobs)
-    subject = subject_of(scene, camera, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
+    given = scene_of(scene)
+    chosen = overlaid_pens(given.inks, style, pens, dashes)
+    subject = subject_of(given, camera, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
+    names = tuple(item.name for item in seen.items)
+    over = chosen.of_scene(names, () if bar is None else bar.pens)
     check_lights(seen.lights)
     whole, size = size, pixels_left_of_bar(size, bar)
     how, why = chosen_shadows(seen, subject.camera, size, fit) if shadows == "auto" else (shadows, "")
@@ -219,7 +235,7 @@ def render(
         walk.measured("shadows", "% wrong", wrong_shadows, seen, triangles, lighting)
     opacity = np.array([item.material.opacity for item in seen.items])
     mirror = np.array([item.material.is_mirror for item in seen.items], dtype=np.bool_)
-    paper = palette(background or seen.background or BACKGROUND)[-1:]
+    paper = palette(background or over.background or seen.background or BACKGROUND)[-1:]
     coplanar = walk.run("coplanar", coplanar_faces, view)
     behind = paper[0].astype(np.float64)
     picture = picture_of(triangles, system, fine, lighting, opacity, mirror, sides, coplanar, behind)
@@ -235,11 +251,13 @@ def render(
 
         labels = walk.run("labels", ruler.labels, subject.anchors, found, mm=samples * PIXELS_PER_MM)
         found = found and labels.interrupted(found, placement.page_from_world)
-        pixels = with_lines(with_blanks(pixels, labels.blanks(paper)), labels.strokes, samples * LETTER_PIXELS)
+        letters = scaled_pen(over.letters(Pen(LETTER_PIXELS / PIXELS_PER_MM)), samples * PIXELS_PER_MM)
+        pixels = with_lines(with_blanks(pixels, labels.blanks(paper)), labels.strokes, letters)
     if found is not None:
-        from vectorplot.rendering.lines_over_pixels import wide_layers, with_layers
+        from vectorplot.rendering.lines_over_pixels import with_layers
 
-        layers = wide_layers(found, float(samples))
+        layers = over.layers(long_strokes(found), names, float(samples), samples * PIXELS_PER_MM)
+        layers = with_dashes(layers, placement.page_from_world)
         pixels = with_layers(pixels, ruler.cued(layers, walk, seen.depth_cue, paper[0].tolist()))
     averages = walk.run("average", averaged_light, pixels, samples)
     return Image(pixels_beside_bar(averages, bar, whole, behind), seen.title)

@@ -8,7 +8,6 @@ from functools import cached_property
 from typing import TYPE_CHECKING
 
 from vectorplot.drawing.drawing import Layer, Paths, Pen
-from vectorplot.drawing.layers import layers_by_kind
 from vectorplot.drawing.strokes.finishing import inked
 from vectorplot.linework.labels_in_place import labels_in_place
 from vectorplot.linework.lines_in_place import lines_in_place, with_smooth_surfaces
@@ -57,20 +56,22 @@ class Ruler:
         strokes = self._found(self.scene, OUTLINES, None) if strokes is None else strokes
         return labels_in_place(self.scene, *self._view, self.placement, anchors, strokes, text=text, mm=mm)
 
-    def layers(self, found: Paths, walk: Walk, cue: DepthCue | None, paper: Sequence[int]) -> tuple[Layer, ...]:
-        """The visible lines in layers by kind, by depth too where there is a cue; paper: its colour."""
+    def layers(
+        self, layers: Sequence[Layer], walk: Walk, cue: DepthCue | None, paper: Sequence[int]
+    ) -> tuple[Layer, ...]:
+        """Layers of visible lines as a pen draws them, by depth too where there is a cue; paper: its colour."""
         world = self.placement.page_from_world
-        return inked(self.cued(layers_by_kind(found), walk, cue, paper), "none", world, self.tolerance_mm)
+        return inked(self.cued(layers, walk, cue, paper), "none", world, self.tolerance_mm)
 
     def cued(
-        self, layers: tuple[Layer, ...], walk: Walk, cue: DepthCue | None, paper: Sequence[int]
+        self, layers: Sequence[Layer], walk: Walk, cue: DepthCue | None, paper: Sequence[int]
     ) -> tuple[Layer, ...]:
         """Layers of lines, their strokes by depth where there is a cue."""
         if cue is None or not walk.calls_for("depth cue"):
-            return layers
+            return tuple(layers)
         from vectorplot.effects.depth_cues import depth_cued
 
-        return walk.run("depth cue", depth_cued, layers, self.view, cue, paper, self.placement.page_from_world)
+        return walk.run("depth cue", depth_cued, tuple(layers), self.view, cue, paper, self.placement.page_from_world)
 
     def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
         """The visible lines as polylines. scene: this one, whatever patterns it has."""

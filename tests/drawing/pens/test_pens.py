@@ -228,3 +228,53 @@ def test_a_style_that_ends_too_early_is_told_with_its_last_line(tmp_path):
     with pytest.raises(InputError) as error:
         read_style(tmp_path / "a.toml")
     assert error.value.line == 3
+
+
+def shown(verb, **options):
+    options = {"lines": "contour,crease", **options}
+    return verb(SCENE, vp.Camera((6, -9, 5), (0.5, 1, 0.5)), **options)
+
+
+@pytest.mark.parametrize(
+    "rules", [{"pens": "0.3,contour=0.7:red,HOUSE.crease=0.1:blue"}, {"style": "blueprint"}, {"pens": "SHED=green"}]
+)
+def test_lines_on_top_of_painted_faces_have_the_pens_of_drawn_ones(rules):
+    painted = shown(vp.paint, page="120x90", **rules)
+    drawn_too = drawn(lines="contour,crease", **{"hidden": "none", **rules})
+    mine, other = pens_of(painted), pens_of(drawn_too)
+    assert mine.items() <= other.items() and {key for key in other if key[1] != "hidden"} == set(mine)
+    papers = [
+        next(tuple(fills.colours[0].tolist()) for layer in drawing.layers for fills in layer.fills)
+        for drawing in (painted, drawn_too)
+        if "style" in rules
+    ]
+    assert len(set(papers)) <= 1
+
+
+def test_lines_over_pixels_have_pens_too():
+    plain, red = (shown(vp.render, size=(120, 90), **rules).pixels for rules in ({}, {"pens": "contour=1:red"}))
+    is_red = (red[..., 0] > 1.5 * red[..., 1].clip(1)) & (plain != red).any(axis=2)
+    # Contours of 1 mm are 3.8 pixels wide, those that nobody asks for one.
+    dark = (plain.max(axis=2) < 60).sum()
+    assert is_red.sum() > 2 * dark > 0
+    assert (shown(vp.render, size=(120, 90), dashes="contour=1,1").pixels != plain).any()
+
+
+@pytest.mark.parametrize("verb", [vp.paint, vp.render])
+@pytest.mark.parametrize(
+    ("rules", "said"),
+    [
+        ({"style": "wireframe"}, "the style wireframe shows lines alone: it is for draw"),
+        ({"pens": "HUSE=1"}, "pen 'HUSE': no kind of line, and no item (did you mean 'HOUSE'?)"),
+        ({"pens": "contour=thick"}, "thick"),
+    ],
+)
+def test_what_is_no_pen_over_faces_is_told(verb, rules, said):
+    with pytest.raises(InputError) as told:
+        shown(verb, lines="none", **rules)
+    assert said in str(told.value)
+
+
+def test_erasing_fills_have_lines_in_the_shades_of_items():
+    with pytest.raises(InputError, match="erasing"):
+        shown(vp.paint, fills="erasing", pens="0.3")

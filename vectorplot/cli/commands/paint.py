@@ -22,6 +22,7 @@ from vectorplot.cli.common_options import (
     shadows_option,
 )
 from vectorplot.cli.face_options import FACE_OPTIONS
+from vectorplot.cli.strokes.stroke_options import OVERLAID_OPTIONS
 from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
@@ -45,6 +46,7 @@ if TYPE_CHECKING:
     ),
     lines_option("Lines on top, or on blank polygons"),
     crease_angle_option("Sharper edges are creases; meshes look round where faces meet at less."),
+    *OVERLAID_OPTIONS,
     DEPTH_CUE,
     BACKGROUND,
     TOLERANCE,

@@ -17,6 +17,7 @@ from vectorplot.cli.common_options import (
     shadows_option,
 )
 from vectorplot.cli.options import between, pixels
+from vectorplot.cli.strokes.stroke_options import OVERLAID_OPTIONS
 from vectorplot.cli.view_options import fit_option
 
 if TYPE_CHECKING:
@@ -56,6 +57,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     ),
     crease_angle_option("Sharper edges stay sharp."),
     lines_option("Lines on top"),
+    *OVERLAID_OPTIONS,
     DEPTH_CUE,
     BACKGROUND,
 )

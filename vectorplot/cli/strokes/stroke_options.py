@@ -6,7 +6,7 @@ import click
 
 from vectorplot.cli.options import at_least, dash, layers, pen, said_or_none, style
 
-STROKE_OPTIONS = (
+_STYLE, _HIDDEN, _PEN, _DASH = (
     click.option(
         "--style",
         type=style,
@@ -38,6 +38,11 @@ STROKE_OPTIONS = (
         help="Dashes of the same, in mm or with units (8pt,3pt), or none; repeat it for more.",
     ),
 )
+STROKE_OPTIONS = (_STYLE, _HIDDEN, _PEN, _DASH)
+"""Of lines where faces are not filled."""
+
+OVERLAID_OPTIONS = (_STYLE, _PEN, _DASH)
+"""Of lines on top of faces that are filled, where hidden lines are hidden."""
 
 HALO = click.option(
     "--halo",

@@ -81,7 +81,7 @@ def sorted_layers(
         found = _by_several(paths, items, colours, words)
     found = (*found, *hatches)
     if rules:
-        found = tuple(part for layer in found for part in _with_pens(layer, items, rules))
+        found = tuple(part for layer in found for part in with_pens(layer, items, rules))
     return tuple(found)
 
 
@@ -126,7 +126,7 @@ def _by_several(paths: Paths, items: Sequence[str], colours: Sequence[str], word
     return layers_of(paths, layer, [*layers, ("hidden", PENS["hidden"], True)])
 
 
-def _with_pens(layer: Layer, items: Sequence[str], rules: Sequence[PenRule]) -> list[Layer]:
+def with_pens(layer: Layer, items: Sequence[str], rules: Sequence[PenRule]) -> list[Layer]:
     """The layer, or several in its place, with the pens that rules give its strokes, in the order of their pens' first
     strokes."""
     (paths,) = layer.strokes

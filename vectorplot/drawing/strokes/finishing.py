@@ -84,6 +84,16 @@ def chain_lines_dashed(paths: Paths, world: Floats, mm: float = 1.0) -> Paths:
     return concatenated((chosen(paths, ~chained), broken))
 
 
+def with_dashes(layers: Sequence[Layer], world: Floats) -> list[Layer]:
+    """Layers of strokes, broken into dashes where their pens have some, in units of the page."""
+    return [
+        replace(layer, marks=tuple(dashed(paths, *layer.pen.dash_mm, world) for paths in layer.strokes))
+        if layer.pen.dash_mm is not None and any(layer.pen.dash_mm)
+        else layer
+        for layer in layers
+    ]
+
+
 def _group(paths: Paths) -> Ints:
     """(m,) equal for strokes of the same item, kind and count."""
     return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
