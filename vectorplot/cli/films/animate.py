@@ -41,12 +41,12 @@ if TYPE_CHECKING:
 
 MODE_WORDS = ("wire", "lines", "shading", "shadows", "erasing", "pixels")
 
-_LINES = ("lines", "crease_angle_deg", "depth_cue", "background")
+_LINES = ("lines", "crease_angle_deg", "style", "pens", "dashes", "depth_cue", "background")
 
 _HATCH = ("hatch", "spacing", "angle", "cross", "along", "stipple", "hatch_width")
 
 VERBS = {
-    "draw": {*_LINES, "style", "hidden", "pens", "dashes", "halo_mm", *_HATCH, "layers", "tolerance_mm", "title"},
+    "draw": {*_LINES, "hidden", "halo_mm", *_HATCH, "layers", "tolerance_mm", "title"},
     "paint": {*_LINES, "lights", "exposure", "shadows", "aura_mm", "palette", "flat", "tolerance_mm", "title"},
     "render": {*_LINES, "lights", "exposure", "shadows"},
 }
