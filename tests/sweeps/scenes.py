@@ -14,9 +14,13 @@ from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.placed_surfaces import PlacedSurface
 from vectorplot.testing import hausdorff
 from vectorplot.testing.shapes import box
+from vectorplot.tolerances.of_the_page import COINCIDENT_MM
 
 GAPS = 3.0 * 10.0 ** -np.arange(1.0, 16.0)
 PAGE = vp.Page(220.0, 220.0, 10.0)
+
+DOT = COINCIDENT_MM / 50.0
+"""Half of what is no stroke where 8 units fill the page."""
 
 
 def room(scale: float, shift: float) -> vp.Scene:
@@ -61,6 +65,28 @@ def far_eye(nearness: float) -> float:
     return apart(*(list(drawn(vp.draw(scene, camera, page=PAGE, curves="polyline")).page) for camera in cameras))
 
 
+def upright(angle: float) -> float:
+    """How many mm a picture whose up vector is that angle off the line of sight is off the one where it is square to
+    it, in the same plane."""
+    eye, up = np.array([5.0, -7.0, 4.0]), np.array([0.0, 0.0, 1.0])
+    back = eye / np.linalg.norm(eye)
+    square = up - (up @ back) * back
+    boxes = vp.Scene(tuple(vp.Item(f"B{k}", box((k, 0, 0), (k + 0.6, 1, 1 + k))) for k in range(2)))
+    ways = (up, np.cos(angle) * back + np.sin(angle) * square / np.linalg.norm(square))
+    cameras = [vp.Camera(tuple(eye), up=tuple(way.tolist())) for way in ways]
+    return apart(*(list(drawn(vp.draw(boxes, camera, page=PAGE)).page) for camera in cameras))
+
+
+def behind_a_corner(depth: float) -> float:
+    """How much is hidden of a line whose image passes that far inside of a corner of 90 degrees."""
+    half = np.sqrt(0.5)
+    turn = np.array([(half, -half, 0, 0), (half, half, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)])
+    card = plate((0, 0), (2, 2), 1.0).transformed(turn)
+    line = vp.Item("LINE", plate((-4, depth), (4, -4), 0.0))
+    drawing = vp.draw(vp.Scene((vp.Item("CARD", card), line)), vp.Camera.view("top"), page=PAGE, hidden="solid")
+    return drawn(drawing).of(1).hidden.length
+
+
 SWEEPS = (
     Sweep(
         "scenes of any size",
@@ -92,5 +118,27 @@ SWEEPS = (
         far_eye,
         lambda nearness: 0.0,
         lambda nearness: 150.0 * nearness + 0.02,
+    ),
+    Sweep(
+        "up vector near the line of sight",
+        (30,),
+        "angle between them",
+        "distance from the drawing with an upright vector, mm",
+        GAPS[:9],
+        upright,
+        lambda angle: 0.0,
+        # A vector so near the line of sight has as many digits less.
+        lambda angle: 1e-9 + 1e-12 / angle,
+    ),
+    Sweep(
+        "line behind a corner",
+        (10,),
+        "how far inside of the corner it passes",
+        "hidden length",
+        GAPS[:12],
+        behind_a_corner,
+        lambda depth: 2.0 * depth,
+        lambda depth: 1e-9 if depth > DOT else 2.0 * DOT,
+        (DOT, "the hidden part is shorter than 0.0001 mm, and no stroke"),
     ),
 )
