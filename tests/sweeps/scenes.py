@@ -137,8 +137,8 @@ SWEEPS = (
         "hidden length",
         GAPS[:12],
         behind_a_corner,
-        lambda depth: 2.0 * depth,
-        lambda depth: 1e-9 if depth > DOT else 2.0 * DOT,
+        lambda depth: 2.0 * depth if depth > DOT else 0.0,
+        lambda depth: 1e-12,
         (DOT, "the hidden part is shorter than 0.0001 mm, and no stroke"),
     ),
 )
