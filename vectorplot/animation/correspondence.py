@@ -22,7 +22,8 @@ def corresponding(drawing: Drawing, scene: Scene) -> Drawing:
     the end, and each loop at the corner, that comes first among these.
 
     Where three lines or more of a layer meet in a vertex all of them end: which two of them a pen would draw in one go
-    depends on the picture. Its order, which is short, is lost too. Of curves the order changes, the sense stays.
+    depends on the picture. Its order, which is short, is lost too. Curves begin where polylines would; those that close
+    begin where they did, and run counter-clockwise on the page.
     """
     nearest = _Nearest(drawing, scene)
     layers = []
@@ -78,6 +79,8 @@ def _sorted(mark: Paths | CurvedStrokes, nearest: _Nearest) -> Paths | CurvedStr
         directions, handles = directed(turned.directions, backwards), swapped(turned.handles, backwards)
         paths, number, far = replace(turned, directions=directions, handles=handles), number[index], far[index]
     else:
+        mark = _turned(mark, nearest)
+        paths = mark.paths
         number, far = nearest.vertex(paths.points3d, np.repeat(paths.item, np.diff(paths.offsets)))
     first, last = paths.offsets[:-1], paths.offsets[1:] - 1
     keys = (far[first], number[last], number[first], paths.curve, paths.hidden_by > 0, paths.kind, paths.item)
@@ -89,6 +92,50 @@ def _sorted(mark: Paths | CurvedStrokes, nearest: _Nearest) -> Paths | CurvedStr
     place[rank] = np.arange(len(rank))
     arcs = replace(mark.arcs, stroke=place[mark.arcs.stroke])
     return CurvedStrokes(found, some(mark.beziers, rank), arcs.some(np.argsort(arcs.stroke, kind="stable")))
+
+
+def _turned(mark: CurvedStrokes, nearest: _Nearest) -> CurvedStrokes:
+    """The strokes with all that draws them, each in the sense that does not depend on how a pen came to it."""
+    paths = mark.paths
+    number, far = nearest.vertex(paths.points3d, np.repeat(paths.item, np.diff(paths.offsets)))
+    begin, last = paths.offsets[:-1], paths.offsets[1:] - 1
+    later = (number[last] < number[begin]) | ((number[last] == number[begin]) & (far[last] < far[begin]))
+    back = np.asarray(np.where(paths.closed, _clockwise(paths), later), dtype=np.bool_)
+    index, backwards = _run(paths.offsets, back, paths.closed)
+    turned = with_points(paths, index, np.arange(len(paths)), paths.offsets)
+    directions, handles = directed(turned.directions, backwards), swapped(turned.handles, backwards)
+    # Of segments, closed or not, the last one becomes the first.
+    segment, other_way = _run(mark.beziers.offsets, back, np.zeros(len(back), dtype=np.bool_))
+    control = mark.beziers.control[segment]
+    control = np.where(other_way[:, None, None], control[:, ::-1], control)
+    arcs, swap = mark.arcs, back[mark.arcs.stroke]
+    start, end = np.where(swap, arcs.end, arcs.start), np.where(swap, arcs.start, arcs.end)
+    return CurvedStrokes(
+        replace(turned, directions=directions, handles=handles),
+        replace(mark.beziers, control=control),
+        replace(arcs, start=start, end=end),
+    )
+
+
+def _run(offsets: Ints, back: Bools, closed: Bools) -> tuple[Ints, Bools]:
+    """(p,) rows of groups, those of groups that run back in reverse, of closed ones behind the first; (p,) whether."""
+    count, owner = np.diff(offsets), ragged.owner(np.diff(offsets))
+    local = ragged.place(count)
+    start = np.where(closed, 0, count - 1)[owner]
+    index = offsets[:-1][owner] + np.where(back[owner], (start - local) % np.maximum(count[owner], 1), local)
+    return index, back[owner]
+
+
+def _clockwise(paths: Paths) -> Bools:
+    """(m,) whether strokes, closed by a straight line, run round a negative area on the page."""
+    owner, begin = ragged.owner(np.diff(paths.offsets)), paths.offsets[:-1]
+    after = np.arange(1, len(owner) + 1)
+    after[paths.offsets[1:] - 1] = begin
+    # About their first points: the area is that of small numbers.
+    here = paths.points - paths.points[begin][owner]
+    there = paths.points[after] - paths.points[begin][owner]
+    twice = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
+    return np.asarray(np.bincount(owner, twice, len(begin)) < 0.0, dtype=np.bool_)
 
 
 def _cut_at_junctions(paths: Paths, nearest: _Nearest) -> Paths:
