@@ -16,6 +16,7 @@ from .integral.face_sites import FaceSites, face_sites
 from .integral.geodesics_between import geodesics_between
 from .integral.integral_curves import geodesics, integral_curves
 from .integral.integration import Accuracy
+from .integral.isophote_fields import IsophoteDirections
 from .integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
 from .integral.on_meshes.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
 from .integral.on_meshes.shortest_paths import mesh_distances, mesh_shortest_paths
@@ -82,6 +83,7 @@ __all__ = [
     "ImplicitMeshSection",
     "ImplicitTracing",
     "Intersections",
+    "IsophoteDirections",
     "LabelPlaces",
     "MeshCurves",
     "MeshPlaces",

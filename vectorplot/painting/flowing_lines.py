@@ -12,6 +12,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.integral.charts import charts
 from vectorplot.features.integral.curvature_fields import AsymptoticDirections, PrincipalDirections
 from vectorplot.features.integral.face_sites import FaceSites
+from vectorplot.features.integral.isophote_fields import IsophoteDirections
 from vectorplot.features.integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
 from vectorplot.features.integral.sites import Sites
 from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, evenly_spaced_curves
@@ -24,6 +25,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import cross, norm
 from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement
 from vectorplot.surfaces.surface import Surface, is_parametrised
 
@@ -35,7 +37,9 @@ FIELDS: dict[str, tuple[TangentField, TangentField]] = {
     "curvature": (PrincipalDirections(1), PrincipalDirections(2)),
     "asymptotic": (AsymptoticDirections(1), AsymptoticDirections(2)),
 }
-"""What strokes follow, and those that cross them, by the word for it."""
+"""What strokes follow, and those that cross them, by the word for it, where they do not follow the light."""
+
+ISOPHOTES = "isophotes"
 
 ON_MESHES = ("slope", "level")
 """Those of them that meshes have."""
@@ -73,17 +77,24 @@ def flows(item: Item, along: str) -> bool:
     """Whether there are such lines on the shape of an item."""
     if isinstance(item.shape, Mesh):
         return along in ON_MESHES and bool(item.shape.face_count)
-    return along in FIELDS and is_parametrised(item.shape)
+    return (along in FIELDS or along == ISOPHOTES) and is_parametrised(item.shape)
+
+
+def field_of(along: str, family: int, light: Light) -> TangentField:
+    """What strokes follow, family 0, or what crosses them, 1, by the word for it; light: of isophotes."""
+    if along != ISOPHOTES:
+        return FIELDS[along][family]
+    isophotes = IsophoteDirections(light.position, light.parallel)
+    return TurnedField(isophotes, 0.5 * np.pi) if family else isophotes
 
 
 def flowing_lines(
-    item: Item, along: str, family: int, spacing_mm: float, tolerance_mm: float, placement: Placement
+    item: Item, along: str, field: TangentField, spacing_mm: float, tolerance_mm: float, placement: Placement
 ) -> FlowingLines:
-    """The lines of a family on an item, so close that they do for the darkest places.
+    """The lines of a field on an item, so close that they do for the darkest places; along: the word for it.
 
     Errors: InputError, with the item's name, as of evenly_spaced_curves.
     """
-    field = FIELDS[along][family]
     shape = item.shape
     try:
         if isinstance(shape, Mesh):

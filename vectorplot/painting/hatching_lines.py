@@ -12,13 +12,16 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.hatching.densities import ranks
 from vectorplot.drawing.hatching.followed_lines import FollowedLines
 from vectorplot.geometry.vectors import cross, normalize
-from vectorplot.painting.flowing_lines import flowing_lines, flows, on_page
+from vectorplot.painting.flowing_lines import field_of, flowing_lines, flows, on_page
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.lines.curve_light import curve_light
 from vectorplot.scene.lines.integral_lines import KnownCurves
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.scene.view import View
 from vectorplot.surfaces.quadric_bodies.capped_quadrics import capped_quadric_of
 from vectorplot.surfaces.surface import Surface, is_parametrised
 
@@ -48,13 +51,15 @@ def followed(item: Item, hatching: Hatching | Stippling | None) -> bool:
 def followed_lines(
     scene: Scene,
     how: Sequence[Hatching | Stippling | None],
+    view: View,
     placement: Placement,
     trace: Callable[[Scene], Paths],
     tolerance_mm: float,
 ) -> list[FollowedLines]:
     """The visible lines to hatch along of each item that has such, and of each family where they cross.
 
-    how: of every item; trace: the visible lines of a scene in their places, as of draw; tolerance_mm: as of draw.
+    how: of every item; view: of the scene; trace: the visible lines of a scene in their places, as of draw;
+    tolerance_mm: as of draw.
     """
     found: list[FollowedLines] = []
     for family in (0, 1):
@@ -63,7 +68,7 @@ def followed_lines(
         for number, (item, one) in enumerate(zip(scene.items, how, strict=True)):
             lines: tuple[str, ...] = ()
             if isinstance(one, Hatching) and followed(item, one) and (family == 0 or one.cross):
-                spaced[number] = _spaced(item, one, family, placement, tolerance_mm)
+                spaced[number] = _spaced(item, one, family, curve_light(scene, view, item), placement, tolerance_mm)
                 item = replace(item, curves=spaced[number].asked)
                 lines = ("parameter", "integral")
             items.append(replace(item, lines=lines, patterns=()))
@@ -99,10 +104,13 @@ class SpacedLines:
     shortest_mm: float = 0.0
 
 
-def _spaced(item: Item, hatching: Hatching, family: int, placement: Placement, tolerance_mm: float) -> SpacedLines:
-    """The lines of a family on an item, so close that they do for the darkest places."""
+def _spaced(
+    item: Item, hatching: Hatching, family: int, light: Light, placement: Placement, tolerance_mm: float
+) -> SpacedLines:
+    """The lines of a family on an item, so close that they do for the darkest places; light: that of isophotes."""
     if hatching.along != "surface":
-        flow = flowing_lines(item, hatching.along, family, hatching.spacing_mm, tolerance_mm, placement)
+        field = field_of(hatching.along, family, light)
+        flow = flowing_lines(item, hatching.along, field, hatching.spacing_mm, tolerance_mm, placement)
         asked = SurfaceLines(integral=(KnownCurves(flow.curves),))
         return SpacedLines(asked, flow.samples, flow.apart, flow.line, flow.ranks, SHORTEST * hatching.spacing_mm)
     assert is_parametrised(item.shape)

@@ -13,7 +13,7 @@ from vectorplot.words import check_word
 HATCHED_BY = ("tone", "colour", "even", "none")
 """What the distance of strokes goes by."""
 
-HATCHED_ALONG = ("page", "surface", "slope", "level", "curvature", "asymptotic")
+HATCHED_ALONG = ("page", "surface", "slope", "level", "curvature", "asymptotic", "isophotes")
 """What strokes are parallel to."""
 
 MOST_DOTS = 1_000_000
@@ -39,11 +39,12 @@ class Hatching:
         Of the strokes, counter-clockwise: from the page's x axis, or in planes from what is level there.
     cross : bool
         A second family of strokes crosses the first one at right angles, in what is darker than a half.
-    along : {"page", "surface", "slope", "level", "curvature", "asymptotic"}
+    along : {"page", "surface", "slope", "level", "curvature", "asymptotic", "isophotes"}
         Strokes are parallel on the page; or in the planes of faces, and along the parameter lines of surfaces that
         have such, u = const. first. Or they flow, evenly spaced, on surfaces with parameters: the way of steepest
-        slope, along level lines, lines of curvature or asymptotic lines, those of the other family second; the first
-        two of them on meshes too. What else is round is hatched along the page.
+        slope, along level lines, lines of curvature or asymptotic lines, those of the other family second, or along
+        isophotes of the light that those of the item are of, crossed by what leads into the light; the first two of
+        them on meshes too. What else is round is hatched along the page.
     width_mm : float
         Of the pen; 0.01 or more, and no more than the spacing.
 
@@ -63,7 +64,7 @@ class Hatching:
     spacing_mm: float = 0.6
     angle_deg: float = 45.0
     cross: bool = False
-    along: Literal["page", "surface", "slope", "level", "curvature", "asymptotic"] = "page"
+    along: Literal["page", "surface", "slope", "level", "curvature", "asymptotic", "isophotes"] = "page"
     width_mm: float = 0.18
 
     def __post_init__(self) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from dataclasses import replace
 
 import cairo
 import numpy as np
@@ -14,6 +15,7 @@ from vectorplot.backends.cairo.surfaces import png_bytes
 from vectorplot.drawing.hatching.line_ranks import place_ranks
 from vectorplot.geometry import box
 from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.painting.flowing_lines import field_of
 from vectorplot.scene import terrain_mesh
 from vectorplot.surfaces import Domain, Sphere, graph, terrain
 
@@ -77,9 +79,10 @@ def test_strokes_follow_their_field_and_are_long_enough(along):
         assert np.linalg.norm(way, axis=1).sum() * 30.0 > 5.9
 
 
-def test_a_ball_combed_along_its_meridians_is_as_dark_as_the_light_leaves_it():
+@pytest.mark.parametrize("along", ["slope", "isophotes"])
+def test_a_combed_ball_is_as_dark_as_the_light_leaves_it(along):
     ball = vp.Scene((vp.Item("ball", Sphere(1.0)),), (SUN,))
-    hatch = vp.Hatching("tone", spacing_mm=1.0, width_mm=0.3, along="slope")
+    hatch = vp.Hatching("tone", spacing_mm=1.0, width_mm=0.3, along=along)
     drawing = vp.draw(ball, CAMERA, page=PAGE, fit=False, lines="none", hatch=hatch, curves="polyline")
     surface = cairo.ImageSurface.create_from_png(io.BytesIO(png_bytes(drawing, 6.0 * 25.4)))
     size = surface.get_height()
@@ -96,6 +99,47 @@ def test_a_ball_combed_along_its_meridians_is_as_dark_as_the_light_leaves_it():
     assert ink[inside].mean() == pytest.approx(wanted[inside].mean(), rel=0.1)
     for quarter in (x < 0, x > 0, y < 0, y > 0):
         assert ink[inside & quarter].mean() == pytest.approx(wanted[inside & quarter].mean(), rel=0.2, abs=0.01)
+
+
+def cosines(line, light, parallel):
+    """(p,) of the angles between the normals of the unit sphere at points (p,3) and a light."""
+    way = np.array(light) - (0.0 if parallel else line)
+    return (line * way / np.linalg.norm(way, axis=-1)[..., None]).sum(axis=1)
+
+
+def test_along_isophotes_strokes_have_one_angle_to_the_light_that_the_item_names():
+    lights = (vp.Light((9.0, 9.0, 9.0)), vp.Light((2.0, -3.0, 1.5), intensity=1.0))
+    hatch = vp.Hatching("even", spacing_mm=6.0, along="isophotes")
+    ball = vp.Item("BALL", Sphere(1.0), curves=vp.SurfaceLines(light=1), hatch=hatch)
+    drawing = vp.draw(vp.Scene((ball,), lights), CAMERA, page=PAGE, fit=False, lines="none", curves="polyline")
+    found = strokes(drawing)
+    assert len(found) > 4
+    assert max(np.ptp(cosines(line, lights[1].position, False)) for line in found) < 5e-3
+    missing = replace(ball, curves=vp.SurfaceLines(light=2))
+    with pytest.raises(vp.InputError, match="BALL: isophotes of light 2: the scene has 2 lights"):
+        vp.draw(vp.Scene((missing,), lights), CAMERA, page=PAGE)
+
+
+def test_what_crosses_isophotes_leads_into_the_light():
+    sites = features.Sites(Sphere(1.0), np.array([0.4, 3.0]), np.array([0.2, -1.0]))
+    (along,), (across,) = (field_of("isophotes", family, SUN).tangents(sites) for family in (0, 1))
+    sun = np.array(SUN.position)
+    towards = sun - (sites.points @ sun)[:, None] * sites.points
+    assert np.abs((along * sun).sum(axis=1)).max() < 1e-12
+    assert np.abs(across - towards / np.linalg.norm(towards, axis=1)[:, None]).max() < 1e-12
+
+
+def test_without_a_light_isophotes_are_of_one_from_the_upper_left():
+    ball = vp.Item("BALL", Sphere(1.0), hatch=vp.Hatching("even", spacing_mm=6.0, along="isophotes"))
+    drawing = vp.draw(vp.Scene((ball,)), CAMERA, page=PAGE, fit=False, lines="none", curves="polyline")
+    right, up, back = CAMERA.axes
+    assert max(np.ptp(cosines(line, up - right + back, True)) for line in strokes(drawing)) < 5e-3
+    cubes = [vp.Item("A", box((2, 2, 2)), hatch=vp.Hatching("even", along=along)) for along in ("isophotes", "page")]
+    flowing, plain = (strokes(vp.draw(vp.Scene((cube,)), page="60x60", lines="none")) for cube in cubes)
+    assert len(flowing) == len(plain) > 10
+    flat = vp.Item("FLAT", graph(lambda x, y: 0.3 * x + 0.1 * y, Domain(-1, 1, -1, 1)))
+    hatch = vp.Hatching("even", spacing_mm=2.0, along="isophotes")
+    assert not strokes(vp.draw(vp.Scene((flat,)), "top", page="60x60", lines="none", hatch=hatch))
 
 
 def test_terrains_are_hatched_as_water_runs_and_what_has_no_lines_along_the_page():
@@ -122,6 +166,8 @@ def test_many_lines_that_run_together_are_compared_with_few():
 
 
 def test_scene_files_say_it_too():
+    lit = parse_scene("A gray surface torus 3 1 hatch tone along isophotes\n")
+    assert lit.items[0].hatch == vp.Hatching("tone", along="isophotes")
     scene = parse_scene("A gray box 1 1 1 hatch tone along slope spacing 2\n")
     assert scene.items[0].hatch == vp.Hatching("tone", along="slope", spacing_mm=2.0)
 

@@ -32,7 +32,7 @@ HATCHING_OPTIONS = (
     click.option("--cross", is_flag=True, default=None, help="Strokes cross where it is darker than a half."),
     click.option(
         "--along",
-        type=click.Choice(["page", "surface", "slope", "level", "curvature", "asymptotic"]),
+        type=click.Choice(["page", "surface", "slope", "level", "curvature", "asymptotic", "isophotes"]),
         help="Parallel on the page; in planes of faces, along parameter lines; or flowing.  [default: page]",
     ),
     click.option("--stipple", type=click.IntRange(1), metavar="N", help="So many dots in place of strokes."),

@@ -8,9 +8,27 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.integral.charts import MAIN, Charts
 from vectorplot.features.integral.dormand_prince import Steps
 from vectorplot.features.integral.flows import Flow
 from vectorplot.geometry import ragged, records
+
+PARTS = 8
+"""Of a step round a pole, in each of which it goes round less than half."""
+
+
+def running_on(charts: Charts, chart: Ints, steps: Steps, part: Floats, before: Floats) -> Floats:
+    """(k,2) u and v at parts (k,) of steps in charts (k,), running on over seams, and round poles, from where the steps
+    begin, before (k,2)."""
+    result = charts.near_to(charts.parameters(chart, steps.at(part)[:, :2]), before)
+    around = np.flatnonzero(chart != MAIN)
+    if len(around):
+        # Round a pole, u may run through more than a half of its period within one step.
+        own, to, last = steps.some(around), part[around], before[around]
+        for share in np.linspace(0.0, 1.0, PARTS + 1)[1:]:
+            last = charts.near_to(charts.parameters(chart[around], own.at(share * to)[:, :2]), last)
+        result[around] = last
+    return result
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,9 +65,9 @@ class Courses:
 
     def places(self, step: Ints, part: Floats) -> Floats:
         """(k,2) u and v there, running on over seams."""
-        charts = self.flow.charts
-        found = charts.parameters(self.leaps.chart[step], self.states(step, part)[:, :2])
-        return charts.near_to(found, self.leaps.before[step])
+        leaps = self.leaps
+        to = part * leaps.part[step]
+        return running_on(self.flow.charts, leaps.chart[step], self.steps.some(step), to, leaps.before[step])
 
     def points(self, step: Ints, part: Floats) -> Floats:
         """(k,3) points there."""

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.integral.courses import Courses, Leaps
+from vectorplot.features.integral.courses import Courses, Leaps, running_on
 from vectorplot.features.integral.dormand_prince import ORDER, Steps, steps
 from vectorplot.features.integral.flows import Flow
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
@@ -176,8 +176,8 @@ def courses(
         following = np.minimum(factor * step, LONGEST * size)
         ends = ~good & (following < shortest)
         stalled[now.which[ends]] = True
-        places = charts.near_to(places, now.places)
-
+        with np.errstate(all="ignore"):
+            places = running_on(charts, now.chart, tried, np.ones(len(step)), now.places)
         points = flow.surface.points(*charts.within(places).T)
 
         at = np.flatnonzero(good)

@@ -1,0 +1,70 @@
+"""The directions along which a surface turns neither to a light nor away from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.parameters import vector
+from vectorplot.errors import InputError
+from vectorplot.features.integral.sites import TangentPlanes, on_surface, unit
+from vectorplot.features.integral.tangent_fields import Vector
+from vectorplot.features.parametric.conditions import Isophote, PointIsophote
+from vectorplot.tolerances.of_angles import FLAT_SLOPE
+
+
+@dataclass(frozen=True)
+class IsophoteDirections:
+    """The directions of isophotes: along them the angle between the normals and a light is constant.
+
+    Parameters
+    ----------
+    light : (float, float, float)
+        The point in world coordinates, or the direction that parallel rays come from.
+    parallel : bool
+        Whether its rays are parallel.
+
+    Raises
+    ------
+    InputError
+        For a light that is not three finite numbers, parallel light without a direction.
+
+    Notes
+    -----
+    To the left of an isophote, seen from the tips of the normals, the cosine of that angle grows. Degenerate: no
+    direction where it does not change at all, as in the brightest point, and nowhere in a plane in parallel light.
+
+    Source: Glaeser, sections 8.4, equation 28, and 9.4.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> sites = features.Sites(surfaces.Cylinder(), np.array([0.0]), np.array([0.5]))
+    >>> np.abs(features.IsophoteDirections((1.0, 1.0, 0.0)).tangents(sites)).round(9).tolist()
+    [[[0.0, 0.0, 1.0]]]
+    """
+
+    light: Vector
+    parallel: bool = True
+    directed: ClassVar[bool] = True
+
+    def __post_init__(self) -> None:
+        light = vector("isophotes: light", self.light)
+        if self.parallel and not light.any():
+            raise InputError("isophotes: light: expected a direction, got a vector without length")
+
+    def tangents(self, sites: TangentPlanes) -> Floats:
+        """(1,k,3) unit tangent vectors."""
+        own = on_surface(sites, "isophotes")
+        condition = (Isophote if self.parallel else PointIsophote)(own.surface, self.light, 0.0)
+        along_u, along_v, _ = own.planes
+        with np.errstate(all="ignore"):
+            by_u, by_v = condition.slopes(own.u, own.v)
+            size = own.surface.domain.size
+            known = np.abs(by_u) * size[0] + np.abs(by_v) * size[1] > FLAT_SLOPE
+            found = unit(by_v[:, None] * along_u - by_u[:, None] * along_v)
+        return np.where(known[:, None], found, np.nan)[None]
