@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.tolerances.of_parameters import AT_POLE
@@ -57,7 +58,7 @@ class Charts:
         if len(near):
             c, p = chart[near], places[near]
             rho, theta = self._polar(c, p)
-            result[near] = np.stack([rho * np.cos(theta), rho * np.sin(theta)], axis=1)
+            result[near] = from_components(rho * np.cos(theta), rho * np.sin(theta))
         return result
 
     def rates(self, chart: Ints, places: Floats, steps: Floats) -> Floats:
@@ -69,7 +70,7 @@ class Charts:
             rho, theta = self._polar(c, p)
             along, turn = self._polar_steps(c, d)
             cosine, sine = np.cos(theta), np.sin(theta)
-            result[near] = np.stack([along * cosine - rho * turn * sine, along * sine + rho * turn * cosine], axis=1)
+            result[near] = from_components(along * cosine - rho * turn * sine, along * sine + rho * turn * cosine)
         return result
 
     def steps(self, chart: Ints, places: Floats, rates: Floats) -> Floats:
@@ -100,7 +101,7 @@ class Charts:
         u, v = wrapped(d, places[:, 0], places[:, 1])
         u = u if d.closed_u else np.clip(u, d.u_start, d.u_end)
         v = v if d.closed_v else np.clip(v, d.v_start, d.v_end)
-        return np.stack([u, v], axis=1)
+        return from_components(u, v)
 
     def inside(self, places: Floats) -> Floats:
         """(k,2) u and v within the domain, and beside poles, where the surface has no tangent plane."""
@@ -112,7 +113,7 @@ class Charts:
             beside = self.place[pole] + self.inwards[pole] * AT_POLE * self.size[pole]
             moved = np.where(np.abs(own - self.place[pole]) < AT_POLE * self.size[pole], beside, own)
             u, v = (moved, v) if self.axis[pole] == 0 else (u, moved)
-        return np.stack([u, v], axis=1)
+        return from_components(u, v)
 
     def beyond(self, places: Floats) -> Floats:
         """(k,) by what part of the domain places (k,2) are beyond the nearest border that a curve cannot cross;

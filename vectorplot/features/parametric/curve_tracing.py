@@ -18,6 +18,7 @@ from vectorplot.features.zeros.zero_manifold import ZeroManifold, zero_manifolds
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.polylines import some
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
 from vectorplot.tolerances.of_parameters import RESOLUTION
@@ -246,4 +247,4 @@ def _turned(domain: Domain) -> Domain:
 
 def _at_home(domain: Domain, points: Floats) -> Floats:
     """(k,2) the parameters within the domain."""
-    return np.stack(wrapped(domain, points[:, 0], points[:, 1]), axis=1)
+    return from_components(*wrapped(domain, points[:, 0], points[:, 1]))

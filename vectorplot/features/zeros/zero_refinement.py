@@ -11,6 +11,7 @@ from vectorplot.features.zeros.scalar_field import ScalarFields, moved, number
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged
 from vectorplot.geometry.chord_refinement import Traces, refined, torn
+from vectorplot.geometry.vectors import from_components
 from vectorplot.tolerances.of_parameters import DOT_OF_DOMAIN, REPEATED_OF_DOMAIN
 
 Positions = Callable[[Floats, Floats, Ints], Floats]
@@ -84,7 +85,7 @@ def refined_on_curve(
     def between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
         size = field.size[number(start)]
         chord = (end - start)[:, :2] / size
-        across = np.stack([-chord[:, 1], chord[:, 0]], axis=1) * size
+        across = from_components(-chord[:, 1], chord[:, 0]) * size
         return onto_curve(field, start + part[:, None] * (end - start), across, zero)
 
     def image(points: Floats) -> Floats:
@@ -112,7 +113,7 @@ def up_to_holes(field: ScalarFields, end: Floats, before: Floats, reach: Floats,
     way = (end - before)[:, :2] / reach
     length = np.sqrt((way * way).sum(axis=1, keepdims=True))
     way = way / np.where(length > 0.0, length, 1.0)
-    across = np.stack([-way[:, 1], way[:, 0]], axis=1) * reach
+    across = from_components(-way[:, 1], way[:, 0]) * reach
     way = way * reach
     low, high = np.zeros(len(end)), np.full(len(end), 2.0)
     best = end.copy()

@@ -22,6 +22,7 @@ from vectorplot.curves.splines.weighted_controls import (
     second_quotient,
 )
 from vectorplot.errors import InputError
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.placed_surfaces import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
@@ -285,7 +286,7 @@ class SplineSurface(MovableSurface):
     def _sums(self, u: Floats, v: Floats, by_u: int, by_v: int) -> Floats:
         """(..., 3 or 4) sums of control points, or their derivatives."""
         one, two = (basis.within(t) for basis, t in zip(self.bases, (u, v), strict=True))
-        return np.asarray(self._splines(np.stack([one, two], axis=-1), nu=(by_u, by_v)))
+        return np.asarray(self._splines(from_components(one, two), nu=(by_u, by_v)))
 
 
 def spline_surface(grid: ArrayLike, u: SplineKind | None = None, v: SplineKind | None = None) -> SplineSurface:

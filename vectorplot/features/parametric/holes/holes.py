@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_parameters import (
@@ -50,7 +51,7 @@ def last_alike(surface: Surface, base: Floats, ways: Floats, low: Floats, high: 
     """Parts of ways (k,2) from places base (k,2) between parts low and high (k,), the places at which are in a hole at
     one of both: the last parts that are as at low, and the first ones that are not, no farther apart in the domain than
     RIM_FOUND_TO."""
-    size = np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1)
+    size = from_components(*surface.domain.size)
     with np.errstate(all="ignore"):
         long = np.nan_to_num(float(np.max(np.abs((high - low)[:, None] * ways / size), initial=0.0)), nan=0.0)
     number = int(np.clip(AT_ONCE // max(len(base), 1), 2, MOST_PARTS))
@@ -71,7 +72,7 @@ def beside_rim_chords(surface: Surface, start: Floats, end: Floats, part: Floats
     """The places (k,2) of rims at parts (k,) of chords from places to places (k,2) on them, straight across the chord,
     the nearest ones; and which were found. Others are on the chord, or at the end of it that is nearer.
     """
-    size = np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1)
+    size = from_components(*surface.domain.size)
     way = (end - start) / size
     base = start + part[:, None] * (end - start)
     # From the surface to the hole, or from the hole to the surface.
@@ -95,7 +96,7 @@ def beside_rim_chords(surface: Surface, start: Floats, end: Floats, part: Floats
 
 def just_inside(surface: Surface, places: Floats, inwards: Floats) -> Floats:
     """The places (k,2) on rims, moved along ways (k,2) into the surface by RIM_SEEN_FROM."""
-    size = np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1)
+    size = from_components(*surface.domain.size)
     long = np.linalg.norm(inwards / size, axis=1, keepdims=True)
     inner = places + np.divide(RIM_SEEN_FROM * inwards, long, out=np.zeros_like(inwards), where=long > 0.0)
     return np.where(is_known(surface, inner)[:, None], inner, places)
@@ -126,7 +127,7 @@ def around(surface: Surface, places: Floats) -> Floats:
     """(a,k,2) places around places (k,2), AROUND_RIM of the domain from them."""
     angle = 2.0 * np.pi * (np.arange(AROUND) + 0.5) / AROUND
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-    size = np.broadcast_to(np.stack(np.broadcast_arrays(*surface.domain.size), axis=-1), places.shape)
+    size = np.broadcast_to(from_components(*surface.domain.size), places.shape)
     return np.asarray(places + AROUND_RIM * ring[:, None] * size)
 
 

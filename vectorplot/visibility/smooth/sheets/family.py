@@ -13,7 +13,7 @@ from vectorplot.features.implicit.singular.singular_equations import SingularEqu
 from vectorplot.features.parametric.conditions import SurfaceCondition
 from vectorplot.features.parametric.holes.holes import beside_rim_chords
 from vectorplot.geometry import records
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import cross, dot, from_components
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -154,10 +154,10 @@ class ConditionCurves:
         start, end = chords.places
         surface = self.surface.surface_at(start)
         domain = surface.domain
-        size = np.broadcast_to(np.stack(domain.size, axis=-1), (len(part), 2))
+        size = np.broadcast_to(from_components(*domain.size), (len(part), 2))
         way = (end - start)[:, :2] / size
         base = start[:, :2] / size + part[:, None] * way
-        across = np.stack([-way[:, 1], way[:, 0]], axis=1)
+        across = from_components(-way[:, 1], way[:, 0])
         off, slopes = np.zeros(len(part)), np.empty((len(part), 2))
         # Of many chords a few, mostly those much shorter than others, take longer than all the rest.
         active = np.arange(len(part))
@@ -169,20 +169,20 @@ class ConditionCurves:
             # The chord is close to the curve: the slopes on it do, unless that does not lead there.
             if again in (0, RENEWED):
                 values, along = condition.values_and_slopes(u, v)
-                slopes[active] = np.stack(along, axis=1) * size[active]
+                slopes[active] = from_components(*along) * size[active]
             else:
                 values = condition.values(u, v)
             with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-                step = (values - chords.level[active]) / (slopes[active] * across[active]).sum(axis=1)
-            step = np.clip(np.where(np.isfinite(step), step, 0.0), -FARTHEST, FARTHEST)
-            off[active] = np.clip(off[active] - step, -FARTHEST, FARTHEST)
+                step = (values - chords.level[active]) / dot(slopes[active], across[active])
+            step = np.where(np.isfinite(step), step, 0.0).clip(-FARTHEST, FARTHEST)
+            off[active] = (off[active] - step).clip(-FARTHEST, FARTHEST)
             active = active[np.abs(step) > FAMILY_SETTLED]
         at = base + off[:, None] * across
-        tangent = np.stack([-slopes[:, 1], slopes[:, 0]], axis=1)
-        forward = (tangent * way).sum(axis=1)
+        tangent = from_components(-slopes[:, 1], slopes[:, 0])
+        forward = dot(tangent, way)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-            tangent = tangent * ((way * way).sum(axis=1) / forward)[:, None]
-        tangent = np.where(np.isfinite(tangent).all(axis=1)[:, None], tangent, way)
+            tangent = tangent * (dot(way, way) / forward)[:, None]
+        tangent = np.where(np.isfinite(tangent).all(axis=1, keepdims=True), tangent, way)
         places_at = np.concatenate([at * size, start[:, 2:]], axis=1)
         u, v = inside(domain, places_at)
         along_u, along_v = surface.partials(u, v)
@@ -215,7 +215,7 @@ class SpatialCurves:
                 at = base + off
                 if again in (0, RENEWED):
                     one, two = placed.gradients(at), self.condition.gradients(at)
-                    across_one, across_two = np.cross(two, way), np.cross(way, one)
+                    across_one, across_two = cross(two, way), cross(way, one)
                     volume = dot(one, across_one)
                 f, g = placed.values(at), self.condition.values(at) - chords.level
                 step = -(f[:, None] * across_one + g[:, None] * across_two) / volume[:, None]
@@ -223,7 +223,7 @@ class SpatialCurves:
                 off = no_longer(off + step, farthest)
                 if not (np.sqrt(dot(step, step)) > FAMILY_SETTLED * farthest).any():
                     break
-            tangent = np.cross(one, two)
+            tangent = cross(one, two)
             tangent = tangent * (dot(way, way) / dot(tangent, way))[:, None]
         at = base + off
         slopes = np.where(np.isfinite(tangent).all(axis=1, keepdims=True), tangent, way)

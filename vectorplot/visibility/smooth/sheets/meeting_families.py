@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.parametric.conditions import Slopes
 from vectorplot.geometry import records
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import cross, dot, from_components
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED, MISSED_OF_CHORD
 from vectorplot.visibility.smooth.sheets.family import (
@@ -57,7 +57,7 @@ class SheetsMeet:
                     break
                 one, two = self._planes(at[active], there[active])
                 w, x = way[active], base[active]
-                across_n, across_m = np.cross(two.normals, w), np.cross(w, one.normals)
+                across_n, across_m = cross(two.normals, w), cross(w, one.normals)
                 heights = (
                     dot(one.normals, one.points - x)[:, None] * across_n
                     + dot(two.normals, two.points - x)[:, None] * across_m
@@ -69,7 +69,7 @@ class SheetsMeet:
                 n[active], m[active] = one.normals, two.normals
                 last[active] = np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1])))
                 active = active[last[active] > FAMILY_SETTLED * long[active]]
-            tangent = np.cross(n, m)
+            tangent = cross(n, m)
             tangent *= (dot(way, way) / dot(tangent, way))[:, None]
         p, q = self._points(at, there)
         met = (last <= MISSED_OF_CHORD * long) & (np.sqrt(dot(p - q, p - q)) <= MISSED_OF_CHORD * long)
@@ -105,7 +105,7 @@ class SheetsMeet:
         found = ParameterCurves(self.surface, self.sheet).between(chords, part)
         away = found.points - straight
         led_away = np.sqrt(dot(away, away)) > LED_AWAY * np.sqrt(dot(way, way))
-        size = np.stack(np.broadcast_arrays(*self.surface.surface_at(chords.places[0]).domain.size), axis=-1)
+        size = from_components(*self.surface.surface_at(chords.places[0]).domain.size)
         apart = np.abs((chords.places[1] - chords.places[0])[:, :2] / size).max(axis=1)
         beside = ~(led_away & (apart > LED_APART))[:, None]
         nearer = [np.where((part < 0.5)[:, None], *ends) for ends in (chords.places, chords.second_places)]

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.holes.holes import into_surface, is_known
 from vectorplot.features.parametric.wrapping import wrapped
-from vectorplot.geometry.vectors import cross, dot
+from vectorplot.geometry.vectors import cross, dot, from_components
 from vectorplot.surfaces.normals import tangent_planes, unit_normals
 from vectorplot.surfaces.stacked import StackedSurfaces, of_some
 from vectorplot.surfaces.surface import Domain, Surface
@@ -145,7 +145,7 @@ class OnParametrised(ABC):
         with np.errstate(invalid="ignore"):
             long = np.maximum(np.abs(step[:, 0]) / width, np.abs(step[:, 1]) / height)
             step *= np.minimum(1.0, LONGEST_STEP / np.maximum(long, LEAST_DIVISOR))[:, None]
-        return t, np.stack([u, v, places[:, 2]], axis=1) + step
+        return t, from_components(u, v, places[:, 2]) + step
 
     def apart(self, one: Floats, two: Floats) -> Floats:
         """(k,) the larger of the distances in u and v, as parts of the domain."""
@@ -190,7 +190,7 @@ def off_rims(surface: Surface, places: Floats) -> Floats:
     if not len(at):
         return places
     own = of_some(surface, at)
-    size = np.stack(np.broadcast_arrays(*own.domain.size), axis=-1)
+    size = from_components(*own.domain.size)
     long = np.linalg.norm(way[at] / size, axis=1, keepdims=True)
     inner = places[at, :2] + OFF_RIM * way[at] / long
     good = is_known(own, inner)
