@@ -119,8 +119,10 @@ def paint(
         Sharper edges are creases, and meshes look round where faces meet at less; 0 to 180 degrees.
     style : Style or str, optional
         As of draw, without wireframes: its pens, dashes and paper.
-    pens, dashes
+    pens : str, Pen, mapping or iterable of str, optional
         As of draw, for lines on top.
+    dashes : str, mapping or iterable of str, optional
+        As of draw, for the same lines.
     depth_cue : DepthCue or str, optional
         As of draw, for lines on top; with blank polygons, whose lines have the shades of items, only none.
     background : str, optional

@@ -143,8 +143,10 @@ def render(
         Words of LineKind, or one text with commas between them, drawn over the picture with exact hidden lines.
     style : Style or str, optional
         As of draw, without wireframes: its pens, dashes and paper.
-    pens, dashes
+    pens : str, Pen, mapping or iterable of str, optional
         As of draw, for lines over the picture, 96 pixels an inch; without them lines are a pixel wide.
+    dashes : str, mapping or iterable of str, optional
+        As of draw, for the same lines.
     depth_cue : DepthCue or str, optional
         As of draw, for lines over the picture.
     background : str, optional

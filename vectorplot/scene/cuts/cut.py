@@ -114,8 +114,8 @@ class Cut:
         text : str
             Conditions with commas between them, such as y = 0, x + 2y - z > 3 or 0 < x < 2: what all of them hold for
             is taken away; of a plane with = what is on the side of the eye.
-        away, colour, spacing_mm, angle_deg
-            As of Cut.
+        away, colour, spacing_mm, angle_deg : str, str, float, float, optional
+            What becomes of what is taken away, and how the faces of the cut are coloured and hatched: as of Cut.
 
         Returns
         -------
