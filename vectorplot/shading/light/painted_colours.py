@@ -24,6 +24,9 @@ from vectorplot.shading.light.face_shades import (
 from vectorplot.shading.light.flat_regions import plane_middles
 from vectorplot.shading.light.palettes import COLOUR_MAP, PALETTE_SIZE, Colours
 
+FEW_CORNERS = 8
+"""Of a face with more corners it pays to look whether they have the same normal, as those of the faces of cuts."""
+
 POINTS_AT_ONCE = 1 << 16
 """Points shaded at once: few enough for the processor's cache."""
 
@@ -119,6 +122,9 @@ def _normals_on(view: View, normals: Floats, flat: Floats, points: Floats, face:
     of the triangle of the fan that each lies in."""
     first, size = view.offsets[face], view.face_sizes[face]
     found, best = np.zeros((3, len(face))), np.full(len(face), -np.inf)
+    even = (size > FEW_CORNERS) & _with_one_normal(view, normals)[face]
+    found[:, even] = normals[:, first[even]]
+    size = np.where(even, 0, size)
     for step in range(1, int(size.max(initial=2)) - 1):
         here = np.flatnonzero(size > step + 1)
         corner = first[here] + np.array([[0], [step], [step + 1]])
@@ -130,6 +136,14 @@ def _normals_on(view: View, normals: Floats, flat: Floats, points: Floats, face:
         found[:, here[better]] = (share * normals[:, corner[:, better]]).sum(axis=1)
     length = np.sqrt((found * found).sum(axis=0))
     return np.asarray(np.where(length > 0.0, found / np.where(length > 0.0, length, 1.0), flat))
+
+
+def _with_one_normal(view: View, normals: Floats) -> Bools:
+    """(f,) the faces that have the same normal at all their corners."""
+    if not view.face_count:
+        return np.zeros(0, dtype=np.bool_)
+    own = normals[:, np.repeat(view.offsets[:-1], view.face_sizes)]
+    return np.asarray(np.logical_and.reduceat((normals == own).all(axis=0), view.offsets[:-1]), dtype=np.bool_)
 
 
 def _weights(corners: Floats, points: Floats, normal: Floats) -> Floats:
