@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 import secrets
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -49,15 +49,15 @@ class Frames(Protocol):
         ...
 
 
-def save(drawing: Drawing | Image | Scene | Frames, path: str | os.PathLike[str]) -> None:
+def save(drawing: Drawing | Image | Scene | Frames | Sequence[Drawing], path: str | os.PathLike[str]) -> None:
     """Write a drawing, a picture of pixels, a scene or a film in the format of the suffix.
 
     Parameters
     ----------
-    drawing : Drawing, Image, Scene or Film
+    drawing : Drawing, Image, Scene, Film or sequence of Drawing
         What is written: a drawing as svg, ps, eps, pdf, png, tex (PGF/TikZ, for LaTeX), dxf or json; a picture of
         pixels as png; a scene as scene, a text in the scene language; a film as pdf, svg, mp4, webm, gif or vd1, or
-        into a folder, as `vp.save_frames` writes it.
+        into a folder, as `vp.save_frames` writes it; several drawings, such as sheets, as the pages of one pdf.
     path : str or path
         The file, whose suffix says the format.
 
@@ -89,6 +89,13 @@ def save(drawing: Drawing | Image | Scene | Frames, path: str | os.PathLike[str]
         drawing.save(path)
         return
     suffix = Path(path).suffix
+    if isinstance(drawing, Sequence):
+        if suffix.lower() != ".pdf" or not drawing:
+            raise InputError("several drawings are the pages of a .pdf; one at least", file=os.fspath(path))
+        from vectorplot.backends.cairo.pages import pdf_pages_bytes
+
+        write_whole(path, pdf_pages_bytes(drawing, drawing[0].title))
+        return
     if suffix[1:].lower() not in (*_BACKENDS, _SCENE):
         raise InputError(f"unknown suffix {suffix!r}; known are .{', .'.join(FORMATS)}", file=os.fspath(path))
     write_whole(path, write(drawing, suffix[1:]))

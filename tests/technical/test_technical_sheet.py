@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
+from vectorplot.cli.main import run
 from vectorplot.cli.verbs import vectorplot
 from vectorplot.geometry import box
 from vectorplot.technical.round_edges import round_edges
@@ -174,3 +175,29 @@ def test_round_edges_of_a_mesh_get_their_centre_lines(size):
     sheet = vp.technical_sheet(shaft, centre_lines=True, views="front,top,left")
     lines = {name for name, _ in strokes_of(sheet, "centre")}
     assert lines == {"centre line", "centre mark", "centre mark 2"}
+
+
+def test_several_parts_become_the_pages_of_one_pdf(tmp_path, capsys):
+    parts = [tmp_path / f"{name}.scene" for name in "ab"]
+    for path, length in zip(parts, (40, 20), strict=True):
+        path.write_text(f"PART{length} red box solid {length} 20 10")
+    out = tmp_path / "all.pdf"
+    asked = ["--views", "front", "--page", "A5", "--scale", "1:1"]
+    assert run(["sheet", *map(str, parts), "-o", str(out), *asked, "-q"]) == 0
+    told = subprocess.run(["pdfinfo", str(out)], capture_output=True, text=True, check=True).stdout
+    assert "Pages:           2" in told
+    pages = [
+        vp.technical_sheet(path, views="front", page="A5", scale="1:1", sheet=f"{n}/2")
+        for n, path in enumerate(parts, 1)
+    ]
+    vp.save(pages, tmp_path / "python.pdf")
+    assert out.read_bytes() == (tmp_path / "python.pdf").read_bytes()
+    assert [np.ptp(outlines(page)[0], axis=0)[0] for page in pages] == pytest.approx([40.0, 20.0])
+    assert run(["sheet", *map(str, parts), "-o", str(tmp_path / "all.svg")]) == 2
+    assert "OUT must end in .pdf" in capsys.readouterr().err
+    assert run(["sheet", *map(str, parts), "-o", str(tmp_path / "big.pdf"), "--scale", "20:1"]) == 1
+    assert f"{parts[0]}: " in capsys.readouterr().err
+    assert not (tmp_path / "big.pdf").exists()
+    for several, name in (([], "none.pdf"), (pages, "all.svg")):
+        with pytest.raises(vp.InputError, match="are the pages"):
+            vp.save(several, tmp_path / name)

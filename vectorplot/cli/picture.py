@@ -6,9 +6,10 @@ import errno
 import os
 import sys
 import warnings
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -91,6 +92,40 @@ def make_picture(
                 write_out(os.fspath(Path(out).with_suffix(".tex")), letters)
     if explain:
         click.echo(table(reports), err=True)
+
+
+def make_pages(
+    sources: Sequence[Source],
+    out: str,
+    page: Callable[[Scene, Report, int], Drawing],
+    *,
+    quiet: bool,
+    explain: bool,
+) -> None:
+    """Read scenes, draw a page of each, which is told its number from 0, and write them as one PDF; nothing is written
+    unless all of it succeeds. quiet, explain: as of make_picture.
+    """
+    from vectorplot.save_frames import write_frames
+
+    reports: list[StageReport] = []
+    with told_warnings(quiet=quiet):
+        check_place(out)
+        with progress_bar(quiet=quiet) as progress:
+            report = Report(progress, reports.append)
+            made = [_page(source, partial(page, number=number), report) for number, source in enumerate(sources)]
+            write_out(out, write_frames(made, "pdf", 1.0))
+    if explain:
+        click.echo(table(reports), err=True)
+
+
+def _page(source: Source, page: Callable[[Scene, Report], Drawing], report: Report) -> Drawing | Image:
+    """The page of a scene; errors name its file."""
+    try:
+        return picture_made(source, page, report)
+    except InputError as error:
+        if error.file is not None:
+            raise
+        raise InputError(error.cause, file=source.name) from error
 
 
 def picture_contents(

@@ -17,7 +17,7 @@ from vectorplot.cli.common_options import (
     with_options,
 )
 from vectorplot.cli.options import format_of
-from vectorplot.cli.picture import Source, make_picture
+from vectorplot.cli.picture import Source, make_pages, make_picture
 from vectorplot.cli.view_options import VIEW_WORDS
 
 if TYPE_CHECKING:
@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the title block."),
     click.option("--author", default="", metavar="TEXT", show_default=False, help="Who has drawn it."),
     click.option("--date", default="", metavar="TEXT", show_default=False, help="As it is to be written."),
-    click.option("--sheet", default="1", metavar="TEXT", help="The number of the sheet, such as 1/2."),
+    click.option("--sheet", metavar="TEXT", help="The number of the sheet, such as 1/2.  [default: 1, or 1/2 of two]"),
     crease_angle_option("Sharper edges are creases."),
     EXPLAIN,
     QUIET,
@@ -63,12 +63,22 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     """Draw main views of INPUT in line with each other, at one exact scale with hidden lines dashed, and a title block;
     write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
-    A named page lies on the side that gives the views more room.
+    A named page lies on the side that gives the views more room. Several INPUTs become a sheet each, the pages of one
+    PDF.
     """
     from vectorplot.technical.technical_sheet import technical_sheet
 
-    def picture(scene: Scene, report: Report) -> Drawing:
-        return technical_sheet(scene, **told, progress=report.progress, explain=report.explain)
+    asked = told.pop("sheet")
+
+    def picture(scene: Scene, report: Report, number: int = 0) -> Drawing:
+        usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
+        said = usual if asked is None else asked
+        return technical_sheet(scene, **told, sheet=said, progress=report.progress, explain=report.explain)
 
     written = format_of(out, format_, DRAWING_FORMATS)
+    if len(scene_file) > 1:
+        if written != "pdf":
+            raise click.UsageError("several INPUTs become the pages of a PDF: OUT must end in .pdf")
+        make_pages([Source((one,)) for one in scene_file], out, picture, quiet=quiet, explain=explain)
+        return
     make_picture(Source(scene_file), out, written, picture, quiet=quiet, explain=explain)
