@@ -9,6 +9,7 @@ from typing import Any
 from vectorplot.animation.modes import MODES
 from vectorplot.errors import InputError
 from vectorplot.io.anything import scene_of
+from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.scene import Scene
 from vectorplot.words import check_word
 
@@ -124,7 +125,7 @@ class Animation:
         Returns
         -------
         Scene
-            With its camera and its lights.
+            With its camera and its lights; its parts are moved apart if it says so.
 
         Raises
         ------
@@ -140,7 +141,7 @@ class Animation:
         >>> film.scene(3).bounds.tolist()
         [[3.0, 0.0, 0.0], [4.0, 1.0, 1.0]]
         """
-        return scene_of(self.motion(self.time(frame)))
+        return shown_apart(scene_of(self.motion(self.time(frame))))
 
 
 def check_frames(frames: int) -> None:

@@ -97,7 +97,7 @@ def make_picture(
 def make_pages(
     sources: Sequence[Source],
     out: str,
-    page: Callable[[Scene, Report, int], Drawing],
+    page: Callable[[int, Scene, Report], Drawing],
     *,
     quiet: bool,
     explain: bool,
@@ -112,7 +112,7 @@ def make_pages(
         check_place(out)
         with progress_bar(quiet=quiet) as progress:
             report = Report(progress, reports.append)
-            made = [_page(source, partial(page, number=number), report) for number, source in enumerate(sources)]
+            made = [_page(source, partial(page, number), report) for number, source in enumerate(sources)]
             write_out(out, write_frames(made, "pdf", 1.0))
     if explain:
         click.echo(table(reports), err=True)

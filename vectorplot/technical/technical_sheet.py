@@ -21,6 +21,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
+from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import camera_of, page_of
@@ -215,7 +216,8 @@ def technical_sheet(
     names = _view_names(views)
     check_word("projection", projection, ("first", "third"))
     asked = None if scale == "fit" else DrawingScale.of(scale)
-    given = scene_of(scene)
+    # Sheets have pens of their own.
+    given = replace(shown_apart(scene_of(scene)), inks=None)
     if centre_lines:
         given = together([given, *_centre_lines(given, crease_angle_deg)])
     solid, annotations = without_annotations(given)

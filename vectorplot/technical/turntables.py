@@ -15,6 +15,7 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.io.anything import scene_of
+from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
 
@@ -75,7 +76,7 @@ def turntable(
         raise InputError(f"a turntable of {count} drawings: expected 1 to {MOST}")
     if not abs(elevation_deg) <= 89.0:
         raise InputError(f"a turntable seen from {elevation_deg:g} degrees above: expected -89 to 89")
-    shown = scene_of(scene)
+    shown = shown_apart(scene_of(scene))
     low, high = shown.bounds
     middle, radius = 0.5 * (low + high), 0.5 * math.dist(low, high) or 1.0
     paper = page_of(page, shown)

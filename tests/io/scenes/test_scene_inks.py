@@ -116,3 +116,8 @@ def test_scenes_together_keep_their_pens_and_cuts():
     drawing = vp.draw([one, other])
     assert "DIE 2" in drawing.items
     assert any(layer.pen.width_mm == 0.5 for layer in drawing.layers)
+
+
+def test_technical_sheets_show_parts_apart_with_pens_of_their_own():
+    told = vp.technical_sheet(parse_scene(f"{TWO} explode z 2 style wireframe"), views="front", page="A4")
+    assert _layers(told) == _layers(vp.technical_sheet(vp.exploded(parse_scene(TWO), "z", 2), views="front", page="A4"))

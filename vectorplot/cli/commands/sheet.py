@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -70,7 +71,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
 
     asked = told.pop("sheet")
 
-    def picture(scene: Scene, report: Report, number: int = 0) -> Drawing:
+    def page(number: int, scene: Scene, report: Report) -> Drawing:
         usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
         said = usual if asked is None else asked
         return technical_sheet(scene, **told, sheet=said, progress=report.progress, explain=report.explain)
@@ -79,6 +80,6 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     if len(scene_file) > 1:
         if written != "pdf":
             raise click.UsageError("several INPUTs become the pages of a PDF: OUT must end in .pdf")
-        make_pages([Source((one,)) for one in scene_file], out, picture, quiet=quiet, explain=explain)
+        make_pages([Source((one,)) for one in scene_file], out, page, quiet=quiet, explain=explain)
         return
-    make_picture(Source(scene_file), out, written, picture, quiet=quiet, explain=explain)
+    make_picture(Source(scene_file), out, written, partial(page, 0), quiet=quiet, explain=explain)

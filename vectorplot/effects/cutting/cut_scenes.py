@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Iterable
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -83,8 +84,8 @@ def cut(
     (1, 'gone')
     """
     several = [cuts] if isinstance(cuts, Cut | str) else list(cuts)
-    hatch = {"spacing_mm": spacing_mm, "angle_deg": angle_deg}
-    found = tuple(cut if isinstance(cut, Cut) else Cut.of(cut, away, colour, **hatch) for cut in several)
+    spelled = partial(Cut.of, away=away, colour=colour, spacing_mm=spacing_mm, angle_deg=angle_deg)
+    found = tuple(cut if isinstance(cut, Cut) else spelled(cut) for cut in several)
     return replace(scene, cuts=scene.cuts + found)
 
 
@@ -201,8 +202,8 @@ def _faces_of_cuts(scene: Scene, bodies: list[Body], regions: list[HalfSpaces]) 
         shown = [n for n, areas in enumerate(faces) if not areas[k].is_empty]
         for count, n in enumerate(shown):
             name = f"{bodies[k].item.name} cut" + (f" {count + 1}" if count else "")
-            one = scene.cuts[planes[n][0]]
-            for face in _face_items(bodies[k].item, name, frames[n], faces[n][k], one, way, extent):
+            asked = scene.cuts[planes[n][0]]
+            for face in _face_items(bodies[k].item, name, frames[n], faces[n][k], asked, way, extent):
                 result.append(replace(face, cut_by=tuple(regions)))
     return result
 
