@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
+from functools import partial
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -89,6 +90,7 @@ class CutOptions:
         from vectorplot.scene.cuts.exploded import exploded, shown_apart
 
         scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
-        hatch = {"spacing_mm": self.cut_spacing, "angle_deg": self.cut_angle}
-        cuts = tuple(Cut.of(text, self.cut_away, self.cut_colour, **hatch) for text in self.cut)
+        spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
+        hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)
+        cuts = tuple(hatched(text) for text in self.cut)
         return replace(scene, cuts=scene.cuts + cuts) if cuts else scene
