@@ -22,7 +22,7 @@ from vectorplot.surfaces.families.capped import Capped
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.testing import hausdorff
 from vectorplot.testing.shapes import box
 

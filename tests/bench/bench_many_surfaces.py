@@ -18,7 +18,7 @@ from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain, Surface
 
 pytestmark = pytest.mark.bench

@@ -11,7 +11,7 @@ from vectorplot.curves.families.helix import Helix
 from vectorplot.curves.families.line import Line
 from vectorplot.curves.families.loxodrome import Loxodrome
 from vectorplot.curves.function_curve import curve_of_function
-from vectorplot.curves.placed_curves import PlacedCurve
+from vectorplot.curves.placed_curve import PlacedCurve
 from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.errors import InputError
 

@@ -16,7 +16,7 @@ from vectorplot.curves.families.helix import Helix
 from vectorplot.curves.families.line import Line
 from vectorplot.curves.families.loxodrome import Loxodrome
 from vectorplot.curves.function_curve import curve_of_function
-from vectorplot.curves.placed_curves import PlacedCurve
+from vectorplot.curves.placed_curve import PlacedCurve
 from vectorplot.curves.splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline
 from vectorplot.curves.splines.spline_curve import nurbs_curve, spline_curve
 from vectorplot.draw import draw

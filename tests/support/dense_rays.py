@@ -7,7 +7,7 @@ import numpy as np
 
 from support.triangle_rays import TriangleRays
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 
 CELLS, STEPS, AT_ONCE = 500, 1000, 2000

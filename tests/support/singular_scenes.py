@@ -15,7 +15,7 @@ from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.implicit_function import implicit_of_function
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit
 
 Points = tuple[tuple[float, float, float], ...]

@@ -23,7 +23,7 @@ from vectorplot.surfaces.families.swept.helical import helical_surface
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
 from vectorplot.surfaces.graphs.graph import graph
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box, rotation
 

@@ -17,7 +17,7 @@ from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidShe
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 

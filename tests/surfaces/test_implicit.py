@@ -25,7 +25,7 @@ from vectorplot.surfaces.families.quadric import (
 from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
 from vectorplot.surfaces.implicit_function import implicit_of_function
 from vectorplot.surfaces.inversion import InvertedImplicit, InvertedSurface, inverted
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import hessians
 
 BOX = np.array([(-4, -4, -4), (4, 4, 4)])

@@ -12,7 +12,7 @@ from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidShe
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.normals import normal_partials, unit_normals
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Domain, Surface
 

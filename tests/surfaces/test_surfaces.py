@@ -27,7 +27,7 @@ from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.graphs.graph import graph, graph_over_disc
 from vectorplot.surfaces.graphs.graph_regions import Disc
 from vectorplot.surfaces.normals import unit_normals
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain, normals
 
 LINE = Line((2, 0.5, -1), (0.4, 1, 0.7))

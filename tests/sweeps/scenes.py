@@ -11,7 +11,7 @@ from sweeps.sweep import Sweep
 import vectorplot as vp
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.testing import hausdorff
 from vectorplot.testing.shapes import box
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM

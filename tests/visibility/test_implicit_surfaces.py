@@ -30,7 +30,7 @@ from vectorplot.surfaces.families.quadric import (
 )
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.implicit_function import implicit_of_function
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.testing import assert_drawing_is_right, hausdorff
 from vectorplot.testing.shapes import box, rotation
 from vectorplot.words import LineKind

@@ -22,7 +22,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.shapes import box
 from vectorplot.words import LineKind

@@ -9,7 +9,7 @@ from .families.helix import Helix
 from .families.line import Line
 from .families.loxodrome import Loxodrome
 from .function_curve import FunctionCurve, curve_of_function
-from .placed_curves import PlacedCurve
+from .placed_curve import PlacedCurve
 from .splines.basis import Basis
 from .splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline, SplineKind
 from .splines.spline_curve import SplineCurve, nurbs_curve, spline_curve

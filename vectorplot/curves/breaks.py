@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.placed_curves import PlacedCurve
+from vectorplot.curves.placed_curve import PlacedCurve
 from vectorplot.curves.splines.spline_curve import SplineCurve
 
 

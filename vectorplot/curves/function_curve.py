@@ -9,7 +9,7 @@ from typing import Any
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.curves.parameters import parameter_range
-from vectorplot.curves.placed_curves import MovableCurve
+from vectorplot.curves.placed_curve import MovableCurve
 
 
 @dataclass(frozen=True, eq=False)

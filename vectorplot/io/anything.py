@@ -22,7 +22,7 @@ from vectorplot.io.read_file import read
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.joined_scenes import renamed_labels, together
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.terrains.terrain_scene import terrain_scene
+from vectorplot.scene.terrains.terrain_mesh import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.surfaces.terrains.terrain import Terrain
 from vectorplot.tolerances.of_numbers import SINGLE_ULP, ULP

@@ -17,7 +17,7 @@ from .scene import Scene
 from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
 from .terrains.level_lines import level_sections, round_heights
 from .terrains.terrain_lines import Roads, WaterCourses, Watersheds
-from .terrains.terrain_scene import terrain_mesh, terrain_scene
+from .terrains.terrain_mesh import terrain_mesh, terrain_scene
 from .terrains.tints import TINTS, hill_light, tinted
 from .view import View, look
 

@@ -15,7 +15,7 @@ from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.material import Material
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
-from vectorplot.surfaces.placed_surfaces import placed_shape
+from vectorplot.surfaces.placed_surface import placed_shape
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.words import OWN_LINE_WORDS, check_colour, line_words
 

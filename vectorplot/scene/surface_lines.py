@@ -12,6 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
+from vectorplot.geometry.cuts.half_spaces import moved_planes
 from vectorplot.scene.lines.integral_lines import IntegralLines
 from vectorplot.scene.terrains.terrain_lines import TerrainLines
 from vectorplot.tolerances.of_numbers import ROUNDING
@@ -114,10 +115,9 @@ class Section:
         >>> vp.Section((0, 0, 1), (1, 2)).transformed(np.diag([1.0, 1.0, 3.0, 1.0]))
         Section(normal=(0.0, 0.0, 1.0), offsets=(3.0, 6.0), slices=False, index=False)
         """
-        normal = np.linalg.solve(matrix[:3, :3].T, self.normal)
-        length, away = float(np.linalg.norm(normal)), float(matrix[:3, 3] @ normal)
-        x, y, z = (normal / length).tolist()
-        return replace(self, normal=(x, y, z), offsets=tuple((offset + away) / length for offset in self.offsets))
+        normals, offsets = moved_planes(np.array([self.normal]), np.array(self.offsets), matrix)
+        x, y, z = normals[0].tolist()
+        return replace(self, normal=(x, y, z), offsets=tuple(offsets.tolist()))
 
     @property
     def kind(self) -> LineKind:

@@ -30,7 +30,7 @@ from .graphs.height_grid import densified_grid, grid_of_scattered
 from .implicit_function import ImplicitFunction, implicit_of_function
 from .inversion import InvertedImplicit, InvertedSurface, inverted
 from .normals import unit_normals
-from .placed_surfaces import PlacedImplicit, PlacedSurface
+from .placed_surface import PlacedImplicit, PlacedSurface
 from .splines.landscape import landscape
 from .splines.spline_surface import SplineSurface, nurbs_surface, spline_surface
 from .surface import Domain, ImplicitSurface, Surface

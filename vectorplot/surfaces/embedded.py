@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from vectorplot.surfaces.graphs.graph import is_graph
 from vectorplot.surfaces.inversion import InvertedSurface
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.trims.cut_surface import CutSurface
 from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 

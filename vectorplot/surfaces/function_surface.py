@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numeric_function
 from vectorplot.errors import InputError
-from vectorplot.surfaces.placed_surfaces import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_extent import GAP_OF_EXTENT
 

@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.surfaces.families.quadric import checked_box
-from vectorplot.surfaces.placed_surfaces import MovableImplicit
+from vectorplot.surfaces.placed_surface import MovableImplicit
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.surfaces.families.quadric import checked_box
-from vectorplot.surfaces.placed_surfaces import MovableImplicit, MovableSurface
+from vectorplot.surfaces.placed_surface import MovableImplicit, MovableSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 
 

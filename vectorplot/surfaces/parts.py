@@ -11,7 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.families.capped import Capped
 from vectorplot.surfaces.over_domain import OverDomain
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Surface
 from vectorplot.surfaces.trims.cut_surface import CutSurface
 from vectorplot.surfaces.trims.trimmed import TrimmedSurface

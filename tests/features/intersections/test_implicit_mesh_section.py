@@ -14,7 +14,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import Quadric, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit
+from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.testing import hausdorff
 from vectorplot.testing.shapes import box
 

@@ -10,7 +10,7 @@ from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain
 
 TURN = 2.0 * np.pi

@@ -19,7 +19,7 @@ from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.quadric import implicit_ellipsoid, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain
 
 QUARTER = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])

@@ -9,7 +9,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_z
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene.terrains.terrain_scene import terrain_mesh
+from vectorplot.scene.terrains.terrain_mesh import terrain_mesh
 from vectorplot.surfaces.terrains.terrain import terrain
 from vectorplot.testing import curves_in_space
 

@@ -10,7 +10,7 @@ from support.sample_surfaces import FAMILIES, same_surface
 
 from vectorplot.curves.families.helix import Helix
 from vectorplot.curves.families.line import Line
-from vectorplot.curves.placed_curves import PlacedCurve
+from vectorplot.curves.placed_curve import PlacedCurve
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_surface_writer import surface_text
@@ -28,7 +28,7 @@ from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.graphs.graph_regions import Disc
 from vectorplot.surfaces.implicit_function import implicit_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.trims.trimmed import TrimmedSurface
 from vectorplot.testing.shapes import box

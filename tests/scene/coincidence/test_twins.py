@@ -17,7 +17,7 @@ from vectorplot.scene.coincidence.same_place import are_in_one_place
 from vectorplot.scene.coincidence.twins import NOTHING, fingerprint, first_twins, without_twins
 from vectorplot.scene.view import look
 from vectorplot.surfaces import Domain, Sphere, Torus, graph
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.testing.shapes import box
 
 CAMERA = vp.Camera((9.0, -8.0, 6.0), (0.0, 0.0, 0.0))

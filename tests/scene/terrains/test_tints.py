@@ -6,7 +6,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.scene.terrains.terrain_scene import terrain_mesh
+from vectorplot.scene.terrains.terrain_mesh import terrain_mesh
 from vectorplot.scene.terrains.tints import hill_light, tinted
 from vectorplot.surfaces.terrains.terrain import terrain
 

@@ -117,9 +117,9 @@ def test_several_lights_add_up_and_can_be_made_to_fit():
     assert np.allclose(shares[0], np.where(cosine > 0, cosine, -0.3 * cosine), atol=1e-14)
     cosine = normals @ (np.array([-5.0, 2, 1]) / np.sqrt(30))
     assert np.allclose(shares[1], np.where(cosine > 0, cosine, -0.3 * cosine), atol=1e-14)
-    fit = il.fitting(shares, given)
-    assert (fit @ shares).max() == pytest.approx(1.0)
-    assert np.allclose(fit / given, fit[0] / given[0])
+    factor = il.fitting_factor(shares, given)
+    assert (factor * np.asarray(given) @ shares).max() == pytest.approx(1.0)
+    assert il.fitting_factor(0.0 * shares, given) == 1.0
     # Without fitting what is too bright stops at the top.
     bright = il.shades(shares, [5.0, 5.0, 5.0], 0.1)
     assert bright.max() == pytest.approx(0.9) and (bright == bright.max()).sum() > 10

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.scene.terrains.terrain_scene import terrain_mesh
+from vectorplot.scene.terrains.terrain_mesh import terrain_mesh
 from vectorplot.surfaces.terrains.terrain import (
     densified_terrain,
     exaggerated,

@@ -16,7 +16,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.graphs.graph import graph, vertical
 from vectorplot.surfaces.graphs.graph_regions import Disc
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.height_fields import known_orders

@@ -21,7 +21,7 @@ from vectorplot.surfaces.families.capped import Capped, Frustum, rod
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.polyhedra.lines import straight_lines
 from vectorplot.visibility.quadrics import closed_forms as first_engine

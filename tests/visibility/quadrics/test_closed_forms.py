@@ -18,7 +18,7 @@ from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadric_bodies.balls import ball_of
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.quadrics.closed_forms import closed_forms

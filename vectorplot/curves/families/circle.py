@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import is_whole_turns, parameter_range, positive, vector
-from vectorplot.curves.placed_curves import MovableCurve
+from vectorplot.curves.placed_curve import MovableCurve
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import axis_frame
 

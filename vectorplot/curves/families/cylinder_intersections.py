@@ -13,7 +13,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import number, positive
-from vectorplot.curves.placed_curves import MovableCurve
+from vectorplot.curves.placed_curve import MovableCurve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.tolerances.of_numbers import ROUNDING
 

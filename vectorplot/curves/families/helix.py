@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.families.circle import Circle
 from vectorplot.curves.parameters import number
-from vectorplot.curves.placed_curves import MovableCurve
+from vectorplot.curves.placed_curve import MovableCurve
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, parameter_range, positive
-from vectorplot.curves.placed_curves import MovableCurve
+from vectorplot.curves.placed_curve import MovableCurve
 from vectorplot.errors import InputError
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.placed_curves import MovableCurve
+from vectorplot.curves.placed_curve import MovableCurve
 from vectorplot.curves.splines.basis import Basis, checked_basis, refined_controls
 from vectorplot.curves.splines.kinds import BSpline, SplineKind
 from vectorplot.curves.splines.weighted_controls import (

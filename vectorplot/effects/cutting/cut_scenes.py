@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.effects.cutting.body_sections import Body
 from vectorplot.effects.cutting.hatches import (
     WAYS,
     Way,
@@ -19,7 +20,6 @@ from vectorplot.effects.cutting.hatches import (
     ways_of_parts,
     without_overlaps,
 )
-from vectorplot.effects.cutting.section_faces import Body
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cuts.divided_meshes import divided_mesh

@@ -11,7 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.surface_patches import StackedPatches, SurfacePatch
 from vectorplot.features.intersections.triangle_pairs import overlapping_of_each
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Surface
 
 MOST_NODES = 1 << 18

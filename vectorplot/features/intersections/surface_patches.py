@@ -16,7 +16,7 @@ from vectorplot.features.tessellation import GridNodes, Tessellation, cell_corne
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.normals import unit_normals
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_angles import LEAST_SINE_SQUARED

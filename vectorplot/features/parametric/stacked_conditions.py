@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.parametric.conditions import Condition, SurfaceCondition
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Domain, Surface
 

@@ -101,10 +101,19 @@ class HalfSpaces:
         HalfSpaces
             The moved region.
         """
-        normals = np.linalg.solve(matrix[:3, :3].T, np.array(self.normals).T).T
-        lengths = np.linalg.norm(normals, axis=1)
-        offsets = (np.array(self.offsets) + normals @ matrix[:3, 3]) / lengths
-        return HalfSpaces(tuple(map(tuple, (normals / lengths[:, None]).tolist())), tuple(offsets.tolist()))
+        normals, offsets = moved_planes(np.array(self.normals), np.array(self.offsets), matrix)
+        return HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(offsets.tolist()))
+
+
+def moved_planes(normals: Floats, offsets: Floats, matrix: Floats) -> tuple[Floats, Floats]:
+    """(n,3) unit normals and (n,) offsets of planes, n . x = offset, under a 4x4 matrix acting on columns. One normal
+    (1,3) may serve for all offsets.
+
+    Degenerate: numpy's LinAlgError for a matrix that flattens space.
+    """
+    moved = np.linalg.solve(matrix[:3, :3].T, normals.T).T
+    lengths = np.linalg.norm(moved, axis=1)
+    return moved / lengths[:, None], (offsets + moved @ matrix[:3, 3]) / lengths
 
 
 def nothing_beside(points: Floats) -> float:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.placed_curves import PlacedCurve
+from vectorplot.curves.placed_curve import PlacedCurve
 from vectorplot.geometry.bodies.solids import IDENTITY
 from vectorplot.io.scenes.scene_families import CURVES
 from vectorplot.io.scenes.scene_slots import read_family

@@ -20,7 +20,7 @@ from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.lines.added_lines import evenly_between, least_extent
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
 from vectorplot.scene.terrains.level_lines import with_index_lines
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.words import nearest
 

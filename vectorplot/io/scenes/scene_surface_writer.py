@@ -18,7 +18,7 @@ from vectorplot.curves.families.helix import Helix
 from vectorplot.curves.families.line import Line
 from vectorplot.curves.families.loxodrome import Loxodrome
 from vectorplot.curves.function_curve import FunctionCurve
-from vectorplot.curves.placed_curves import PlacedCurve
+from vectorplot.curves.placed_curve import PlacedCurve
 from vectorplot.curves.splines.spline_curve import SplineCurve
 from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_formulas import Formulas
@@ -40,7 +40,7 @@ from vectorplot.surfaces.function_surface import FunctionSurface
 from vectorplot.surfaces.graphs.graph import Graph, PolarGraph
 from vectorplot.surfaces.implicit_function import ImplicitFunction
 from vectorplot.surfaces.inversion import InvertedSurface
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.splines.spline_surface import SplineSurface
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 from vectorplot.surfaces.trims.trimmed import TrimmedSurface

@@ -12,7 +12,7 @@ from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.io.terrains.read_terrain import read_terrain
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.terrains.level_lines import times_power_of_ten
-from vectorplot.scene.terrains.terrain_scene import MOST_DRAWN, terrain_scene
+from vectorplot.scene.terrains.terrain_mesh import MOST_DRAWN, terrain_scene
 from vectorplot.surfaces.terrains.terrain import Terrain, exaggerated, thinned_terrain
 
 LOWEST = 1.0 / 30.0

@@ -10,7 +10,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.scenes.scene_slots import Family, Slot, read_family, read_number, read_numbers, read_whole
 from vectorplot.io.scenes.scene_splines import read_points, read_rows
 from vectorplot.io.scenes.scene_words import Words
-from vectorplot.scene.terrains.terrain_scene import terrain_mesh
+from vectorplot.scene.terrains.terrain_mesh import terrain_mesh
 from vectorplot.surfaces.terrains.terrain import densified_terrain, exaggerated, terrain, terrain_of_points
 
 SCATTERED_CELLS = (40.0, 40.0)

@@ -16,7 +16,7 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import face_shades, shows_inside, view_lights
-from vectorplot.shading.light.illumination import brightest, intensities
+from vectorplot.shading.light.illumination import fitting_factor, intensities
 from vectorplot.visibility.painter.image_faces import outer_sides
 
 
@@ -55,5 +55,4 @@ def _fitted(view: View, items: Sequence[Item], lights: Sequence[Light]) -> float
     side = outer_sides(view)[view.face_item]
     seen = (side == 0) | (shows_inside(view) == (side < 0))
     found = face_shades(view, items, lights)
-    most = brightest(found.shares[:, seen], found.intensity)
-    return 1.0 / most if most > 0.0 else 1.0
+    return fitting_factor(found.shares[:, seen], found.intensity)

@@ -26,7 +26,7 @@ from vectorplot.shading.light.illumination import (
     backlit,
     depth_cue,
     facing,
-    fitting,
+    fitting_factor,
     homogeneous_light,
     intensities,
     light_shares,
@@ -105,7 +105,7 @@ class Shades:
     def fitted(self) -> Shades:
         """The same with intensities such that the brightest point just reaches the end of the lights' part of the
         palette. In a movie keep the intensities of the first picture. Source: Glaeser, section 4.5."""
-        return replace(self, intensity=fitting(self.shares, self.intensity))
+        return replace(self, intensity=fitting_factor(self.shares, self.intensity) * self.intensity)
 
 
 def view_lights(view: View, lights: Sequence[Light]) -> tuple[Light, ...]:

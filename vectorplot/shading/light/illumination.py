@@ -419,23 +419,15 @@ def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Flo
     return np.asarray(np.clip(DIRECT_SHARE * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))
 
 
-def fitting(shares: ArrayLike, intensity: ArrayLike) -> Floats:
-    """(l,) or (l, 3) the intensities, scaled so that the brightest point just reaches the end of the lights' part of
-    the palette.
+def fitting_factor(shares: ArrayLike, intensity: ArrayLike) -> float:
+    """What intensities (l,) or (l, 3) are taken times, so that the brightest point of shares (l, n) just reaches the
+    end of the lights' part of the palette.
 
-    For one picture; in a movie keep those of the first frame, or it flickers. Degenerate: in the dark nothing changes.
-    Source: Glaeser, section 4.5.
+    For one picture; in a movie keep that of the first frame, or it flickers. Degenerate: in the dark it is 1.
+    Source: Glaeser, section 4.5, equation 7.
     """
-    given = np.asarray(intensity, dtype=np.float64)
-    most = brightest(shares, given)
-    return given / most if most > 0.0 else given
-
-
-def brightest(shares: ArrayLike, intensity: ArrayLike) -> float:
-    """How bright the brightest point is in the light of all lights, as a part of what these can fill; zero without
-    points."""
-    given = np.asarray(intensity, dtype=np.float64)
-    return float((given.T @ np.asarray(shares, dtype=np.float64)).max(initial=0.0))
+    most = float((np.asarray(intensity, dtype=np.float64).T @ np.asarray(shares, dtype=np.float64)).max(initial=0.0))
+    return 1.0 / most if most > 0.0 else 1.0
 
 
 def shade_numbers(shade: ArrayLike, size: int) -> NDArray[np.uint8]:

@@ -15,7 +15,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_numbers import ROUNDING
 

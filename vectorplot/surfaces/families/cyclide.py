@@ -14,7 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.surfaces.families.quadric import checked_box
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.inversion import InvertedSurface
-from vectorplot.surfaces.placed_surfaces import MovableImplicit
+from vectorplot.surfaces.placed_surface import MovableImplicit
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.vectors import from_components
-from vectorplot.surfaces.placed_surfaces import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 
 # (p, q), their first and their second derivatives.

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import is_whole_turns, number
 from vectorplot.errors import InputError
-from vectorplot.surfaces.placed_surfaces import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_angles import RIGHT_ANGLE_COSINE
 

@@ -12,7 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import normalize
-from vectorplot.surfaces.placed_surfaces import MovableImplicit
+from vectorplot.surfaces.placed_surface import MovableImplicit
 
 
 @dataclass(frozen=True, eq=False)

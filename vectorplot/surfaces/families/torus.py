@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
-from vectorplot.surfaces.placed_surfaces import MovableImplicit
+from vectorplot.surfaces.placed_surface import MovableImplicit
 from vectorplot.surfaces.surface import Domain
 
 

@@ -14,7 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.function_surface import ranges_of
 from vectorplot.surfaces.graphs.graph_regions import Disc, Region
-from vectorplot.surfaces.placed_surfaces import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
 

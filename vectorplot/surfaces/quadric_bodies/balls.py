@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 
 
 @dataclass(frozen=True, eq=False)

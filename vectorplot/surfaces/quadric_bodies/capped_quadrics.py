@@ -11,7 +11,7 @@ from vectorplot.arrays import Floats
 from vectorplot.surfaces.families.capped import Capped, Frustum
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 
 
 @dataclass(frozen=True, eq=False)

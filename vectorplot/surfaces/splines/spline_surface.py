@@ -23,7 +23,7 @@ from vectorplot.curves.splines.weighted_controls import (
 )
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import from_components
-from vectorplot.surfaces.placed_surfaces import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 

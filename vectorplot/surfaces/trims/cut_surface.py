@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
-from vectorplot.surfaces.placed_surfaces import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain, Surface
 
 

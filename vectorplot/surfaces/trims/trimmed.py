@@ -8,7 +8,7 @@ from functools import cached_property
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
-from vectorplot.surfaces.placed_surfaces import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_numbers import ROUNDING
 

@@ -13,7 +13,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.families.capped import CappedPart
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
 from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP

@@ -16,7 +16,7 @@ from vectorplot.features.implicit.singular.singular_curves import refined_line
 from vectorplot.geometry.polylines import Polylines
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit
+from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.testing.shapes import rotation
 

@@ -11,7 +11,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
 from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
 

@@ -16,7 +16,7 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.families.capped import Capped, Frustum
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
 from vectorplot.visibility.quadrics.hidden_arcs import whole_arcs
 from vectorplot.words import LineKind

@@ -11,7 +11,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.quadric import Quadric, implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit
+from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet, implicit_sheet, placed_in_view
 from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.surfaces.families.minimal import minimal_spiral_surface
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.visibility.smooth.sheets.parametric_sheet import parametric_sheet
 
 

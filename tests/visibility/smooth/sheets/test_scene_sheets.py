@@ -14,7 +14,7 @@ from vectorplot.scene.view import View, look
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.hyperboloid import Paraboloid
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.sheets.surface_sheet import Sheet
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene

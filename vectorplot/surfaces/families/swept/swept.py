@@ -12,7 +12,7 @@ from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.surfaces.families.swept.motions import Motion
-from vectorplot.surfaces.placed_surfaces import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 
 

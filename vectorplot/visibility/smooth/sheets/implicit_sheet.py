@@ -14,7 +14,7 @@ from vectorplot.features.implicit.singular.implicit_singular_lines import singul
 from vectorplot.features.implicit.singular.singular_equations import CuspidalEdges
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
-from vectorplot.surfaces.placed_surfaces import PlacedImplicit
+from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances.of_angles import SAME_DIRECTION_SINE
 from vectorplot.tolerances.of_numbers import ROUNDING

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.surfaces.placed_surfaces import PlacedSurface
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.visibility.smooth.sheets.parametric_places import StackedSheets
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet

@@ -25,7 +25,7 @@ from vectorplot.scene.lines.integral_lines import (
     check_points,
 )
 from vectorplot.scene.view import View
-from vectorplot.surfaces.placed_surfaces import placed_once
+from vectorplot.surfaces.placed_surface import placed_once
 from vectorplot.surfaces.surface import Domain, Surface
 
 

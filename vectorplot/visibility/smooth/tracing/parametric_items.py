@@ -37,7 +37,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.parts import covered_once, smooth_parts
-from vectorplot.surfaces.placed_surfaces import placed_once
+from vectorplot.surfaces.placed_surface import placed_once
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheet

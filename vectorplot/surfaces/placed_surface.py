@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
-from vectorplot.curves.placed_curves import Placed, PlacedCurve, rows_and_shift
+from vectorplot.curves.placed_curve import Placed, PlacedCurve, rows_and_shift
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, hessians, is_implicit, is_parametrised
