@@ -198,11 +198,12 @@ def draw(
     subject = subject_of(given, camera, explain, progress, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
     sheet, strip = left_of_bar(page_of(page, seen, width, fit), bar)
+    rules = (*chosen.rules, *own, *asked)
     finish = Finish(
         look=chosen.look,
         hidden=hidden,
         layers=layers,
-        rules=(*chosen.rules, *(() if bar is None else bar.pens), *own, *asked),
+        rules=rules if bar is None else bar.with_pens(rules),
         background=chosen.background if background is None else background,
         curved_mm=tolerance_mm if curves == "bezier" else None,
         longest_mm=longest_mm,

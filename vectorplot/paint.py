@@ -13,7 +13,7 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.layers import letter_pen
 from vectorplot.drawing.painted_fills import placement_of_faces
 from vectorplot.drawing.pens.overlaid_pens import overlaid_pens
-from vectorplot.drawing.pens.pen_rules import Pens
+from vectorplot.drawing.pens.pen_rules import Pens, check_targets
 from vectorplot.drawing.pens.styles import Style
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Demand
@@ -199,7 +199,8 @@ def paint(
     )
     scene, bar = subject.scene, subject.bar
     names = tuple(item.name for item in scene.items)
-    over = chosen.of_scene(names, () if bar is None else bar.pens)
+    over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
+    check_targets(over.rules, names)
     sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
     kinds = line_kinds(lines)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))

@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.pens.overlaid_pens import overlaid_pens
-from vectorplot.drawing.pens.pen_rules import Pens, scaled_pen
+from vectorplot.drawing.pens.pen_rules import Pens, check_targets, scaled_pen
 from vectorplot.drawing.pens.styles import Style
 from vectorplot.drawing.strokes.finishing import chain_lines_dashed, long_strokes, with_dashes
 from vectorplot.errors import InputWarning
@@ -208,7 +208,8 @@ def render(
     subject = subject_of(given, camera, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
     names = tuple(item.name for item in seen.items)
-    over = chosen.of_scene(names, () if bar is None else bar.pens)
+    over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
+    check_targets(over.rules, names)
     check_lights(seen.lights)
     whole, size = size, pixels_left_of_bar(size, bar)
     how, why = chosen_shadows(seen, subject.camera, size, fit) if shadows == "auto" else (shadows, "")

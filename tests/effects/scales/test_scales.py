@@ -159,3 +159,13 @@ def test_formulas_that_are_not_linear_divide_the_faces_of_a_box(by):
 def test_a_number_that_is_the_same_everywhere_divides_nothing():
     scene, _ = coloured(CUBE, Colouring("0.1+0*x"))
     assert sum(item.mesh.face_count for item in scene.items) == 12
+
+
+@pytest.mark.parametrize("verb", [vp.draw, vp.paint])
+def test_pens_of_an_item_are_those_of_its_bands(verb):
+    scene = replace(CUBE, colouring=Colouring("z", steps=4))
+    name = CUBE.items[0].name
+    drawing = verb(scene, lines="contour", pens=f"{name}=1.25:red")
+    assert {layer.pen.width_mm for layer in drawing.layers if layer.name.startswith("contour")} == {1.25}
+    with pytest.raises(InputError, match="no item"):
+        verb(scene, pens="nobody=1")

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import FRAME_PEN, layers_by_kind
-from vectorplot.drawing.pens.pen_rules import PenRule, Pens, check_targets, frame_pen, pen_of, pen_rules, scaled_pen
+from vectorplot.drawing.pens.pen_rules import PenRule, Pens, frame_pen, pen_of, pen_rules, scaled_pen
 from vectorplot.drawing.pens.scene_inks import style_of_scene
 from vectorplot.drawing.pens.sorted_layers import with_pens
 from vectorplot.drawing.pens.styles import Style
@@ -23,19 +23,12 @@ class OverlaidPens:
     rules: tuple[PenRule, ...]
     background: str | None
 
-    def of_scene(self, items: Sequence[str], bands: Sequence[PenRule]) -> OverlaidPens:
-        """The pens for items of these names; bands: the pens of the bands of a colour bar, which come before.
-
-        Errors: InputError for rules for items that are not there.
-        """
-        check_targets(self.rules, items)
-        return replace(self, rules=(*bands, *self.rules))
-
     def layers(self, paths: Paths, items: Sequence[str], width: float | None = None, mm: float = 1.0) -> list[Layer]:
         """Strokes in layers by kind, with their pens.
 
         items: the name of every item; width: of all pens where no rule says otherwise, those of the kinds where None;
-        mm: how long a millimetre is in units of the page, in which width is said.
+        mm: how long a millimetre is in units of the page, in which width is said. Rules for items that are not there
+        have no effect.
         """
         found: Sequence[Layer] = layers_by_kind(paths)
         if width is not None:

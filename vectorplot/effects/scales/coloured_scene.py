@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -50,13 +50,23 @@ class _Valued:
 @dataclass(frozen=True)
 class ColourBar:
     """Which number is which colour: low and high, the numbers at both ends; colours: #rrggbb from low to high; title:
-    what stands above; pens: of the lines between the bands, by the names of these."""
+    what stands above; pens: of the lines between the bands, by the names of these; bands: the names of those of every
+    item."""
 
     low: float
     high: float
     colours: tuple[str, ...]
     title: str
     pens: tuple[PenRule, ...]
+    bands: tuple[tuple[str, tuple[str, ...]], ...]
+
+    def with_pens(self, rules: Sequence[PenRule]) -> tuple[PenRule, ...]:
+        """The pens of the bands, and after them rules for the scene before it was coloured: what is for an item is for
+        all of its bands."""
+        bands = dict(self.bands)
+        names = [(rule.item,) if rule.item is None else bands.get(rule.item, (rule.item,)) for rule in rules]
+        of_bands = (replace(rule, item=name) for rule, own in zip(rules, names, strict=True) for name in own)
+        return (*self.pens, *of_bands)
 
 
 def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
@@ -79,12 +89,13 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     low, high = float(values.min()), float(values.max())
     levels = np.linspace(low, high, len(colours) + 1)[1:-1] if high > low else np.zeros(0)
     items: list[Item] = []
-    pens = []
+    pens, names = [], []
     for item, whole in zip(scene.items, given, strict=True):
         if whole is None:
             items.append(item)
             continue
         lines = _kept_lines(item.curves)
+        own = []
         parts = level_bands(whole.points, whole.values, whole.triangles, levels)
         for k in range(len(colours)):
             mesh = parts.mesh(k)
@@ -93,9 +104,11 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
                 group = item.group or item.name
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
                 items.append(band)
+                own.append(name)
                 pens.append(PenRule(item=name, colour=colours[k]))
                 pens.append(PenRule("boundary", name, width_mm=LINE_MM))
-    bar = ColourBar(low, high, tuple(colours), colouring.title, tuple(pens))
+        names.append((item.name, tuple(own)))
+    bar = ColourBar(low, high, tuple(colours), colouring.title, tuple(pens), tuple(names))
     return replace(scene, items=tuple(items), colouring=None), bar
 
 
