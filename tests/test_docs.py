@@ -43,12 +43,23 @@ COMMANDS = [
     if line.startswith("vectorplot ") and "INPUT" not in line and "NAME" not in line
 ]
 
+FILES = {
+    name: text
+    for page in PAGES
+    for name, text in re.findall(
+        r"into a file `([^`]+)`:\n\n```text\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL
+    )
+}
+"""What readers are asked to write."""
+
 
 @pytest.fixture
 def checkout(tmp_path, monkeypatch):
     """A folder with the data, which one may write into."""
     for folder in ("data", "anim"):
         shutil.copytree(ROOT / folder, tmp_path / folder)
+    for name, text in FILES.items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     return tmp_path
 
