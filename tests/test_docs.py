@@ -47,7 +47,7 @@ FILES = {
     name: text
     for page in PAGES
     for name, text in re.findall(
-        r"into a file `([^`]+)`:\n\n```text\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL
+        r"into a file `([^`]+)`[^`]*```text\n(.*?)```", page.read_text(encoding="utf-8"), re.DOTALL
     )
 }
 """What readers are asked to write."""

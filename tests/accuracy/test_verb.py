@@ -112,6 +112,14 @@ def test_the_command_prints_tables_and_fills_a_folder(tmp_path, capsys):
     assert (tmp_path / "out" / "refraction.pdf").read_bytes().startswith(b"%PDF")
 
 
+def test_a_clock_that_stands_still_gives_plots_too(monkeypatch):
+    monkeypatch.setattr(measuring.time, "process_time", lambda: 1.0)
+    monkeypatch.setattr(measuring, "MOST_TIMES", 2)
+    (found,) = vp.accuracy("refraction")
+    assert all(sample.seconds > 0.0 for curve in found.curves for sample in curve.samples)
+    assert plot(found).layers
+
+
 def test_the_command_lists_names_without_measuring(capsys, monkeypatch):
     monkeypatch.setattr(measuring, "_curve", None)
     assert run(["accuracy", "--list"]) == 0

@@ -94,4 +94,6 @@ def _sample(study: Study, knob: float, action: Callable[[], Any]) -> Sample:
         start = time.process_time()
         result = action()
         times.append(time.process_time() - start)
-    return Sample(knob, min(times), float(study.error(result)), int(study.count(result)))
+    # What is over between two ticks of the clock took a tick at most, and no time has no logarithm.
+    tick = time.get_clock_info("process_time").resolution
+    return Sample(knob, max(min(times), tick), float(study.error(result)), int(study.count(result)))
