@@ -1,15 +1,16 @@
 """Polygons become pixels scan line by scan line: each edge is followed from row to row, the pixels between are filled.
 
 Pixels are enlarged, so that one sees them: two polygons share an edge, and no pixel; the third is shaded linearly from
-corner to corner. On the red line the edges are met in the dots; the pixels between these, whose middles are marked, are
-the ones that are filled. Source: Glaeser, section 4.6, figure 7.
+corner to corner. Dashed lines through the corners split them into trapezoids and triangles, between whose two sides a
+row has its pixels. On the red line the edges are met in the dots; the pixels between these, whose middles are marked,
+are the ones that are filled. Source: Glaeser, section 4.6, figure 7.
 """
 
 import sys
 from pathlib import Path
 
 import numpy as np
-from diagrams import GREY, INK, RED, circle, heads, layer, polygons, strokes
+from diagrams import GREY, INK, RED, circle, dashes, heads, layer, polygons, strokes
 
 import vectorplot as vp
 from vectorplot.drawing import Fills
@@ -66,10 +67,17 @@ def main(folder: Path) -> None:
     met = np.concatenate([crossings(corners, SCANNED) for corners in (LEFT, RIGHT, SHADED)])
     line = on_page([(-0.5, SCANNED), (COLUMNS - 0.5, SCANNED)])
     middles = on_page([(x, SCANNED) for x in columns[rows == SCANNED]])
+    # The lowest and the highest corner split nothing.
+    splits = [
+        on_page(crossings(corners, row))
+        for corners in (LEFT, RIGHT, SHADED)
+        for row in np.sort(corners[:, 1])[1:-1].tolist()
+    ]
     layers = (
         layer("pixels", filled),
         layer("grid", strokes([*upright, *level]), GREY, 0.1),
         layer("edges", strokes(shapes, closed=True), INK, 0.6),
+        layer("trapezoids", strokes([dash for ends in splits for dash in dashes(*ends)]), INK, 0.35),
         layer("line", (strokes([line]), heads(line[:1], line[1:], RED, 4.0)), RED, 0.6),
         layer("middles", polygons([circle(middle, 0.5, 24) for middle in middles], INK)),
         layer("met", polygons([circle(place, 1.3) for place in on_page(met)], RED)),
