@@ -67,17 +67,13 @@ def main(folder: Path) -> None:
     met = np.concatenate([crossings(corners, SCANNED) for corners in (LEFT, RIGHT, SHADED)])
     line = on_page([(-0.5, SCANNED), (COLUMNS - 0.5, SCANNED)])
     middles = on_page([(x, SCANNED) for x in columns[rows == SCANNED]])
-    # The lowest and the highest corner split nothing.
-    splits = [
-        on_page(crossings(corners, row))
-        for corners in (LEFT, RIGHT, SHADED)
-        for row in np.sort(corners[:, 1])[1:-1].tolist()
-    ]
+    rows_of = [(corners, row) for corners in (LEFT, RIGHT, SHADED) for row in np.sort(corners[:, 1])[1:-1].tolist()]
+    splits = [dash for corners, row in rows_of for dash in dashes(*on_page(crossings(corners, row)))]
     layers = (
         layer("pixels", filled),
         layer("grid", strokes([*upright, *level]), GREY, 0.1),
         layer("edges", strokes(shapes, closed=True), INK, 0.6),
-        layer("trapezoids", strokes([dash for ends in splits for dash in dashes(*ends)]), INK, 0.35),
+        layer("trapezoids", strokes(splits), INK, 0.35),
         layer("line", (strokes([line]), heads(line[:1], line[1:], RED, 4.0)), RED, 0.6),
         layer("middles", polygons([circle(middle, 0.5, 24) for middle in middles], INK)),
         layer("met", polygons([circle(place, 1.3) for place in on_page(met)], RED)),
