@@ -220,7 +220,7 @@ def draw(
     walk = Walk(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
     view = walk.run("look", look, seen, subject.camera)
     faces = walk.run("faces", project_faces, view)
-    shapes = traceable(walk, seen, view, faces, kinds, crease_angle_deg)
+    shapes = traceable(walk, seen, view, faces, kinds, crease_angle_deg, allowed)
     placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed).with_halo(halo_mm)
     strokes, placement = placed.strokes(), placed.placement
     for stage in ("visible lines", "counted lines"):

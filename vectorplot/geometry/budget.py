@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass, fields
 
 from vectorplot.errors import InputError
 
@@ -14,7 +14,7 @@ HOW = "a larger budget may do (--budget)"
 
 @dataclass(frozen=True)
 class Budget:
-    """Limits of the work on the smooth surfaces of a picture: with them every picture ends in seconds.
+    """Limits of the work on the smooth surfaces of a picture, and on shortest ways: with them every picture ends.
 
     Parameters
     ----------
@@ -31,6 +31,8 @@ class Budget:
         Triangles that a surface is painted or rendered by.
     pieces : int
         That faces which pierce one another are cut into to be painted in order.
+    windows : int
+        That the shortest ways on a mesh from one place are looked for through.
 
     Notes
     -----
@@ -51,6 +53,7 @@ class Budget:
     pairs: int = 1 << 20
     facets: int = 1 << 18
     pieces: int = 1 << 15
+    windows: int = 20_000_000
 
 
 USUAL = Budget()
@@ -83,7 +86,7 @@ def budget_of(factor: float) -> Budget:
     """
     if not 0.0 < factor < math.inf:
         raise InputError(f"a budget of {factor:g}: expected a factor that is finite and positive")
-    limits = (USUAL.cells, USUAL.triangles, USUAL.points, USUAL.pairs, USUAL.facets, USUAL.pieces)
+    limits = (getattr(USUAL, limit.name) for limit in fields(Budget))
     # No array has more elements than that.
     return Budget(*(max(1, int(min(limit * factor, 2.0**62))) for limit in limits))
 
@@ -95,6 +98,11 @@ def unresolved(what: str) -> str:
 
 def unheard(part: float) -> None:
     """Whom long work tells the part of it that is done when nobody wants to know."""
+
+
+def part_of(done: Callable[[float], None], number: int, count: int) -> Callable[[float], None]:
+    """Whom the number-th of count equal parts of long work tells the part of it that is done."""
+    return lambda part: done((number + part) / count)
 
 
 def in_one_line(doubts: Iterable[str]) -> str:

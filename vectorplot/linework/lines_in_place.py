@@ -49,8 +49,9 @@ def lines_in_place(
     """
     told = None if progress is None else lambda stage, fraction: progress(fraction)
     walk = Walk(plan_draw(scene, kinds, "none", 0.0), None, told)
-    shapes = traceable(walk, scene, view, faces, kinds, crease_angle_deg)
-    every = shapes.lines(0.5 * tolerance_mm / placement.scale, budget_of(budget))
+    allowed = budget_of(budget)
+    shapes = traceable(walk, scene, view, faces, kinds, crease_angle_deg, allowed)
+    every = shapes.lines(0.5 * tolerance_mm / placement.scale, allowed)
     # Lines may reach too far where what the picture was fitted to does not.
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
     framed = shapes.framed(every, placement if cut else None)

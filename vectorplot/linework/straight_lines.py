@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools
 from vectorplot.drawing.strokes.duplicates.shared_kinds import with_shared_kinds
+from vectorplot.geometry.budget import Budget
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.stages.walk import Walk
@@ -30,6 +31,7 @@ def straight_lines(
     solid: Bools,
     kinds: frozenset[LineKind],
     crease_angle_deg: float,
+    budget: Budget,
 ) -> Lines:
     """The lines of polyhedra."""
     found = []
@@ -41,5 +43,7 @@ def straight_lines(
     if walk.calls_for("patterns"):
         found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
     if walk.calls_for("lines on meshes"):
-        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, kinds, crease_angle_deg))
+        done = walk.fraction("lines on meshes")
+        how = (kinds, crease_angle_deg, budget, done)
+        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, *how))
     return with_kinds_of_cuts(scene, view, with_shared_kinds(view, joined_lines(found)), kinds)

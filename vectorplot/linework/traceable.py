@@ -67,11 +67,17 @@ class Traceable:
 
 
 def traceable(
-    walk: Walk, scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], crease_angle_deg: float
+    walk: Walk,
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces,
+    kinds: frozenset[LineKind],
+    crease_angle_deg: float,
+    budget: Budget,
 ) -> Traceable:
-    """What lines of these kinds are traced on. view: of the scene; faces: of that."""
+    """What lines of these kinds are traced on. view: of the scene; faces: of that; budget: of shortest ways."""
     solid = solid_items(view, faces)
-    straight = straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg)
+    straight = straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg, budget)
     round_bodies = balls(walk, scene, view, kinds)
     sheets = smooth_sheets(walk, scene, view, round_bodies)
     return Traceable(walk, scene, view, kinds, faces, solid, straight, round_bodies, sheets)

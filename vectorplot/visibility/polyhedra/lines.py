@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -22,6 +22,7 @@ from vectorplot.features.meshes.mesh_lines import (
 )
 from vectorplot.features.meshes.patterns import pattern_outline
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.records import IN_COLUMNS
@@ -336,11 +337,19 @@ def pattern_lines(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Lines
     return straight_lines(start, end, np.full(len(owner), int(LineKind.PATTERN)), owner, np.zeros_like(owner))
 
 
-def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind], crease_angle_deg: float) -> Lines:
+def mesh_curve_lines(
+    scene: Scene,
+    view: View,
+    kinds: frozenset[LineKind],
+    crease_angle_deg: float,
+    budget: Budget = USUAL,
+    done: Callable[[float], None] = unheard,
+) -> Lines:
     """The isophotes, sections, integral curves, lines of terrains and feature lines that polyhedra ask for: they lie in
     the faces.
 
-    Isophotes end at edges that turn by more than the crease angle.
+    Isophotes end at edges that turn by more than the crease angle. budget: of shortest ways; done: is told the part of
+    the work that is done.
     Errors: InputError, with the item's name, for a light that the scene does not have, and as of item_integral_lines.
     """
     parts = []
@@ -357,8 +366,10 @@ def mesh_curve_lines(scene: Scene, view: View, kinds: frozenset[LineKind], creas
             if LineKind.INTEGRAL in wanted and item.curves.integral:
                 from vectorplot.visibility.polyhedra.mesh_integral_lines import item_integral_lines
 
-                for lines in item.curves.integral:
-                    found = item_integral_lines(item, lines)
+                told = part_of(done, number, len(scene.items))
+                for place, lines in enumerate(item.curves.integral):
+                    own = part_of(told, place, len(item.curves.integral))
+                    found = item_integral_lines(item, lines, budget, own)
                     parts.append(_lines_of_curves(view, found, LineKind.INTEGRAL, number, item.curves.smooth))
             if LineKind.INTEGRAL in wanted:
                 for asked in item.curves.terrain:

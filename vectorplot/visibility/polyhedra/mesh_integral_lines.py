@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 
 from vectorplot.errors import InputError
@@ -10,6 +12,7 @@ from vectorplot.features.integral.on_meshes.mesh_integral_curves import mesh_geo
 from vectorplot.features.integral.on_meshes.shortest_paths import mesh_shortest_paths
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.features.meshes.nearest_on_mesh import nearest_on_mesh
+from vectorplot.geometry.budget import USUAL, Budget, unheard
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.lines.integral_lines import (
@@ -24,22 +27,26 @@ from vectorplot.scene.lines.integral_lines import (
 )
 
 
-def item_integral_lines(item: Item, lines: IntegralLines) -> MeshCurves:
-    """The curves on a polyhedron with faces that are asked for.
+def item_integral_lines(
+    item: Item, lines: IntegralLines, budget: Budget = USUAL, done: Callable[[float], None] = unheard
+) -> MeshCurves:
+    """The curves on a polyhedron with faces that are asked for. done: is told the part of the work that is done.
 
     Errors: as of mesh_integral_lines, with the item's name.
     """
     try:
-        return mesh_integral_lines(item.mesh, lines)
+        return mesh_integral_lines(item.mesh, lines, budget, done)
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
 
 
-def mesh_integral_lines(mesh: Mesh, lines: IntegralLines) -> MeshCurves:
+def mesh_integral_lines(
+    mesh: Mesh, lines: IntegralLines, budget: Budget = USUAL, done: Callable[[float], None] = unheard
+) -> MeshCurves:
     """The curves on a mesh that are asked for, from the nearest points of the mesh.
 
     Errors: InputError for lines that are too close together, points u, v, fields of parameters, directions at right
-    angles to their face, places that the mesh does not join.
+    angles to their face, places that the mesh does not join, shortest ways beyond the budget.
     """
     if isinstance(lines, GeodesicsBetween):
         raise InputError("geodesics between places: for surfaces with parameters u and v only")
@@ -49,7 +56,8 @@ def mesh_integral_lines(mesh: Mesh, lines: IntegralLines) -> MeshCurves:
         return lines.curves
     check_points(lines, ON_MESHES)
     if isinstance(lines, ShortestPaths):
-        return mesh_shortest_paths(mesh, *np.hsplit(np.array(lines.ends).reshape(-1, 6), 2))
+        starts, ends = np.hsplit(np.array(lines.ends).reshape(-1, 6), 2)
+        return mesh_shortest_paths(mesh, starts, ends, budget=budget, done=done)
     if isinstance(lines, GeodesicLines):
         points, directions = np.hsplit(np.array(lines.starts).reshape(-1, 6), 2)
         places = nearest_on_mesh(mesh, points, directions)

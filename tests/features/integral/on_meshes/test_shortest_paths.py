@@ -6,6 +6,7 @@ import pytest
 from vectorplot import Mesh, features
 from vectorplot.errors import InputError
 from vectorplot.features import mesh_distances, mesh_shortest_paths
+from vectorplot.geometry import Budget
 from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.testing import assert_geodesic
 from vectorplot.testing.shapes import box
@@ -134,3 +135,28 @@ def test_mistakes_about_them_are_told():
             call()
     assert len(mesh_shortest_paths(CUBE, (0, 0, 1), (0, 0, 1))) == 0
     assert np.isinf(mesh_distances(two, (0, 0, 1))[8:]).all()
+
+
+def test_what_is_done_is_told_grows_and_ends_the_work():
+    told, early = [], []
+    ends = [(0.9, 0.1, 0.2), (0.1, -0.9, 0.3)]
+    mesh = features.polygonized(implicit_sphere(1.0), 12)
+    mesh_shortest_paths(mesh, [(-0.9, 0.0, 0.1), (0.0, 0.9, 0.1)], ends, done=told.append)
+    assert len(told) > 4 and told == sorted(told) and 0.5 < told[-1] <= 1.0
+
+    def stop(part):
+        early.append(part)
+        raise KeyboardInterrupt
+
+    with pytest.raises(KeyboardInterrupt):
+        mesh_distances(mesh, (1, 0, 0), done=stop)
+    assert len(early) == 1
+
+
+def test_beyond_the_budget_there_is_one_line_that_says_so():
+    line = r"^shortest paths on 12 triangles need more than 3 windows: .*--budget"
+    with pytest.raises(InputError, match=line) as found:
+        mesh_shortest_paths(CUBE, (0.2, 0.1, -1.0), (0.1, 0.3, 1.0), budget=Budget(windows=3))
+    assert "\n" not in str(found.value)
+    with pytest.raises(InputError, match="than 3 windows"):
+        mesh_distances(CUBE, (0.2, 0.1, -1.0), budget=Budget(windows=3))

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from numpy.typing import ArrayLike
 
@@ -27,6 +29,7 @@ from vectorplot.features.meshes.mesh_curves import (
 )
 from vectorplot.features.meshes.nearest_on_mesh import nearest_on_mesh, nearest_triangles
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import norm
@@ -34,7 +37,14 @@ from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 
-def mesh_shortest_paths(mesh: Mesh, starts: ArrayLike, ends: ArrayLike) -> MeshCurves:
+def mesh_shortest_paths(
+    mesh: Mesh,
+    starts: ArrayLike,
+    ends: ArrayLike,
+    *,
+    budget: Budget = USUAL,
+    done: Callable[[float], None] = unheard,
+) -> MeshCurves:
     """The shortest ways on a mesh from points to other points.
 
     Parameters
@@ -43,6 +53,10 @@ def mesh_shortest_paths(mesh: Mesh, starts: ArrayLike, ends: ArrayLike) -> MeshC
         On which they run; open or closed, of one sheet or more.
     starts, ends : (k, 3) array_like of float
         Points in the world, of which the nearest ones on the mesh count; or one of them.
+    budget : Budget
+        Its windows count, for each place that ways begin at.
+    done : callable
+        Is told the part of the work that is done, from 0 to 1, many times each second. What it raises ends the work.
 
     Returns
     -------
@@ -54,7 +68,7 @@ def mesh_shortest_paths(mesh: Mesh, starts: ArrayLike, ends: ArrayLike) -> MeshC
     ------
     InputError
         For points that are not three finite numbers each, a mesh without faces, places that the mesh does not join, and
-        meshes that need more than twenty million windows.
+        meshes that need more windows than the budget has, usually twenty million.
 
     Notes
     -----
@@ -86,13 +100,16 @@ def mesh_shortest_paths(mesh: Mesh, starts: ArrayLike, ends: ArrayLike) -> MeshC
     for number in range(len(places)):
         own = np.flatnonzero(group.ravel() == number)
         source = _of(from_, own[:1])
-        parts.append(_ways(mesh, sides, source, _of(to, own), own))
+        told = part_of(done, number, len(places))
+        parts.append(_ways(mesh, sides, source, _of(to, own), own, budget.windows, told))
     found = all_mesh_curves(parts)
     found = some(found, np.argsort(found.levels, kind="stable"))
     return without_inner(found, faces.extent)
 
 
-def mesh_distances(mesh: Mesh, points: ArrayLike) -> Floats:
+def mesh_distances(
+    mesh: Mesh, points: ArrayLike, *, budget: Budget = USUAL, done: Callable[[float], None] = unheard
+) -> Floats:
     """How far the vertices of a mesh are from the nearest of some places, on the mesh.
 
     Parameters
@@ -101,6 +118,10 @@ def mesh_distances(mesh: Mesh, points: ArrayLike) -> Floats:
         With v vertices.
     points : (k, 3) array_like of float
         Points in the world, of which the nearest ones on the mesh count; or one of them.
+    budget : Budget
+        Its windows count.
+    done : callable
+        As of `mesh_shortest_paths`.
 
     Returns
     -------
@@ -127,7 +148,8 @@ def mesh_distances(mesh: Mesh, points: ArrayLike) -> Floats:
     faces = face_triangles(mesh)
     sides = triangle_sides(faces)
     reached, begin = _begun(sides, _placed(faces, at), 0)
-    lead_on(sides, begin, reached, Targets(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp), np.zeros((0, 3))))
+    none = Targets(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp), np.zeros((0, 3)))
+    lead_on(sides, begin, reached, none, budget.windows, done)
     return reached.far
 
 
@@ -187,14 +209,22 @@ def _begun(sides: TriangleSides, source: Placed, count: int) -> tuple[Reached, W
     return Reached(far, nowhere, before, np.full(count, np.inf), none, np.array(none), fresh), begin
 
 
-def _ways(mesh: Mesh, sides: TriangleSides, source: Placed, to: Placed, numbers: Ints) -> MeshCurves:
-    """The shortest ways from one place to others, with numbers (k,)."""
+def _ways(
+    mesh: Mesh,
+    sides: TriangleSides,
+    source: Placed,
+    to: Placed,
+    numbers: Ints,
+    most: int,
+    done: Callable[[float], None],
+) -> MeshCurves:
+    """The shortest ways from one place to others, with numbers (k,), through so many windows at most."""
     ends, target, triangle = to
     reached, begin = _begun(sides, source, len(ends))
     shared = np.isin(triangle, source[2])
     reached.target_far[target[shared]] = norm(ends - source[0])[target[shared]]
     order = np.lexsort((target, triangle))
-    lead_on(sides, begin, reached, Targets(target[order], triangle[order], ends[target[order]]))
+    lead_on(sides, begin, reached, Targets(target[order], triangle[order], ends[target[order]]), most, done)
     lost = ~np.isfinite(reached.target_far)
     if lost.any():
         raise InputError(f"shortest paths: the mesh does not join the ends of way {int(numbers[lost.argmax()]) + 1}")

@@ -8,6 +8,7 @@ many of them at a time.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, fields
 
 import numpy as np
@@ -16,12 +17,10 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.integral.on_meshes.triangle_sides import TriangleSides, following
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
-
-MOST_WINDOWS = 20_000_000
-"""So many windows are looked at for one place at most."""
 
 MOST_AIMED = 16
 """Windows are kept from leading away from targets where these are so many at most."""
@@ -94,15 +93,19 @@ class Targets:
     points: Floats
 
 
-def lead_on(sides: TriangleSides, begin: Windows, reached: Reached, targets: Targets) -> None:
+def lead_on(
+    sides: TriangleSides, begin: Windows, reached: Reached, targets: Targets, most: int, done: Callable[[float], None]
+) -> None:
     """Lead windows on, those of ways that may be the shortest ones first, many at a time, until all targets are
-    reached, or, where there are none, all vertices: what is reached is told in place.
+    reached, or, where there are none, all vertices: what is reached is told in place. done: is told the part of the
+    work that is done, as far as that is known, and never less than before.
 
-    Errors: InputError for more windows than MOST_WINDOWS.
+    Errors: InputError for more windows than most.
     """
     ends = targets.points[np.unique(targets.target, return_index=True)[1]]
     aimed = ends if len(ends) <= MOST_AIMED else ends[:0]
     waiting, keys = begin, begin.nearest + _to_go(sides.middles(begin.side), aimed, sides.lengths[begin.side])
+    first, part = np.inf, 0.0
     while True:
         _through_corners(reached, sides, targets)
         own = np.flatnonzero(reached.fresh)
@@ -111,6 +114,11 @@ def lead_on(sides: TriangleSides, begin: Windows, reached: Reached, targets: Tar
         enough = reached.target_far.max(initial=-np.inf) if len(ends) else np.inf
         if not least < enough:
             return
+        first, last = min(first, least), enough if len(ends) else _farthest(reached.far)
+        if last > first and np.isfinite(last):
+            # Where ways turn out to be shorter the end comes nearer.
+            part = max(part, min(float((least - first) / (last - first)), 1.0))
+            done(part)
         # All at one distance; on the way to targets the best ones, so that few lead elsewhere until one is reached.
         some = min(max(LEAST_BATCH, len(keys) // 16), len(keys)) - 1
         limit = max(np.partition(keys, some)[some], least) if len(aimed) and some >= 0 else least + sides.step
@@ -123,14 +131,19 @@ def lead_on(sides: TriangleSides, begin: Windows, reached: Reached, targets: Tar
         numbers = reached.count + np.arange(len(batch))
         reached.found.append(batch)
         reached.count += len(batch)
-        if reached.count > MOST_WINDOWS:
+        if reached.count > most:
             count = len(sides.start) // 3
-            raise InputError(f"shortest paths on {count} triangles need more than {MOST_WINDOWS} windows")
+            raise InputError(unresolved(f"shortest paths on {count} triangles need more than {most} windows"))
         children = _led_through(sides, batch, numbers, reached, targets)
         children = children.some(_useful(sides, children, reached, aimed))
         waiting = all_windows([waiting.some(~now), children])
         to_go = _to_go(sides.middles(children.side), aimed, sides.lengths[children.side])
         keys = np.concatenate([keys[~now], children.nearest + to_go])
+
+
+def _farthest(far: Floats) -> float:
+    """How far the farthest vertex is of those that are reached."""
+    return float(far.max(where=np.isfinite(far), initial=0.0))
 
 
 def _to_go(places: Floats, ends: Floats, lengths: Floats) -> Floats:
