@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry import CoordinateSystem, changed_coordinates
+from vectorplot.geometry import CoordinateSystem
+from vectorplot.textbook import changed_coordinates
 
 DATA = Path(__file__).resolve().parent.parent / "data"
 

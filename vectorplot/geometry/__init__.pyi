@@ -4,7 +4,7 @@ from .bodies.solids import box, has_convex_outline, placed, polyhedron, prism
 from .budget import Budget, budget_of
 from .cameras.camera import Camera
 from .cameras.collineation import collineate, project, uncollineate, unproject
-from .cameras.coordinate_system import CoordinateSystem, changed_coordinates, with_target_as_origin
+from .cameras.coordinate_system import CoordinateSystem
 from .cameras.lens import diagonal_field_of_vision_deg, field_of_vision_deg, focal_length_mm, lens_advice
 from .cameras.pixel_window import PixelWindow
 from .cameras.unit_projection import Projection, projection_of
@@ -99,7 +99,6 @@ __all__ = [
     "body_record",
     "box",
     "budget_of",
-    "changed_coordinates",
     "clip_and_draw",
     "clip_lines_2d",
     "clip_lines_3d",
@@ -168,5 +167,4 @@ __all__ = [
     "uncollineate",
     "unproject",
     "welded",
-    "with_target_as_origin",
 ]

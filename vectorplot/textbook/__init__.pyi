@@ -11,6 +11,7 @@ from .screens.drawn_pixels import with_lines, with_polygons, with_rubber_bands, 
 from .screens.erasing_faces import Erased, erasing_edges, interleaved
 from .screens.framebuffer import Framebuffer, cleared, pixel_colours, swapped_buffers, with_colour, with_pixels
 from .viewing.bases import basis_of, basis_of_gaze, frame_from_world, world_from_frame
+from .viewing.changed_coordinates import changed_coordinates, with_target_as_origin
 from .viewing.frustum import Frustum
 from .viewing.homogeneous_points import dehomogenized, homogeneous, transformed
 from .viewing.viewing_matrices import (
@@ -36,6 +37,7 @@ __all__ = [
     "basis_of",
     "basis_of_gaze",
     "camera_matrix",
+    "changed_coordinates",
     "cleared",
     "dehomogenized",
     "depth_planes",
@@ -71,5 +73,6 @@ __all__ = [
     "with_polygons",
     "with_rubber_bands",
     "with_smooth_polygons",
+    "with_target_as_origin",
     "world_from_frame",
 ]
