@@ -10,13 +10,19 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.integral.sites import Sites
 from vectorplot.features.integral.tangent_fields import TangentField
+from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import Surface, is_parametrised
 from vectorplot.testing.curve_points import Curves, polylines_of
 from vectorplot.testing.curves import assert_on_surface, places_near
+from vectorplot.testing.known_directions import KnownDirections, known_directions
 from vectorplot.testing.mesh_curve_assertions import assert_mesh_geodesic, assert_mesh_integral_curve
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+
+AS_CHORDS = 0.5
+"""Radians by which polylines may run off their curves where these say themselves in which directions they run: more is
+another curve."""
 
 
 class _Middles(NamedTuple):
@@ -32,12 +38,14 @@ class _Middles(NamedTuple):
     extent: float
 
 
-def assert_integral_curve(points: Curves, surface: Surface | Mesh, field: TangentField, tolerance: float) -> None:
+def assert_integral_curve(
+    points: Curves | SurfaceCurves, surface: Surface | Mesh, field: TangentField, tolerance: float
+) -> None:
     """Nothing, where curves follow a field of directions on a surface, or a mesh, all along.
 
     Parameters
     ----------
-    points : array_like, list of them, Strokes, Paths or Drawing
+    points : array_like, list of them, Strokes, Paths, Drawing or SurfaceCurves
         Polylines (n, 3); of a drawing those in the world.
     surface : Surface or Mesh
         On which they run.
@@ -57,9 +65,11 @@ def assert_integral_curve(points: Curves, surface: Surface | Mesh, field: Tangen
 
     Notes
     -----
-    The tangent at a point is that of the circle through it and its neighbours: off by the square of how far the curve
-    turns between them. Ends are not looked at. On a mesh every segment is: it has the direction of its face, or runs
-    along an edge that the faces on both sides lead to, or both away from.
+    Drawings and curves on surfaces mostly know their directions, which are verified wherever they do: those of a
+    drawing in space too, as far as its eye can tell. Elsewhere the tangent at a point is that of the circle through it
+    and its neighbours: off by the square of how far the curve turns between them, and ends are not looked at; where
+    directions are known, it may be off by half a radian. On a mesh every segment is: it has the direction of its face,
+    or runs along an edge that the faces on both sides lead to, or both away from.
 
     Source: Glaeser, section 9.4.
 
@@ -72,11 +82,18 @@ def assert_integral_curve(points: Curves, surface: Surface | Mesh, field: Tangen
     >>> t = np.linspace(0.0, 2.0 * np.pi, 401)
     >>> circle = np.column_stack([0.8 * np.cos(t), 0.8 * np.sin(t), 0.6 + 0.0 * t])
     >>> assert_integral_curve(circle, Sphere(), features.ConstantElevation(0.0), tolerance=1e-6)
+    >>> found = features.integral_curves(Sphere(), features.loxodromes(1.0), (0.0, 0.0), length=1.5)
+    >>> assert_integral_curve(found, Sphere(), features.loxodromes(1.0), tolerance=1e-10)
     """
     if isinstance(surface, Mesh):
+        assert not isinstance(points, SurfaceCurves), "curves of a surface are on no mesh"
         assert_mesh_integral_curve(points, surface, field, tolerance)
         return
-    own = _middles(points, surface, tolerance)
+    lines = [points[k] for k in range(len(points))] if isinstance(points, SurfaceCurves) else points
+    own = _middles(lines, surface, tolerance)
+    said = known_directions(points, surface)
+    if said is not None:
+        _check_directions(said, surface, field, tolerance)
     # Of the circle through three points: chords weighted by each other's length.
     a, b = norm(own.before)[:, None], norm(own.behind)[:, None]
     tangents = own.before * (b / a) + own.behind * (a / b)
@@ -93,10 +110,30 @@ def assert_integral_curve(points: Curves, surface: Surface | Mesh, field: Tangen
         both = (ahead > 0.0) & (ahead < np.bincount(own.curve))
         assert not both.any(), f"{int(both.sum())} curves follow the field here and run against it there"
     error = np.arctan2(sines, np.abs(cosines)).min(axis=0)
+    if said is not None:
+        error = error - AS_CHORDS
     k = int(np.argmax(error))
     assert error[k] <= tolerance, (
         f"{int((error > tolerance).sum())} of {len(error)} points are not on a curve of the field: the angle is "
         f"{error[k]:.4g} at the worst, {_name(own, k)}, tolerance {tolerance:.4g}"
+    )
+
+
+def _check_directions(said: KnownDirections, surface: Surface, field: TangentField, tolerance: float) -> None:
+    """Nothing, where curves run in the directions of the field, wherever it has one."""
+    places = places_near(surface, said.points)
+    assert places.parameters is not None
+    u, v = places.parameters[np.arange(len(said.points)), np.argmin(places.distance, axis=1)].T
+    candidates = field.tangents(Sites(surface, np.ascontiguousarray(u), np.ascontiguousarray(v)))
+    with np.errstate(invalid="ignore"):
+        angles = np.arcsin(np.minimum(said.sines(candidates), 1.0))
+        error = np.where(np.isfinite(angles), angles, np.inf).min(axis=0)
+    error[~np.isfinite(candidates).all(axis=(0, 2))] = 0.0
+    k = int(np.argmax(error))
+    where = ", ".join(f"{x:.10g}" for x in said.points[k])
+    assert error[k] <= tolerance, (
+        f"{int((error > tolerance).sum())} of {len(error)} directions are not those of the field: the angle is "
+        f"{error[k]:.4g} at the worst, ({where}) at u, v = {u[k]:.10g}, {v[k]:.10g}, tolerance {tolerance:.4g}"
     )
 
 

@@ -3,11 +3,13 @@
 import numpy as np
 import pytest
 
+import vectorplot as vp
 from vectorplot import features
 from vectorplot.curves import Loxodrome
 from vectorplot.errors import InputError
 from vectorplot.features import Accuracy, Sites, Tracing, geodesics, integral_curves
 from vectorplot.features.integral.curvature_fields import principal
+from vectorplot.scene import FieldLines
 from vectorplot.surfaces import (
     Cone,
     Cylinder,
@@ -307,3 +309,45 @@ def test_fields_of_ones_own_and_what_is_wrong_with_them():
         features.ConstantElevation(np.pi / 2)
     assert len(integral_curves(Sphere(), features.PrincipalDirections(), (0.3, 0.3))) == 0
     assert len(integral_curves(Sphere(), winds, np.zeros((0, 2)))) == 0
+
+
+def world(surface, found):
+    """The directions of curves in space."""
+    along_u, along_v = surface.partials(found.u, found.v)
+    return found.directions[:, :1] * along_u + found.directions[:, 1:] * along_v
+
+
+@pytest.mark.slow
+@pytest.mark.capability("G9.4-loxodrome")
+def test_curves_know_their_directions_there_and_back_and_on_the_page():
+    ball, field = Sphere(2.0), features.loxodromes(1.1)
+    starts = ((0.1, 0.2), (2.0, -0.4))
+    found = integral_curves(ball, field, starts, length=2.0, tracing=COARSE)
+    run = world(ball, found)
+    assert np.allclose(np.linalg.norm(run, axis=1), 1.0, atol=1e-9)
+    ways = np.diff(found.points, axis=0)[np.arange(len(run) - 1) != found.offsets[1] - 1]
+    assert (np.delete(run, found.offsets[1:] - 1, axis=0) * ways).sum(axis=1).min() > 0.0
+    # Polylines alone say it by far less.
+    with pytest.raises(AssertionError, match="not on a curve"):
+        assert_integral_curve([found[0], found[1]], ball, field, 1e-5)
+    lines = vp.SurfaceLines(integral=(FieldLines(field, through=starts),))
+    scene = vp.Scene((vp.Item("BALL", ball, curves=lines),))
+    drawing = vp.draw(scene, vp.Camera(eye=(9, -14, 9)), lines="integral")
+    assert_integral_curve(drawing, ball, field, 1e-9)
+    assert_integral_curve(found, ball, field, 1e-10)
+    with pytest.raises(AssertionError, match="directions are not those of the field"):
+        assert_integral_curve(found, ball, features.loxodromes(1.1 + 1e-6), 1e-7)
+
+
+@pytest.mark.slow
+@pytest.mark.capability("G9.4-field")
+def test_geodesics_meridians_and_lines_of_curvature_know_theirs_too():
+    ball = Sphere()
+    circle = geodesics(ball, (0.3, 0.2), 1.1, tracing=COARSE)
+    plane = np.cross(circle.points[0], world(ball, circle)[0])
+    assert circle.closed.all() and np.abs(world(ball, circle) @ plane).max() < 1e-8
+    meridian = integral_curves(ball, features.loxodromes(0.0), (0.4, 0.0), tracing=COARSE)
+    known = np.isfinite(meridian.directions).all(axis=1)
+    assert known.sum() > len(known) - 3 and np.abs(np.abs(meridian.directions[known]) - (0.0, 1.0)).max() < 1e-9
+    egg, field = Ellipsoid((3.0, 2.0, 1.4)), features.PrincipalDirections(2)
+    assert_integral_curve(integral_curves(egg, field, (0.7, 0.0), tracing=COARSE), egg, field, 1e-6)

@@ -12,6 +12,7 @@ from vectorplot.features.integral.charts import MAIN, Charts
 from vectorplot.features.integral.dormand_prince import Steps
 from vectorplot.features.integral.flows import Flow
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.vectors import dot, norm
 
 PARTS = 8
 """Of a step round a pole, in each of which it goes round less than half."""
@@ -74,6 +75,26 @@ class Courses:
         charts = self.flow.charts
         found = charts.parameters(self.leaps.chart[step], self.states(step, part)[:, :2])
         return self.flow.surface.points(*charts.within(found).T)
+
+    def directions(self, step: Ints, part: Floats) -> Floats:
+        """(k,2) how u and v grow there by the length of the ways: as the flow leads at these places, and not only as
+        what is between the ends of steps does; NaN at poles."""
+        charts, chart, to = self.flow.charts, self.leaps.chart[step], part * self.leaps.part[step]
+        steps = self.steps.some(step)
+        states = steps.at(to)
+        places = charts.inside(charts.parameters(chart, states[:, :2]))
+        nearly = charts.steps(chart, places, steps.slopes(to)[:, :2])
+        along_u, along_v = self.flow.surface.partials(*places.T)
+        last = nearly[:, :1] * along_u + nearly[:, 1:] * along_v
+        with np.errstate(all="ignore"):
+            long = norm(last)[:, None]
+            rates, tangents = self.flow.rates(chart, states, last / long, np.ones(len(step)))
+            found = charts.steps(chart, places, rates[:, :2])
+            # Fields with a direction lead the way that they were followed.
+            found = np.where(dot(tangents, last)[:, None] < 0.0, -found, found)
+            known = np.isfinite(found).all(axis=1, keepdims=True)
+            found = np.where(known, found, nearly / long)
+        return np.where(np.isfinite(found).all(axis=1, keepdims=True), found, np.nan)
 
     @cached_property
     def ends(self) -> Floats:

@@ -66,6 +66,16 @@ class Steps:
             self.start + x * (self.move + y * (rise + x * (self.move - self.last - rise + y * self.bend)))
         )
 
+    def slopes(self, part: Floats) -> Floats:
+        """(k,d) the derivatives there of the states by the part."""
+        x = part[:, None]
+        y = 1.0 - x
+        rise = self.first - self.move
+        bent = self.move - self.last - rise
+        between = rise + x * (bent + y * self.bend)
+        way = self.move + y * between
+        return np.asarray(way + x * (y * (bent + (y - x) * self.bend) - between))
+
     def some(self, which: Ints) -> Steps:
         """Some of the steps."""
         return records.some(self, which)

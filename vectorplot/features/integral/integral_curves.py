@@ -248,12 +248,16 @@ def drawn(found: Courses, sides: int, size: float, tracing: Tracing) -> SurfaceC
     goes_round = np.searchsorted(curve, rows[found.closed[rows]] % starts)
     shut[goes_round], own[goes_round] = True, turns
     u, v = np.ascontiguousarray(places[order].T)
+    directions = found.directions(step[order], part[order]) * np.where(back[order], -1.0, 1.0)[:, None]
     points = found.flow.surface.points(*np.ascontiguousarray(found.flow.charts.within(places[order]).T))
     doubts = [unresolved("an integral curve is off by more than the tolerance")] * (not enough)
     doubts += ["an integral curve ends for want of steps"] * bool(found.spent[rows].any())
     none = np.zeros((0, 2))
     bounds = np.append(first, len(order)).astype(np.intp)
-    return SurfaceCurves(u, v, points, bounds, shut, own, curve.astype(np.float64), none, none, none, tuple(doubts))
+    levels = curve.astype(np.float64)
+    return SurfaceCurves(
+        u, v, points, bounds, shut, own, levels, none, none, none, tuple(doubts), directions=directions
+    )
 
 
 def _shut(found: Courses, rows: Ints, step: Ints, part: Floats, offsets: Ints) -> tuple[Floats, Ints]:

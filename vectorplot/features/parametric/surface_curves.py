@@ -39,6 +39,9 @@ class SurfaceCurves(NumberedLines):
         Parameters of places where the condition is just touched along a line.
     doubts : tuple of str
         A sentence for each thing that could not be decided.
+    directions : (n, 2) array of float
+        In proportion to how u and v grow by the length of a curve, where that is known, as of integral curves; NaN
+        elsewhere, and at poles.
 
     Notes
     -----
@@ -67,6 +70,11 @@ class SurfaceCurves(NumberedLines):
     nodes: Floats = field(metadata=APART)
     touching: Floats = field(metadata=APART)
     doubts: tuple[str, ...] = field(metadata=DOUBTS)
+    directions: Floats = field(default_factory=lambda: np.zeros((0, 2)), metadata=EACH_POINT)
+
+    def __post_init__(self) -> None:
+        if len(self.directions) != len(self.u):
+            object.__setattr__(self, "directions", np.full((len(self.u), 2), np.nan))
 
 
 def together(families: Sequence[SurfaceCurves]) -> SurfaceCurves:
@@ -107,6 +115,7 @@ def with_points(curves: SurfaceCurves, after: Ints, u: Floats, v: Floats, points
         u=merged(curves.u, u),
         v=merged(curves.v, v),
         points=merged(curves.points, points),
+        directions=merged(curves.directions, np.full((len(place), 2), np.nan)),
         offsets=counts[bounds].astype(np.intp),
     ), counts[at].astype(np.intp)
 

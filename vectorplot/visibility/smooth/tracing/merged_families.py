@@ -6,6 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.visibility.smooth.sheets.directed_curves import DirectedCurves
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, Family, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves, SheetsMeet
 from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised, StackedSheets
@@ -13,6 +14,9 @@ from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 
 NONE = -1
+
+ON_ONE = (ParameterCurves, DirectedCurves, RimCurves, ConditionCurves, FaceCurves)
+"""Families of curves that lie on one sheet."""
 
 
 def with_merged_families(curves: Curves, sheets: Sheets) -> Curves:
@@ -59,7 +63,7 @@ def _merged(family: Family, sheets: Sheets) -> _Merged | None:
         if not isinstance(surface, OnParametrised) or not isinstance(other, OnParametrised):
             return None
         return _Merged(("meetings", one, two), replace(family, surface=surface, other=other), True)
-    if not isinstance(family, ParameterCurves | RimCurves | ConditionCurves | FaceCurves) or family.second != NONE:
+    if not isinstance(family, ON_ONE) or family.second != NONE:
         return None
     group = int(sheets.group[family.sheet])
     surface = sheets.groups[group].as_one

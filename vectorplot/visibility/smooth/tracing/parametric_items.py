@@ -39,6 +39,7 @@ from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.parts import covered_once, smooth_parts
 from vectorplot.surfaces.placed_surface import placed_once
 from vectorplot.surfaces.surface import Surface
+from vectorplot.visibility.smooth.sheets.directed_curves import DirectedCurves
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheet
 from vectorplot.visibility.smooth.tracing.integral_items import integral_curves_in_view
@@ -46,7 +47,7 @@ from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
 from vectorplot.words import FEATURE_KINDS, LineKind
 
-Found = tuple[LineKind, ConditionCurves | ParameterCurves | RimCurves, SurfaceCurves]
+Found = tuple[LineKind, ConditionCurves | ParameterCurves | DirectedCurves | RimCurves, SurfaceCurves]
 
 
 def sheets_of_parametrised(view: View, surface: Surface, item: int, hides: bool) -> list[ParametricSheet]:
@@ -152,7 +153,7 @@ def _asked_for(
     if LineKind.INTEGRAL in wanted and not sheet.is_cap:
         for asked in lines.integral:
             found = integral_curves_in_view(view, item, surface, asked, tracing)
-            result.append((LineKind.INTEGRAL, ParameterCurves(sheet, number), found))
+            result.append((LineKind.INTEGRAL, DirectedCurves(sheet, number), found))
     return result
 
 

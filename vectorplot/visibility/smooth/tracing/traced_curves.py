@@ -23,12 +23,13 @@ class Curves:
     """Polylines in the view's coordinates.
 
     points (n,3); places (n,3) of them on their sheets; second_places (n,3) those on a second sheet, of curves in which
-    two sheets meet; of those in faces of a mesh the normal of the face in which the chord from the point lies; else
-    NaN; offsets (m+1,); closed (m,): the last point is the first again, its place whole periods
-    away; kind (m,) LineKind values; item (m,); family (m,) indices into families; level (m,) the value that the
-    condition of its family has along a curve; side (m,): of an outline 1 or -1 where its surface lies to its left or
-    right and that is known already, else 0; behind (m,): by how many items it is hidden already; sheet (m,): the sheet
-    that it lies on, -1 for straight lines, and second_sheet (m,) another one, or -1: as its family says, if not given.
+    two sheets meet; of those in faces of a mesh the normal of the face in which the chord from the point lies; of those
+    with known directions these; else NaN; offsets (m+1,); closed (m,): the last point is the first again, its place
+    whole periods away; kind (m,) LineKind values; item (m,); family (m,) indices into families; level (m,) the value
+    that the condition of its family has along a curve; side (m,): of an outline 1 or -1 where its surface lies to its
+    left or right and that is known already, else 0; behind (m,): by how many items it is hidden already; sheet (m,):
+    the sheet that it lies on, -1 for straight lines, and second_sheet (m,) another one, or -1: as its family says, if
+    not given.
     """
 
     points: Floats = field(metadata=EACH_POINT)

@@ -7,18 +7,20 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.geometry.polylines import closed_round
+from vectorplot.visibility.smooth.sheets.directed_curves import DirectedCurves
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
-OnSurface = ConditionCurves | ParameterCurves | RimCurves | FaceCurves
+OnSurface = ConditionCurves | ParameterCurves | DirectedCurves | RimCurves | FaceCurves
 
 
 def as_curves(
     found: SurfaceCurves, kind: LineKind, item: int, family: OnSurface, second_places: Floats | None = None
 ) -> Curves:
-    """Curves of a surface with closed ones led back to their first point; second_places (n,3) of the points found."""
+    """Curves of a surface with closed ones led back to their first point; second_places (n,3) of the points found, or
+    else their directions."""
     rounds = closed_round(found)
     index = rounds.index
     places = np.stack([found.u, found.v, np.zeros_like(found.u)], axis=1)[index]
@@ -29,7 +31,7 @@ def as_curves(
     return Curves(
         found.points[index],
         places,
-        np.full_like(places, np.nan) if second_places is None else second_places[index],
+        (np.insert(found.directions, 2, 0.0, axis=1) if second_places is None else second_places)[index],
         rounds.offsets,
         found.closed,
         np.full(many, int(kind)),
