@@ -62,6 +62,20 @@ def test_apart_and_within_there_is_nothing() -> None:
     assert length(met(box((0, 0, 0), (3, 3, 3)), box((1, 1, 1), (2, 2, 2)))) == 0.0
 
 
+def test_a_part_that_shares_all_its_points_with_another_is_met_too() -> None:
+    big, small = box((-1, -1, -1), (1, 1, 1)), box((-0.25, -0.25, 0.5), (0.25, 0.25, 1.5))
+    lid = int(np.argmax(big.face_normals[:, 2]))
+    part = np.repeat([1, 2], [big.face_count, small.face_count])
+    part[lid] = 0
+    points = np.concatenate([big.vertices, small.vertices]).T.copy()
+    corners = np.concatenate([big.corners, small.corners + len(big.vertices)])
+    offsets = np.concatenate([big.offsets, small.offsets[1:] + big.offsets[-1]])
+    none = np.zeros(len(part), dtype=np.int8)
+    found = face_intersections(Faces(points, corners, offsets, none[:0].astype(bool), none), part, 1e-9)
+    on_small = np.abs((found.start + found.end)[:2] / 2.0).max(axis=0) < 0.5
+    assert np.isclose(np.linalg.norm((found.end - found.start)[:, on_small], axis=0).sum(), 2.0)
+
+
 def test_the_order_of_parts_changes_nothing() -> None:
     one, two = box((-1, -1, -1), (1, 1, 1)), bumpy_icosphere(2)
     assert np.isclose(length(met(one, two)), length(met(two, one)))

@@ -45,3 +45,13 @@ def test_pairs_are_those_of_all_pairs_in_crowds_and_long_boxes_too(count, size, 
     assert sorted(found) == [(i, j) for i, j in np.argwhere(touch).tolist() if i < j]
     i, j = overlapping_boxes(low, high, low, high)
     assert sorted(zip(i.tolist(), j.tolist(), strict=True)) == [tuple(pair) for pair in np.argwhere(touch).tolist()]
+
+
+def test_empty_boxes_overlap_nothing():
+    rng = np.random.default_rng(9)
+    low = np.round(rng.uniform(0.0, 1.0, (3, 800)), 3)
+    high = low + 0.05
+    low[:, 5::100], high[:, 5::100] = np.inf, -np.inf
+    touch = ((low[:, :, None] <= high[:, None]) & (low[:, None] <= high[:, :, None])).all(axis=0)
+    found = list(zip(*(side.tolist() for side in overlapping_pairs(low, high)), strict=True))
+    assert sorted(found) == [(i, j) for i, j in np.argwhere(touch).tolist() if i < j]

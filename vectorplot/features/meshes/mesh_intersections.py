@@ -189,13 +189,13 @@ def _spans(faces: Faces, corner: Ints, offsets: Ints, which: Ints, axis: Floats)
 
 def _part_boxes(faces: Faces, part: Ints, parts: int) -> tuple[Floats, Floats]:
     """Smallest and largest coordinates (3,p) of every part."""
-    owner = np.full(faces.points.shape[1], -1, dtype=np.intp)
-    owner[faces.corners] = np.repeat(part, np.diff(faces.offsets))
-    used = np.flatnonzero(owner >= 0)
+    # Parts may share points: each has all corners of its faces.
+    starts = faces.offsets[:-1]
     low, high = np.full((3, parts), np.inf), np.full((3, parts), -np.inf)
     for axis in range(3):
-        np.minimum.at(low[axis], owner[used], faces.points[axis, used])
-        np.maximum.at(high[axis], owner[used], faces.points[axis, used])
+        at_corner = faces.points[axis, faces.corners]
+        np.minimum.at(low[axis], part, np.minimum.reduceat(at_corner, starts))
+        np.maximum.at(high[axis], part, np.maximum.reduceat(at_corner, starts))
     return low, high
 
 
