@@ -121,7 +121,7 @@ class _Strips:
         return np.clip((at - self.base) / self.width, 0, self.count - 1).astype(np.intp)
 
     def entries(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
-        """The boxes (3,n) in each strip that they touch: box (e,), strip (e,). Empty boxes, low above high, touch none."""
+        """The boxes (3,n) in each strip that they touch: box (e,), strip (e,). Empty ones touch none."""
         first = self.first(low[self.axis])
         many = np.maximum(self.first(high[self.axis]) - first + 1, 0)
         return ragged.owner(many), ragged.ranges(first, many)
