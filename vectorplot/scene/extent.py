@@ -2,13 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
+from vectorplot.geometry.vectors import largest_component
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.quadric_bodies.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
+from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.tolerances.of_numbers import LARGEST
 
@@ -20,6 +25,9 @@ LOOKS = 9
 
 ROUNDS = 4
 """How often the grids around the outermost points are refined, fourfold each time."""
+
+AT_ONCE = 64
+"""Surfaces whose grids are looked at together: what is known of them fills memory."""
 
 LARGEST_GROWTH = 0.1
 """Where refining moves a bound by more than this part of the extent, the surface runs off to infinity there."""
@@ -59,7 +67,7 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
         check_range(found[0])
         return np.asarray(found[0])
     if is_parametrised(shape):
-        return _parametrised_bounds(shape)
+        return np.asarray(bounds_of_surfaces([shape])[0])
     if is_implicit(shape):
         box = np.array(shape.box, dtype=np.float64)
         if not np.isfinite(box).all():
@@ -90,42 +98,78 @@ def _check_spread(points: Floats, what: str) -> None:
         raise InputError(f"the {what} runs off to infinity: take a part of it that does not")
 
 
-def _parametrised_bounds(surface: Surface) -> Floats:
-    domain = surface.domain
-    u, v = (grid.ravel() for grid in np.meshgrid(*domain.grid(GRID, GRID), indexing="ij"))
-    points = _finite_points(surface, u, v)
-    finite = points[:, 0] == points[:, 0]
-    if not finite.all():
-        u, v, points = u[finite], v[finite], points[finite]
-        if not len(points):
-            raise InputError("the surface has no finite point")
-    first = np.stack([points.min(axis=0), points.max(axis=0)])
-    check_range(first)
-    _check_spread(points, "surface")
+def bounds_of_surfaces(surfaces: Sequence[Surface]) -> Floats:
+    """(s,2,3) smallest and largest coordinates of parametrised surfaces, of many at once.
+
+    Errors, error, degenerate behaviour: as of `smooth_bounds`; it does not say which surface an error is about.
+    """
+    placed = [s if isinstance(s, PlacedSurface) else PlacedSurface(s, np.eye(3)) for s in surfaces]
+    result = np.empty((len(placed), 2, 3))
+    # Those with one domain stand together: their parameters are then the same.
+    domains = [s.domain for s in placed]
+    order = np.lexsort(np.array([(d.u_start, d.u_end, d.v_start, d.v_end) for d in domains]).reshape(-1, 4).T)
+    for own in np.split(order, np.arange(AT_ONCE, len(order), AT_ONCE)) if placed else ():
+        result[own] = _stacked_bounds(StackedSurfaces(tuple(placed[k] for k in own.tolist())))
+    return result
+
+
+def _stacked_bounds(surfaces: StackedSurfaces) -> Floats:
+    u, v = (t.reshape(len(t), -1) for t in _grids(*surfaces.grid_lines(GRID, GRID)))
+    points = _finite_points(surfaces, u, v)
+    hole = np.isnan(points[..., 0])
+    if hole.all(axis=1).any():
+        raise InputError("the surface has no finite point")
     # The outermost points towards the six sides: those with the smallest x, y, z, then those with the largest.
-    best = np.concatenate([points.argmin(axis=0), points.argmax(axis=0)])
-    at_u, at_v = u[best], v[best]
-    side, sign = np.arange(6) % 3, np.repeat([1.0, -1.0], 3)
-    step = np.array(domain.size) / GRID
+    signs = (1.0, -1.0)
+    best = np.concatenate([_least(sign * points[..., k]) for sign in signs for k in range(3)], axis=1)
+    first = np.take_along_axis(points, best[..., None], axis=1)[:, np.arange(6), np.arange(6) % 3].reshape(-1, 2, 3)
+    for box in first[~in_range(first)]:
+        check_range(box)
+    for number in np.flatnonzero(_may_run_off(points, first)).tolist():
+        _check_spread(points[number, ~hole[number]], "surface")
+    at_u, at_v = (np.take_along_axis(np.broadcast_to(t, hole.shape), best, axis=1) for t in (u, v))
+    size_u, size_v = (np.diff(ends, axis=0)[0] for ends in np.split(surfaces.ends, 2))
     finer = np.linspace(-1.0, 1.0, LOOKS)
-    for _ in range(ROUNDS):
-        around_u = np.clip(at_u[:, None, None] + finer[:, None] * step[0], domain.u_start, domain.u_end)
-        around_v = np.clip(at_v[:, None, None] + finer * step[1], domain.v_start, domain.v_end)
-        around_u, around_v = (part.reshape(6, -1) for part in np.broadcast_arrays(around_u, around_v))
-        looked = _finite_points(surface, around_u, around_v)[np.arange(6)[:, None], np.arange(LOOKS**2), side[:, None]]
-        index = np.nanargmin(looked * sign[:, None], axis=1)
-        at_u, at_v = around_u[np.arange(6), index], around_v[np.arange(6), index]
-        outermost = looked[np.arange(6), index]
-        step /= 4.0
-    refined = outermost.reshape(2, 3)
-    runs_off = np.abs(refined - first) > LARGEST_GROWTH * float(np.ptp(first, axis=0).max())
+    u_start, u_end, v_start, v_end = surfaces.ends[:, :, None, None]
+    for number in range(ROUNDS):
+        step = 1.0 / GRID / 4.0**number
+        lines_u = np.clip(at_u[..., None] + finer * (size_u * step)[:, None, None], u_start, u_end)
+        lines_v = np.clip(at_v[..., None] + finer * (size_v * step)[:, None, None], v_start, v_end)
+        around_u, around_v = (t.reshape(len(first), 6, -1) for t in _grids(lines_u, lines_v))
+        looked = _finite_points(surfaces, *(t.reshape(len(first), -1) for t in (around_u, around_v)))
+        sides = looked.reshape(*around_u.shape, 3)
+        heights = np.stack([sides[:, k, :, k % 3] for k in range(6)], axis=1)
+        best = np.concatenate([_least(sign * heights[:, k]) for k, sign in enumerate(np.repeat(signs, 3))], axis=1)
+        at_u, at_v, outermost = (
+            np.take_along_axis(t, best[..., None], 2)[..., 0] for t in (around_u, around_v, heights)
+        )
+    refined = outermost.reshape(-1, 2, 3)
+    runs_off = np.abs(refined - first) > LARGEST_GROWTH * np.ptp(first, axis=1).max(axis=1)[:, None, None]
     return np.where(runs_off, first, refined)
 
 
-def _finite_points(surface: Surface, u: Floats, v: Floats) -> Floats:
-    """Points, all three coordinates NaN where one of them is not finite."""
+def _grids(u: Floats, v: Floats) -> tuple[Floats, Floats]:
+    """(...,m,n) the parameters of the grids of lines u (...,m) and v (...,n)."""
+    both = np.broadcast_arrays(u[..., :, None], v[..., None, :])
+    return both[0], both[1]
+
+
+def _least(values: Floats) -> Ints:
+    """(s,1) where the smallest of values (s,p) is that is a number."""
+    return np.argmin(np.where(np.isnan(values), np.inf, values), axis=1, keepdims=True)
+
+
+def _may_run_off(points: Floats, bounds: Floats) -> Bools:
+    """(s,) whether points (s,p,3) in boxes (s,2,3) may be such as `_check_spread` refuses: if half of them lay so close
+    together, two that follow each other did."""
+    steps = largest_component(np.diff(points, axis=1))
+    return np.asarray(~(steps.min(axis=1) * LARGEST_SPREAD > 4.0 * np.ptp(bounds, axis=1).max(axis=1)), dtype=np.bool_)
+
+
+def _finite_points(surfaces: StackedSurfaces, u: Floats, v: Floats) -> Floats:
+    """(s,p,3) points, all three coordinates NaN where one of them is not finite."""
     with np.errstate(invalid="ignore", over="ignore"):
-        points = np.array(surface.points(u, v), dtype=np.float64)
+        points = surfaces.points_of_all(u, v)
         total = points[..., 0] + points[..., 1] + points[..., 2]
     hole = ~np.isfinite(total)
     if hole.any():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -17,7 +18,7 @@ from vectorplot.geometry.motions.movable import Movable
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.cuts.explosion import Explosion
 from vectorplot.scene.depth_cue import DepthCue
-from vectorplot.scene.extent import in_range, smooth_bounds
+from vectorplot.scene.extent import bounds_of_surfaces, in_range, smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.naming.labels import Label
@@ -26,7 +27,7 @@ from vectorplot.scene.pages.inks import Inks
 from vectorplot.scene.pages.page import Page
 from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.quadric_bodies.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
-from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 from vectorplot.words import check_colour
 
 
@@ -159,14 +160,26 @@ class Scene(Movable["Scene"]):
         if in_range(boxes).all():
             known = zip(smooth, balls, bodies, strict=True)
             smooth = [named for named, ball, body in known if ball is None and body is None]
-        others = (_bounds(name, shape) for name, shape in smooth)
-        corners = np.concatenate([self.vertices, boxes.reshape(-1, 3), *others])
+        corners = np.concatenate([self.vertices, boxes.reshape(-1, 3), _bounds(smooth).reshape(-1, 3)])
         if not len(corners):
             return np.zeros((2, 3))
         return np.array([corners.min(axis=0), corners.max(axis=0)])
 
 
-def _bounds(name: str, shape: Surface | ImplicitSurface | Curve) -> Floats:
+def _bounds(named: Sequence[tuple[str, Surface | ImplicitSurface | Curve]]) -> Floats:
+    """(n,2,3) the bounds of smooth shapes with their names; those of parametrised surfaces found together."""
+    surfaces = [shape for _, shape in named if is_parametrised(shape)]
+    alone = [(name, shape) for name, shape in named if not is_parametrised(shape)]
+    together = [np.zeros((0, 2, 3))]
+    try:
+        together.append(bounds_of_surfaces(surfaces))
+    except InputError:
+        # One by one they tell which.
+        alone = list(named)
+    return np.concatenate([*together, *(_bounds_of_one(name, shape)[None] for name, shape in alone)])
+
+
+def _bounds_of_one(name: str, shape: Surface | ImplicitSurface | Curve) -> Floats:
     try:
         return smooth_bounds(shape)
     except InputError as error:

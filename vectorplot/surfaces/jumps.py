@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.surfaces.stacked import StackedSurfaces, of_some
 from vectorplot.surfaces.surface import Surface
 
 HALVINGS = 40
@@ -40,7 +41,7 @@ def jumps(surface: Surface, start: Floats, end: Floats) -> Bools:
         if not len(active):
             break
         middle = 0.5 * (start[active] + end[active])
-        between = _points(surface, middle)
+        between = _points(of_some(surface, active), middle)
         one, two = _lengths(low[active], between), _lengths(between, high[active])
         left = np.nan_to_num(one, nan=-1.0) >= np.nan_to_num(two, nan=-1.0)
         here, there = active[left], active[~left]
@@ -55,34 +56,47 @@ def jumps(surface: Surface, start: Floats, end: Floats) -> Bools:
     return result
 
 
-def jumping_cells(surface: Surface, u: Floats, v: Floats, points: Floats) -> Bools:
-    """(m-1,n-1) cells of the grid of parameters u (m,) and v (n,) with a side along which the surface jumps.
+def jumping_cells(surfaces: StackedSurfaces, u: Floats, v: Floats, points: Floats) -> Bools:
+    """(s,m-1,n-1) cells of the grids of parameters u (s,m) and v (s,n), (1,m) and (1,n) if they are the same for all,
+    with a side along which the surface jumps.
 
-    points (m,n,3): of the surface there. Sides that are not longer than usual are not looked at: a jump that small is
-    no larger than a cell.
+    points (s,m,n,3): of the surfaces there. Sides that are not longer than usual are not looked at: a jump that small
+    is no larger than a cell.
     """
-    cells = np.zeros((len(u) - 1, len(v) - 1), dtype=np.bool_)
-    across, along = _jumping_sides(surface, u, v, points)
-    cells |= across[:, :-1] | across[:, 1:]
-    cells |= along[:-1] | along[1:]
-    return cells
+    places = np.stack(np.broadcast_arrays(u[:, :, None], v[:, None, :]), axis=-1)
+    across = _jumping_sides(surfaces, (places[:, :-1], places[:, 1:]), _lengths(points[:, :-1], points[:, 1:]))
+    along = _jumping_sides(
+        surfaces, (places[:, :, :-1], places[:, :, 1:]), _lengths(points[:, :, :-1], points[:, :, 1:])
+    )
+    return np.asarray(across[:, :, :-1] | across[:, :, 1:] | along[:, :-1] | along[:, 1:])
 
 
-def _jumping_sides(surface: Surface, u: Floats, v: Floats, points: Floats) -> tuple[Bools, Bools]:
-    """(m-1,n) sides along u and (m,n-1) sides along v that jump."""
-    grid = np.stack(np.meshgrid(u, v, indexing="ij"), axis=-1)
-    lengths = [_lengths(points[:-1], points[1:]), _lengths(points[:, :-1], points[:, 1:])]
-    result = [np.zeros(x.shape, dtype=np.bool_) for x in lengths]
-    ends = [(grid[:-1], grid[1:]), (grid[:, :-1], grid[:, 1:])]
-    for found, length, (start, end) in zip(result, lengths, ends, strict=True):
-        known = length[np.isfinite(length) & (length > 0.0)]
-        if not len(known):
-            continue
-        at = np.flatnonzero(np.nan_to_num(length).ravel() > LONG * float(np.median(known)))
-        if len(at) > MOST:
-            at = at[np.argsort(-length.ravel()[at], kind="stable")[:MOST]]
-        found.ravel()[at] = jumps(surface, start.reshape(-1, 2)[at], end.reshape(-1, 2)[at])
-    return result[0], result[1]
+def _jumping_sides(surfaces: StackedSurfaces, ends: tuple[Floats, Floats], lengths: Floats) -> Bools:
+    """(s,m,n) which sides of these lengths (s,m,n), from some places to others (s or 1,m,n,2), jump."""
+    result = np.zeros(lengths.shape, dtype=np.bool_)
+    lengths = lengths.reshape(len(lengths), -1)
+    long = np.nan_to_num(lengths)
+    surface, side = np.nonzero(long > LONG * _usual(lengths)[:, None])
+    if not len(side):
+        return result
+    # The longest of each surface.
+    order = np.lexsort((-long[surface, side], surface))
+    rank = np.arange(len(side)) - np.searchsorted(surface, surface)
+    own = order[rank < MOST]
+    surface, side = surface[own], side[own]
+    of = surface if len(ends[0]) > 1 else np.zeros_like(surface)
+    start, end = (places.reshape(len(places), -1, 2)[of, side] for places in ends)
+    result.reshape(long.shape)[surface, side] = jumps(surfaces.at(surface), start, end)
+    return result
+
+
+def _usual(lengths: Floats) -> Floats:
+    """(s,) the medians of lengths (s,k) that are positive and finite; infinite where there are none."""
+    known = np.isfinite(lengths) & (lengths > 0.0)
+    ordered, count = np.sort(np.where(known, lengths, np.inf), axis=1), known.sum(axis=1)
+    every, most = np.arange(len(lengths)), lengths.shape[1] - 1
+    low, high = ordered[every, np.maximum(count - 1, 0) // 2], ordered[every, np.minimum(count // 2, most)]
+    return np.asarray(0.5 * low + 0.5 * high)
 
 
 def _points(surface: Surface, places: Floats) -> Floats:

@@ -55,10 +55,34 @@ class StackedSurfaces:
 
     surfaces: tuple[PlacedSurface, ...]
 
+    def __len__(self) -> int:
+        return len(self.surfaces)
+
+    def some(self, rows: Ints) -> StackedSurfaces:
+        """Some of them, by their rows (k,)."""
+        return StackedSurfaces(tuple(self.surfaces[row] for row in rows.tolist()))
+
     def at(self, row: Ints) -> Surface:
         """What is asked for k pairs of parameters, each of the surface with the number row (k,); the surface itself if
         there is only one."""
         return self.surfaces[0] if len(self.surfaces) == 1 else SurfaceRows(self, row)
+
+    def grid_lines(self, columns: int, rows: int) -> tuple[Floats, Floats]:
+        """Parameters u (s, columns+1) and v (s, rows+1) that divide the domains evenly, both ends included; (1, ...) if
+        the domains are one."""
+        ends = self.ends if self.common_domain is None else self.ends[:, :1]
+        u_start, u_end, v_start, v_end = ends
+        return np.linspace(u_start, u_end, columns + 1, axis=1), np.linspace(v_start, v_end, rows + 1, axis=1)
+
+    def points_of_all(self, u: Floats, v: Floats) -> Floats:
+        """(s,p,3) points of each surface at parameters (s,p) of its own, or (1,p) that are the same for all: what these
+        are turned into is then found once for a kind."""
+        result = np.empty((len(self), u.shape[1], 3))
+        for kind in self.kinds:
+            own_u, own_v = (t if len(t) == 1 else t[kind.rows] for t in (u, v))
+            at_home = kind.at(kind.rows[:, None]).points(own_u, own_v)
+            result[kind.rows] = at_home @ self.matrices[kind.rows] + self.shifts[kind.rows, None]
+        return result
 
     @cached_property
     def matrices(self) -> Floats:

@@ -31,7 +31,7 @@ def test_boxes_meet_the_triangles_of_a_sphere_and_nothing_beside_it() -> None:
     box, triangle = seen.near_boxes(at, at)
     assert set(box.tolist()) == {0}
     # The upper and the lower half.
-    depth = seen.depth[triangle].mean(axis=1)
+    depth = seen.depth(triangle).mean(axis=1)
     assert np.ptp(depth) > 1.5 * radius
     assert seen.may_reach(at, at).tolist() == [True, True]
     assert seen.may_reach(at + 3.0, at + 3.0).tolist() == [False, False]

@@ -142,13 +142,15 @@ def _meetings(
     image = sight_lines.image(view, samples.points)
     sample, triangle = pairs
     # What lies behind a point hides nothing of it.
-    before = targets.nearest[triangle] - targets.off[triangle] <= sight_lines.depth(view, samples.points)[sample]
+    nearest = targets.depth(triangle).min(axis=1) - targets.triangles.off[triangle]
+    before = nearest <= sight_lines.depth(view, samples.points)[sample]
     sample, triangle = sample[before], triangle[before]
-    weight = weights(targets.image[triangle], image[sample])
-    spread = np.ptp(targets.image[triangle], axis=1).max(axis=1)
-    near = distance_to(targets.image[triangle], weight, image[sample]) <= targets.margin[triangle] + 0.02 * spread
+    corners = targets.image(triangle)
+    weight = weights(corners, image[sample])
+    reach = targets.triangles.margin[triangle] + 0.02 * np.ptp(corners, axis=1).max(axis=1)
+    near = distance_to(corners, weight, image[sample]) <= reach
     sample, triangle, weight = sample[near], triangle[near], inside(weight[near])
-    places, number = np.einsum("ij,ijk->ik", weight, targets.places[triangle]), targets.sheet[triangle]
+    places, number = np.einsum("ij,ijk->ik", weight, targets.places(triangle)), targets.sheet[triangle]
     # Other starts where curvature says that the point's own sheets are met again.
     looked_at = np.append(np.bincount(targets.sheet, minlength=len(sheets)) > 0, False)
     starts = [(sample, number, places)]

@@ -96,7 +96,7 @@ def _close(
         chord = ragged.ranges(curves.offsets[mine], sizes[mine])
         chord = chord[(depth[chord] > view.near) & (depth[chord + 1] > view.near)]
         all_of_it = targets.range_of_sheet(number)
-        chord, triangle = _near_each_other(below, above, chord, targets.corners[all_of_it], within[all_of_it])
+        chord, triangle = _near_each_other(below, above, chord, targets.corners(all_of_it), within[all_of_it])
         if not len(chord):
             continue
         target = targets.some(all_of_it.start + triangle)
@@ -129,8 +129,9 @@ def _neighbours(sheets: Sheets, targets: Targets, curves: Curves) -> tuple[Ints,
 
 def _within(targets: Targets) -> Floats:
     """(t,) as far as a chord may be from a triangle that it comes close to."""
-    size = np.ptp(targets.corners, axis=1).max(axis=1)
-    return np.asarray(targets.off + NEAR * np.sqrt(3.0) * size)
+    sides = [values.take(targets.triangles.vertices) for values in targets.vertices.points.T]
+    size = np.maximum.reduce([np.ptp(values, axis=1) for values in sides])
+    return np.asarray(targets.triangles.off + NEAR * np.sqrt(3.0) * size)
 
 
 def _near_each_other(below: Floats, above: Floats, chord: Ints, corners: Floats, within: Floats) -> tuple[Ints, Ints]:
@@ -168,12 +169,12 @@ def _near_triangles(
     box, triangle = target.near_boxes(np.minimum(a, b), np.maximum(a, b))
     looked = len(box)
     one, two = depth[chord[box]], depth[chord[box] + 1]
-    deep = target.depth[triangle]
-    margin = target.off[triangle]
+    deep = target.depth(triangle)
+    margin = target.triangles.off[triangle]
     near = (np.minimum(one, two) <= deep.max(axis=1) + margin) & (np.maximum(one, two) >= deep.min(axis=1) - margin)
     box, triangle, margin = box[near], triangle[near], margin[near]
     chord = chord[box]
-    corners = target.corners[triangle]
+    corners = target.corners(triangle)
     a, b = curves.points[chord], curves.points[chord + 1]
     normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -187,7 +188,7 @@ def _near_triangles(
     at = np.einsum("ij,ijk->ik", inside(weight), corners)
     within = margin + NEAR * size
     reach &= np.linalg.norm(at - middle, axis=1) <= within
-    places = np.einsum("ij,ijk->ik", inside(weight), target.places[triangle])
+    places = np.einsum("ij,ijk->ik", inside(weight), target.places(triangle))
     return chord[reach], part[reach], places[reach], within[reach], looked
 
 

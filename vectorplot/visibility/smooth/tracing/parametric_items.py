@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -41,7 +41,7 @@ from vectorplot.surfaces.placed_surface import placed_once
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.sheets.directed_curves import DirectedCurves
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
-from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheet
+from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheets
 from vectorplot.visibility.smooth.tracing.integral_items import integral_curves_in_view
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.visibility.smooth.tracing.traced_surface_curves import as_curves
@@ -52,12 +52,20 @@ Found = tuple[LineKind, ConditionCurves | ParameterCurves | DirectedCurves | Rim
 
 def sheets_of_parametrised(view: View, surface: Surface, item: int, hides: bool) -> list[ParametricSheet]:
     """The sheets of a surface of the world, one for each of its smooth parts."""
-    sheets = []
-    for part in smooth_parts(surface):
-        placed = placed_once(part.surface, view.axes.T / view.scale, np.zeros(3), view.centre)
-        placed = replace(placed, surface=covered_once(placed.surface))
-        sheets.append(replace(parametric_sheet(placed, item, hides), creases=part.creases, is_cap=part.is_cap))
-    return sheets
+    return sheets_of_items(view, [(surface, item, hides)])
+
+
+def sheets_of_items(view: View, items: Sequence[tuple[Surface, int, bool]]) -> list[ParametricSheet]:
+    """The sheets of many surfaces of the world, given with their items and whether these hide: one for each smooth part
+    of a surface, one after the other."""
+    parts = [(part, item, hides) for surface, item, hides in items for part in smooth_parts(surface)]
+    placed = [placed_once(part.surface, view.axes.T / view.scale, np.zeros(3), view.centre) for part, _, _ in parts]
+    once = [replace(surface, surface=covered_once(surface.surface)) for surface in placed]
+    sheets = parametric_sheets(once, [item for _, item, _ in parts], [hides for _, _, hides in parts])
+    return [
+        replace(sheet, creases=part.creases, is_cap=part.is_cap)
+        for sheet, (part, _, _) in zip(sheets, parts, strict=True)
+    ]
 
 
 def contours_of_parametrised(

@@ -25,7 +25,7 @@ from vectorplot.visibility.smooth.tracing.merged_families import with_merged_fam
 from vectorplot.visibility.smooth.tracing.parametric_items import (
     contours_of_parametrised,
     curves_of_parametrised,
-    sheets_of_parametrised,
+    sheets_of_items,
 )
 from vectorplot.visibility.smooth.tracing.rims import with_rims
 from vectorplot.visibility.smooth.tracing.space_items import space_curve
@@ -61,15 +61,11 @@ class TracedScene:
 
 def scene_sheets(scene: Scene, view: View, without: Collection[int] = ()) -> tuple[SmoothSheet, ...]:
     """The sheets of all smooth items without some, given by their numbers."""
-    sheets: list[SmoothSheet] = []
-    for number, item in enumerate(scene.items):
-        if number in without:
-            continue
-        if is_parametrised(item.shape):
-            sheets += sheets_of_parametrised(view, item.shape, number, item.hides)
-        elif is_implicit(item.shape):
-            sheets.append(implicit_sheet(view, item.shape, number, item.hides))
-    return tuple(sheets)
+    items = [(number, item) for number, item in enumerate(scene.items) if number not in without]
+    parametrised = [(item.shape, number, item.hides) for number, item in items if is_parametrised(item.shape)]
+    sheets: list[SmoothSheet] = list(sheets_of_items(view, parametrised))
+    sheets += [implicit_sheet(view, item.shape, n, item.hides) for n, item in items if is_implicit(item.shape)]
+    return tuple(sorted(sheets, key=lambda sheet: sheet.item))
 
 
 def traced_scene(
