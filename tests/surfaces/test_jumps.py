@@ -8,9 +8,15 @@ from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.graphs.graph import Graph
 from vectorplot.surfaces.jumps import jumping_cells, jumps
+from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Domain
 
 SQUARE = Domain(-2.0, 2.0, -2.0, 2.0)
+
+
+def alone(own: Graph) -> StackedSurfaces:
+    return StackedSurfaces((PlacedSurface(own, np.eye(3)),))
 
 
 def surface(text: str) -> Graph:
@@ -30,7 +36,7 @@ def test_no_triangle_and_no_cell_bridges_a_jump(text: str) -> None:
     assert steep[away].max() < 5.0
     u, v = SQUARE.grid(31, 29)
     points = own.points(*np.meshgrid(u, v, indexing="ij"))
-    whole = ~jumping_cells(own, u, v, points)
+    whole = ~jumping_cells(alone(own), u[None], v[None], points[None])[0]
     heights = points[..., 2]
     high = np.maximum.reduce([heights[1:, 1:], heights[:-1, 1:], heights[1:, :-1], heights[:-1, :-1]])
     low = np.minimum.reduce([heights[1:, 1:], heights[:-1, 1:], heights[1:, :-1], heights[:-1, :-1]])
@@ -42,7 +48,8 @@ def test_no_triangle_and_no_cell_bridges_a_jump(text: str) -> None:
 def test_what_is_only_steep_does_not_jump(text: str) -> None:
     own = surface(text)
     u, v = SQUARE.grid(31, 29)
-    assert not jumping_cells(own, u, v, own.points(*np.meshgrid(u, v, indexing="ij"))).any()
+    points = own.points(*np.meshgrid(u, v, indexing="ij"))
+    assert not jumping_cells(alone(own), u[None], v[None], points[None]).any()
 
 
 def test_jumps_are_told_one_by_one() -> None:

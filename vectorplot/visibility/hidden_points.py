@@ -108,8 +108,8 @@ def _by_sheets(scene: Scene, view: View, points: Floats, items: int) -> Bools:
     nothing, nowhere = np.full(count, -1), np.full((count, 3), np.nan)
     no = np.zeros(count, dtype=np.bool_)
     samples = Samples(points.T, nothing, nowhere, nothing, nowhere, no, no)
-    counts, _ = counts_in_front(view, sheets, targets_of(view, sheets), samples, items, USUAL.pairs)
-    return np.asarray(counts > 0, dtype=np.bool_)
+    counts, _ = counts_in_front(view, sheets, targets_of(view, sheets), samples, USUAL.pairs)
+    return np.asarray(counts.table(count, items) > 0, dtype=np.bool_)
 
 
 def _may_hide(shape: object, hides: bool, view: View, points: Floats) -> bool:

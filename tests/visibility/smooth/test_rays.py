@@ -18,7 +18,9 @@ def test_points_behind_inside_in_front_and_beside() -> None:
     none, nowhere = np.full(4, -1), np.full((4, 3), np.nan)
     no = np.zeros(4, dtype=np.bool_)
     samples = Samples(points, none, nowhere, none, nowhere, no, no)
-    assert counts_in_front(view, sheets, targets_of(view, sheets), samples, 1, USUAL.pairs)[0][:, 0].tolist() == [
+    assert counts_in_front(view, sheets, targets_of(view, sheets), samples, USUAL.pairs)[0].table(len(samples), 1)[
+        :, 0
+    ].tolist() == [
         2,
         1,
         0,
@@ -33,5 +35,7 @@ def test_a_sphere_hides_its_own_lower_half() -> None:
     places = np.stack([np.full(6, 0.7), latitude, np.zeros(6)], axis=1)
     points, none, no = sheet.points(places), np.full(6, -1), np.zeros(6, dtype=np.bool_)
     samples = Samples(points, np.zeros(6, np.intp), places, none, np.full((6, 3), np.nan), no, no)
-    found = counts_in_front(view, sheets, targets_of(view, sheets), samples, 1, USUAL.pairs)[0][:, 0]
+    found = counts_in_front(view, sheets, targets_of(view, sheets), samples, USUAL.pairs)[0].table(len(samples), 1)[
+        :, 0
+    ]
     assert np.array_equal(found > 0, points[:, 2] < 0.0)

@@ -14,7 +14,7 @@ def runs(curves, parts, values, shortest):
     count = len(parts)
     chord = np.floor(parts).astype(np.intp)
     events = Events(chord, np.asarray(parts) - chord, np.zeros(count, np.intp), np.ones(count, np.intp))
-    pieces = cut(curves, events, 1)
+    pieces = cut(curves, events)
     return without_short_runs(ball_from_above()[0], curves, pieces, np.array(values), shortest).tolist()
 
 

@@ -54,7 +54,6 @@ def hidden_curves(
     """
     # Only items with sheets that hide are counted: a scene may have thousands of others.
     hiding = np.unique(traced.sheets.item[traced.sheets.hides])
-    items = len(hiding)
     sheets = replace(traced.sheets, counted_as=np.searchsorted(hiding, traced.sheets.item))
     edges = replace(traced.edges, item=np.searchsorted(hiding, traced.edges.item))
     targets = targets_of(view, sheets)
@@ -66,20 +65,20 @@ def hidden_curves(
     pierced, short_of_piercings = piercings(view, sheets, targets, curves, traced.meets_itself, budget.pairs)
     done(0.6)
     events = all_events([own, crossed, pierced])
-    pieces = cut(curves, events, items)
+    pieces = cut(curves, events)
 
     def count(pieces: Pieces) -> Counts:
-        return counted(view, sheets, targets, curves, edges, edge_on, pieces, items, tolerance, budget.pairs)
+        return counted(view, sheets, targets, curves, edges, edge_on, pieces, tolerance, budget.pairs)
 
     counts = count(pieces)
     done(0.8)
-    more, short_of_halvings = missed_events(view, sheets, targets, curves, edge_on, pieces, counts, items, budget.pairs)
+    more, short_of_halvings = missed_events(view, sheets, targets, curves, edge_on, pieces, counts, budget.pairs)
     if len(more):
-        again = cut(curves, all_events([events, more]), items)
+        again = cut(curves, all_events([events, more]))
         pieces, counts = again, recounted(pieces, counts, again, count)
-    unlooked = [*short_of_piercings, *short_of_halvings, *np.flatnonzero(counts.unlooked).tolist()]
+    unlooked = [*short_of_piercings, *short_of_halvings, *counts.unlooked]
     short = {*short_of_crossings, *hiding[unlooked].tolist()} if unlooked else {*short_of_crossings}
-    hidden_by = np.asarray((carried(pieces, counts) > 0).sum(axis=1))
+    hidden_by = np.bincount(carried(pieces, counts).row, minlength=len(pieces))
     hidden_by = without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance)
     return HiddenCurves(pieces, hidden_by, tuple(sorted(short)))
 

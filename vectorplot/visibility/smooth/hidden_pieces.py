@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry import records
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
 from vectorplot.visibility.smooth.clearances import clearances
@@ -16,6 +15,7 @@ from vectorplot.visibility.smooth.events.events import Events
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
+from vectorplot.visibility.smooth.tallies import Cells, Tally, all_tallies
 from vectorplot.visibility.smooth.targets import Targets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
@@ -28,8 +28,8 @@ CANDIDATES = (0.5, 0.3, 0.7, 0.12, 0.88)
 class Pieces:
     """Parts of curves between events.
 
-    curve (p,); begin_chord, begin_part, end_chord, end_part (p,): from where to where; change (p, items): by how much
-    the number of sheets in front rises at the beginning of the piece. Along each curve in order.
+    curve (p,); begin_chord, begin_part, end_chord, end_part (p,): from where to where; change: by how much the number
+    of sheets of items in front rises at the beginning of pieces. Along each curve in order.
     """
 
     curve: Ints
@@ -37,13 +37,18 @@ class Pieces:
     begin_part: Floats
     end_chord: Ints
     end_part: Floats
-    change: Ints
+    change: Tally
 
     def __len__(self) -> int:
         return len(self.curve)
 
+    def some(self, which: Ints) -> Pieces:
+        """Some of the pieces."""
+        rows = (self.curve, self.begin_chord, self.begin_part, self.end_chord, self.end_part)
+        return Pieces(*(values[which] for values in rows), self.change.of_rows(which))
 
-def cut(curves: Curves, events: Events, items: int) -> Pieces:
+
+def cut(curves: Curves, events: Events) -> Pieces:
     """The pieces between events; several events at one place are one."""
     owner = curves.owner[events.chord]
     order = np.lexsort((events.part, events.chord))
@@ -52,19 +57,19 @@ def cut(curves: Curves, events: Events, items: int) -> Pieces:
     new = np.ones(len(order), dtype=np.bool_)
     new[1:] = (place[1:] != place[:-1]) | (owner[order][1:] != owner[order][:-1])
     group = np.cumsum(new) - 1
-    change = np.zeros((int(new.sum()), items), dtype=np.intp)
-    np.add.at(change, (group, events.item[order]), events.change[order])
+    change = Tally(len(curves) + group, events.item[order], events.change[order])
     chord, part, curve = chord[new], part[new], owner[order][new]
     # Each curve begins with a piece at its first point; the other pieces begin at events.
     all_curves = np.arange(len(curves))
     curve = np.concatenate([all_curves, curve])
     chord = np.concatenate([curves.offsets[:-1], chord])
     part = np.concatenate([np.zeros(len(curves)), part])
-    change = np.concatenate([np.zeros((len(curves), items), dtype=np.intp), change])
     # The first piece of a curve stays first even if an event lies at its very beginning.
     first = np.arange(len(curve)) < len(curves)
     order = np.lexsort((chord + part, ~first, curve))
-    curve, chord, part, change = curve[order], chord[order], part[order], change[order]
+    number = np.empty_like(order)
+    number[order] = np.arange(len(order))
+    curve, chord, part, change = curve[order], chord[order], part[order], change.in_rows(number)
     last = np.append(curve[1:] != curve[:-1], True)
     end_chord = np.where(last, curves.offsets[curve + 1] - 2, np.append(chord[1:], 0))
     end_part = np.where(last, 1.0, np.append(part[1:], 0.0))
@@ -73,14 +78,14 @@ def cut(curves: Curves, events: Events, items: int) -> Pieces:
 
 @dataclass(frozen=True, eq=False)
 class Counts:
-    """Sight lines of pieces: in_front (p, items), the number of sheets of each item that they meet; safe (p,), whether
-    they pass all edges at a distance; taken (p,), whether a piece has one, as one at least of every curve; unlooked
-    (items,): whether the budget did not do for all of them."""
+    """Sight lines of pieces: in_front, the number of sheets of items that they meet; safe (p,), whether they pass all
+    edges at a distance; taken (p,), whether a piece has one, as one at least of every curve; unlooked: the items for
+    which the budget did not do."""
 
-    in_front: Ints
+    in_front: Tally
     safe: Bools
     taken: Bools
-    unlooked: Bools = field(default_factory=lambda: np.zeros(0, dtype=np.bool_))
+    unlooked: tuple[int, ...] = ()
 
 
 def counted(
@@ -91,7 +96,6 @@ def counted(
     edges: Curves,
     edge_on: Bools,
     pieces: Pieces,
-    items: int,
     shortest: float,
     pairs: int,
 ) -> Counts:
@@ -102,12 +106,12 @@ def counted(
     pairs: what the budget has for all sight lines together.
     """
     long = _seen(view, curves, pieces, shortest)
-    samples, clearance = _safest(view, curves, edges, edge_on, records.some(pieces, long), shortest)
-    found, looked = counts_in_front(view, sheets, targets, samples, items, pairs)
-    in_front = np.zeros((len(pieces), items), dtype=np.intp)
+    samples, clearance = _safest(view, curves, edges, edge_on, pieces.some(long), shortest)
+    found, unlooked = counts_in_front(view, sheets, targets, samples, pairs)
     safe, taken = np.zeros(len(pieces), dtype=np.bool_), np.zeros(len(pieces), dtype=np.bool_)
-    in_front[long], safe[long], taken[long] = found, (clearance > SAFE_IN_IMAGE) & looked.all(axis=1), True
-    return Counts(in_front, safe, taken, np.asarray((~looked).any(axis=0), dtype=np.bool_))
+    safe[long], taken[long] = clearance > SAFE_IN_IMAGE, True
+    safe[long[unlooked.row]] = False
+    return Counts(found.in_rows(long), safe, taken, tuple(np.unique(unlooked.item).tolist()))
 
 
 def lengths_in_image(view: View, curves: Curves, pieces: Pieces) -> Floats:
@@ -142,20 +146,40 @@ def recounted(pieces: Pieces, counts: Counts, again: Pieces, count: Callable[[Pi
     known[number[: len(pieces)]] = np.arange(len(pieces))
     source = known[number[len(pieces) :]]
     new = np.flatnonzero(source < 0)
-    found = count(records.some(again, new))
-    in_front, safe, taken = counts.in_front[source], counts.safe[source], counts.taken[source]
-    in_front[new], safe[new], taken[new] = found.in_front, found.safe, found.taken
-    return Counts(in_front, safe, taken, counts.unlooked | found.unlooked)
+    found, old = count(again.some(new)), np.flatnonzero(source >= 0)
+    in_front = all_tallies([counts.in_front.of_rows(source[old]).in_rows(old), found.in_front.in_rows(new)])
+    safe, taken = counts.safe[source], counts.taken[source]
+    safe[new], taken[new] = found.safe, found.taken
+    return Counts(in_front, safe, taken, tuple(sorted({*counts.unlooked, *found.unlooked})))
 
 
-def carried(pieces: Pieces, counts: Counts) -> Ints:
-    """(p, items) the number of sheets of each item in front of every piece: what its sight line says; if that is not
-    safe, what the nearest safe one on its curve says, and the changes between. Where no sight line of a curve is safe
-    each stands for its own piece, and the nearest one for a piece that has none."""
+def carried(pieces: Pieces, counts: Counts) -> Tally:
+    """The number of sheets of items in front of every piece, where there are some: what its sight line says; if that is
+    not safe, what the nearest safe one on its curve says, and the changes between. Where no sight line of a curve is
+    safe each stands for its own piece, and the nearest one for a piece that has none."""
     source = _nearest(pieces, counts.safe)
     source = np.where(source < 0, _nearest(pieces, counts.taken), source)
-    total = np.cumsum(pieces.change, axis=0)
-    return np.asarray(np.maximum(counts.in_front[source] + total - total[source], 0))
+    cells = Cells.of(pieces.curve, [pieces.change, counts.in_front])
+    total, in_front = np.cumsum(cells.values(pieces.change)), cells.values(counts.in_front)
+    there = np.arange(len(total)) + source[cells.piece] - cells.piece
+    value = in_front[there] + total - total[there]
+    some = np.flatnonzero(value > 0)
+    return Tally(cells.piece[some], cells.item[some], value[some])
+
+
+def disagreeing(pieces: Pieces, counts: Counts) -> tuple[Ints, Ints]:
+    """The pieces (w,) with safe sight lines of which the next one (w,) on their curve does not follow by the changes
+    between."""
+    safe = np.flatnonzero(counts.safe)
+    after = np.full(len(pieces), -1)
+    on = pieces.curve[safe[:-1]] == pieces.curve[safe[1:]]
+    after[safe[:-1][on]] = safe[1:][on]
+    cells = Cells.of(pieces.curve, [pieces.change, counts.in_front])
+    level = cells.values(counts.in_front) - np.cumsum(cells.values(pieces.change))
+    first = np.flatnonzero(after[cells.piece] >= 0)
+    before = cells.piece[first]
+    wrong = np.unique(before[level[first] != level[first + after[before] - before]])
+    return wrong, after[wrong]
 
 
 def _nearest(pieces: Pieces, known: Bools) -> Ints:

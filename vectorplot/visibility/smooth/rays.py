@@ -23,6 +23,7 @@ from vectorplot.tolerances.of_parameters import CONTACT_PLACES, ONE_MEETING_PLAC
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
+from vectorplot.visibility.smooth.tallies import Tally, all_tallies
 from vectorplot.visibility.smooth.targets import Targets, distance_to, inside, weights
 
 ROUNDS = 12
@@ -62,13 +63,10 @@ class Samples:
         return (self.sheet, self.places, self.contour), (self.second, self.second_places, none)
 
 
-def counts_in_front(
-    view: View, sheets: Sheets, targets: Targets, samples: Samples, items: int, pairs: int
-) -> tuple[Ints, Bools]:
-    """(k, items) the number of sheets of each item between the samples and the eye; and (k, items) whether the
-    budget's pairs, so many for each sheet, did for them: other samples see nothing of its sheets."""
-    counts = np.zeros((len(samples), items), dtype=np.intp)
-    looked = np.ones((len(samples), items), dtype=np.bool_)
+def counts_in_front(view: View, sheets: Sheets, targets: Targets, samples: Samples, pairs: int) -> tuple[Tally, Tally]:
+    """The number of sheets of items between the samples and the eye; and of which samples and items the budget's pairs,
+    so many for each sheet, did not do: these samples see nothing of the sheets."""
+    counts, unlooked = list[Tally](), list[Tally]()
     image = sight_lines.image(view, samples.points)
     rows = np.arange(len(samples))
     spent = np.zeros(len(sheets), dtype=np.intp)
@@ -82,15 +80,16 @@ def counts_in_front(
 
         found, done = in_blocks(rows, pairs, look)
         for sample, sheet, close in found:
-            np.add.at(counts, (sample, sheets.item[sheet]), 1)
+            counts.append(Tally(sample, sheets.item[sheet], np.ones_like(sample)))
             spent += close
         rows = rows[done:]
         for number in np.flatnonzero(spent > pairs).tolist() if len(rows) else ():
             own = targets.of_sheet(number)
             mine = (samples.sheet[rows] == number) | (samples.second[rows] == number)
-            looked[rows[mine | own.may_reach(image[rows], image[rows])], sheets.item[number]] = False
+            missed = rows[mine | own.may_reach(image[rows], image[rows])]
+            unlooked.append(Tally(missed, np.full(len(missed), sheets.item[number]), np.ones_like(missed)))
             targets = targets.some(targets.sheet != number)
-    return counts, looked
+    return all_tallies(counts), all_tallies(unlooked)
 
 
 def _in_front(

@@ -48,7 +48,7 @@ def cut_lines_and_chords(
 def whole_lines_and_chords(view: View, traced: TracedScene, lines: Lines) -> Lines:
     """Straight lines and the chords of curves, from end to end, as if nothing hid them."""
     curves = together([traced.curves, _straight(lines)])
-    pieces = cut(curves, all_events([]), 0)
+    pieces = cut(curves, all_events([]))
     whole = HiddenCurves(pieces, np.zeros(len(pieces), dtype=np.intp), ())
     return _as_lines(view, traced, lines, curves, whole)
 
