@@ -4,7 +4,7 @@ import pytest
 from vectorplot.curves.function_curve import curve_of_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.extent import bounds_of_surfaces, smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.families.cyclide import dupin_cyclide
@@ -108,3 +108,20 @@ def test_an_implicit_surface_whose_place_has_no_digits_for_it_is_refused(axis, s
     assert np.ptp(smooth_bounds(ball), axis=0).min() > 0.0
     with pytest.raises(InputError, match="no digits left"):
         smooth_bounds(PlacedImplicit(ball, np.eye(3), far))
+
+
+def test_bounds_found_together_are_those_found_alone():
+    square, half = Domain(-1.0, 1.0, -1.0, 1.0), Domain(0.0, 1.0, -1.0, 1.0)
+    shapes = [Torus(3.0, 1.0), Torus(1.0, 0.2), Cone.standing(2.0, 3.0), Ellipsoid((1.0, 2.0, 3.0))]
+    shapes += [surface_of_function(lambda u, v: (u, v, np.sqrt(1.2 - u * u - v * v)), d) for d in (square, half)]
+    placed = [PlacedSurface(shape, rotation_about((1.0, 2.0, 3.0), 0.4), (k, 0, 0)) for k, shape in enumerate(shapes)]
+    both = [*shapes, *placed]
+    together, alone = bounds_of_surfaces(both), np.concatenate([bounds_of_surfaces([shape]) for shape in both])
+    assert np.allclose(together, alone, rtol=0.0, atol=1e-12)
+
+
+def test_of_many_surfaces_the_one_that_runs_off_is_named():
+    off = dupin_cyclide(3.0, 1.0, (3.0, 0.0, 1.0), 1.0)
+    items = [Item(f"torus {k}", Torus()) for k in range(3)]
+    with pytest.raises(InputError, match=r"^spike: .*infinity"):
+        _ = Scene((*items, Item("spike", off))).bounds

@@ -45,6 +45,20 @@ def test_surfaces_at_once_say_what_each_says_alone(shapes: tuple[Surface, ...]) 
             assert np.allclose(all_[own], one, rtol=1e-9, atol=1e-9, equal_nan=True)
 
 
+@pytest.mark.parametrize("shapes", [ROUND, RINGS, OPEN], ids=["round", "rings", "open"])
+def test_all_surfaces_on_grids_say_what_each_says_alone(shapes: tuple[Surface, ...]) -> None:
+    """Whether their domains are one or not."""
+    rng = np.random.default_rng(5)
+    placed = tuple(PlacedSurface(shape, rng.normal(size=(3, 3)), rng.normal(size=3)) for shape in shapes)
+    stack = StackedSurfaces(placed)
+    lines = stack.grid_lines(4, 3)
+    assert len(lines[0]) == (1 if stack.common_domain else len(stack))
+    u, v = (t.reshape(len(t), -1) for t in np.broadcast_arrays(lines[0][:, :, None], lines[1][:, None, :]))
+    for surface, found in zip(placed, stack.points_of_all(u, v), strict=True):
+        own = np.meshgrid(*surface.domain.grid(4, 3), indexing="ij")
+        assert np.allclose(found, surface.points(*own).reshape(-1, 3), rtol=1e-12, atol=1e-12)
+
+
 def test_one_surface_is_asked_itself() -> None:
     placed = PlacedSurface(Torus(), np.eye(3))
     assert StackedSurfaces((placed,)).at(np.zeros(5, dtype=np.intp)) is placed

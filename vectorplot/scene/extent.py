@@ -156,7 +156,7 @@ def _grids(u: Floats, v: Floats) -> tuple[Floats, Floats]:
 
 def _least(values: Floats) -> Ints:
     """(s,1) where the smallest of values (s,p) is that is a number."""
-    return np.argmin(np.where(np.isnan(values), np.inf, values), axis=1, keepdims=True)
+    return np.asarray(np.argmin(np.where(np.isnan(values), np.inf, values), axis=1))[:, None]
 
 
 def _may_run_off(points: Floats, bounds: Floats) -> Bools:

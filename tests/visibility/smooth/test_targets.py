@@ -35,3 +35,19 @@ def test_boxes_meet_the_triangles_of_a_sphere_and_nothing_beside_it() -> None:
     assert np.ptp(depth) > 1.5 * radius
     assert seen.may_reach(at, at).tolist() == [True, True]
     assert seen.may_reach(at + 3.0, at + 3.0).tolist() == [False, False]
+
+
+def test_near_boxes_are_those_that_overlap_one_by_one() -> None:
+    """Whatever strips the triangles stand in, the last of which is shorter."""
+    view, sheet, radius = ball_from_above()
+    seen = targets_of(view, Sheets((sheet,)))
+    seen = seen.some(np.arange(0, len(seen), 3))
+    rng = np.random.default_rng(6)
+    low = radius * rng.uniform(-1.2, 1.0, (40, 2))
+    high = low + radius * rng.uniform(0.0, 0.3, (40, 2))
+    image, margin = seen.image(np.arange(len(seen))), seen.triangles.margin[:, None]
+    start, end = image.min(axis=1) - margin, image.max(axis=1) + margin
+    overlap = ((start <= high[:, None]) & (end >= low[:, None])).all(axis=2)
+    found = np.stack(seen.near_boxes(low, high), axis=1)
+    assert len(found) > 40
+    assert sorted(found.tolist()) == np.argwhere(overlap).tolist()

@@ -44,8 +44,8 @@ class Pieces:
 
     def some(self, which: Ints) -> Pieces:
         """Some of the pieces."""
-        rows = (self.curve, self.begin_chord, self.begin_part, self.end_chord, self.end_part)
-        return Pieces(*(values[which] for values in rows), self.change.of_rows(which))
+        begin, end = (self.begin_chord[which], self.begin_part[which]), (self.end_chord[which], self.end_part[which])
+        return Pieces(self.curve[which], *begin, *end, self.change.of_rows(which))
 
 
 def cut(curves: Curves, events: Events) -> Pieces:
