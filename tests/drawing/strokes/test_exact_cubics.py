@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import vectorplot as vp
 from vectorplot.curves import AkimaSpline, BSpline, CubicSpline, PlacedCurve, SplineCurve, nurbs_curve, spline_curve
-from vectorplot.drawing import CurvedStrokes, curved_strokes
+from vectorplot.drawing import CurvedStrokes, Paths, curved_strokes
+from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.surfaces import PlacedSurface, Sphere, nurbs_surface, spline_surface
+from vectorplot.surfaces.splines.line_pieces import line_pieces
 from vectorplot.testing.shapes import box
 
 POINTS = np.array([(0, 0, 0), (2, 1, 0), (3, 0, 1), (2, -2, 2), (0, -1, 1), (1, 1, 3)], dtype=float)
@@ -83,3 +88,52 @@ def test_what_is_cut_by_what_hides_it_is_exact():
 def test_what_is_no_cubic_in_the_image_is_fitted(curve, camera):
     _, strokes = drawn(vp.Item("A", curve), camera=camera)
     assert np.isnan(strokes.paths.handles).all() and 0.0 < strokes.beziers.error.max() < 0.01
+
+
+@pytest.mark.capability("G9.2-surface")
+def test_parameter_lines_and_borders_of_spline_surfaces_are_exact_where_they_are_visible():
+    """Lines that pass behind their own surface: all that is visible is on the true lines."""
+    from scipy.spatial import cKDTree
+
+    turn, height = np.meshgrid(np.arange(6) * np.pi / 3, np.array([0.0, 1, 2, 3, 4]), indexing="ij")
+    out = 1 + 0.5 * np.sin(2 * height + turn)
+    grid = np.stack([out * np.cos(turn), out * np.sin(turn), height], axis=-1)
+    surface = spline_surface(grid, CubicSpline(closed=True), BSpline(4))
+    drawing = vp.draw(vp.Scene((vp.Item("A", surface, curves=vp.SurfaceLines(5, 4)),)), SOUTH, page=vp.Page(90, 90, 5))
+    part = np.linspace(0, 1, 9)
+    bernstein = np.stack([(1 - part) ** 3, 3 * part * (1 - part) ** 2, 3 * part**2 * (1 - part), part**3], axis=1)
+    found = []
+    for paths in (mark for layer in drawing.layers for mark in layer.strokes):
+        own = np.isin(paths.kind, (vp.LineKind.PARAMETER, vp.LineKind.BOUNDARY))
+        if own.any():
+            curves = curved_strokes(paths, 0.05)
+            assert (curves.beziers.error[own] == 0.0).all()
+            control = curves.beziers.control[np.repeat(own, np.diff(curves.beziers.offsets))]
+            found.append((bernstein @ control).reshape(-1, 2))
+    assert len(found) > 1
+    d, many = surface.domain, np.linspace(0.0, 1.0, 20_001)
+    u = d.u_start + d.size[0] * np.concatenate([np.repeat(np.arange(6) / 5, len(many)), np.tile(many, 5)])
+    v = d.v_start + d.size[1] * np.concatenate([np.tile(many, 6), np.repeat(np.arange(5) / 4, len(many))])
+    dense = on_page(drawing, surface.points(u, v))
+    nearest = cKDTree(dense).query(np.concatenate(found))[0]
+    # Half the distance of dense points, a tenth of what fitted lines are off.
+    steps = np.linalg.norm(np.diff(dense.reshape(11, -1, 2), axis=1), axis=2)
+    assert nearest.max() < 0.5 * steps.max() + 1e-5
+
+
+def test_lines_along_which_weights_change_are_fitted():
+    grid = [[(x, y, x * y - x * x) for y in range(4)] for x in range(4)]
+    weights = np.repeat([[1.0], [2.0], [1.0], [3.0]], 4, axis=1)
+    pieces = line_pieces(PlacedSurface(nurbs_surface(grid, weights), np.eye(3), np.zeros(3)))
+    assert pieces.cubic == (False, True) and pieces.breaks[0].tolist() == [0.0, 1.0]
+    assert line_pieces(Sphere()).cubic == (False, False)
+
+
+def test_points_of_known_cubics_stay_though_they_lie_on_a_straight_line():
+    """The handles beside a point belong to the chords that end there; a straight stroke needs none."""
+    points = np.array([(0, 0), (1, 0), (2, 0), (2, 5)], dtype=float)
+    numbers, solid = np.zeros(2, dtype=np.intp), np.pad(np.concatenate([points, points[:3]]), ((0, 0), (0, 1)))
+    paths = Paths(solid[:, :2], np.array([0, 4, 7]), np.zeros(2, dtype=np.bool_), numbers, numbers, numbers, solid)
+    known = replace(paths, handles=np.ones((7, 2)), directions=np.zeros((7, 2)))
+    assert np.diff(without_collinear_points(paths, 0.01).offsets).tolist() == [3, 2]
+    assert np.diff(without_collinear_points(known, 0.01).offsets).tolist() == [4, 2]

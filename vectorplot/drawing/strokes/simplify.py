@@ -33,7 +33,8 @@ def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
     Every point left out lies within tolerance_mm of the segment that takes its place, however many are left out in a
     row, and in the world within as much of it on the scale of the drawing; a point where the stroke turns back stays:
     along the segment that takes their place, points left out only go forward. A closed stroke begins where it did if
-    that point stays, otherwise at the next one that stays. points3d keeps the points that stay.
+    that point stays, otherwise at the next one that stays. points3d keeps the points that stay. Strokes of which the
+    Bézier curves are known keep all points, unless they are straight.
     Degenerate: of repeated points one stays; a closed stroke of which two points stay becomes an open one; strokes of
     fewer than three points stay.
     Source: Douglas and Peucker, Algorithms for the reduction of the number of points, Cartographica 10 (1973), between
@@ -48,6 +49,7 @@ def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
     kept = ~straight[source]
     kept[line.offsets[:-1]] = kept[line.offsets[1:] - 1] = True
     _thin(line, kept, tolerance_mm)
+    _keep_cubics(kept, line.offsets, np.asarray(np.isfinite(paths.handles[source]).any(axis=1)))
     stays = np.ones(len(paths.points), dtype=np.bool_)
     stays[source[~kept]] = False
     left = counts.copy()
@@ -117,6 +119,13 @@ def _laid_out(paths: Paths, some: Ints, straight: Bools) -> tuple[Ints, _Line]:
         tuple(np.ascontiguousarray(axis[source]) for axis in points.T) for points in (paths.points, paths.points3d)
     )
     return source, _Line(page, world, offsets, ring, ZERO_OF_EXTENT * _extent(paths), world_per_mm(paths) or 1.0)
+
+
+def _keep_cubics(kept: Bools, offsets: Ints, known: Bools) -> None:
+    """Keep all points of strokes that are not straight and of which handles are known (p,): these belong to the chords
+    between all of them."""
+    bent = np.add.reduceat(kept.astype(np.intp), offsets[:-1]) > 2
+    kept |= np.repeat(bent & np.logical_or.reduceat(known, offsets[:-1]), np.diff(offsets))
 
 
 def _thin(line: _Line, kept: Bools, tolerance_mm: float) -> None:

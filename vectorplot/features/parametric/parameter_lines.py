@@ -18,6 +18,7 @@ from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, refined, straight_between, torn, with_standstills
 from vectorplot.geometry.polylines import some
+from vectorplot.surfaces.splines.line_pieces import line_pieces
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_parameters import AROUND_RIM
@@ -196,8 +197,11 @@ def _lines(surface: Surface, axis: int, values: Floats, tracing: Tracing) -> Sur
     if not len(values) or size == 0.0:
         return no_curves()
     t = domain.grid(24, 24)[1 - axis]
-    ways = np.stack([np.repeat(values, 25), np.tile(t, len(values))], axis=1)
-    lines = Traces(ways, np.tile(np.arange(25) == 24, len(values)))
+    breaks = line_pieces(surface).breaks[1 - axis]
+    # A chord across a break might cut off a corner.
+    t = np.union1d(t, breaks[(breaks > t[0]) & (breaks < t[-1])])
+    ways = np.stack([np.repeat(values, len(t)), np.tile(t, len(values))], axis=1)
+    lines = Traces(ways, np.tile(np.arange(len(t)) == len(t) - 1, len(values)))
     lines, enough = _refined(surface, axis, _without_holes(surface, axis, lines), tracing, size)
     doubts = () if enough else (unresolved("parameter lines or borders are off by more than the tolerance"),)
     return replace(_without_points(_curves(surface, axis, lines), size), doubts=doubts)

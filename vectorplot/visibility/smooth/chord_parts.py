@@ -75,9 +75,8 @@ class ChordParts:
         """(n,2) how long the handles of a Bézier curve are in the image that is exactly the curve, at the starts of the
         lines and at their ends; NaN for lines that are of none, and where there is no such curve."""
         result = np.full((len(self.chord), 2), np.nan)
-        cubic = np.array([getattr(family, "is_cubic", False) for family in self.curves.families], dtype=np.bool_)
         on = np.flatnonzero(self.chord >= 0)
-        on = on[cubic[self.curves.family[self.curves.owner[self.chord[on]]]]] if cubic.any() else on[:0]
+        on = on[self.curves.cubic(self.chord[on])]
         if len(on):
             chord, span = self.chord[on], (self.end - self.begin)[on, None]
             way = np.stack([self._images(view, chord, part[on])[1] for part in (self.begin, self.end)], axis=1)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.singular.singular_equations import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.parametric.conditions import SurfaceCondition
@@ -17,6 +17,7 @@ from vectorplot.geometry.vectors import cross, dot, from_components
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances.of_parameters import JUST_BEFORE
 from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet
 from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised, inside
 
@@ -81,6 +82,15 @@ class Family(Protocol):
         ...
 
 
+@runtime_checkable
+class FamilyOfCubics(Protocol):
+    """Curves of which some may be cubics in the image."""
+
+    def cubic_chords(self, chords: Chords) -> Bools:
+        """(k,) whether the images of chords are those of polynomials of degree 3 or less."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class StraightLines:
     """Lines that are their own chords."""
@@ -98,11 +108,21 @@ class StraightLines:
 
 @dataclass(frozen=True, eq=False)
 class ParameterCurves:
-    """Curves that are straight in the parameters: parameter lines, borders; and, nearly, those known by points only."""
+    """Curves that are straight in the parameters: parameter lines, borders; and, nearly, those known by points only.
+
+    cubic: whether images of the lines along which u grows are those of polynomials of degree 3 or less, and of those
+    along which v grows; no chord runs over a break of these then."""
 
     surface: OnParametrised
     sheet: int
     second: int = -1
+    cubic: tuple[bool, bool] = (False, False)
+
+    def cubic_chords(self, chords: Chords) -> Bools:
+        """(k,) whether the images of chords are those of polynomials of degree 3 or less."""
+        start, end = chords.places
+        stays = start[:, :2] == end[:, :2]
+        return np.asarray((stays[:, 1] & self.cubic[0]) | (stays[:, 0] & self.cubic[1]))
 
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords."""
@@ -111,7 +131,9 @@ class ParameterCurves:
         at = start + part[:, None] * way
         surface = self.surface.surface_at(start)
         u, v = inside(surface.domain, at)
-        along_u, along_v = surface.partials(u, v)
+        # At a break derivatives may jump: those of the piece that the chord belongs to.
+        piece = start + inner_part(part)[:, None] * way if any(self.cubic) else at
+        along_u, along_v = surface.partials(*inside(surface.domain, piece))
         return Along(at, surface.points(u, v), way[:, :1] * along_u + way[:, 1:2] * along_v)
 
 
@@ -270,6 +292,11 @@ class NearChords:
         normal = self.surface.normals(at)
         slopes = way - dot(way, normal)[:, None] * normal
         return Along(at, at, np.where(np.isfinite(slopes), slopes, way))
+
+
+def inner_part(part: Floats) -> Floats:
+    """(k,) parts of chords, those at their ends moved a little inside."""
+    return np.clip(part, JUST_BEFORE, 1.0 - JUST_BEFORE)
 
 
 def no_longer(steps: Floats, longest: Floats) -> Floats:

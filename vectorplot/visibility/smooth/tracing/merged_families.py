@@ -69,7 +69,8 @@ def _merged(family: Family, sheets: Sheets) -> _Merged | None:
     surface = sheets.groups[group].as_one
     if group == NONE or not isinstance(surface, StackedSheets):
         return None
-    key = (type(family), group, _said(family) if isinstance(family, ConditionCurves) else ())
+    cubic = family.cubic if isinstance(family, ParameterCurves) else ()
+    key = (type(family), group, _said(family) if isinstance(family, ConditionCurves) else cubic)
     return _Merged(key, replace(family, surface=surface), False)
 
 

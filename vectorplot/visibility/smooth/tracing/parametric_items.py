@@ -38,6 +38,7 @@ from vectorplot.scene.view import View
 from vectorplot.surfaces.embedded import is_embedded
 from vectorplot.surfaces.parts import covered_once, smooth_parts
 from vectorplot.surfaces.placed_surface import placed_once
+from vectorplot.surfaces.splines.line_pieces import line_pieces
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.sheets.directed_curves import DirectedCurves
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
@@ -105,7 +106,7 @@ def curves_of_parametrised(
     always, because they hide. contour: that of the sheet."""
     item = scene.items[sheet.item]
     found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet, number, _turn(view, sheet.surface)), contour)]
-    found += [*_edges(sheet, number, tracing), *_asked_for(scene, view, item, sheet, number, wanted, tracing)]
+    found += [*_edges(view, sheet, number, tracing), *_asked_for(scene, view, item, sheet, number, wanted, tracing)]
     doubts = tuple(text for _, _, curves in found for text in curves.doubts)
     if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
         # At an apex or a cuspidal edge the normal jumps: that is known, and no doubt.
@@ -113,10 +114,16 @@ def curves_of_parametrised(
     return [as_curves(curves, kind, sheet.item, family) for kind, family, curves in found], doubts
 
 
-def _edges(sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
+def _lines_of_parameters(view: View, sheet: ParametricSheet, number: int) -> ParameterCurves:
+    cubic = line_pieces(sheet.surface).cubic if view.eye is None else (False, False)
+    return ParameterCurves(sheet, number, cubic=cubic)
+
+
+def _edges(view: View, sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:
     """Borders, the rims of holes among them, and cuspidal edges."""
     surface, straight = sheet.surface, ParameterCurves(sheet, number)
-    result: list[Found] = [(LineKind.BOUNDARY, straight, domain_borders(surface, tracing))]
+    lines = _lines_of_parameters(view, sheet, number)
+    result: list[Found] = [(LineKind.BOUNDARY, lines, domain_borders(surface, tracing))]
     # What has no hole in the tessellation has none on the coarser grid of its curves.
     if sheet.holed:
         result.append((LineKind.BOUNDARY, RimCurves(sheet, number), hole_rims(surface, tracing)))
@@ -139,7 +146,7 @@ def _asked_for(
     result: list[Found] = []
     if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0 and not sheet.is_cap:
         found = parameter_lines(surface, lines.columns, lines.rows, tracing=tracing)
-        result.append((LineKind.PARAMETER, ParameterCurves(sheet, number), found))
+        result.append((LineKind.PARAMETER, _lines_of_parameters(view, sheet, number), found))
     if LineKind.ISOPHOTE in wanted and lines.isophotes:
         result.append(_isophotes(scene, view, item, sheet, number, tracing))
     for section in lines.sections:

@@ -15,8 +15,7 @@ from vectorplot.geometry.chord_refinement import Traces, refined, straight_betwe
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SETTLED_ON_SHEET, ZERO_OF_EXTENT
-from vectorplot.tolerances.of_parameters import JUST_BEFORE
-from vectorplot.visibility.smooth.sheets.family import Along, Chords
+from vectorplot.visibility.smooth.sheets.family import Along, Chords, inner_part
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.tracing.meetings import SmoothSheet
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
@@ -41,10 +40,9 @@ class SpaceCurve:
     sheet: int
     second: int = -1
 
-    @property
-    def is_cubic(self) -> bool:
-        """Whether the images of its chords are those of polynomials of degree 3 or less."""
-        return self.view.eye is None and is_cubic(self.curve)
+    def cubic_chords(self, chords: Chords) -> Bools:
+        """(k,) whether the images of chords are those of polynomials of degree 3 or less."""
+        return np.full(len(chords.level), self.view.eye is None and is_cubic(self.curve))
 
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curve at a part of its chords."""
@@ -63,7 +61,7 @@ class SpaceCurve:
         if not len(breaks_of(self.curve)):
             return t
         start, end = (places[:, 2] for places in chords.places)
-        return np.asarray(start + np.clip(part, JUST_BEFORE, 1.0 - JUST_BEFORE) * (end - start))
+        return np.asarray(start + inner_part(part) * (end - start))
 
 
 def space_curve(

@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
-from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family
+from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family, FamilyOfCubics
 
 
 def _none() -> Ints:
@@ -100,6 +100,17 @@ class Curves:
             again = self._between(shorter, self.family[self.owner[chord[inner]]], np.where(late, 1.0, 0.0))
             found.slopes[inner] = again.slopes / np.where(late, part[inner], 1.0 - part[inner])[:, None]
         return found
+
+    def cubic(self, chord: Ints) -> Bools:
+        """(k,) whether the images of the chords that begin at these points (k,) are known to be those of polynomials of
+        degree 3 or less."""
+        result, family = np.zeros(len(chord), dtype=np.bool_), self.family[self.owner[chord]]
+        for number in np.unique(family).tolist():
+            curves = self.families[number]
+            if isinstance(curves, FamilyOfCubics):
+                which = np.flatnonzero(family == number)
+                result[which] = curves.cubic_chords(self._chords(chord[which]))
+        return result
 
     def _between(self, chords: Chords, family: Ints, part: Floats) -> Along:
         """The curves of families (k,) at a part (k,) of their chords."""
