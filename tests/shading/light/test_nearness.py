@@ -40,3 +40,10 @@ def test_large_faces_are_looked_at_where_they_are_in_the_box_only():
     assert 0 < len(found.points) < 50_000 and found.gap < 0.1
     far = found.distances(np.array(((700.5, 700.5, 1.5), (700.5, 700.5, 1.05))), np.full(2, 9.0))
     assert 0.4 < far[0] <= 0.5 and far[1] <= 0.05
+
+
+def test_where_two_things_meet_in_a_point_few_points_are_looked_at():
+    triangles = np.zeros((400, 3, 3))
+    triangles[:, 0, 1], triangles[:, 1:, 1] = np.arange(400) / 200.0, np.arange(1, 401)[:, None] / 200.0
+    found = nearby(triangles, 0.004, np.zeros((2, 3)))
+    assert 0 < len(found.points) < 400 and found.gap < 0.01

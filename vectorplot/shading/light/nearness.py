@@ -93,7 +93,8 @@ def triangles_of_item(item: Item, box: Floats) -> tuple[Floats, float]:
 def nearby(triangles: Floats, off: float, box: Floats) -> Nearby:
     """What an item has in a box (2,3), by triangles (t,3,3) that are no farther off than a distance."""
     extent = float(np.linalg.norm(box[1] - box[0]))
-    longest = CLOSENESS * extent
+    # Closer than the triangles are to the item no points need be, however small the box.
+    longest = max(CLOSENESS * extent, off)
     done, left = [np.zeros((0, 3))], triangles
     for _ in range(ROUNDS):
         low, high = left.min(axis=1), left.max(axis=1)
