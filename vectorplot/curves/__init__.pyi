@@ -3,6 +3,7 @@ from .bezier.elliptic_arcs import EllipseArcs
 from .bezier.fit import fitted_curve, fitted_paths
 from .bezier.paths import BezierPath, BezierPaths
 from .curve import Curve, is_curve
+from .cut_curve import CutCurve
 from .families.circle import Circle
 from .families.cylinder_intersections import cylinder_branches, cylinder_intersection
 from .families.helix import Helix
@@ -24,6 +25,7 @@ __all__ = [
     "Circle",
     "CubicSpline",
     "Curve",
+    "CutCurve",
     "EllipseArc",
     "EllipseArcs",
     "FunctionCurve",

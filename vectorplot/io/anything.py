@@ -20,7 +20,7 @@ from vectorplot.geometry.repair.mesh_repair import mended
 from vectorplot.io.meshes.finite_elements import faces_of_cells
 from vectorplot.io.read_file import read
 from vectorplot.scene.item import Item
-from vectorplot.scene.naming.joined_scenes import renamed_labels, together
+from vectorplot.scene.naming.joined_scenes import renamed_cuts, renamed_labels, together
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.terrains.terrain_mesh import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -174,4 +174,4 @@ def _named(name: str, scene: Scene) -> Scene:
     """The scene with this name for its only item, or in front of those of its items."""
     alone = len(scene.items) == 1
     items = tuple(replace(item, name=name if alone else f"{name} {item.name}") for item in scene.items)
-    return replace(scene, items=items, labels=renamed_labels(scene, items))
+    return replace(scene, items=items, labels=renamed_labels(scene, items), cuts=renamed_cuts(scene, items))

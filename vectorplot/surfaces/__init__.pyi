@@ -42,10 +42,12 @@ from .terrains.terrain import (
     terrain_of_points,
     thinned_terrain,
 )
+from .trims.boxed_implicit import BoxedImplicit
 from .trims.cut_surface import CutSurface
 from .trims.trimmed import TrimmedSurface
 
 __all__ = [
+    "BoxedImplicit",
     "Capped",
     "Cone",
     "CutSurface",

@@ -10,6 +10,9 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
+from vectorplot.features.implicit.implicit_curves import implicit_plane_sections
+from vectorplot.features.implicit.implicit_mesh import implicit_mesh
+from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.parameter_lines import domain_borders
 from vectorplot.features.parametric.surface_sections import plane_sections
@@ -22,10 +25,11 @@ from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.geometry.repair.degenerate import chosen_faces
 from vectorplot.geometry.repair.pieces import pieces_of_faces
 from vectorplot.geometry.repair.weld import close_points
+from vectorplot.geometry.repair.winding import is_closed_oriented
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.surfaces.parts import smooth_parts
-from vectorplot.surfaces.surface import Surface, is_hole, is_parametrised
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_hole, is_implicit, is_parametrised
 from vectorplot.tolerances.of_extent import CUT_FACE_CHORD_OF_EXTENT, SECTION_ENDS_OF_EXTENT
 
 LOOKS = 33
@@ -39,12 +43,20 @@ class Body:
     item: Item
 
     @cached_property
-    def closed(self) -> Mesh | Surface | None:
+    def closed(self) -> Mesh | Surface | ImplicitSurface | None:
         """The shape, or the part of it, that is closed; None where nothing is."""
         shape = self.item.shape
         if isinstance(shape, Mesh):
             return _closed_pieces(shape)
+        if is_implicit(shape):
+            return shape if is_closed_oriented(self._net) else None
         return shape if is_parametrised(shape) and _is_closed(shape) else None
+
+    @cached_property
+    def _net(self) -> Mesh:
+        """The triangles of an implicit surface; none of other shapes."""
+        shape = self.item.shape
+        return implicit_mesh(shape, ImplicitTracing().cells).mesh if is_implicit(shape) else self.item.mesh
 
     @cached_property
     def is_open(self) -> bool:
@@ -70,6 +82,8 @@ class Body:
             return False
         if isinstance(shape, Mesh):
             return _is_opened(shape, region)
+        if is_implicit(shape):
+            return _is_opened(self._net, region)
         if not is_parametrised(shape):
             return False
         u, v = np.meshgrid(*shape.domain.grid(LOOKS, LOOKS), indexing="ij")
@@ -144,16 +158,24 @@ def _is_closed(surface: Surface) -> bool:
     return not holed and not len(domain_borders(surface, Tracing()))
 
 
-def _smooth_sides(surface: Surface, region: HalfSpaces, number: int, bounds: Floats) -> Floats:
+def _smooth_sides(surface: Surface | ImplicitSurface, region: HalfSpaces, number: int, bounds: Floats) -> Floats:
     """(2,s,3) chords of the section of a closed surface with a plane, their ends on it."""
     extent = float(np.ptp(bounds, axis=0).max())
-    tracing = Tracing(tolerance=CUT_FACE_CHORD_OF_EXTENT * extent)
     points, sides, count = [np.zeros((0, 3))], [np.zeros((2, 0), dtype=np.intp)], 0
-    for part in smooth_parts(surface):
-        found = plane_sections(part.surface, region.normals[number], region.offsets[number], tracing=tracing)
+    for found in _sections(surface, region, number, CUT_FACE_CHORD_OF_EXTENT * extent):
         points.append(found.points)
         sides.append(count + segments(found).T)
         count += len(found.points)
     every = np.concatenate(points)
     one = close_points(every, SECTION_ENDS_OF_EXTENT * extent)
     return every[one[np.concatenate(sides, axis=1)]]
+
+
+def _sections(surface: Surface | ImplicitSurface, region: HalfSpaces, number: int, tolerance: float) -> list[Any]:
+    """The sections of the smooth parts of a surface with a plane, their chords within a tolerance."""
+    normal, offset = region.normals[number], region.offsets[number]
+    if is_implicit(surface):
+        return [implicit_plane_sections(surface, normal, offset, tracing=ImplicitTracing(tolerance=tolerance))]
+    assert is_parametrised(surface)
+    tracing = Tracing(tolerance=tolerance)
+    return [plane_sections(part.surface, normal, offset, tracing=tracing) for part in smooth_parts(surface)]

@@ -10,7 +10,9 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.curves.curve import is_curve
 from vectorplot.effects.cutting.body_sections import Body
+from vectorplot.effects.cutting.cut_shapes import is_cut, smooth_part
 from vectorplot.effects.cutting.hatches import (
     WAYS,
     Way,
@@ -33,9 +35,8 @@ from vectorplot.scene.material import Material
 from vectorplot.scene.point_of_view import camera_of
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
-from vectorplot.surfaces.surface import is_parametrised
-from vectorplot.surfaces.trims.cut_surface import CutSurface
 from vectorplot.tolerances.of_angles import EDGE_ON_SINE
+from vectorplot.words import unknown
 
 MOVED = 0.5
 """Part of the scene's extent by which what is taken away is moved."""
@@ -49,6 +50,7 @@ def cut(
     *,
     spacing_mm: float | None = None,
     angle_deg: float = 45.0,
+    items: Iterable[str] | None = None,
 ) -> Scene:
     """The scene with cuts that are made where it is drawn, painted or rendered.
 
@@ -64,6 +66,8 @@ def cut(
         Of the faces at cuts that are texts.
     spacing_mm, angle_deg : float
         Of the hatches of these faces, as of `Cut`.
+    items : names, optional
+        Of the items that texts cut; all where None.
 
     Returns
     -------
@@ -73,7 +77,7 @@ def cut(
     Raises
     ------
     InputError
-        For texts that are no conditions, unknown words and colours, and numbers out of range.
+        For texts that are no conditions, unknown words, colours and items, and numbers out of range.
 
     Examples
     --------
@@ -85,8 +89,18 @@ def cut(
     """
     several = [cuts] if isinstance(cuts, Cut | str) else list(cuts)
     spelled = partial(Cut.of, away=away, colour=colour, spacing_mm=spacing_mm, angle_deg=angle_deg)
-    found = tuple(cut if isinstance(cut, Cut) else spelled(cut) for cut in several)
+    names = None if items is None else _known_names(scene, items)
+    found = tuple(cut if isinstance(cut, Cut) else replace(spelled(cut), items=names) for cut in several)
     return replace(scene, cuts=scene.cuts + found)
+
+
+def _known_names(scene: Scene, items: Iterable[str]) -> tuple[str, ...]:
+    """Names of items. Errors: InputError for one that the scene does not have."""
+    names, known = tuple([items] if isinstance(items, str) else items), [item.name for item in scene.items]
+    for name in names:
+        if name not in known:
+            raise unknown("cut: item", name, known)
+    return names
 
 
 def cut_scene(scene: Scene, camera: Camera | str | None = None) -> Scene:
@@ -139,13 +153,23 @@ def cut_scene(scene: Scene, camera: Camera | str | None = None) -> Scene:
     seen = camera_of(camera, scene)
     regions = [cut.region(seen) for cut in scene.cuts]
     bodies = [Body(item) for item in scene.items]
-    kept = [_kept(body, regions) for body in bodies]
-    _tell([body.item.name for body in bodies if any(map(body.is_opened_by, regions))])
+    own = [_regions_of(body, scene, regions) for body in bodies]
+    kept = [_kept(body, those) for body, those in zip(bodies, own, strict=True)]
+    opened = [any(map(body.is_opened_by, those)) for body, those in zip(bodies, own, strict=True)]
+    _tell([body.item.name for body, is_open in zip(bodies, opened, strict=True) if is_open])
     added = _faces_of_cuts(scene, bodies, regions)
     for number, (cut, region) in enumerate(zip(scene.cuts, regions, strict=True)):
         if cut.away != "gone":
-            added += _away(scene, cut, bodies, region, regions[:number])
+            for body in bodies:
+                if cut.is_for(body.item.name):
+                    before = _regions_of(body, scene, regions[:number])
+                    added += _away(scene, cut, body, region, before)
     return replace(scene, items=(*kept, *added), cuts=())
+
+
+def _regions_of(body: Body, scene: Scene, regions: list[HalfSpaces]) -> list[HalfSpaces]:
+    """Those of the regions, which the first cuts of a scene make, that are taken away of a body."""
+    return [region for cut, region in zip(scene.cuts, regions, strict=False) if cut.is_for(body.item.name)]
 
 
 def _tell(names: list[str]) -> None:
@@ -157,7 +181,7 @@ def _tell(names: list[str]) -> None:
 def _kept(body: Body, regions: list[HalfSpaces]) -> Item:
     """What is left of an item outside of regions."""
     item = body.item
-    met = [region for region in regions if body.is_met_by(region)]
+    met = [region for region in regions if is_cut(item) and body.is_met_by(region)]
     if not met:
         return item
     lines = item.lines if item.lines is None or "cut" in item.lines else (*item.lines, "cut")
@@ -168,29 +192,27 @@ def _kept(body: Body, regions: list[HalfSpaces]) -> Item:
             mesh, place = divided.outside, np.where(place >= 0, np.append(divided.place, -1)[place], -1)
         kept = tuple(replace(p, face=int(place[p.face])) for p in item.patterns if place[p.face] >= 0)
         return replace(item, shape=mesh, patterns=kept, lines=lines, cut_by=tuple(met))
-    if not is_parametrised(item.shape):
-        text = f"{item.name}: curves and implicit surfaces are not cut; make surfaces meshes first"
-        warnings.warn(text, InputWarning, stacklevel=5)
+    part = smooth_part(item, tuple(met))
+    if part is None or part is item.shape:
         return item
-    return replace(item, shape=_outside(CutSurface(item.shape, tuple(met))), lines=lines, cut_by=tuple(met))
-
-
-def _outside(surface: CutSurface) -> CutSurface | Mesh:
-    """The surface; a mesh without faces where nothing is left of it."""
-    u, v = np.meshgrid(*surface.domain.grid(64, 64), indexing="ij")
-    with np.errstate(all="ignore"):
-        left = np.isfinite(surface.points(u, v)).any()
-    return surface if left else Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
+    if is_curve(item.shape):
+        return replace(item, shape=part, cut_by=tuple(met))
+    return replace(item, shape=part, lines=lines, cut_by=tuple(met))
 
 
 def _faces_of_cuts(scene: Scene, bodies: list[Body], regions: list[HalfSpaces]) -> list[Item]:
     """An item of cut faces for each body that has such."""
+    import shapely
+
     planes = [(one, side) for one, region in enumerate(regions) for side in range(len(region.normals))]
     frames = [PlaneFrame.of(regions[one], side, scene.bounds.mean(axis=0)) for one, side in planes]
     faces: list[list[Any]] = []
     for frame, (one, side) in zip(frames, planes, strict=True):
-        others = regions[:one] + regions[one + 1 :]
-        areas = [body.face(frame, regions[one], side, others, None) for body in bodies]
+        areas = []
+        for body in bodies:
+            others = [region for region in _regions_of(body, scene, regions) if region is not regions[one]]
+            is_met = scene.cuts[one].is_for(body.item.name)
+            areas.append(body.face(frame, regions[one], side, others, None) if is_met else shapely.Polygon())
         faces.append(without_overlaps(areas))
     if not faces:
         return []
@@ -204,7 +226,7 @@ def _faces_of_cuts(scene: Scene, bodies: list[Body], regions: list[HalfSpaces]) 
             name = f"{bodies[k].item.name} cut" + (f" {count + 1}" if count else "")
             asked = scene.cuts[planes[n][0]]
             for face in _face_items(bodies[k].item, name, frames[n], faces[n][k], asked, way, extent):
-                result.append(replace(face, cut_by=tuple(regions)))
+                result.append(replace(face, cut_by=tuple(_regions_of(bodies[k], scene, regions))))
     return result
 
 
@@ -222,43 +244,40 @@ def _face_items(item: Item, name: str, frame: PlaneFrame, area: Any, cut: Cut, w
     return [replace(face, is_cut_face=True)]
 
 
-def _away(scene: Scene, cut: Cut, bodies: list[Body], region: HalfSpaces, before: list[HalfSpaces]) -> list[Item]:
+def _away(scene: Scene, cut: Cut, body: Body, region: HalfSpaces, before: list[HalfSpaces]) -> list[Item]:
     """What a cut takes away that no cut before it did: ghosts, or moved parts with their faces."""
     shift = _shift(scene, cut, region)
-    result = []
-    for body in bodies:
-        item = body.item
-        if not body.is_met_by(region):
-            continue
-        met = [other for other in before if body.is_met_by(other)]
-        regions = (*met, region)
-        if isinstance(item.shape, Mesh):
-            mesh = item.shape
-            for other in met:
-                mesh = divided_mesh(mesh, other).outside
-            part: Mesh | CutSurface = divided_mesh(mesh, region).inside
-        elif is_parametrised(item.shape):
-            part = _outside(CutSurface(item.shape, tuple(met), region))
-        else:
-            continue
-        if isinstance(part, Mesh) and not part.face_count:
-            continue
-        if cut.away == "ghost":
-            clear = Material("transparent", 0.0)
-            name = f"{item.name} ghost"
-            ghost = Item(name, part, item.colour, clear, lines=("ghost",), occludes=False, cut_by=regions)
-            result.append(replace(ghost, hatch=Hatching("none")))
-            continue
-        moved = replace(item, name=f"{item.name} moved", shape=part, patterns=(), cut_by=regions)
-        result.append(moved.moved(*shift))
-        for side in range(len(region.normals)):
-            frame = PlaneFrame.of(region, side, scene.bounds.mean(axis=0))
-            area = body.face(frame, region, side, met, None)
-            name = f"{item.name} moved cut" + (f" {side + 1}" if side else "")
-            for face in _face_items(item, name, frame, area, cut, WAYS[0], 1.0):
-                bare = Hatching("none")
-                shown = replace(face, shape=face.mesh.reversed(), lines=(), curves=NO_LINES, hatch=bare)
-                result.append(shown.moved(*shift))
+    item = body.item
+    if not is_cut(item) or not body.is_met_by(region):
+        return []
+    met = [other for other in before if body.is_met_by(other)]
+    regions = (*met, region)
+    if isinstance(item.shape, Mesh):
+        mesh = item.shape
+        for other in met:
+            mesh = divided_mesh(mesh, other).outside
+        part: Any = divided_mesh(mesh, region).inside
+    else:
+        part = smooth_part(item, tuple(met), region)
+    if part is None:
+        return []
+    if isinstance(part, Mesh) and not part.face_count:
+        return []
+    if cut.away == "ghost":
+        clear = Material("transparent", 0.0)
+        name = f"{item.name} ghost"
+        ghost = Item(name, part, item.colour, clear, lines=("ghost",), occludes=False, cut_by=regions)
+        return [replace(ghost, hatch=Hatching("none"))]
+    moved = replace(item, name=f"{item.name} moved", shape=part, patterns=(), cut_by=regions)
+    result = [moved.moved(*shift)]
+    for side in range(len(region.normals)):
+        frame = PlaneFrame.of(region, side, scene.bounds.mean(axis=0))
+        area = body.face(frame, region, side, met, None)
+        name = f"{item.name} moved cut" + (f" {side + 1}" if side else "")
+        for face in _face_items(item, name, frame, area, cut, WAYS[0], 1.0):
+            bare = Hatching("none")
+            shown = replace(face, shape=face.mesh.reversed(), lines=(), curves=NO_LINES, hatch=bare)
+            result.append(shown.moved(*shift))
     return result
 
 

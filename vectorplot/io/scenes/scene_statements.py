@@ -208,7 +208,7 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
 
 
 _CUT_NUMBERS = {"spacing": "spacing_mm", "angle": "angle_deg"}
-_CUT_WORDS = (*AWAY, "colour", *_CUT_NUMBERS)
+_CUT_WORDS = (*AWAY, "colour", "of", *_CUT_NUMBERS)
 
 
 def read_cut(words: Words, at: int) -> tuple[Cut, int]:
@@ -219,20 +219,32 @@ def read_cut(words: Words, at: int) -> tuple[Cut, int]:
         words.fail(at, f'cut: expected conditions in quotes, such as "y = 0", got {words.shown(at)}')
     text = words.string(at)
     at += 1
-    away, colour = "gone", None
+    away, colour, items = "gone", None, None
     hatch: dict[str, float] = {}
     while (word := words.words[at]) in _CUT_WORDS:
         if word == "colour":
             colour, at = _known_colour(words, at + 1, "cut: ")
         elif word in _CUT_NUMBERS:
             hatch[_CUT_NUMBERS[word]], at = words.number(at + 1, "cut: ", word), at + 2
+        elif word == "of":
+            items, at = _names_of_cut(words, at + 1)
         else:
             away, at = word, at + 1
     _check_spelling(words, start, at, _CUT_WORDS)
     try:
-        return Cut.of(text, away, colour, **hatch), at
+        return replace(Cut.of(text, away, colour, **hatch), items=items), at
     except InputError as error:
         words.fail(start, error.cause)
+
+
+def _names_of_cut(words: Words, at: int) -> tuple[tuple[str, ...], int]:
+    """The names, in quotes, of the items that a cut is for, and the word behind them."""
+    first = at
+    while words.words[at].startswith('"'):
+        at += 1
+    if at == first:
+        words.fail(at, f"cut: expected names of items in quotes behind 'of', got {words.shown(at)}")
+    return tuple(words.string(k) for k in range(first, at)), at
 
 
 def _label_anchor(words: Words, at: int, owner: str, word: str) -> tuple[Anchor, int]:

@@ -85,7 +85,7 @@ def write_scene(scene: Scene) -> str:
     blocks.extend(_light(light) for light in scene.lights)
     blocks.extend(_item(item, scene.lights) for item in scene.items)
     blocks.extend(map(_label, scene.labels))
-    blocks.extend(map(_cut, scene.cuts))
+    blocks.extend(_cut(cut) for cut in scene.cuts if cut.items != ())
     if scene.explosion is not None:
         blocks.append(f"explode {_numbers(scene.explosion.way)} {scene.explosion.factor:.17g}")
     if scene.inks is not None:
@@ -156,7 +156,8 @@ def _cut(cut: Cut) -> str:
         conditions.append(f"{' '.join(terms)} {'=' if plane.to_eye else '>'} {plane.offset!r}")
     words = ["cut", dumps(", ".join(conditions)), *([cut.away] if cut.away != "gone" else [])]
     hatch = [*([] if cut.spacing_mm is None else [f"spacing {cut.spacing_mm:.17g}"]), f"angle {cut.angle_deg:.17g}"]
-    return " ".join([*words, *([f"colour {_colour(cut.colour)}"] if cut.colour else []), *hatch])
+    items = [] if cut.items is None else ["of", *map(dumps, cut.items)]
+    return " ".join([*words, *([f"colour {_colour(cut.colour)}"] if cut.colour else []), *hatch, *items])
 
 
 def _label(label: Label) -> str:

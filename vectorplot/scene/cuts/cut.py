@@ -67,6 +67,8 @@ class Cut:
     angle_deg : float
         Of the strokes of the first part, counter-clockwise from what is level in the plane; those of the next one are
         at right angles to them.
+    items : tuple of str, optional
+        The names of the items that it is for; all of the scene where None. It goes through these alone.
 
     Raises
     ------
@@ -85,6 +87,7 @@ class Cut:
     colour: str | None = None
     spacing_mm: float | None = None
     angle_deg: float = 45.0
+    items: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
         if not self.planes:
@@ -135,6 +138,10 @@ class Cut:
         """
         planes = [plane for condition in text.split(",") for plane in _planes(condition, text)]
         return cls(tuple(planes), away, colour, spacing_mm, angle_deg)
+
+    def is_for(self, name: str) -> bool:
+        """Whether it is for an item of this name."""
+        return self.items is None or name in self.items
 
     def region(self, camera: Camera) -> HalfSpaces:
         """What is taken away, as a camera sees it.

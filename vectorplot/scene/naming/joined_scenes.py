@@ -9,6 +9,7 @@ from itertools import chain
 
 import numpy as np
 
+from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.labels import Label, renamed
 from vectorplot.scene.pages.inks import Inks
@@ -21,8 +22,15 @@ def renamed_labels(scene: Scene, items: Sequence[Item]) -> tuple[Label, ...]:
     return tuple(renamed(label, names) for label in scene.labels)
 
 
+def renamed_cuts(scene: Scene, items: Sequence[Item]) -> tuple[Cut, ...]:
+    """The cuts of a scene whose items have other names now: each goes through these items alone."""
+    named = [[new.name for old, new in zip(scene.items, items, strict=True) if c.is_for(old.name)] for c in scene.cuts]
+    return tuple(replace(cut, items=tuple(names)) for cut, names in zip(scene.cuts, named, strict=True))
+
+
 def together(scenes: Sequence[Scene]) -> Scene:
-    """All items and lights; what there can be only one of is that of the first scene that has it."""
+    """All items and lights; cuts go through the items of their own scenes; what there can be only one of is that of the
+    first scene that has it."""
     if len(scenes) == 1:
         return scenes[0]
     items = _told_apart([item for scene in scenes for item in scene.items])
@@ -38,7 +46,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         tuple(chain(*(renamed_labels(scene, items[end - len(scene) : end]) for scene, end in parts))),
         next((scene.colouring for scene in scenes if scene.colouring), None),
         next((scene.box for scene in scenes if scene.box), None),
-        cuts=tuple(cut for scene in scenes for cut in scene.cuts),
+        cuts=tuple(chain(*(renamed_cuts(scene, items[end - len(scene) : end]) for scene, end in parts))),
         exposure=next((scene.exposure for scene in scenes if scene.exposure != 1.0), 1.0),
         depth_cue=next((scene.depth_cue for scene in scenes if scene.depth_cue), None),
         inks=next((_inks(scene, items[end - len(scene) : end]) for scene, end in parts if scene.inks), None),

@@ -1,0 +1,149 @@
+"""Curves in space of which parts are cut away by planes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.curves.breaks import breaks_of
+from vectorplot.curves.curve import Curve
+from vectorplot.curves.placed_curve import MovableCurve
+from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.geometry.cuts.half_spaces import HalfSpaces, nothing_beside
+from vectorplot.tolerances.of_numbers import ROUNDING
+
+PLACES = 4096
+"""On a curve, from place to place of which it passes a plane once, or comes near to it once."""
+
+HALVINGS = 60
+"""Of the parameters between two places: they come down to rounding."""
+
+
+@dataclass(frozen=True, eq=False)
+class CutCurve(MovableCurve):
+    """What is left of a curve between some of its parameters.
+
+    Parameters
+    ----------
+    curve : Curve
+        What is cut.
+    parts : (k, 2) array of float
+        From where to where it is left, rising and apart from each other; at least one.
+
+    Notes
+    -----
+    Its points are those of the curve, exactly; what is cut away is a hole.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import curves
+    >>> ring = curves.CutCurve(curves.Circle(), np.array([(0.0, 1.0), (4.0, 5.0)]))
+    >>> ring.start, ring.end, ring.points(np.array([0.0, 2.0]))[:, 0].tolist()
+    (0.0, 5.0, [1.0, nan])
+    """
+
+    curve: Curve
+    parts: Floats
+
+    @property
+    def start(self) -> float:
+        """Where its first part begins."""
+        return float(self.parts[0, 0])
+
+    @property
+    def end(self) -> float:
+        """Where its last part ends."""
+        return float(self.parts[-1, 1])
+
+    @property
+    def closed(self) -> bool:
+        """False: what is closed is cut open."""
+        return False
+
+    @cached_property
+    def breaks(self) -> Floats:
+        """(k,) the ends of its parts, a place between any two, and where the curve itself bends suddenly."""
+        between = 0.5 * (self.parts[:-1, 1] + self.parts[1:, 0])
+        own = breaks_of(self.curve)
+        own = own[(own > self.start) & (own < self.end)]
+        return np.asarray(np.unique(np.concatenate([self.parts.ravel(), between, own])))
+
+    def points(self, t: Floats) -> Floats:
+        """(..., 3) points; NaN where the curve is cut away."""
+        t = np.asarray(t, dtype=np.float64)
+        slack = ROUNDING * max(abs(self.start), abs(self.end))
+        part = np.maximum(np.searchsorted(self.parts[:, 0], t + slack, side="right") - 1, 0)
+        low, high = self.parts[part, 0], self.parts[part, 1]
+        there = (t >= low - slack) & (t <= high + slack)
+        return np.where(there[..., None], self.curve.points(np.clip(t, low, high)), np.nan)
+
+    def tangents(self, t: Floats) -> Floats:
+        """(..., 3) derivatives by t."""
+        return self.curve.tangents(t)
+
+    def second_derivatives(self, t: Floats) -> Floats:
+        """(..., 3) second derivatives by t."""
+        return second_derivatives(self.curve, t)
+
+
+def parts_outside(curve: Curve, regions: tuple[HalfSpaces, ...], within: HalfSpaces | None = None) -> Floats:
+    """(k,2) parameters between which a curve is outside of regions, and inside of one.
+
+    Ends are zeros of the distance from a plane, down to rounding, but for parts that are shorter than a PLACES-th.
+    Degenerate: what lies in a plane is outside, and inside of the one.
+    """
+    t = np.union1d(np.linspace(curve.start, curve.end, PLACES + 1), breaks_of(curve))
+    every = (*regions, *([] if within is None else [within]))
+    with np.errstate(all="ignore"):
+        points = curve.points(t)
+        near = nothing_beside(points[np.isfinite(points).all(axis=1)])
+        normals = np.concatenate([np.array(region.normals) for region in every])
+        planes = [HalfSpaces((tuple(n),), (d,)) for n, d in zip(normals.tolist(), _offsets(every), strict=True)]
+        ends = np.concatenate([t[[0, -1]], *(_zeros(curve, t, points, plane, near) for plane in planes)])
+    ends = np.unique(ends)
+    kept = _is_left(curve.points(0.5 * (ends[:-1] + ends[1:])), regions, within, near)
+    first, last = kept & ~np.append(False, kept[:-1]), kept & ~np.append(kept[1:], False)
+    return np.stack([ends[:-1][first], ends[1:][last]], axis=1)
+
+
+def _offsets(regions: tuple[HalfSpaces, ...]) -> list[float]:
+    return [offset for region in regions for offset in region.offsets]
+
+
+def _is_left(points: Floats, regions: tuple[HalfSpaces, ...], within: HalfSpaces | None, near: float) -> Bools:
+    left: Bools = np.asarray(np.isfinite(points).all(axis=1))
+    for region in regions:
+        left &= ~(region.heights(points) > near).all(axis=0)
+    return left if within is None else np.asarray(left & (within.heights(points) >= -near).all(axis=0))
+
+
+def _zeros(curve: Curve, t: Floats, points: Floats, plane: HalfSpaces, near: float) -> Floats:
+    """(k,) parameters at which a curve passes a plane, from its points at rising t."""
+    height = plane.heights(points)[0]
+    height = np.where(np.abs(height) <= near, 0.0, height)
+    slope = curve.tangents(t) @ np.array(plane.normals[0])
+    low, high = t[:-1], t[1:]
+    # Between two places on one side the curve may come nearer, and pass the plane twice.
+    comes = (height[:-1] * height[1:] > 0.0) & (height[:-1] * slope[:-1] < 0.0) & (height[1:] * slope[1:] > 0.0)
+    turn = _halved(lambda at: curve.tangents(at) @ np.array(plane.normals[0]), low[comes], high[comes])
+    t = np.union1d(t, turn)
+    height = plane.heights(curve.points(t))[0]
+    height = np.where(np.abs(height) <= near, 0.0, height)
+    passed = height[:-1] * height[1:] < 0.0
+    found = _halved(lambda at: plane.heights(curve.points(at))[0], t[:-1][passed], t[1:][passed])
+    return np.concatenate([found, t[height == 0.0]])
+
+
+def _halved(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
+    """(k,) zeros of a function between parameters at which its signs differ."""
+    sign = np.sign(function(low))
+    for _ in range(HALVINGS):
+        middle = 0.5 * (low + high)
+        before = np.sign(function(middle)) == sign
+        low, high = np.where(before, middle, low), np.where(before, high, middle)
+    return np.asarray(0.5 * (low + high))
