@@ -14,7 +14,7 @@ from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Domain, Surface
 
-MOST_PARAMETERS = 1 << 18
+MOST_PARAMETERS = 1 << 16
 """Pairs of parameters that grids on the surfaces asked at once may have in all: what is known of them fills memory."""
 
 C = TypeVar("C", bound=Condition)

@@ -95,20 +95,23 @@ def nearby(triangles: Floats, off: float, box: Floats) -> Nearby:
     extent = float(np.linalg.norm(box[1] - box[0]))
     # Closer than the triangles are to the item no points need be, however small the box.
     longest = max(CLOSENESS * extent, off)
-    done, left = [np.zeros((0, 3))], triangles
+    # Corners, coordinates, triangles: sums along short axes take several times as long.
+    done, left = [np.zeros((3, 0))], np.ascontiguousarray(np.moveaxis(triangles, 0, 2))
+    low, high = box[0, :, None] - off - longest, box[1, :, None] + off + longest
     for _ in range(ROUNDS):
-        low, high = left.min(axis=1), left.max(axis=1)
-        left = left[((low <= box[1] + off + longest) & (high >= box[0] - off - longest)).all(axis=1)]
-        sides = np.linalg.norm(np.roll(left, -1, axis=1) - left, axis=2)
-        small = sides.max(axis=1, initial=0.0) <= longest
-        done.append(left[small].mean(axis=1))
-        left, side = left[~small], sides[~small].argmax(axis=1)
-        if not len(left):
+        inside = ((np.minimum.reduce(left) <= high) & (np.maximum.reduce(left) >= low)).all(axis=0)
+        left = left[..., inside]
+        way = np.roll(left, -1, axis=0) - left
+        sides = np.sqrt(way[:, 0] ** 2 + way[:, 1] ** 2 + way[:, 2] ** 2)
+        small = np.maximum.reduce(sides) <= longest
+        done.append((left[0] + left[1] + left[2])[:, small] / 3.0)
+        left, side = left[..., ~small], sides[:, ~small].argmax(axis=0)
+        if not left.size:
             break
-        row = np.arange(len(left))
-        a, b, c = (left[row, (side + k) % 3] for k in range(3))
+        every = np.arange(left.shape[2])
+        a, b, c = (left[(side + k) % 3, :, every].T for k in range(3))
         middle = (a + b) / 2.0
-        left = np.concatenate((np.stack((a, middle, c), axis=1), np.stack((middle, b, c), axis=1)))
+        left = np.concatenate((np.stack((a, middle, c)), np.stack((middle, b, c))), axis=2)
     else:
         off = np.inf
-    return Nearby(box, np.concatenate(done), off + BETWEEN * longest)
+    return Nearby(box, np.ascontiguousarray(np.concatenate(done, axis=1).T), off + BETWEEN * longest)

@@ -129,8 +129,11 @@ def _neighbours(sheets: Sheets, targets: Targets, curves: Curves) -> tuple[Ints,
 
 def _within(targets: Targets) -> Floats:
     """(t,) as far as a chord may be from a triangle that it comes close to."""
-    sides = [values.take(targets.triangles.vertices) for values in targets.vertices.points.T]
-    size = np.maximum.reduce([np.ptp(values, axis=1) for values in sides])
+    size: Floats = np.zeros(len(targets))
+    for values in targets.vertices.points.T:
+        # One coordinate after the other: those of all corners fill memory.
+        a, b, c = (values.take(corner) for corner in targets.triangles.vertices.T)
+        np.maximum(size, np.maximum(np.maximum(a, b), c) - np.minimum(np.minimum(a, b), c), out=size)
     return np.asarray(targets.triangles.off + NEAR * np.sqrt(3.0) * size)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -96,9 +96,9 @@ def traced_scene(
         doubts += [(item.name, text) for text in unsure]
         done((1.0 + (number + 1) / (len(sheets) + 1)) / 2.0)
         lines = with_rims(view, sheets, number, parts)
-        drawn += [part.some(np.flatnonzero(np.isin(part.kind, list(wanted)))) for part in lines]
+        drawn += _of_kinds(lines, wanted)
         if item.hides:
-            edges += [part.some(np.flatnonzero(np.isin(part.kind, HIDING))) for part in parts]
+            edges += _of_kinds(parts, HIDING)
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
     met = meetings(scene, view, sheets, wants, tracing)
     doubts += met.doubts
@@ -111,6 +111,12 @@ def traced_scene(
         with_merged_families(_with_images(view, together(parts)), all_sheets) for parts in ([*drawn, met.curves], edges)
     )
     return TracedScene(all_sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
+
+
+def _of_kinds(parts: Sequence[Curves], kinds: Collection[LineKind]) -> list[Curves]:
+    """What there is of some kinds in each of the parts that have any."""
+    chosen = [(part, np.isin(part.kind, list(kinds))) for part in parts if len(part)]
+    return [part if wanted.all() else part.some(np.flatnonzero(wanted)) for part, wanted in chosen if wanted.any()]
 
 
 def tracing_of(view: View, tolerance: float, budget: Budget = USUAL) -> Tracing:
