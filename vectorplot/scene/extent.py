@@ -10,7 +10,6 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import largest_component
-from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
 from vectorplot.surfaces.quadric_bodies.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.stacked import StackedSurfaces
@@ -103,13 +102,12 @@ def bounds_of_surfaces(surfaces: Sequence[Surface]) -> Floats:
 
     Errors, error, degenerate behaviour: as of `smooth_bounds`; it does not say which surface an error is about.
     """
-    placed = [s if isinstance(s, PlacedSurface) else PlacedSurface(s, np.eye(3)) for s in surfaces]
-    result = np.empty((len(placed), 2, 3))
+    result = np.empty((len(surfaces), 2, 3))
     # Those with one domain stand together: their parameters are then the same.
-    domains = [s.domain for s in placed]
+    domains = [surface.domain for surface in surfaces]
     order = np.lexsort(np.array([(d.u_start, d.u_end, d.v_start, d.v_end) for d in domains]).reshape(-1, 4).T)
-    for own in np.split(order, np.arange(AT_ONCE, len(order), AT_ONCE)) if placed else ():
-        result[own] = _stacked_bounds(StackedSurfaces(tuple(placed[k] for k in own.tolist())))
+    for own in np.split(order, np.arange(AT_ONCE, len(order), AT_ONCE)) if len(order) else ():
+        result[own] = _stacked_bounds(StackedSurfaces.of([surfaces[k] for k in own.tolist()]))
     return result
 
 

@@ -56,6 +56,11 @@ class StackedSurfaces:
 
     surfaces: tuple[PlacedSurface, ...]
 
+    @classmethod
+    def of(cls, surfaces: Sequence[Surface]) -> StackedSurfaces:
+        """Any surfaces, those that are not placed where they are."""
+        return cls(tuple(s if isinstance(s, PlacedSurface) else PlacedSurface(s, np.eye(3)) for s in surfaces))
+
     def __len__(self) -> int:
         return len(self.surfaces)
 

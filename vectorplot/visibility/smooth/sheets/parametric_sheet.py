@@ -12,7 +12,6 @@ from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
 from vectorplot.features.parametric.stacked_conditions import stacks
 from vectorplot.geometry.vectors import from_components, norm
 from vectorplot.surfaces.jumps import jumping_cells
-from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Surface
 from vectorplot.visibility.smooth.sheets.fineness import FEWEST, SAG, alike, fineness
@@ -45,13 +44,13 @@ class ParametricSheet(OnParametrised):
         return self.surface
 
 
-def parametric_sheet(surface: PlacedSurface, item: int, hides: bool) -> ParametricSheet:
+def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricSheet:
     """The sheet of a surface, as of `parametric_sheets`."""
     return parametric_sheets([surface], [item], [hides])[0]
 
 
 def parametric_sheets(
-    surfaces: Sequence[PlacedSurface], items: Sequence[int], hides: Sequence[bool]
+    surfaces: Sequence[Surface], items: Sequence[int], hides: Sequence[bool]
 ) -> list[ParametricSheet]:
     """The sheets of surfaces that are given in the view's coordinates, made together as far as these are alike.
 
@@ -59,12 +58,12 @@ def parametric_sheets(
     """
     sheets: dict[int, ParametricSheet] = {}
     for part in stacks(surfaces, (FEWEST + 1) ** 2):
-        stack = StackedSurfaces(tuple(surfaces[k] for k in part.tolist()))
+        stack = StackedSurfaces.of([surfaces[k] for k in part.tolist()])
         columns, rows, sag = fineness(stack)
         for own in alike(columns, rows):
             grids = _Grids.of(stack.some(own), int(columns[own[0]]), int(rows[own[0]]), sag[own])
             for row, number in enumerate(part[own].tolist()):
-                sheets[number] = grids.sheet(row, items[number], hides[number])
+                sheets[number] = grids.sheet(row, surfaces[number], items[number], hides[number])
     return [sheets[number] for number in range(len(surfaces))]
 
 
@@ -77,7 +76,6 @@ class _Grids:
     they are off it.
     """
 
-    surfaces: StackedSurfaces
     places: Floats
     points: Floats
     corners: Ints
@@ -102,11 +100,11 @@ class _Grids:
         right, upper = lower + rows + 1, lower + 1
         corners = np.concatenate([np.stack([lower, right, right + 1], 1), np.stack([lower, right + 1, upper], 1)])
         twice = (np.tile(cells.reshape(len(surfaces), -1), 2) for cells in (~torn, sags))
-        return cls(surfaces, from_components(u, v, 0.0), points, corners, *twice)
+        return cls(from_components(u, v, 0.0), points, corners, *twice)
 
-    def sheet(self, row: int, item: int, hides: bool) -> ParametricSheet:
+    def sheet(self, row: int, surface: Surface, item: int, hides: bool) -> ParametricSheet:
         """That on one of the surfaces. What is the same for all of them is theirs together."""
-        surface, points, sags = self.surfaces.surfaces[row], self.points[row], self.sags[row]
+        points, sags = self.points[row], self.sags[row]
         places, whole = self.places[row if len(self.places) > 1 else 0], self.whole[row]
         known: Bools = np.asarray(np.isfinite(points).all(axis=1))
         if known.all() and whole.all():
