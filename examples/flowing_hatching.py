@@ -13,12 +13,14 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.surfaces import Ellipsoid, Torus, helicoid_to_catenoid
 
+PAGE = vp.Page(100, 66, 4)
+
 
 def main(folder: Path) -> None:
     body = vp.Item("ELLIPSOID", Ellipsoid((3.0, 2.0, 1.4)), lines=("contour",))
     combed = vp.Hatching("tone", spacing_mm=1.2, width_mm=0.4, along="curvature")
     camera = vp.Camera(eye=(9.0, -14.0, 9.0), fov_deg=24)
-    drawing = vp.draw(vp.Scene((body,)), camera, page=vp.Page(130, 86, 5), hatch=combed)
+    drawing = vp.draw(vp.Scene((body,)), camera, page=PAGE, hatch=combed, tolerance_mm=0.1)
     vp.save(drawing, folder / "flowing_hatching_ellipsoid.svg")
 
     soap = vp.Item(
@@ -26,14 +28,14 @@ def main(folder: Path) -> None:
     )
     woven = vp.Hatching("tone", spacing_mm=1.2, width_mm=0.3, along="asymptotic", cross=True)
     camera = vp.Camera(eye=(6.0, -13.0, 8.0), fov_deg=24)
-    drawing = vp.draw(vp.Scene((soap,)), camera, page=vp.Page(110, 100, 5), hatch=woven)
+    drawing = vp.draw(vp.Scene((soap,)), camera, page=vp.Page(84, 76, 4), hatch=woven, tolerance_mm=0.1)
     vp.save(drawing, folder / "flowing_hatching_catenoid.svg")
 
     sun = vp.Light((-1.0, -2.0, 3.0), parallel=True, intensity=1.0)
     ring = vp.Item("RING", Torus(2.2, 0.9), lines=("contour",))
-    lit = vp.Hatching("tone", spacing_mm=1.2, width_mm=0.4, along="isophotes")
+    lit = vp.Hatching("tone", spacing_mm=1.5, width_mm=0.4, along="isophotes")
     camera = vp.Camera(eye=(9.0, -14.0, 9.0), fov_deg=24)
-    drawing = vp.draw(vp.Scene((ring,), (sun,)), camera, page=vp.Page(130, 86, 5), hatch=lit)
+    drawing = vp.draw(vp.Scene((ring,), (sun,)), camera, page=PAGE, hatch=lit, tolerance_mm=0.1)
     vp.save(drawing, folder / "flowing_hatching_ring.svg")
 
     rays = np.array(sun.position) / np.linalg.norm(sun.position)

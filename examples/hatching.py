@@ -26,14 +26,14 @@ def strokes_of(drawing: vp.Drawing) -> vp.Paths:
 
 def main(folder: Path) -> None:
     crossed = vp.Hatching("tone", spacing_mm=0.5, cross=True)
-    town = vp.draw(vp.read(TOWN), page=vp.Page(297, 210), hatch=crossed)
+    town = vp.draw(vp.read(TOWN), page=vp.Page(150, 106), hatch=crossed)
     vp.save(town, folder / "hatched_town.svg")
 
     standing = vp.Item("STANDING", Torus(1.6, 0.45)).turned("x", 90.0).moved(2.4, 0.0, 0.6)
     rings = vp.Scene((vp.Item("LYING", Torus(2.4, 0.85)), standing), (SUN,), title="Rings")
-    combed = vp.Hatching("tone", spacing_mm=0.5, cross=True, along="surface")
+    combed = vp.Hatching("tone", spacing_mm=0.6, cross=True, along="surface")
     lines = ("contour", "intersection")
-    drawing = vp.draw(rings, CAMERA, page=vp.Page(210, 148), lines=lines, hatch=combed, tolerance_mm=0.1)
+    drawing = vp.draw(rings, CAMERA, page=vp.Page(120, 85), lines=lines, hatch=combed, tolerance_mm=0.1)
     vp.save(drawing, folder / "combed_rings.svg")
 
     ring = vp.Scene(rings.items[:1], (SUN,), title="Ring")

@@ -142,8 +142,9 @@ class SurfacePatch(OnSurfaces, SingleShape):
     @cached_property
     def tessellation(self) -> Tessellation:
         """All triangles, as `surface_tessellation` makes them."""
-        corners = cell_corners(self.columns, self.rows)
-        return self.nodes.tessellation(corners, np.arange(corners.shape[1]), self.ends)
+        # The points first: they refuse a grid of too many cells before anything is made for each of them.
+        nodes, corners = self.nodes, cell_corners(self.columns, self.rows)
+        return nodes.tessellation(corners, np.arange(corners.shape[1]), self.ends)
 
     @cached_property
     def cell_boxes(self) -> tuple[Floats, Floats]:
