@@ -41,6 +41,7 @@ LOOK_AT = {
     "mixed": "A polyhedron and smooth surfaces pierce one another; each hides what is behind it.",
     "patterns": "Each polygon lies in the coordinates of its face; what is on a face that turns away is not drawn.",
     "pencil": "A cone of order 45 on a cylinder, cut with a hexagonal prism: the sides end in arcs of hyperbolas.",
+    "plotted_town": "Walls, shadows and panes of one pen: tone by hatching, windows by grid and ring, a street name.",
     "pool": "The floor seems raised by the water, and the pole bent; drawn, both are where they are.",
     "pyramid": "The book's example of an object with a convex outline; it is open above, and one looks inside.",
     "removed_faces": "Two walls of the house and the lid of the crate are gone: one looks in, and through.",

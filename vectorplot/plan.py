@@ -95,11 +95,14 @@ def plan_draw(
         stages.append(Stage("patterns", "faces carry patterns"))
     drawn_on_meshes = {LineKind.ISOPHOTE, LineKind.SECTION, LineKind.INDEX, LineKind.INTEGRAL}
     features = wanted & set(FEATURE_KINDS) and any(isinstance(item.shape, Mesh) for item in scene.items)
-    if features or (wanted & drawn_on_meshes and any(map(_has_mesh_lines, scene.items))):
+    across = LineKind.CONTOUR in wanted and any(
+        isinstance(item.shape, Mesh) and item.curves.smooth_contours for item in scene.items
+    )
+    if features or across or (wanted & drawn_on_meshes and any(map(_has_mesh_lines, scene.items))):
         stages.append(
             Stage(
                 "lines on meshes",
-                "polyhedra carry isophotes, sections, integral curves, lines of terrains or of their curvature",
+                "polyhedra carry isophotes, sections, integral curves, contours, lines of terrains or of curvature",
             )
         )
     smooth = [item.shape for item in scene.items if not isinstance(item.shape, Mesh)]

@@ -206,7 +206,7 @@ def test_a_word_that_is_nearly_one_of_a_slot_is_pointed_out():
 def test_polyhedra_have_no_parameter_lines_and_surfaces_no_lines_of_polyhedra_nor_a_common_part():
     with pytest.raises(InputError, match="B: 'parameter_lines' is for surfaces only"):
         parse_scene("B box 1 1 1 parameter_lines 4 4")
-    for word in ("smooth_lines", "isophote_edges"):
+    for word in ("smooth_lines", "isophote_edges", "smooth_contours"):
         with pytest.raises(InputError, match=f"B: '{word}' is for polyhedra only"):
             parse_scene(f"B surface torus 3 1 isophotes 4 {word}")
     with pytest.raises(InputError, match="C: A is a surface: only solids are intersected"):

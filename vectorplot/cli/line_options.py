@@ -102,6 +102,11 @@ LINE_OPTIONS = (
         help="How much there is of suggestive, ridge, valley and apparent lines.",
     ),
     click.option(
+        "--smooth-contours",
+        is_flag=True,
+        help="Contours of meshes run across faces, as those of the smooth shapes they stand for.",
+    ),
+    click.option(
         "--colour-by",
         metavar="WORD|FORMULA",
         help="Colours by x, y, z, height, slope, curvature or a formula such as x*y, and their bar.",
@@ -125,6 +130,7 @@ class LineOptions:
     label_levels: bool = False
     isophotes: int | None = None
     detail: float = 1.0
+    smooth_contours: bool = False
     colour_by: str | None = None
     colour_map: str | None = None
     colour_steps: int | None = None
@@ -142,7 +148,13 @@ class LineOptions:
         charted, added = self.with_chart(scene), self.of_scene(scene)
         if self.levels is not None:
             charted = without_level_lines(charted, self.levels.normal)
-        lined = with_lines(charted, sections=added.sections, isophotes=added.isophotes, detail=added.detail)
+        lined = with_lines(
+            charted,
+            sections=added.sections,
+            isophotes=added.isophotes,
+            detail=added.detail,
+            smooth_contours=added.smooth_contours,
+        )
         return self.with_numbers(lined), line_kinds(added)
 
     def with_chart(self, scene: Scene) -> Scene:
@@ -177,7 +189,9 @@ class LineOptions:
 
         cosines = even_cosines(self.isophotes) if self.isophotes else ()
         planes = tuple(_sections(one, scene) for one in self.sections) + _levels(self.levels, scene)
-        return SurfaceLines(sections=planes, isophotes=cosines, detail=self.detail)
+        return SurfaceLines(
+            sections=planes, isophotes=cosines, detail=self.detail, smooth_contours=self.smooth_contours
+        )
 
 
 def _sections(planes: Planes, scene: Scene) -> Section:

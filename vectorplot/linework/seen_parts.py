@@ -24,7 +24,7 @@ def seen_parts(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, line
     if over.any():
         rest = seen_parts(walk, view, faces, solid, lines.some(~over))
         return with_whole_lines(rest, over)
-    segments = Segments(lines.start, lines.end)
+    segments = Segments(lines.start + lines.aside, lines.end + lines.aside)
     if walk.calls_for("visible lines"):
         return walk.run("visible lines", visible_parts, view, faces, solid, segments, walk.fraction("visible lines"))
     seen = walk.run("counted lines", counted_parts, view, faces, solid, segments, walk.fraction("counted lines"))

@@ -241,6 +241,9 @@ class SurfaceLines:
     detail : float
         How much there is of suggestive contours, ridges, valleys and apparent ridges: of twice the detail lines may be
         half as clear and half as long.
+    smooth_contours : bool
+        The polyhedron is taken for a smooth shape: its contour runs across faces, where the average normals at its
+        vertices are at right angles to the view, instead of along edges; at creases it is as ever.
 
     Raises
     ------
@@ -274,6 +277,7 @@ class SurfaceLines:
     integral: tuple[IntegralLines, ...] = ()
     terrain: tuple[TerrainLines, ...] = ()
     detail: float = 1.0
+    smooth_contours: bool = False
 
     def __post_init__(self) -> None:
         if not 0.0 < self.detail < np.inf:

@@ -116,7 +116,7 @@ def _kept_lines(lines: SurfaceLines) -> SurfaceLines:
     """Those lines that meshes have too."""
     if not lines:
         return NO_LINES
-    return replace(lines, columns=0, rows=0, paths=(), integral=(), terrain=())
+    return replace(lines, columns=0, rows=0, paths=(), integral=(), terrain=(), smooth_contours=False)
 
 
 def _valued(item: Item, colouring: Colouring, size: float) -> _Valued:

@@ -88,6 +88,7 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
 
         words += [integral_text(lines) for lines in curves.integral]
     words += [_terrain_text(asked) for asked in curves.terrain]
+    words += ["smooth_contours"] * curves.smooth_contours
     words += ["smooth_lines"] * curves.smooth + ["isophote_edges"] * curves.along_edges
     words += [f"detail {_numbers((curves.detail,))}"] * (curves.detail != 1.0)
     return "".join(f"\n  {word}" for word in words)

@@ -25,6 +25,7 @@ from vectorplot.scene.naming.scales import Colouring
 from vectorplot.scene.pages.fitted_pages import FittedPage, PageOfWidth
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.surface_lines import NO_LINES
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.words import COLOURS
 
@@ -196,7 +197,7 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
 def _shape(item: Item, lights: tuple[Light, ...]) -> str:
     if item.curves and is_curve(item.shape):
         raise InputError(f"{item.name}: the scene language has lines of its own for surfaces and polyhedra only")
-    if isinstance(item.shape, Mesh) and not item.curves:
+    if isinstance(item.shape, Mesh) and item.curves == NO_LINES:
         return _mesh(item.shape)
     from vectorplot.io.scenes.scene_surface_writer import curve_text, lines_text, surface_text
 

@@ -20,7 +20,12 @@ from vectorplot.tolerances.of_numbers import ROUNDING
 
 
 def with_lines(
-    scene: Scene, *, sections: Sequence[Section] = (), isophotes: Sequence[float] = (), detail: float = 1.0
+    scene: Scene,
+    *,
+    sections: Sequence[Section] = (),
+    isophotes: Sequence[float] = (),
+    detail: float = 1.0,
+    smooth_contours: bool = False,
 ) -> Scene:
     """The scene with further lines on all its polyhedra and surfaces, beside those that they ask for.
 
@@ -35,6 +40,8 @@ def with_lines(
     detail : float
         How many times the detail that items ask for there is of suggestive contours, ridges, valleys and apparent
         ridges.
+    smooth_contours : bool
+        All polyhedra are taken for smooth shapes, with contours across their faces.
 
     Returns
     -------
@@ -63,7 +70,8 @@ def with_lines(
     if planes > MAX_LINES:
         raise InputError(f"sections: {planes} of them, expected at most {MAX_LINES}")
     added = SurfaceLines(sections=tuple(sections), isophotes=tuple(isophotes), detail=detail)
-    if not added and detail == 1.0:
+    added = replace(added, smooth_contours=smooth_contours)
+    if not added and detail == 1.0 and not smooth_contours:
         return scene
     return replace(scene, items=tuple(item if is_curve(item.shape) else _with(item, added) for item in scene.items))
 
@@ -128,7 +136,9 @@ def _with(item: Item, added: SurfaceLines) -> Item:
     reaching = tuple(one for section in added.sections if (one := _reaching(section, item)).offsets)
     sections, isophotes = (*own.sections, *reaching), (*own.isophotes, *added.isophotes)
     lines = None if item.lines is None else tuple(dict.fromkeys((*item.lines, *line_kinds(added))))
-    curves = replace(own, sections=sections, isophotes=isophotes, detail=own.detail * added.detail)
+    smooth = own.smooth_contours or added.smooth_contours
+    detail = own.detail * added.detail
+    curves = replace(own, sections=sections, isophotes=isophotes, detail=detail, smooth_contours=smooth)
     return replace(item, curves=curves, lines=lines)
 
 

@@ -21,6 +21,7 @@ from vectorplot.features.meshes.mesh_lines import (
     mesh_point_light_isophotes,
 )
 from vectorplot.features.meshes.patterns import pattern_outline
+from vectorplot.features.meshes.smooth_edges import smooth_mesh_edges
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard
 from vectorplot.geometry.mesh import Mesh
@@ -60,6 +61,9 @@ class Lines:
         A chord of a smooth curve, both of its ends on it.
     behind : (n,) array of int
         How many smooth surfaces hide all of it.
+    aside : (3, n) array of float
+        How far from it the line lies that is hidden where it is: contours across faces are seen as what is just outside
+        of these faces is. Zero for most lines.
     chords : ChordParts, optional
         Which parts of smooth curves they are, if some are.
 
@@ -86,6 +90,7 @@ class Lines:
     side: Ints
     smooth: Bools
     behind: Ints
+    aside: Floats = field(metadata=IN_COLUMNS)
     chords: ChordParts | None = None
 
     def __len__(self) -> int:
@@ -114,6 +119,7 @@ class Lines:
             self.side[which],
             self.smooth[which],
             self.behind[which],
+            self.aside.take(which, axis=1),
             self.chords.some(which) if self.chords else None,
         )
 
@@ -177,7 +183,8 @@ def joined_lines(parts: Collection[Lines]) -> Lines:
 
 def straight_lines(start: Floats, end: Floats, kind: Ints, item: Ints, side: Ints) -> Lines:
     """Lines none of which is a chord of a curve, nor behind a smooth surface."""
-    return Lines(start, end, kind, item, side, np.zeros(len(kind), dtype=np.bool_), np.zeros(len(kind), dtype=np.intp))
+    none = np.zeros(len(kind), dtype=np.intp)
+    return Lines(start, end, kind, item, side, none.astype(np.bool_), none, np.zeros((3, len(kind))))
 
 
 def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozenset[LineKind], Bools]]:
@@ -236,12 +243,17 @@ def edge_lines(
     [6, 3]
     """
     parts = []
-    for wanted, items in wanted_kinds(scene, kinds):
+    smooth = np.array([item.curves.smooth_contours for item in scene.items], dtype=np.bool_)
+    ways = (mesh_edges, ~smooth), (smooth_mesh_edges, smooth)
+    asking = [(wanted, items & those, find) for wanted, items in wanted_kinds(scene, kinds) for find, those in ways]
+    for wanted, items, find in asking:
+        if not items.any():
+            continue
         asked = all_faces = _faces(view, faces)
         which = np.flatnonzero(items[view.face_item])
         if len(which) < view.face_count:
             asked = _some_faces(all_faces, which)
-        edges = mesh_edges(asked, wanted, crease_angle_deg)
+        edges = find(asked, wanted, crease_angle_deg)
         item = view.face_item[which[edges.face]]
         kept = edges.front | backs[item]
         start, end = edges.start[kept], edges.end[kept]
@@ -345,8 +357,8 @@ def mesh_curve_lines(
     budget: Budget = USUAL,
     done: Callable[[float], None] = unheard,
 ) -> Lines:
-    """The isophotes, sections, integral curves, lines of terrains and feature lines that polyhedra ask for: they lie in
-    the faces.
+    """The isophotes, sections, integral curves, lines of terrains, feature lines and contours across faces that
+    polyhedra ask for: they lie in the faces.
 
     Isophotes end at edges that turn by more than the crease angle. budget: of shortest ways; done: is told the part of
     the work that is done.
@@ -356,6 +368,8 @@ def mesh_curve_lines(
     for number, item in enumerate(scene.items):
         wanted = kinds_of(item, kinds)
         if isinstance(item.shape, Mesh) and item.shape.face_count:
+            if LineKind.CONTOUR in wanted and item.curves.smooth_contours:
+                parts.append(_contours_across_faces(view, item.shape, number, crease_angle_deg))
             if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
                 found = _mesh_isophotes(scene, view, item, crease_angle_deg)
                 parts.append(_lines_of_curves(view, found, LineKind.ISOPHOTE, number, item.curves.smooth))
@@ -397,6 +411,16 @@ def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
         return valley_lines(mesh) if asked.valleys else watersheds(mesh)
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
+
+
+def _contours_across_faces(view: View, mesh: Mesh, number: int, crease_angle_deg: float) -> Lines:
+    # Few meshes are taken for smooth shapes: what finds their contours is loaded for them.
+    from vectorplot.visibility.polyhedra.smooth_contour_lines import smooth_contour_lines
+
+    found = smooth_contour_lines(mesh, view, crease_angle_deg)
+    numbers = np.full(len(found.side), number)
+    lines = straight_lines(found.start, found.end, np.full_like(numbers, int(LineKind.CONTOUR)), numbers, found.side)
+    return replace(lines, smooth=np.ones(len(numbers), dtype=np.bool_), aside=found.aside)
 
 
 def _mesh_isophotes(scene: Scene, view: View, item: Item, crease_angle_deg: float) -> MeshCurves:

@@ -63,11 +63,13 @@ def _as_lines(view: View, traced: TracedScene, lines: Lines, curves: Curves, fou
     side = np.zeros(len(chord), dtype=np.intp)
     side[~smooth] = lines.side[curve[~smooth] - len(traced.curves)]
     outline = np.flatnonzero(smooth & np.isin(curves.kind[curve], OUTLINES) & (curves.sheet[curve] >= 0))
+    aside = np.zeros((3, len(chord)))
+    aside[:, ~smooth] = lines.aside[:, curve[~smooth] - len(traced.curves)]
     side[outline] = _sides(view, traced, curves, chord[outline])
     side[smooth] += curves.side[curve[smooth]]
     behind = behind + curves.behind[curve]
     chords = replace(chords, chord=np.where(smooth, chord, -1))
-    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, chords)
+    return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, aside, chords)
 
 
 def _sides(view: View, traced: TracedScene, curves: Curves, chord: Ints) -> Ints:

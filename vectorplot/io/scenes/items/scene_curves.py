@@ -166,6 +166,11 @@ def read_smooth_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> t
     return _with_lines(draft, at, replace(draft.lines, smooth=True)), at + 1
 
 
+def read_smooth_contours(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
+    """Contours across the faces of a polyhedron."""
+    return _with_lines(draft, at, replace(draft.lines, smooth_contours=True)), at + 1
+
+
 def read_detail(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """How much there is of feature lines."""
     value = words.number(at + 1, owner, "detail")

@@ -165,6 +165,7 @@ def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface 
     for word, given in (
         ("smooth_lines", draft.curves.lines.smooth),
         ("isophote_edges", draft.curves.lines.along_edges),
+        ("smooth_contours", draft.curves.lines.smooth_contours),
     ):
         if given:
             raise InputError(f"'{word}' is for polyhedra only")
