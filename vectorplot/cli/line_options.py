@@ -109,7 +109,7 @@ LINE_OPTIONS = (
     click.option(
         "--colour-by",
         metavar="WORD|FORMULA",
-        help="Colours by x, y, z, height, slope, curvature or a formula such as x*y, and their bar.",
+        help="Colours by x, y, z, height, slope, curvature, a formula such as x*y or a field of a file, and their bar.",
     ),
     click.option(
         "--colour-map",

@@ -17,8 +17,9 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh, whole_numbers
 from vectorplot.geometry.repair.mesh_repair import mended
-from vectorplot.io.meshes.finite_elements import faces_of_cells
+from vectorplot.io.meshes.finite_elements import faces_of_cells, values_of_faces
 from vectorplot.io.read_file import read
+from vectorplot.scene.fields import Fields
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.joined_scenes import renamed_cuts, renamed_labels, together
 from vectorplot.scene.scene import Scene
@@ -132,10 +133,27 @@ def _item(shown: Any) -> Item | None:
         return Item(type(shown).__name__.lower(), shown)
     if hasattr(shown, "points") and hasattr(shown, "cells"):
         corners, offsets = faces_of_cells(shown.cells)
-        return Item("mesh", _mended(np.asarray(shown.points), corners, offsets))
+        points, of_cells = np.asarray(shown.points), getattr(shown, "cell_data", {})
+        at_faces = {name: values_of_faces(shown.cells, values) for name, values in of_cells.items()}
+        mesh = _mended(points, corners, offsets)
+        return Item("mesh", mesh, fields=_fields(points, corners, offsets, getattr(shown, "point_data", {}), at_faces))
     if hasattr(shown, "vertices") and hasattr(shown, "faces"):
-        return Item("mesh", _from_arrays(shown.vertices, shown.faces))
+        mesh = _from_arrays(shown.vertices, shown.faces)
+        named = getattr(shown, "vertex_attributes", None), getattr(shown, "face_attributes", None)
+        if not any(isinstance(one, Mapping) and one for one in named):
+            return Item("mesh", mesh)
+        faces = whole_numbers(np.asarray(shown.faces))
+        offsets = np.arange(0, faces.size + 1, faces.shape[1])
+        return Item("mesh", mesh, fields=_fields(np.asarray(shown.vertices), faces.ravel(), offsets, *named))
     return None
+
+
+def _fields(points: np.ndarray[Any, Any], corners: Ints, offsets: Ints, vertices: Any, faces: Any) -> Fields | None:
+    """What another library has at the vertices and on the faces of a mesh that it had."""
+    if points.shape[1] == 2:
+        points = np.column_stack([points, np.zeros(len(points))])
+    given = [one if isinstance(one, Mapping) else {} for one in (vertices, faces)]
+    return Fields.of(Mesh(points.astype(np.float64), corners, offsets), *given)
 
 
 def _is_pair(vertices: object, faces: object) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from json import dumps
 
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
@@ -12,11 +13,15 @@ from vectorplot.geometry.repair.mesh_repair import MeshReport, mesh_report, with
 from vectorplot.io.anything import scene_of
 from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
 from vectorplot.scene.coincidence.seamless_scene import without_seams
+from vectorplot.scene.cuts.cut import CutPlane
+from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 
 def describe(scene: object) -> list[str]:
@@ -31,7 +36,7 @@ def describe(scene: object) -> list[str]:
     -------
     list of str
         One line for every item: counts, closedness, convexity and size of a mesh, or which surface it is and which
-        lines there are on it, or which curve; then one line on the whole.
+        lines there are on it, or which curve; then lines on fields, cuts and moved parts; then one line on the whole.
 
     Raises
     ------
@@ -60,6 +65,7 @@ def describe(scene: object) -> list[str]:
         for item, one in zip(scene.items, joined.items, strict=True)
     ]
     lines = [f"{item.name}: {_told(item, report)}" for item, report in zip(scene.items, reports, strict=True)]
+    lines += _fields(scene) + _changes(scene)
     found = [report for report in reports if report is not None]
     curves = sum(is_curve(item.shape) for item in scene.items)
     surfaces = sum(not isinstance(item.shape, Mesh) for item in scene.items) - curves
@@ -76,6 +82,33 @@ def describe(scene: object) -> list[str]:
         counts.insert(1, _number(surfaces, "surface"))
     lines.append(f"{', '.join(counts)}, {_size(high - low)}")
     return lines
+
+
+def _fields(scene: Scene) -> list[str]:
+    """A line on the fields of each item that has some."""
+    named = [(item.name, item.fields.names) for item in scene.items if item.fields is not None]
+    return [f"{name}: fields {', '.join(names)} (--colour-by {dumps(names[0])})" for name, names in named]
+
+
+def _changes(scene: Scene) -> list[str]:
+    """A line on each cut, and on how parts are moved apart, where the scene is shown."""
+    lines = []
+    for cut in scene.cuts:
+        planes = ", ".join(_condition(plane) for plane in cut.planes)
+        lines.append(f"cut {planes}, {cut.away}" + ("" if cut.items is None else f", of {', '.join(cut.items)}"))
+    if scene.explosion is not None:
+        low, high = shown_apart(scene).bounds
+        lines.append(f"parts moved apart by {scene.explosion.factor:g}, then {_size(high - low)}")
+    return lines
+
+
+def _condition(plane: CutPlane) -> str:
+    """A plane of a cut as a condition, such as x + 2y > 3."""
+    largest = max(map(abs, plane.normal))
+    shown = [(f / largest, axis) for f, axis in zip(plane.normal, "xyz", strict=True) if abs(f) > ROUNDING]
+    terms = " ".join(f"{'-' if f < 0 else '+'} {'' if abs(f) == 1.0 else f'{abs(f):.6g}'}{axis}" for f, axis in shown)
+    left = terms.removeprefix("+ ").replace("- ", "-", 1) if terms.startswith("- ") else terms.removeprefix("+ ")
+    return f"{left} {'=' if plane.to_eye else '>'} {plane.offset / largest:.6g}"
 
 
 def _report(mesh: Mesh, joined: Mesh) -> MeshReport:

@@ -5,7 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import ArrayLike
 
+from vectorplot.errors import InputError
+from vectorplot.geometry.rotations import rotation_about
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.scene.scene import Scene
 
@@ -31,3 +34,17 @@ def upwards_hint(path: str, scene: Scene) -> str | None:
     if suffix in EITHER_WAY and y > SLENDER * max(x, z):
         return f"{shown(Path(path))}: longest along y: if y is up in it, --up y stands it up"
     return None
+
+
+def stood_up(scene: Scene, up: ArrayLike) -> Scene:
+    """The scene turned on the shortest way so that a direction points upwards, along z. Errors: InputError for none."""
+    way = np.asarray(up, dtype=np.float64)
+    length = float(np.linalg.norm(way))
+    if not 0.0 < length < np.inf:
+        raise InputError("up: expected a direction")
+    x, y, z = (way / length).tolist()
+    # About an axis that lies level; of those for what stands on its head any will do.
+    axis = (y, -x, 0.0) if x or y else (1.0, 0.0, 0.0)
+    matrix = np.eye(4)
+    matrix[:3, :3] = rotation_about(axis, np.arctan2(np.hypot(x, y), z)).T
+    return scene.transformed(matrix)

@@ -1,6 +1,7 @@
 from .cuts.cut import Cut, CutPlane
 from .cuts.explosion import Explosion
 from .depth_cue import DepthCue
+from .fields import Fields
 from .hatching import Hatching, Stippling
 from .item import Item, Pattern
 from .light import Light
@@ -32,6 +33,7 @@ __all__ = [
     "DepthCue",
     "Explosion",
     "FieldLines",
+    "Fields",
     "GeodesicLines",
     "GeodesicsBetween",
     "Hatching",

@@ -12,6 +12,7 @@ from vectorplot.curves.curve import Curve
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
+from vectorplot.scene.fields import Fields
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.material import Material
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
@@ -94,6 +95,8 @@ class Item(Movable["Item"]):
         What was cut away of it; its borders on them are edges of cuts.
     is_cut_face : bool
         It is what a cut shows of another item: its sections are hatches, and it meets others only where that one does.
+    fields : Fields, optional
+        Numbers at its vertices and on its faces, by which it can be coloured.
 
     Raises
     ------
@@ -122,6 +125,7 @@ class Item(Movable["Item"]):
     place: tuple[str, int] | None = None
     cut_by: tuple[HalfSpaces, ...] = ()
     is_cut_face: bool = False
+    fields: Fields | None = None
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
@@ -162,7 +166,8 @@ class Item(Movable["Item"]):
         curves = self.curves.transformed(m) if self.curves else self.curves
         cut_by = tuple(region.transformed(m) for region in self.cut_by)
         patterns = self.patterns if patterns is None else patterns
-        return replace(self, shape=shape, curves=curves, patterns=patterns, cut_by=cut_by)
+        fields = None if self.fields is None else self.fields.transformed(m)
+        return replace(self, shape=shape, curves=curves, patterns=patterns, cut_by=cut_by, fields=fields)
 
     @property
     def hides(self) -> bool:

@@ -4,19 +4,23 @@ from __future__ import annotations
 
 import click
 
+from vectorplot.cli.options import direction
 from vectorplot.cli.progress import told_warnings
 from vectorplot.errors import printable
 
 
 @click.command(short_help="Say what a scene or mesh file holds.")
 @click.argument("files", type=click.Path(), nargs=-1, required=True, metavar="FILE...")
+@click.option("--up", type=direction, metavar="X,Y,Z", help="What is upwards, or x, y, z: sizes are of what stands so.")
 @click.option("--quiet", "-q", is_flag=True, help="No warnings.")
-def info(files: tuple[str, ...], quiet: bool) -> None:
+def info(files: tuple[str, ...], up: tuple[float, float, float] | None, quiet: bool) -> None:
     """Say what the files hold: counts, whether it is closed and convex, its size, and what is wrong with it."""
     from vectorplot.io.description import describe
     from vectorplot.io.read_file import read
+    from vectorplot.io.upwards import stood_up
     from vectorplot.scene.naming.joined_scenes import together
 
     with told_warnings(quiet=quiet):
-        lines = describe(together([read(file) for file in files]))
+        scene = together([read(file) for file in files])
+        lines = describe(scene if up is None else stood_up(scene, up))
     click.echo("\n".join(map(printable, lines)))

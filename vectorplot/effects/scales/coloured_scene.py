@@ -19,13 +19,16 @@ from vectorplot.features.feature_lines.mesh_bending import mesh_bending, smooth_
 from vectorplot.features.meshes.mesh_curves import face_triangles
 from vectorplot.geometry.cuts.level_bands import level_bands
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
+from vectorplot.geometry.repair.mesh_repair import welded
 from vectorplot.io.expressions.expression import parse_expression
+from vectorplot.scene.fields import Fields
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.scales import Colouring
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances.of_extent import COLOURED_OF_EXTENT
+from vectorplot.words import unknown
 
 LINE_MM = 0.25
 """The width of lines between bands."""
@@ -40,11 +43,14 @@ PART_OF_STEP = 0.25
 
 @dataclass(frozen=True, eq=False)
 class _Valued:
-    """Triangles (t,3) of points (n,3), with a number (n,) at each."""
+    """Triangles (t,3) of points (n,3), with a number (n,) at each; and the mesh of those without a number, if there are
+    any. is_stepped: numbers are of faces, which share no points."""
 
     points: Floats
     values: Floats
     triangles: Ints
+    without: Mesh | None = None
+    is_stepped: bool = False
 
 
 @dataclass(frozen=True)
@@ -80,7 +86,13 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     """
     colours = map_colours(colouring.colour_map, colouring.steps)
     size = float(np.linalg.norm(np.ptp(scene.bounds, axis=0)))
-    plain = (is_curve(item.shape) or item.is_cut_face for item in scene.items)
+    field = isinstance(colouring.by, str) and any(_has_field(item, colouring.by) for item in scene.items)
+    plain = (
+        is_curve(item.shape) or item.is_cut_face or (field and not _has_field(item, str(colouring.by)))
+        for item in scene.items
+    )
+    if not field:
+        _check_word(colouring.by, scene)
     given = [None if left else _valued(item, colouring, size) for item, left in zip(scene.items, plain, strict=True)]
     values = np.concatenate([np.zeros(0), *(one.values for one in given if one is not None)])
     values = values[np.isfinite(values)]
@@ -97,13 +109,17 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
         lines = _kept_lines(item.curves)
         own = []
         parts = level_bands(whole.points, whole.values, whole.triangles, levels)
+        if whole.without is not None:
+            bare = replace(item, name=f"{item.name} 0", shape=whole.without, patterns=(), curves=lines)
+            items.append(replace(bare, group=item.group or item.name, fields=None))
+            own.append(bare.name)
         for k in range(len(colours)):
-            mesh = parts.mesh(k)
+            mesh = welded(parts.mesh(k))[0] if whole.is_stepped else parts.mesh(k)
             if mesh.face_count:
                 name = f"{item.name} {k + 1}"
                 group = item.group or item.name
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
-                items.append(band)
+                items.append(replace(band, fields=None))
                 own.append(name)
                 pens.append(PenRule(item=name, colour=colours[k]))
                 pens.append(PenRule("boundary", name, width_mm=LINE_MM))
@@ -131,6 +147,9 @@ def _valued(item: Item, colouring: Colouring, size: float) -> _Valued:
         mesh = item.mesh
     if not mesh.face_count:
         return _Valued(mesh.vertices, np.zeros(len(mesh.vertices)), np.zeros((0, TRIANGLE), dtype=np.intp))
+    if isinstance(colouring.by, str) and _has_field(item, colouring.by):
+        assert item.fields is not None
+        return _of_field(item.fields, colouring.by, mesh)
     points, triangles = mesh.vertices, face_triangles(mesh).triangles
     try:
         if (numbers := _of_places(colouring.by)) is None:
@@ -144,6 +163,38 @@ def _valued(item: Item, colouring: Colouring, size: float) -> _Valued:
     known = np.isfinite(values)
     least = float(values[known].min()) if known.any() else np.nan
     return _Valued(points, np.where(known, values, least), triangles)
+
+
+def _has_field(item: Item, name: str) -> bool:
+    return item.fields is not None and name in item.fields.names
+
+
+def _check_word(by: object, scene: Scene) -> None:
+    """An InputError, which names the fields of the scene, for a word that is none of them and no formula."""
+    names = dict.fromkeys(name for item in scene.items if item.fields is not None for name in item.fields.names)
+    if not isinstance(by, str) or by in WORDS or not names:
+        return
+    try:
+        parse_expression(by, ("x", "y", "z"))
+    except InputError:
+        raise unknown("colouring by", by, [*WORDS, *names], "or a formula") from None
+
+
+def _of_field(fields: Fields, name: str, mesh: Mesh) -> _Valued:
+    """The triangles of a mesh with the numbers of a field, and those that have none."""
+    points, triangles = mesh.vertices, face_triangles(mesh).triangles
+    stepped = fields.is_on_faces(name)
+    if stepped:
+        middles = points[triangles].mean(axis=1)
+        values = np.repeat(fields.at(name, middles), TRIANGLE)
+        points, triangles = points[triangles].reshape(-1, 3), np.arange(len(values)).reshape(-1, TRIANGLE)
+    else:
+        values = fields.at(name, points)
+    known = np.isfinite(values)
+    told = known[triangles].all(axis=1)
+    without = None if told.all() else welded(Mesh.from_triangles(points, triangles[~told]))[0]
+    least = float(values[known].min()) if known.any() else np.nan
+    return _Valued(points, np.where(known, values, least), triangles[told], without, stepped)
 
 
 def _of_shape(by: str, mesh: Mesh, triangles: Ints, normals: Floats | None) -> Floats:

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.arrays import Ints
+from vectorplot.arrays import Bools, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 
@@ -31,10 +31,22 @@ def faces_of_cells(cells: Any) -> tuple[Ints, Ints]:
     mapping. Points and lines have no faces.
     Errors: InputError for cells of another type.
     """
-    parts = [part for kind, data in _blocks(cells) for part in _faces(kind, data)]
+    parts = [part for kind, data in _blocks(cells) for part, _ in _faces(kind, data)]
     sizes = np.concatenate([np.zeros(0, dtype=np.intp), *(np.full(len(part), part.shape[1]) for part in parts)])
     corners = np.concatenate([np.zeros(0, dtype=np.intp), *(part.ravel() for part in parts)])
     return corners, ragged.offsets(sizes)
+
+
+def values_of_faces(cells: Any, values: Iterable[Any]) -> np.ndarray[Any, Any]:
+    """(f,) or (f,k) the values of the cells of blocks, (n,) or (n,k) for each of these, on their faces as
+    faces_of_cells lists them; none where the blocks do not have as many."""
+    parts = []
+    for (kind, data), own in zip(_blocks(cells), values, strict=False):
+        given = np.asarray(own)
+        if len(given) != len(data):
+            return np.zeros(0)
+        parts += [given[cell] for _, cell in _faces(kind, data)]
+    return np.concatenate(parts) if parts else np.zeros(0)
 
 
 def _blocks(cells: Any) -> Iterable[tuple[str, Any]]:
@@ -42,23 +54,30 @@ def _blocks(cells: Any) -> Iterable[tuple[str, Any]]:
     return [(one.type, one.data) if hasattr(one, "data") and hasattr(one, "type") else tuple(one) for one in pairs]
 
 
-def _faces(kind: str, data: Any) -> list[Ints]:
-    """(n,k) faces, an array for every number of corners."""
+def _faces(kind: str, data: Any) -> list[tuple[Ints, Ints]]:
+    """(n,k) faces, and (n,) the cell of each, for every number of corners."""
     shape = str(kind).rstrip("0123456789")
     if shape in WITHOUT_FACES:
         return []
     if shape == "polygon":
         lists = [np.asarray(face, dtype=np.intp) for face in data]
-        return [np.stack([face for face in lists if len(face) == size]) for size in sorted({len(f) for f in lists})]
+        every = np.array([len(face) for face in lists], dtype=np.intp)
+        sizes = [(size, np.flatnonzero(every == size)) for size in np.unique(every).tolist()]
+        return [(np.stack([lists[k] for k in which.tolist()]), which) for _, which in sizes]
     if shape not in FACES:
         raise InputError(f"cells of the type {kind!r}: expected some of {', '.join(FACES)}, polygon")
     corners = np.asarray(data, dtype=np.intp)
-    sizes = sorted({len(face) for face in FACES[shape]})
-    every = [np.concatenate([corners[:, face] for face in FACES[shape] if len(face) == size]) for size in sizes]
-    return every if len(FACES[shape]) == 1 else [_met_once(faces) for faces in every]
+    found = []
+    for size in sorted({len(face) for face in FACES[shape]}):
+        sides = [face for face in FACES[shape] if len(face) == size]
+        faces = np.concatenate([corners[:, face] for face in sides])
+        cell = np.tile(np.arange(len(corners)), len(sides))
+        once = _met_once(faces) if len(FACES[shape]) > 1 else np.ones(len(faces), dtype=np.bool_)
+        found.append((faces[once], cell[once]))
+    return found
 
 
-def _met_once(faces: Ints) -> Ints:
-    """The faces of one cell only: those of two lie inside."""
+def _met_once(faces: Ints) -> Bools:
+    """Which faces are of one cell only: those of two lie inside."""
     _, place, count = np.unique(np.sort(faces, axis=1), axis=0, return_inverse=True, return_counts=True)
-    return np.asarray(faces[count[place.ravel()] == 1])
+    return np.asarray(count[place.ravel()] == 1)

@@ -14,6 +14,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.meshes.numerals import PAD, Bytes, NumeralError, decimals, integers, padded
+from vectorplot.scene.fields import Fields
 
 # A blank that stands for the end of a line joined to the next one.
 JOINT = b"\v"
@@ -26,13 +27,14 @@ Value = TypeVar("Value")
 
 @dataclass(frozen=True, eq=False)
 class MeshFile:
-    """The content of a mesh file: one mesh; its parts by name and the first face (k,) of each; and the relative spacing
-    of its coordinates."""
+    """The content of a mesh file: one mesh; its parts by name and the first face (k,) of each; the relative spacing of
+    its coordinates; and numbers at its vertices and on its faces, if it has any."""
 
     mesh: Mesh
     names: tuple[str, ...]
     first_faces: tuple[int, ...]
     precision: float
+    fields: Fields | None = None
 
 
 def shown(path: Path) -> str:

@@ -1,8 +1,7 @@
-"""PLY files, text and binary: vertices and polygons; other elements and properties are passed over."""
+"""PLY files, text and binary: vertices, polygons and the numbers at both; other elements are passed over."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
 from itertools import accumulate
 from pathlib import Path
 from typing import Any
@@ -12,55 +11,13 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.io.meshes.mesh_file import MeshFile, TextFile, check_announced, file_bytes, joined, polygon_mesh, shown
+from vectorplot.io.meshes.mesh_file import MeshFile, TextFile, file_bytes, joined, polygon_mesh, shown
 from vectorplot.io.meshes.off import face_corners
+from vectorplot.io.meshes.ply_header import Element, Header, read_header
+from vectorplot.io.meshes.ply_numbers import ply_fields
 from vectorplot.tolerances.of_numbers import SINGLE_ULP, ULP
 
-_TYPES = {
-    **{
-        "char": "i1",
-        "uchar": "u1",
-        "short": "i2",
-        "ushort": "u2",
-        "int": "i4",
-        "uint": "u4",
-        "float": "f4",
-        "double": "f8",
-    },
-    **{"int8": "i1", "uint8": "u1", "int16": "i2", "uint16": "u2", "int32": "i4", "uint32": "u4"},
-    **{"float32": "f4", "float64": "f8"},
-}
 _INDICES = ("vertex_indices", "vertex_index")
-
-
-@dataclass(frozen=True)
-class _Property:
-    name: str
-    kind: str
-    count_kind: str = ""
-
-
-@dataclass(frozen=True)
-class _Element:
-    name: str
-    count: int
-    properties: tuple[_Property, ...]
-
-    def place(self, name: str) -> int:
-        """Where the property stands, -1 if there is none."""
-        return next((k for k, entry in enumerate(self.properties) if entry.name == name), -1)
-
-    @property
-    def least_words(self) -> int:
-        """The smallest number of words in a line of this element."""
-        return len(self.properties)
-
-
-@dataclass(frozen=True)
-class _Header:
-    form: str
-    elements: tuple[_Element, ...]
-    body: int
 
 
 def read_ply(path: Path) -> MeshFile:
@@ -72,7 +29,7 @@ def read_ply(path: Path) -> MeshFile:
     Source: Turk, The PLY polygon file format (1994).
     """
     text = TextFile(shown(path), file_bytes(path))
-    header = _header(text)
+    header = read_header(text)
     vertex, face = (_element(text, header, name) for name in ("vertex", "face"))
     axes = [vertex.place(axis) for axis in "xyz"]
     if min(axes) < 0 or any(entry.count_kind for entry in vertex.properties):
@@ -85,17 +42,18 @@ def read_ply(path: Path) -> MeshFile:
         raise InputError("no faces in this file", file=text.name)
     single = all(vertex.properties[axis].kind == "f4" for axis in axes)
     mesh = polygon_mesh(vertices, corners, sizes)
-    return MeshFile(mesh, (path.stem,), (0,), SINGLE_ULP if single else ULP)
+    fields = ply_fields(text, header, mesh)
+    return MeshFile(mesh, (path.stem,), (0,), SINGLE_ULP if single else ULP, fields)
 
 
-def _element(text: TextFile, header: _Header, name: str) -> _Element:
+def _element(text: TextFile, header: Header, name: str) -> Element:
     for element in header.elements:
         if element.name == name:
             return element
     raise InputError(f"no element {name} in this file", file=text.name)
 
 
-def _indices_place(text: TextFile, face: _Element) -> int:
+def _indices_place(text: TextFile, face: Element) -> int:
     place = max(face.place(name) for name in _INDICES)
     if place < 0 or not face.properties[place].count_kind:
         raise InputError("a face needs the list vertex_indices", file=text.name)
@@ -104,75 +62,7 @@ def _indices_place(text: TextFile, face: _Element) -> int:
     return place
 
 
-def _header(text: TextFile) -> _Header:
-    """The header, its counts checked against the size of the file."""
-    if text.data[:3] != b"ply" or text.data[3:4] not in (b"\n", b"\r"):
-        raise InputError("expected ply in the first line", file=text.name, line=1)
-    form, position = "", 0
-    counts: dict[str, int] = {}
-    properties: dict[str, dict[str, _Property]] = {}
-    while True:
-        end = text.data.find(b"\n", position)
-        if end < 0 or end - position > 4096:
-            text.fail(position, "the header does not end (no end_header)")
-        words = text.data[position:end].decode("utf-8", "replace").split()
-        if words == ["end_header"]:
-            break
-        try:
-            form = _header_line(words, form, counts, properties)
-        except ValueError as error:
-            text.fail(position, str(error))
-        position = end + 1
-    if not form:
-        text.fail(position, "the header names no format")
-    elements = tuple(_Element(name, count, tuple(properties[name].values())) for name, count in counts.items())
-    header = _Header(form, elements, end + 1)
-    least = sum(element.count * _least_bytes(form, element) for element in elements)
-    check_announced(text.name, counts, least - (form == "ascii"), len(text.data) - header.body)
-    return header
-
-
-def _header_line(
-    words: list[str], form: str, counts: dict[str, int], properties: dict[str, dict[str, _Property]]
-) -> str:
-    """The form after this line; the counts of the elements and their properties, by their names, grow.
-
-    Errors: ValueError with the cause.
-    """
-    match words:
-        case [] | ["ply"] | ["comment" | "obj_info", *_]:
-            pass
-        case ["format", "ascii" | "binary_little_endian" | "binary_big_endian" as found, "1.0"]:
-            return found
-        case ["element", name, count] if count.isascii() and count.isdigit() and len(count) < 30:
-            if name in counts:
-                raise ValueError(f"element {name} stands twice")
-            counts[name], properties[name] = int(count), {}
-        case ["property", "list", count_kind, kind, name] if counts and {count_kind, kind} <= _TYPES.keys():
-            _add(properties[next(reversed(counts))], _Property(name, _TYPES[kind], _TYPES[count_kind]))
-        case ["property", kind, name] if counts and kind in _TYPES:
-            _add(properties[next(reversed(counts))], _Property(name, _TYPES[kind]))
-        case _:
-            line = " ".join(words)[:60]
-            raise ValueError(f"'{line}' is no line of a PLY header (format, element, property, comment)")
-    return form
-
-
-def _add(properties: dict[str, _Property], entry: _Property) -> None:
-    if entry.name in properties:
-        raise ValueError(f"property {entry.name} stands twice")
-    if entry.count_kind.startswith("f"):
-        raise ValueError(f"the count of the list {entry.name} must be an integer")
-    properties[entry.name] = entry
-
-
-def _least_bytes(form: str, element: _Element) -> int:
-    if form == "ascii":
-        return max(2 * len(element.properties), 1)
-    return sum(np.dtype(entry.count_kind or entry.kind).itemsize for entry in element.properties)
-
-
-def _text_body(text: TextFile, header: _Header, axes: list[int], place: int) -> tuple[Floats, list[Ints], list[Ints]]:
+def _text_body(text: TextFile, header: Header, axes: list[int], place: int) -> tuple[Floats, list[Ints], list[Ints]]:
     """Vertices, and pieces of corners and sizes of faces."""
     body = TextFile(text.name, text.data, header.body)
     elements = [element for element in header.elements if element.count]
@@ -197,7 +87,7 @@ def _text_body(text: TextFile, header: _Header, axes: list[int], place: int) -> 
     return joined(pieces, 3), corners, sizes
 
 
-def _binary_body(text: TextFile, header: _Header, axes: list[int], place: int) -> tuple[Floats, list[Ints], list[Ints]]:
+def _binary_body(text: TextFile, header: Header, axes: list[int], place: int) -> tuple[Floats, list[Ints], list[Ints]]:
     """Vertices, corners and sizes of faces."""
     order = "<" if header.form == "binary_little_endian" else ">"
     position = header.body
@@ -227,7 +117,7 @@ def _binary_body(text: TextFile, header: _Header, axes: list[int], place: int) -
     return vertices, *_checked_faces(text, lists, len(vertices), face_start)
 
 
-def _check_end(text: TextFile, element: _Element, end: int) -> None:
+def _check_end(text: TextFile, element: Element, end: int) -> None:
     if end > len(text.data):
         cause = f"truncated: the {element.count} records of {element.name} end at byte {end} or later"
         raise InputError(f"{cause}, the file at byte {len(text.data)}", file=text.name)
@@ -257,7 +147,7 @@ def _checked_faces(
 
 
 def _list_records(
-    text: TextFile, order: str, element: _Element, position: int, wanted: int
+    text: TextFile, order: str, element: Element, position: int, wanted: int
 ) -> tuple[tuple[Ints, Ints], int]:
     """Items and lengths of the wanted list of every record (of the last list for -1), and where the records end."""
     lists = [entry for entry in element.properties if entry.count_kind]
@@ -268,9 +158,7 @@ def _list_records(
     return _unequal_records(text, order, element, position, wanted)
 
 
-def _equal_records(
-    text: TextFile, order: str, element: _Element, position: int
-) -> tuple[tuple[Ints, Ints], int] | None:
+def _equal_records(text: TextFile, order: str, element: Element, position: int) -> tuple[tuple[Ints, Ints], int] | None:
     """As _list_records, if all lists are as long as the first one."""
     place = next(k for k, entry in enumerate(element.properties) if entry.count_kind)
     entry = element.properties[place]
@@ -291,7 +179,7 @@ def _equal_records(
 
 
 def _unequal_records(
-    text: TextFile, order: str, element: _Element, position: int, wanted: int
+    text: TextFile, order: str, element: Element, position: int, wanted: int
 ) -> tuple[tuple[Ints, Ints], int]:
     """As _list_records, record by record: where one begins is known only when the one before it was read."""
     data, size = text.data, len(text.data)

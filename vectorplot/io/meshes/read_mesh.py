@@ -16,6 +16,7 @@ from vectorplot.geometry.repair.mesh_repair import Mending, is_closed_oriented, 
 from vectorplot.geometry.repair.sound_parts import sound_parts
 from vectorplot.io.meshes.mesh_file import MeshFile, shown
 from vectorplot.scene.extent import check_range
+from vectorplot.scene.fields import Fields
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 
@@ -39,15 +40,17 @@ def mesh_scene(path: Path) -> Scene:
         raise InputError(error.strerror or "cannot be read", file=shown(path)) from None
 
 
-def whole_mesh(path: Path) -> Mesh:
-    """All parts of a mesh file in one mesh. Errors and warnings as of mesh_scene."""
-    meshes = [item.mesh for item in mesh_scene(path).items]
+def whole_mesh(path: Path) -> tuple[Mesh, Fields | None]:
+    """All parts of a mesh file in one mesh, and its fields. Errors and warnings as of mesh_scene."""
+    items = mesh_scene(path).items
+    meshes = [item.mesh for item in items]
     if len(meshes) == 1:
-        return meshes[0]
+        return meshes[0], items[0].fields
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     corners = np.concatenate([mesh.corners + begin for mesh, begin in zip(meshes, first, strict=False)])
     sizes = np.concatenate([mesh.face_sizes for mesh in meshes])
-    return Mesh(np.concatenate([mesh.vertices for mesh in meshes]), corners, ragged.offsets(sizes))
+    whole = Mesh(np.concatenate([mesh.vertices for mesh in meshes]), corners, ragged.offsets(sizes))
+    return whole, items[0].fields
 
 
 def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
@@ -78,7 +81,7 @@ def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
 def _mesh_scene(path: Path, content: MeshFile) -> Scene:
     check_range(content.mesh.bounds)
     parts, mending = _mended_parts(path.stem, content)
-    items = tuple(Item(name, mesh) for name, mesh in parts if mesh.face_count)
+    items = tuple(Item(name, mesh, fields=content.fields) for name, mesh in parts if mesh.face_count)
     if not items:
         raise InputError(f"no face with an area ({mending})", file=shown(path))
     if str(mending):

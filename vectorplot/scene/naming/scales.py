@@ -19,8 +19,8 @@ class Colouring:
     Parameters
     ----------
     by : str or callable
-        x, y, z (or height), slope, curvature, or a formula in x, y and z, such as "x*y"; or by(points), which gives
-        (n,) numbers for points (n, 3).
+        x, y, z (or height), slope, curvature, the name of a field of items, or a formula in x, y and z, such as "x*y";
+        or by(points), which gives (n,) numbers for points (n, 3).
     colour_map : str
         viridis, heat, diverging, land or gray, or the name of one of matplotlib, if that is installed.
     steps : int

@@ -8,6 +8,7 @@ from copy import copy
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.bodies.bodies_of_revolution import FULL_TURN, revolution
@@ -30,6 +31,7 @@ from vectorplot.geometry.repair.adjacency import mesh_edges
 from vectorplot.io.scenes.items.scene_curves import CurveDraft
 from vectorplot.io.scenes.items.scene_placement import Placement
 from vectorplot.io.scenes.scene_words import Words
+from vectorplot.scene.fields import Fields
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.material import Material
@@ -83,6 +85,7 @@ class Draft:
     group: str | None = None
     hatch: Hatching | None = None
     mesh: Mesh | None = None
+    fields: Fields | None = None
     surface: Surface | ImplicitSurface | None = None
     curve: Curve | None = None
     terrain: Mesh | None = None
@@ -155,7 +158,13 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         draft.group or "",
         draft.hatch,
         (words.name, words.line(draft.index)),
+        fields=None if draft.fields is None else draft.fields.transformed(_matrix(draft.placement)),
     )
+
+
+def _matrix(placement: Sequence[float]) -> Floats:
+    """(4,4) acting on columns, of the twelve numbers of a placement."""
+    return np.vstack([np.array(placement).reshape(3, 4), np.eye(4)[3]])
 
 
 def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface | ImplicitSurface, SurfaceLines]:

@@ -100,7 +100,7 @@ def _read_mesh(reader: ItemCursor, draft: Draft) -> None:
     if reader.files is None:
         reader.fail("a text without a file names no files", draft)
     path = reader.files.named(reader.source, reader.at, draft.owner, MESH_SUFFIXES)
-    draft.mesh = whole_mesh(path)
+    draft.mesh, draft.fields = whole_mesh(path)
     reader.at += 1
 
 

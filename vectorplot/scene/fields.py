@@ -1,0 +1,163 @@
+"""Numbers that a file has at the vertices and on the faces of a mesh."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import slices
+from vectorplot.geometry.cuts.half_spaces import nothing_beside
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import cross, dot
+
+PIECE = 1 << 14
+"""Points that are looked up at a time."""
+
+AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True, eq=False)
+class Fields:
+    """Numbers at the vertices and on the faces of a mesh, by their names.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        As the file has it; what is drawn may be mended, cut and divided since.
+    at_vertices : mapping of str to (v,) array of float
+        A number for every vertex, linear in the triangles between them; NaN: none.
+    on_faces : mapping of str to (f,) array of float
+        A number for every face; NaN: none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import Fields
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(0, 1, 2)])
+    >>> heat = Fields(triangle, {"heat": np.array([0.0, 8.0, 0.0])})
+    >>> heat.names, heat.at("heat", np.array([(0.0, 0.0, 0.0), (1.0, 1.0, 0.0)])).tolist()
+    (('heat',), [0.0, 2.0])
+    """
+
+    mesh: Mesh
+    at_vertices: Mapping[str, Floats]
+    on_faces: Mapping[str, Floats] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, mesh: Mesh, at_vertices: Mapping[str, Any], on_faces: Mapping[str, Any]) -> Fields | None:
+        """The fields of arrays by their names; None where there are none.
+
+        Arrays (n, k) of vectors become NAME, their lengths, and NAME.x, NAME.y and NAME.z, or NAME.1 and so on. What is
+        not of numbers, or not as many as there are vertices or faces, is passed over; what is infinite is NaN.
+        """
+        found = [_numbers(given, n) for given, n in ((at_vertices, len(mesh.vertices)), (on_faces, mesh.face_count))]
+        return cls(mesh, *found) if any(found) else None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of all of them, those at vertices first."""
+        return tuple(dict.fromkeys([*self.at_vertices, *self.on_faces]))
+
+    def is_on_faces(self, name: str) -> bool:
+        """Whether the field of this name has a number for every face; one at vertices goes before."""
+        return name not in self.at_vertices
+
+    def at(self, name: str, points: Floats) -> Floats:
+        """The numbers of a field at points of the mesh.
+
+        Parameters
+        ----------
+        name : str
+            One of the names.
+        points : (n, 3) array of float
+            On the mesh, nearly.
+
+        Returns
+        -------
+        (n,) array of float
+            NaN where there is none, and off the mesh.
+        """
+        values = self.on_faces[name] if self.is_on_faces(name) else self.at_vertices[name]
+        result = np.full(len(points), np.nan)
+        left = np.arange(len(points))
+        if not self.is_on_faces(name) and len(self.mesh.vertices):
+            from scipy.spatial import cKDTree
+
+            far, nearest = cKDTree(self.mesh.vertices).query(points)
+            same = far <= nothing_beside(self.mesh.vertices)
+            result[same] = values[nearest[same]]
+            left = np.flatnonzero(~same)
+        place, corners, weights, face = self._places(points[left])
+        if self.is_on_faces(name):
+            result[left[place]] = values[face]
+        else:
+            # A corner without a number that weighs nothing does not matter.
+            result[left[place]] = np.where(weights > 0.0, weights * values[corners], 0.0).sum(axis=1)
+        return result
+
+    def _places(self, points: Floats) -> tuple[Ints, Ints, Floats, Ints]:
+        """Which of the points (n,3) are on triangles of the mesh, the corners (k,3) of these, the weights (k,3) of
+        those, and the faces (k,)."""
+        import shapely
+
+        fans, face = ragged.fans(self.mesh.offsets)
+        triangles, size = self.mesh.corners[fans], np.ptp(self.mesh.bounds, axis=0)
+        flat = np.sort(np.argsort(size, kind="stable")[1:])
+        low = self.mesh.vertices[triangles].min(axis=1)[:, flat]
+        high = self.mesh.vertices[triangles].max(axis=1)[:, flat]
+        near = nothing_beside(self.mesh.vertices)
+        tree = shapely.STRtree(shapely.box(*(low - near).T, *(high + near).T))
+        found = []
+        for piece in slices(len(points), PIECE):
+            here = points[piece]
+            which, triangle = tree.query(shapely.points(here[:, flat]))
+            weights, off = _weights(here[which], self.mesh.vertices[triangles[triangle]])
+            order = np.lexsort((off, which))
+            first = order[np.diff(which[order], prepend=-1) > 0]
+            found.append((which[first] + piece.start, triangle[first], weights[first]))
+        none = np.zeros(0, dtype=np.intp)
+        place, triangle, weight = (
+            np.concatenate(parts) for parts in zip((none, none, np.zeros((0, 3))), *found, strict=True)
+        )
+        return place, triangles[triangle], weight, face[triangle]
+
+    def transformed(self, matrix: ArrayLike) -> Fields:
+        """The fields on the mesh under a 4x4 matrix acting on columns: the same numbers."""
+        return replace(self, mesh=self.mesh.transformed(matrix))
+
+
+def _numbers(given: Mapping[str, Any], count: int) -> dict[str, Floats]:
+    found: dict[str, Floats] = {}
+    for name, array in given.items():
+        values = np.asarray(array)
+        if values.dtype.kind not in "fiub" or values.ndim not in (1, 2) or len(values) != count:
+            continue
+        values = np.where(np.isfinite(values), values, np.nan).astype(np.float64)
+        if values.ndim == 1 or values.shape[1] == 1:
+            found[str(name)] = values.reshape(-1)
+            continue
+        found[str(name)] = np.linalg.norm(values, axis=1)
+        parts = AXES if values.shape[1] == len(AXES) else [str(k + 1) for k in range(values.shape[1])]
+        found |= {f"{name}.{part}": values[:, k] for k, part in enumerate(parts)}
+    return found
+
+
+def _weights(points: Floats, corners: Floats) -> tuple[Floats, Floats]:
+    """(k,3) weights of the corners (k,3,3) of triangles that give the places in them near points (k,3), and how far
+    these are (k,)."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    normal = cross(b - a, c - a)
+    area = dot(normal, normal)
+    with np.errstate(all="ignore"):
+        parts = [dot(cross(q - p, points - p), normal) / area for p, q in ((b, c), (c, a), (a, b))]
+    weights = np.clip(np.nan_to_num(np.stack(parts, axis=1), nan=1.0), 0.0, 1.0)
+    weights /= weights.sum(axis=1, keepdims=True)
+    away = points - np.einsum("kc,kcx->kx", weights, corners)
+    return weights, np.asarray(np.sqrt(dot(away, away)))
