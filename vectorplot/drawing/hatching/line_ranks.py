@@ -16,6 +16,9 @@ GROWTH = 1.4
 NEIGHBOURS = 12
 """So many places are looked at for one of a line before it in its own group."""
 
+FIRST_ONES = 16
+"""Lines with whose places all others are compared: later ones are so many that only what is near them can change."""
+
 GOLDEN = 0.5 * (np.sqrt(5.0) - 1.0)
 
 SMOOTHED = 9
@@ -60,13 +63,19 @@ def _farthest_first(where: Floats, starts: Ints, sizes: Ints) -> Ints:
     first = ragged.starts(taken)
     away, left = np.full(len(some), np.inf), np.ones(count, dtype=np.bool_)
     order = np.zeros(count, dtype=np.intp)
-    line = int(np.argmax(sizes))
+    line, every = int(np.argmax(sizes)), cKDTree(some)
     for turn in range(count):
         order[turn] = line
         left[line] = False
         rest = left[of]
-        own = some[first[line] : first[line] + taken[line]]
-        away[rest] = np.minimum(away[rest], cKDTree(own).query(some[rest])[0])
+        own = cKDTree(some[first[line] : first[line] + taken[line]])
+        if turn < FIRST_ONES:
+            away[rest] = np.minimum(away[rest], own.query(some[rest])[0])
+        else:
+            # What is nearer to lines before than to this one is not asked.
+            reach = float(away.max(where=rest, initial=0.0))
+            pairs = own.sparse_distance_matrix(every, reach, output_type="ndarray")
+            np.minimum.at(away, pairs["j"], pairs["v"])
         mean = np.add.reduceat(np.where(rest, away, 0.0), first) / taken
         line = int(np.argmax(np.where(left, mean, -1.0)))
     return order

@@ -16,8 +16,9 @@ from vectorplot.features.integral.on_meshes.placed_curves import (
     reached,
     some_places,
 )
-from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, NEAREST, SAMPLES, SHORTEST
+from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, SAMPLES
 from vectorplot.features.integral.spacing.gaps import SEPARATE, WIDEST
+from vectorplot.features.integral.spacing.uncrowded_lines import NEAREST, SHORTEST
 from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import closed_round, joined, some

@@ -27,6 +27,12 @@ AROUND = 2.0
 NEIGHBOURS = 12
 """So many of what is near a place are looked at until one is on its sheet."""
 
+PAIRS_AT_ONCE = 1 << 16
+"""Pairs of places that are looked at at a time."""
+
+ROUGHLY = 0.25
+"""Part by which distances may be off that only say which gap is wider."""
+
 ON_THE_WAY = (0.0, 0.23, 0.5, 0.71, 1.0)
 """Parts of the way between two places, straight in the parameters, at which it is looked at: not even ones, as sheets
 that are whole turns from each other are met at even parts of the way."""
@@ -52,6 +58,10 @@ class Ground:
 
     def on_one_sheet(self, one: Floats, two: Floats, reach: float) -> Bools:
         """(k,) whether places, u and v (k,2) each, that are within reach in space are near along the surface."""
+        if len(one) > PAIRS_AT_ONCE:
+            bounds = range(0, len(one), PAIRS_AT_ONCE)
+            parts = [slice(first, first + PAIRS_AT_ONCE) for first in bounds]
+            return np.concatenate([self.on_one_sheet(one[part], two[part], reach) for part in parts])
         way = self.charts.near_to(two, one) - one
         stops = [self.surface.points(*self.charts.within(one + part * way).T) for part in ON_THE_WAY]
         long = sum((norm(b - a) for a, b in pairwise(stops)), np.zeros(len(one)))
@@ -95,10 +105,11 @@ class Crowd:
         return result
 
     def away(self, where: Floats) -> Floats:
-        """(k,) distances in space, and of normals, from what is nearest; not finite where nothing is taken."""
+        """(k,) distances in space, and of normals, from what is nearest, larger by a part, ROUGHLY, at most; not finite
+        where nothing is taken."""
         result = np.full(len(where), np.inf)
         for group in self.groups:
-            result = np.minimum(result, group.tree.query(where)[0])
+            result = np.minimum(result, group.tree.query(where, eps=ROUGHLY)[0])
         return result
 
     def near(self, places: Floats, where: Floats, reach: float) -> Bools:
@@ -138,7 +149,7 @@ def crowds_itself(ground: Ground, line: PlacesAlong, where: Floats, which: Ints,
         part = order[:count]
         one, two = part[cKDTree(where[part]).query_pairs(reach, output_type="ndarray")].T
         way = np.abs(line.along[one] - line.along[two])
-        far = np.minimum(way, line.around[0] - way) > AROUND * ground.apart
+        far = np.minimum(way, line.around[line.curve[one]] - way) > AROUND * ground.apart
         one, two = one[far], two[far]
         same = ground.on_one_sheet(line.places[one], line.places[two], reach)
         one, two = one[same], two[same]
@@ -151,12 +162,18 @@ def crowds_itself(ground: Ground, line: PlacesAlong, where: Floats, which: Ints,
 def thinned(ground: Ground, places: Floats, reach: float) -> Ints:
     """Which of the places, u and v (k,2), to take, one after the other, so that none is within reach of those before on
     its sheet."""
-    where = ground.where(places)
-    left, chosen = np.arange(len(where)), []
-    while len(left):
-        first, left = left[0], left[1:]
-        chosen.append(int(first))
-        near = np.flatnonzero(norm(where[left] - where[first]) <= reach)
-        same = ground.on_one_sheet(places[left[near]], np.broadcast_to(places[first], (len(near), 2)), reach)
-        left = np.delete(left, near[same])
-    return np.array(chosen, dtype=np.intp)
+    from scipy.spatial import cKDTree
+
+    if not len(places):
+        return np.zeros(0, dtype=np.intp)
+    one, two = cKDTree(ground.where(places)).query_pairs(reach, output_type="ndarray").T
+    same = ground.on_one_sheet(places[one], places[two], reach)
+    one, two = one[same], two[same]
+    first, later = np.minimum(one, two), np.maximum(one, two)
+    order = np.argsort(first, kind="stable")
+    later, bounds = later[order], np.searchsorted(first[order], np.arange(len(places) + 1)).tolist()
+    left = np.ones(len(places), dtype=np.bool_)
+    for number in range(len(places)):
+        if left[number]:
+            left[later[bounds[number] : bounds[number + 1]]] = False
+    return np.flatnonzero(left)

@@ -15,9 +15,10 @@ from vectorplot.features.integral.flows import FieldFlow
 from vectorplot.features.integral.integral_curves import DEFAULT, USUAL_LENGTH, courses_from, drawn
 from vectorplot.features.integral.integration import Accuracy, Until
 from vectorplot.features.integral.sites import Sites
-from vectorplot.features.integral.spacing.crowd import Crowd, Ground, crowds_itself, thinned
+from vectorplot.features.integral.spacing.crowd import Crowd, Ground, thinned
 from vectorplot.features.integral.spacing.gaps import WIDEST, gaps_all_over
 from vectorplot.features.integral.spacing.places_along import PlacesAlong, places_along, ways_both
+from vectorplot.features.integral.spacing.uncrowded_lines import NEAREST, uncrowded
 from vectorplot.features.integral.tangent_fields import TangentField, TurnedField
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
@@ -30,12 +31,6 @@ DRAWN = Accuracy(INTEGRATED_AS_DRAWN)
 
 ACROSS = Accuracy(100.0 * INTEGRATED_AS_DRAWN)
 """How well those are that only say where others begin."""
-
-NEAREST = 0.5
-"""Part of the distance of curves at which one ends beside another."""
-
-SHORTEST = 1.5
-"""Times their distance that curves are long, at least."""
 
 SAMPLES = 4
 """Places along a curve for each distance, at which it is compared with others."""
@@ -213,7 +208,7 @@ def _without_crowds(runs: Courses, places: Floats, crowd: Crowd) -> tuple[Course
         left = left[~crowd.near(seeds, ground.where(seeds), WIDEST * ground.apart)]
         count = SAMPLES * np.cumsum((there + back)[left]) / ground.apart
         own, left = np.split(left, [max(1, int(np.searchsorted(count, PORTION)))])
-        found, crowd = _spans(places_along(runs, own, ground.apart / SAMPLES), crowd)
+        found, crowd = uncrowded(places_along(runs, own, ground.apart / SAMPLES), crowd)
         found[:, 0] = own[found[:, 0].astype(np.intp)]
         spans.append(found)
     line, first, last = np.concatenate(spans).T
@@ -221,38 +216,3 @@ def _without_crowds(runs: Courses, places: Floats, crowd: Crowd) -> tuple[Course
     whole = runs.closed[line] & (last - first >= runs.lengths[line])
     lengths = np.concatenate([np.where(whole, runs.lengths[line], last), np.where(whole, 0.0, -first)])
     return runs.some(np.concatenate([line, line + len(there)])).up_to(lengths), crowd
-
-
-def _spans(lines: PlacesAlong, crowd: Crowd) -> tuple[Floats, Crowd]:
-    """(s,3) which of the lines, which begin away from what is taken, to keep, in their order, and from where to where
-    along each; and what is taken with them."""
-    ground = crowd.ground
-    near, wide, short = (part * ground.apart for part in (NEAREST, WIDEST, SHORTEST))
-    where = ground.where(lines.places)
-    free = ~crowd.near(lines.places, where, near)
-    spans, own = list[tuple[float, float, float]](), Crowd(ground)
-    for number in range(len(lines.around)):
-        seed = lines.seeds[[number]]
-        if own.near(lines.places[seed], where[seed], wide).any():
-            continue
-        at = np.arange(lines.offsets[number], lines.offsets[number + 1])
-        line, at_where = lines.alone(number), where[at]
-        open_ = free[at] & ~own.near(line.places, at_where, near)
-        if not _long(line, open_, short):
-            continue
-        # What it does not reach is not asked whether it is near itself.
-        first, last = line.reached(open_)
-        open_[: first[0]] = open_[last[0] + 1 :] = False
-        open_[open_] = ~crowds_itself(ground, line, at_where, np.flatnonzero(open_), near)
-        if _long(line, open_, short):
-            first, last = line.reached(open_)
-            kept = slice(first[0], last[0] + 1)
-            spans.append((number, line.along[first[0]], line.along[last[0]]))
-            own = own.with_places(line.places[kept], at_where[kept])
-    return np.array(spans).reshape(-1, 3), crowd.together(own)
-
-
-def _long(line: PlacesAlong, free: Bools, short: float) -> bool:
-    """Whether a line is long enough that is reached from where it began over free places (p,)."""
-    (first,), (last,) = line.reached(free)
-    return bool(last >= first and line.along[last] - line.along[first] >= short)

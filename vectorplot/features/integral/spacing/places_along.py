@@ -36,12 +36,6 @@ class PlacesAlong:
         from_seed = np.flatnonzero(self.along == 0.0)
         return from_seed[np.searchsorted(self.curve[from_seed], np.arange(len(self.around)))]
 
-    def alone(self, number: int) -> PlacesAlong:
-        """One of the curves."""
-        own = slice(self.offsets[number], self.offsets[number + 1])
-        offsets = np.array([0, own.stop - own.start])
-        return PlacesAlong(offsets, self.along[own], self.places[own], self.around[[number]])
-
     def reached(self, free: Bools) -> tuple[Ints, Ints]:
         """The first and the last (c,) of the places of each curve that are reached from where it began over free ones
         only; the last is before the first where the curve does not begin at a free one."""
