@@ -44,7 +44,7 @@ MOST_LINES = 500
 LONGEST_ACROSS = 4.0
 """Times the extent of the surface that lines at right angles to curves run to each side at most: round it once."""
 
-ROUNDS = 6
+ROUNDS = 8
 """How often gaps are filled."""
 
 

@@ -24,6 +24,9 @@ AT_ONCE = 24
 SEPARATE = 4.0
 """Times the distance of curves that gaps which are filled at a time are from each other."""
 
+BESIDE = 2.0
+"""And times what is empty around the one that is filled first."""
+
 
 @dataclass(frozen=True, eq=False)
 class Gaps:
@@ -46,7 +49,9 @@ class Gaps:
         chosen: list[int] = []
         while len(left) and len(chosen) < AT_ONCE:
             chosen.append(int(left[0]))
-            left = left[norm(self.where[left] - self.where[left[0]]) > SEPARATE * self.ground.apart]
+            # Where much is empty, what begins in one gap fills those about it too.
+            empty = max(SEPARATE * self.ground.apart, BESIDE * float(self.away[left[0]]))
+            left = left[norm(self.where[left] - self.where[left[0]]) > empty]
         return np.array(chosen, dtype=np.intp)
 
     def left_by(self, crowd: Crowd, tried: Ints) -> Gaps:
