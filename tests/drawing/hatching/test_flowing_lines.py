@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import itertools
 from dataclasses import replace
 
 import cairo
@@ -12,7 +13,7 @@ import pytest
 import vectorplot as vp
 from vectorplot import features
 from vectorplot.backends.cairo.surfaces import png_bytes
-from vectorplot.drawing.hatching.line_ranks import place_ranks
+from vectorplot.drawing.hatching.line_ranks import _farthest_first, place_ranks
 from vectorplot.geometry import box
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.painting.flowing_lines import field_of
@@ -56,6 +57,17 @@ def test_where_lines_run_together_only_some_go_on():
     # On an arc of radius 11 there is room for 11 lines, and some that are a little nearer.
     assert 9 <= counts[20] <= 18
     assert (np.diff(counts) >= -3).all()
+
+
+def test_the_next_line_is_always_the_one_that_is_farthest_from_all_before():
+    random = np.random.default_rng(5)
+    lines = random.uniform(0.0, 1.0, (70, 1, 2)) + np.linspace(0.0, 0.2, 10)[:, None] * random.normal(size=(70, 1, 2))
+    order = _farthest_first(lines.reshape(-1, 2), 10 * np.arange(70), np.full(70, 10))
+    away = np.full((70, 10), np.inf)
+    for before, now in itertools.pairwise(order.tolist()):
+        away = np.minimum(away, np.linalg.norm(lines[:, :, None] - lines[before], axis=-1).min(axis=2))
+        away[before] = 0.0
+        assert now == np.argmax(away.mean(axis=1))
 
 
 def test_no_lines_have_no_ranks():

@@ -15,6 +15,7 @@ from vectorplot.features.integral.charts import charts
 from vectorplot.features.integral.flows import FieldFlow
 from vectorplot.features.integral.integral_curves import courses_from
 from vectorplot.features.integral.integration import Accuracy, Until
+from vectorplot.features.integral.spacing import uncrowded_lines
 from vectorplot.features.integral.spacing.crowd import Crowd, Ground, crowds_itself, thinned
 from vectorplot.features.integral.spacing.places_along import PlacesAlong
 from vectorplot.surfaces import Cylinder, Domain, Sphere, Torus
@@ -171,3 +172,27 @@ def test_what_is_near_is_so_on_the_same_sheet_and_for_a_line_not_a_little_before
     chosen = thinned(ground, places, 0.5)
     assert cKDTree(where[chosen]).query(where[chosen], 2)[0][:, 1].min() > 0.5
     assert cKDTree(where[chosen]).query(where)[0].max() <= 0.5
+
+
+def test_lines_are_taken_one_after_the_other_however_many_are_compared_at_a_time(monkeypatch):
+    plane, count = _Plane(), 80
+    ground = Ground(plane, charts(plane), 0.1)
+    random = np.random.default_rng(3)
+    along = np.tile(0.025 * np.arange(-16, 17), count)
+    angles = np.repeat(random.uniform(0.0, np.pi, count), 33)
+    seeds = np.repeat(random.uniform(-0.8, 0.8, (count, 2)), 33, axis=0)
+    places = seeds + along[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
+    lines = PlacesAlong(33 * np.arange(count + 1), along, places, np.full(count, np.inf))
+    found = []
+    for group in (50, 400, 1 << 14):
+        monkeypatch.setattr(uncrowded_lines, "GROUP", group)
+        spans, crowd = uncrowded_lines.uncrowded(lines, Crowd(ground))
+        found.append(spans)
+    assert len(found[0]) > 10 and all(np.array_equal(spans, found[0]) for spans in found)
+    line, low, high = found[0].T
+    assert (high - low > 0.15 - 1e-12).all() and (np.diff(line) > 0).all()
+    kept = [places[33 * int(k) : 33 * int(k) + 33][(a <= along[:33]) & (along[:33] <= b)] for k, a, b in found[0]]
+    for number, own in enumerate(kept[1:], start=1):
+        away = cKDTree(np.concatenate(kept[:number])).query(own)[0]
+        assert away.min() > 0.05, "no two are nearer than half the distance"
+    assert sum(map(len, kept)) == sum(len(taken.places) for taken in crowd.groups)
