@@ -50,7 +50,8 @@ def uses() -> dict[str, list[str]]:
     """The files of the package that import each name of the table."""
     found: dict[str, list[str]] = {}
     for path in sorted(PACKAGE.rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        text = path.read_text(encoding="utf-8")
+        for node in ast.parse(text).body if "vectorplot.tolerances." in text else ():
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("vectorplot.tolerances."):
                 for alias in node.names:
                     found.setdefault(alias.name, []).append(path.relative_to(ROOT).as_posix())

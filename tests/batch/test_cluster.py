@@ -11,11 +11,15 @@ from support.batches import contents, frame, frames, slow_frame
 import vectorplot as vp
 from vectorplot.batch import Tally, cluster, run
 
-distributed = pytest.importorskip("distributed")
+
+@pytest.fixture(scope="module")
+def distributed():
+    """Imported by who runs these tests, not by all who collect them."""
+    return pytest.importorskip("distributed")
 
 
 @pytest.fixture(scope="module")
-def scheduler():
+def scheduler(distributed):
     with distributed.LocalCluster(
         n_workers=2, threads_per_worker=1, host="127.0.0.1", dashboard_address=None, silence_logs=50
     ) as local:
@@ -24,7 +28,7 @@ def scheduler():
 
 @pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::ResourceWarning", "ignore::DeprecationWarning")
-def test_a_worker_that_is_killed_costs_no_frame_and_a_stopped_run_goes_on(scheduler, tmp_path):
+def test_a_worker_that_is_killed_costs_no_frame_and_a_stopped_run_goes_on(scheduler, distributed, tmp_path):
     tasks = frames(tmp_path / "there", 24, slow_frame, 0.05)
     killed, told = [], []
     with distributed.Client(scheduler, set_as_default=False) as client:
@@ -54,6 +58,7 @@ def test_a_worker_that_is_killed_costs_no_frame_and_a_stopped_run_goes_on(schedu
 @pytest.mark.parametrize(
     ("address", "said"), [("nonsense://x", "no cluster answers"), ("tcp://127.0.0.1:1", "no cluster answers")]
 )
+@pytest.mark.usefixtures("distributed")
 def test_where_nobody_answers_one_line_says_so(address, said, monkeypatch):
     monkeypatch.setattr("vectorplot.batch.executors.ANSWERS_S", 0.2)
     with pytest.raises(vp.InputError, match=said) as error, cluster(address):
