@@ -16,6 +16,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.unbounded import LOOKS, Limits, limits_of
 from vectorplot.curves.user_function import Numbers, UserFunction, user_function
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import all_components, all_finite
 from vectorplot.tolerances.of_numbers import COMPLEX_STEP
 from vectorplot.tolerances.of_values import DERIVATIVES_AGREE
 
@@ -188,7 +189,7 @@ class NumericFunction:
         if self.limits is not None:
             with np.errstate(invalid="ignore"):
                 known &= (result >= self.limits[0]) & (result <= self.limits[1])
-        return np.where(known.all(axis=-1, keepdims=True), result, np.nan)
+        return np.where(all_components(known)[..., None], result, np.nan)
 
     def _slopes(self, axis: int, parameters: list[Floats]) -> Floats:
         of = self._complex(axis) if self.by_complex_step else self._by_differences(axis, self.steps[axis])
@@ -221,7 +222,7 @@ class NumericFunction:
         found: list[Floats] = []
         for (_, parameters), height, answer in zip(asked, heights, each, strict=True):
             real = known[id(parameters)] & np.isfinite(answer)
-            found.append(np.where(real.all(axis=-1, keepdims=True), answer.imag / height, np.nan))
+            found.append(np.where(all_components(real)[..., None], answer.imag / height, np.nan))
         return found
 
     def _by_differences(self, axis: int, step: float) -> Callable[[list[Floats]], Floats]:
@@ -239,10 +240,10 @@ class NumericFunction:
         t = parameters[axis]
         result = _five_points(function, axis, parameters, self.ranges[axis].centres(t, h), h)
         for side in (2.0, -2.0):
-            lost = ~np.isfinite(result).all(axis=-1)
+            lost = ~all_finite(result)
             if not lost.any():
                 break
-            lost &= np.isfinite(self._values(parameters)).all(axis=-1)
+            lost &= all_finite(self._values(parameters))
             rest = [p[lost] for p in parameters]
             result[lost] = _five_points(function, axis, rest, rest[axis] + side * h, h)
         return result

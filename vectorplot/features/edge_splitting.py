@@ -15,6 +15,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conforming_triangles import divided
 from vectorplot.geometry import records
+from vectorplot.geometry.components import all_finite, any_component, greatest_component
 from vectorplot.geometry.triangle_edges import edges_of
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
@@ -71,7 +72,7 @@ class Vertices:
     @property
     def known(self) -> Bools:
         """(...,) which are not in holes."""
-        return np.asarray(np.isfinite(self.points).all(axis=-1), dtype=np.bool_)
+        return all_finite(self.points)
 
 
 class Between(Protocol):
@@ -181,7 +182,7 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
         border = (uses == 1) | _outlines(net, sides, len(edges), demand)
         excess = np.where(border, np.maximum(excess, as_border), excess)
         of_sides = excess[sides]
-        first = (of_sides > 1.0) & (of_sides >= FIRST * of_sides.max(axis=1, keepdims=True))
+        first = (of_sides > 1.0) & (of_sides >= FIRST * greatest_component(of_sides)[..., None])
         which = np.unique(sides[first])
         middle = np.full(len(edges), -1, dtype=np.intp)
         middle[which] = count + np.arange(len(which))
@@ -192,7 +193,7 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
         ends = net.vertices.some(edges[which, 0]), net.vertices.some(edges[which, 1])
         vertices = net.vertices.joined(between(*ends, part[which], uses[which] == 1))
         triangles, of = divided(net.triangles, middle[sides], vertices.points)
-        while (turned := between.turned(vertices.some(triangles)) & (middle[sides[of]] >= 0).any(axis=1)).any():
+        while (turned := between.turned(vertices.some(triangles)) & any_component(middle[sides[of]] >= 0)).any():
             # The rim beside these sides has left their triangles.
             whole = np.unique(sides[of[turned]])
             middle[whole] = -1
@@ -236,7 +237,7 @@ def _apart(vertices: Vertices, edges: Ints) -> Bools:
     places = vertices.places
     extent = np.ptp(places, axis=0) if len(places) else np.zeros(places.shape[1])
     way = np.abs(places[edges[:, 1]] - places[edges[:, 0]])
-    return np.asarray((way > JUMP_OF_DOMAIN * extent).any(axis=1))
+    return any_component(way > JUMP_OF_DOMAIN * extent)
 
 
 def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, demand: Demand) -> Floats:

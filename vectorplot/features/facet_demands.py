@@ -9,6 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.features.edge_splitting import LOOKS, Edges
+from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.vectors import norm
 
 Allowed = Callable[[Floats], Floats]
 """How far (...) triangles may be off a surface at points (..., 3)."""
@@ -56,16 +58,16 @@ class Within(AllSidesAlike):
 def off_chords(edges: Edges) -> Floats:
     """(k,n) how far the surface is from the sides themselves, at the vertices over them."""
     chord = edges.end.points - edges.start.points
-    length = np.linalg.norm(chord, axis=-1, keepdims=True)
+    length = norm(chord)[..., None]
     way = np.divide(chord, length, out=np.zeros_like(chord), where=length > 0.0)
     arm = edges.at.points - edges.start.points
-    along = np.clip((arm * way).sum(axis=-1, keepdims=True), 0.0, length)
-    return np.asarray(np.linalg.norm(arm - along * way, axis=-1))
+    along = np.clip(component_sum(arm * way)[..., None], 0.0, length)
+    return np.asarray(norm(arm - along * way))
 
 
 def turning(edges: Edges) -> Floats:
     """(n,) by how much normals turn from end to end, as far as they do so smoothly."""
     nodes = np.stack((edges.start.normals, *edges.at.normals[: len(LOOKS)], edges.end.normals))
-    steps = np.arccos(np.clip((nodes[1:] * nodes[:-1]).sum(axis=-1), -1.0, 1.0))
+    steps = np.arccos(np.clip(component_sum(nodes[1:] * nodes[:-1]), -1.0, 1.0))
     smooth = np.isfinite(steps) & (steps < JUMP)
     return np.asarray(np.where(smooth, steps, 0.0).sum(axis=0))

@@ -15,7 +15,9 @@ from vectorplot.features.parametric.holes.holes import ways_between
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.patch_nets import TOO_LONG, Patch, first_net
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
+from vectorplot.geometry.components import any_component
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
@@ -66,12 +68,12 @@ def _without_jumps(surface: Surface, net: Net) -> Net:
     way = ways_between(surface.domain, places[a, :2], places[b, :2])
     with np.errstate(all="ignore"):
         along_u, along_v = surface.partials(*places[:, :2].T)
-        expected = [np.linalg.norm(along_u[k] * way[:, :1] + along_v[k] * way[:, 1:], axis=1) for k in (a, b)]
-        long = np.linalg.norm(points[b] - points[a], axis=1) > TOO_LONG * np.maximum(*expected)
+        expected = [norm(along_u[k] * way[:, :1] + along_v[k] * way[:, 1:]) for k in (a, b)]
+        long = norm(points[b] - points[a]) > TOO_LONG * np.maximum(*expected)
     side = np.flatnonzero(long)
     torn = np.zeros(len(a), dtype=np.bool_)
     torn[side] = jumps(surface, places[a][side, :2], places[a][side, :2] + way[side])
-    return replace(net, triangles=net.triangles[~torn.reshape(-1, 3).any(axis=1)])
+    return replace(net, triangles=net.triangles[~any_component(torn.reshape(-1, 3))])
 
 
 def _facets(net: Net, sharp: Bools) -> Facets:

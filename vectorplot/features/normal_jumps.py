@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.edge_splitting import Between, Net, Vertices
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.triangle_edges import edges_of
 
 HALVINGS = 40
@@ -24,7 +25,7 @@ def cut_where_normals_jump(net: Net, between: Between) -> tuple[Net, Bools]:
     edges, sides, uses = edges_of(net.triangles, count)
     start, end = between.ends(net.vertices.some(edges[:, 0]), net.vertices.some(edges[:, 1]))
     with np.errstate(invalid="ignore"):
-        which = np.flatnonzero((start.normals * end.normals).sum(axis=1) < 0.0)
+        which = np.flatnonzero(component_sum(start.normals * end.normals) < 0.0)
     found = _turns(start.some(which), end.some(which), uses[which] == 1, between)
     which, found = which[found.known], found.some(found.known)
     middle = np.full(len(edges), -1, dtype=np.intp)

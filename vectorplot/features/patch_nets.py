@@ -15,7 +15,8 @@ from vectorplot.features.parametric.holes.holes import beside_rim_chords, is_kno
 from vectorplot.features.parametric.poles import Pole
 from vectorplot.features.tessellation import UNEVEN, grid_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface
-from vectorplot.geometry.vectors import cross, dot
+from vectorplot.geometry.components import all_components, all_finite
+from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import Domain, Surface
@@ -99,7 +100,7 @@ class Patch:
             tried = self.at(
                 _wrapped(self.surface.domain, np.column_stack([found.places[:, :2] + step, found.places[:, 2]]))
             )
-            better = np.linalg.norm(tried.points - points, axis=1) < np.linalg.norm(found.points - points, axis=1)
+            better = norm(tried.points - points) < norm(found.points - points)
             better &= close & is_known(self.surface, found.places[:, :2] + step)
             scale = np.where(better, 1.0, 0.5 * scale)
             from_start = np.where(better[:, None], moved, from_start)
@@ -135,7 +136,7 @@ class Patch:
     def inside(self, corners: Vertices) -> Bools:
         """(t,) as Between: of triangles between three places on a rim those with the surface in their middle."""
         found = np.ones(len(corners.places), dtype=np.bool_)
-        on_rim = np.flatnonzero((corners.places[:, :, 2] == ON_RIM).all(axis=1))
+        on_rim = np.flatnonzero(all_components(corners.places[:, :, 2] == ON_RIM))
         if len(on_rim):
             first, one, two = self._ways(corners.places[on_rim])
             found[on_rim] = is_known(self.surface, first + (one + two) / 3.0)
@@ -182,7 +183,7 @@ def _toward(surface: Surface, vertices: Vertices, points: Floats) -> Floats:
         uu, uv, vv = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
         u, v = dot(along_u, off), dot(along_v, off)
         steps = np.stack([vv * u - uv * v, uu * v - uv * u], axis=1) / (uu * vv - uv * uv)[:, None]
-    finite: Bools = np.asarray(np.isfinite(steps).all(axis=1))
+    finite: Bools = np.asarray(all_finite(steps))
     return np.where(finite[:, None], steps, 0.0)
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.components import all_components, any_component, component_sum
 from vectorplot.geometry.polylines import Rounds
 from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 from vectorplot.tolerances.of_values import STANDSTILL_OF_SPEED
@@ -168,14 +169,14 @@ def deviation(image: Image, start: Floats, end: Floats, probes: Floats) -> tuple
     these, all in the image; what has none is at no distance."""
     a = _seen(image, start)
     chord = _seen(image, end) - a
-    square = (chord * chord).sum(axis=1)
+    square = component_sum(chord * chord)
     most = np.zeros(len(start))
     for probe in probes:
         arm = _seen(image, probe) - a
         with np.errstate(invalid="ignore"):
-            t = np.clip((arm * chord).sum(axis=1) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+            t = np.clip(component_sum(arm * chord) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
             away = arm - t[:, None] * chord
-            most = np.fmax(most, np.sqrt((away * away).sum(axis=1)))
+            most = np.fmax(most, np.sqrt(component_sum(away * away)))
     return most, np.nan_to_num(np.sqrt(square))
 
 
@@ -187,7 +188,7 @@ def torn(lines: Traces, image: Image, tolerance: float | Floats, size: Floats) -
     size = np.broadcast_to(size, (int(last.sum()), p.shape[1]))[line]
     limit = np.broadcast_to(np.asarray(tolerance, dtype=np.float64), int(last.sum()))[line]
     step = np.abs(np.diff(p, axis=0)) / size
-    at = np.flatnonzero((step <= JUMP_OF_DOMAIN).all(axis=1) & (step > 0.0).any(axis=1) & ~last[:-1])
+    at = np.flatnonzero(all_components(step <= JUMP_OF_DOMAIN) & any_component(step > 0.0) & ~last[:-1])
     way = _seen(image, p[at + 1]) - _seen(image, p[at])
     at = at[np.sqrt((way * way).sum(axis=1)) > limit[at]]
     if not len(at):

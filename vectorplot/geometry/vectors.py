@@ -90,9 +90,9 @@ def length(vectors: ArrayLike) -> Floats:
     [5.0, 0.0]
     """
     v = np.asarray(vectors, dtype=np.float64)
-    largest = np.abs(v).max(axis=-1, initial=0.0, keepdims=True)
-    scaled = v / np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)
-    return np.asarray(largest[..., 0] * np.sqrt((scaled * scaled).sum(axis=-1)))
+    largest = largest_component(v)
+    scaled = v / np.where((largest > 0.0) & (largest < np.inf), largest, 1.0)[..., None]
+    return np.asarray(largest * norm(scaled))
 
 
 def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
@@ -131,8 +131,8 @@ def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
     if not np.all((long > ROUNDING * np.asarray(magnitude)) & (long < np.inf)):
         raise InputError("a vector without length has no direction")
     # The first division keeps the second away from overflow and underflow.
-    v = v / np.abs(v).max(axis=-1, keepdims=True)
-    return np.asarray(v / np.sqrt((v * v).sum(axis=-1, keepdims=True)))
+    v = v / largest_component(v)[..., None]
+    return np.asarray(v / norm(v)[..., None])
 
 
 def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import cross, largest_component, norm
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Domain, Surface
@@ -101,7 +102,7 @@ def _turning(
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse = 1.0 / (norm(product / size)[..., None] * size)
         turned = [
-            np.asarray((d - (d * unit).sum(axis=-1, keepdims=True) * unit) * inverse)
+            np.asarray((d - component_sum(d * unit)[..., None] * unit) * inverse)
             for d in (cross(uu, along_v) + cross(along_u, uv), cross(uv, along_v) + cross(along_u, vv))
         ]
     return turned[0], turned[1], np.asarray(vanished, dtype=np.bool_)

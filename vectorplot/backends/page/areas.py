@@ -14,6 +14,7 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import SEAM_MM, Colours, FillKind, Fills
 from vectorplot.drawing.strokes.page_clip import clipped_parts
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import any_component
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 
@@ -209,7 +210,7 @@ def _in_order(parts: tuple[Polygons, ...], place: tuple[Ints, ...]) -> Polygons:
 def _differ(colours: Colours, offsets: Ints) -> Bools:
     """(m,) whether the colours of a polygon's corners differ. Degenerate: those of none do not."""
     sizes = np.diff(offsets)
-    other = (colours != colours[np.repeat(np.minimum(offsets[:-1], max(len(colours) - 1, 0)), sizes)]).any(axis=1)
+    other = any_component(colours != colours[np.repeat(np.minimum(offsets[:-1], max(len(colours) - 1, 0)), sizes)])
     count = ragged.offsets(other)[offsets]
     return np.asarray(count[1:] > count[:-1])
 
@@ -284,7 +285,7 @@ def rounded(polygons: Polygons) -> tuple[Ints, Ints, Colours, Ints]:
     """Corners in microns, offsets and colours of the polygons, all turned counter-clockwise, and which ones remain."""
     microns = np.rint(polygons.points * 1000.0).astype(np.int64)
     sizes = np.diff(polygons.offsets)
-    new = (microns != microns[_before(polygons.offsets)]).any(axis=1)
+    new = any_component(microns != microns[_before(polygons.offsets)])
     kept_before = ragged.offsets(new)
     left = np.diff(kept_before[polygons.offsets])
     kept = np.flatnonzero((left >= 3) | ((left == 2) & (sizes == 2)))

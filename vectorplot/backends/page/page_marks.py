@@ -26,6 +26,7 @@ from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import all_components
 
 LARGEST_PAGE_MM = 1_000_000.0
 """A kilometre: cairo's coordinates wrap round at about three (2^23 points)."""
@@ -178,7 +179,7 @@ def _without_repeats(paths: Paths) -> tuple[_Rounded, Bools]:
     new[1:] = (microns[1:] != microns[:-1]).any(axis=1)
     new[starts] = True
     # The last run of equal points of a loop is dropped if it repeats the first point.
-    seam = paths.closed[filled] & (microns[starts] == microns[ends - 1]).all(axis=1)
+    seam = paths.closed[filled] & all_components(microns[starts] == microns[ends - 1])
     places = np.flatnonzero(new)
     last = places[np.searchsorted(places, ends) - 1]
     new[last[seam & (last > starts)]] = False

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import any_component
 
 SIDE_BY_SIDE_MICRONS = 30.0
 """Polygons that overlap by no more than a strip of about this width lie side by side: their corners are rounded to
@@ -92,7 +93,7 @@ def beside_a_side(microns: Ints, offsets: Ints, one: Ints, other: Ints) -> Bools
         start, along = table[side, one[asked]], way[side, one[asked]]
         arm = table[:, other[asked]] - start
         left = along[:, 0] * arm[..., 1] - along[:, 1] * arm[..., 0]
-        found[asked] |= (left.max(axis=0) <= 0.0) & along.any(axis=1)
+        found[asked] |= (left.max(axis=0) <= 0.0) & any_component(along)
     return found
 
 

@@ -10,6 +10,13 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.level_segments import split_at_middles
 from vectorplot.geometry import records
+from vectorplot.geometry.components import (
+    all_components,
+    any_component,
+    component_sum,
+    greatest_component,
+    least_component,
+)
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 REACH = 2.0
@@ -117,24 +124,24 @@ def _at_singular_points(nodes: Nodes, triangles: Ints) -> Bools:
     g[beside] /= np.maximum(np.linalg.norm(g[beside], axis=2, keepdims=True), LEAST_DIVISOR)
     least = (g * g).sum(axis=2).min(axis=1)
     apart = g - np.roll(g, 1, axis=1)
-    return np.asarray(least < (apart * apart).sum(axis=2).max(axis=1), dtype=np.bool_)
+    return np.asarray(least < greatest_component(component_sum(apart * apart)), dtype=np.bool_)
 
 
 def _reached(nodes: Nodes, triangles: Ints, slopes: Floats, factor: float) -> Bools:
     """(t,) triangles in which the values could vanish, by their slopes at the corners; not where they are zero at all
     corners: that is an area."""
     w = nodes.values[triangles]
-    steepest = np.sqrt(np.nanmax(np.nan_to_num((slopes * slopes).sum(axis=2)), axis=1))
-    near = np.abs(w).min(axis=1) <= factor * steepest * _widths(nodes, triangles)
-    changes = (w < 0.0).any(axis=1) & ~(w < 0.0).all(axis=1)
-    return np.asarray((near | changes) & ~np.isnan(w).any(axis=1) & (w != 0.0).any(axis=1))
+    steepest = np.sqrt(np.nanmax(np.nan_to_num(component_sum(slopes * slopes)), axis=1))
+    near = least_component(np.abs(w)) <= factor * steepest * _widths(nodes, triangles)
+    changes = any_component(w < 0.0) & ~all_components(w < 0.0)
+    return np.asarray((near | changes) & ~any_component(np.isnan(w)) & any_component(w != 0.0))
 
 
 def _aligned(slopes: Floats) -> Bools:
     """(t,) triangles at whose corners the slopes (t,3,3) point much the same way; those without slopes too."""
     total = slopes.sum(axis=1)
     along = np.einsum("tij,tj->ti", slopes, total)
-    sizes = np.sqrt((slopes * slopes).sum(axis=2) * (total * total).sum(axis=1)[:, None])
+    sizes = np.sqrt(component_sum(slopes * slopes) * component_sum(total * total)[:, None])
     return np.asarray(((along > ALIGNED * sizes) | np.isnan(along)).all(axis=1))
 
 
@@ -146,16 +153,16 @@ def _grazes_border(nodes: Nodes, triangles: Ints, slopes: Floats) -> Bools:
         i, j = triangles[:, a], triangles[:, b]
         w0, w1 = nodes.values[i], nodes.values[j]
         along = nodes.points[j] - nodes.points[i]
-        from_a, from_b = (slopes[:, a] * along).sum(axis=1) * w0, -(slopes[:, b] * along).sum(axis=1) * w1
+        from_a, from_b = component_sum(slopes[:, a] * along) * w0, -component_sum(slopes[:, b] * along) * w1
         falls = (from_a < 0.0) & (from_b < 0.0) & (w0 * w1 > 0.0)
         # Where both fall less than they are high, the curve through both line elements stays above zero.
         low = (-from_a > w0 * w0) | (-from_b > w1 * w1)
-        result |= falls & low & (nodes.fixed[i] & nodes.fixed[j]).any(axis=1)
+        result |= falls & low & any_component(nodes.fixed[i] & nodes.fixed[j])
     return result
 
 
 def _widths(nodes: Nodes, triangles: Ints) -> Floats:
     """(t,) longest sides."""
     a, b, c = (nodes.points[triangles[:, k]] for k in range(3))
-    squares = [((p - q) ** 2).sum(axis=1) for p, q in ((a, b), (b, c), (c, a))]
+    squares = [component_sum((p - q) ** 2) for p, q in ((a, b), (b, c), (c, a))]
     return np.asarray(np.sqrt(np.maximum.reduce(squares)))

@@ -14,7 +14,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
-from vectorplot.geometry.vectors import dot, normalize
+from vectorplot.geometry.vectors import dot, norm, normalize
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
 
 
@@ -189,7 +189,7 @@ def implicit_unit_normals(surface: ImplicitSurface, points: Floats) -> Floats:
     """(..., 3) unit gradients of F, pointing where F grows; NaN where the gradient vanishes."""
     slopes = surface.gradients(points)
     with np.errstate(invalid="ignore", divide="ignore"):
-        return np.asarray(slopes / np.linalg.norm(slopes, axis=-1, keepdims=True))
+        return np.asarray(slopes / norm(slopes)[..., None])
 
 
 def sight_line_bending(surface: ImplicitSurface, points: Floats, way: Floats) -> Floats:

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
+from vectorplot.geometry.components import all_components, greatest_component
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.geometry.repair.winding import components, edge_uses
@@ -112,7 +113,7 @@ def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
     places, triangles = _marched(w)
     triangles = triangles[_in_whole_cells(w, places, triangles)]
     vertices, on = _on_surface(surface, lattice, w, places)
-    triangles = triangles[on[triangles].all(axis=1)]
+    triangles = triangles[all_components(on[triangles])]
     return _compact(lattice, vertices, triangles)
 
 
@@ -250,7 +251,7 @@ def onto_surface(
             way = np.where(w[:, None] == 0.0, 0.0, slope / length[:, None])
         usable = np.isfinite(step)
         x[active[usable]] -= (np.clip(step, -far[active], far[active])[:, None] * way)[usable]
-        digits = 4.0 * np.spacing(np.abs(points[active]).max(axis=1))
+        digits = 4.0 * np.spacing(greatest_component(np.abs(points[active])))
         arrived[active] = usable & (np.abs(step) <= np.maximum(enough, digits))
         active = active[usable & ~arrived[active]]
     arrived &= np.linalg.norm(x - points, axis=1) <= 2.0 * far

@@ -10,7 +10,9 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.triangle_pairs import Boxes, overlapping_in_cells
 from vectorplot.geometry import records
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.repair.weld import close_points
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import CONTACT_FOUND_OF_CELL, CONTACT_SETTLED_OF_CELL, ONE_CONTACT_OF_CELL
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
@@ -98,12 +100,12 @@ def _middles(patch: Patch, which: Ints) -> _Middles:
     points = patch.points(places)
     count, dimension = len(places), places.shape[1]
     with np.errstate(invalid="ignore"):
-        off = np.linalg.norm(patch.points(sides.reshape(-1, dimension)).reshape(count, 3, 3) - between, axis=2)
-        sag = np.fmax(np.fmax.reduce(off, axis=1), np.linalg.norm(points - corners.mean(axis=1), axis=1))
+        off = norm(patch.points(sides.reshape(-1, dimension)).reshape(count, 3, 3) - between)
+        sag = np.fmax(np.fmax.reduce(off, axis=1), norm(points - corners.mean(axis=1)))
     sag = 1.5 * np.nan_to_num(sag)
     normals = patch.normals(places)
     around = patch.normals(own_places.reshape(-1, dimension)).reshape(count, 3, 3)
-    cosine = np.abs((around * normals[:, None]).sum(axis=2)).min(axis=1, initial=1.0)
+    cosine = np.abs(component_sum(around * normals[:, None])).min(axis=1, initial=1.0)
     low, high = (side[:, which] for side in own.boxes)
     return _Middles(places, points, normals, np.arccos(np.clip(cosine, 0.0, 1.0)), low - sag, high + sag)
 
@@ -121,7 +123,7 @@ def _near_pairs(one: Patch, two: Patch, same: bool) -> tuple[Ints, Ints]:
         i, j = i[i < j], j[i < j]
         apart = one.cells_apart(a.places[i], a.places[j]) > DRIFT
         i, j = i[apart], j[apart]
-    cosine = np.abs((a.normals[i] * b.normals[j]).sum(axis=1))
+    cosine = np.abs(component_sum(a.normals[i] * b.normals[j]))
     near = cosine >= np.cos(np.minimum(a.spread[i] + b.spread[j] + 0.05, 0.5 * np.pi))
     i, j = i[near], j[near]
     if not len(i):
@@ -204,7 +206,7 @@ class _Pass:
         frames = np.stack([first, np.cross(mean, first), mean], axis=1)
         with np.errstate(all="ignore"):
             slopes = np.stack(
-                [-np.einsum("kij,kj->ki", frames[:, :2], x) / (x * mean).sum(axis=1)[:, None] for x in (n, m)]
+                [-np.einsum("kij,kj->ki", frames[:, :2], x) / component_sum(x * mean)[:, None] for x in (n, m)]
             )
         bends = np.stack([one.bends(a, frames), two.bends(b, frames)])
         return _Pass(one.points(a), two.points(b), frames, slopes, bends)
@@ -225,9 +227,9 @@ class _Pass:
         result = []
         for sign, own in ((1.0, self.slopes[0]), (-1.0, self.slopes[1])):
             way = x + sign * half
-            result.append(np.einsum("kij,ki->kj", axes, way) + (own * way).sum(axis=1)[:, None] * self.frames[:, 2])
+            result.append(np.einsum("kij,ki->kj", axes, way) + component_sum(own * way)[:, None] * self.frames[:, 2])
         steps = np.where(good[None, :, None], np.stack(result), np.nan)
-        return steps, np.asarray(np.fmax(np.linalg.norm(x, axis=1), np.linalg.norm(half, axis=1)))
+        return steps, np.asarray(np.fmax(norm(x), norm(half)))
 
     def principal(self, extent: Floats) -> tuple[Floats, Floats]:
         """Second derivatives (k,2) of the height difference along its principal directions, and frames (k,3,3) of

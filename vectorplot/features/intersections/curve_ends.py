@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.double_curves import Course, followed
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.surface_patches import SurfacePatch
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_extent import END_RESIDUAL, END_SETTLED, ROUNDING_OF_POINTS, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import ON_BORDER_OF_CELL
@@ -159,7 +160,7 @@ def _runs_along(one: Patch, two: Patch, course: Course, points: Floats, other: C
     square = (chord * chord).sum(axis=1)
     arm = points[:, None] - ends[None, :-1]
     with np.errstate(all="ignore"):
-        t = np.clip((arm * chord).sum(axis=2) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+        t = np.clip(component_sum(arm * chord) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
     away = arm - t[..., None] * chord
     near = (away * away).sum(axis=2) <= BESIDE**2 * square
     if not near.any(axis=1).all():

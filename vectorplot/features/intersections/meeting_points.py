@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.tessellation import FREE
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_angles import SAME_DIRECTION_SINE
 from vectorplot.tolerances.of_extent import MEETING_RESIDUAL
@@ -120,7 +121,7 @@ def _steps(one: Patch, two: Patch, a: Floats, b: Floats, points: tuple[Floats, F
     with np.errstate(all="ignore"):
         held /= np.sqrt((held * held).sum(axis=1, keepdims=True))
         volume = (cross(n, m) * held).sum(axis=1)
-        heights = [((x - middle) * y).sum(axis=1, keepdims=True) for x, y in ((p, n), (q, m), (origin, held))]
+        heights = [component_sum((x - middle) * y)[..., None] for x, y in ((p, n), (q, m), (origin, held))]
         x = heights[0] * cross(m, held) + heights[1] * cross(held, n) + heights[2] * cross(n, m)
         x = x / volume[:, None]
     # Where the planes are one there is no such point: the middle has to do.

@@ -12,6 +12,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.tessellation import FREE, Tessellation
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.triangle_edges import edges_of
@@ -168,7 +169,7 @@ class MeshPatch(SingleShape):
         for step in range(int(count.max(initial=0))):
             corners = own.points[own.triangles[by_face[first + np.minimum(step, count - 1)]]]
             sides = np.roll(corners, -1, axis=1) - corners
-            heights = (cross(sides, places[:, None, :3] - corners) * normal[:, None]).sum(axis=2)
+            heights = component_sum(cross(sides, places[:, None, :3] - corners) * normal[:, None])
             zero = ZERO_OF_EXTENT * self.size[0] * np.linalg.norm(sides, axis=2)
             inside |= (heights >= -zero).all(axis=1) | (heights <= zero).all(axis=1)
         return inside

@@ -14,6 +14,7 @@ from vectorplot.features.parametric.curve_tracing import extent
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.tessellation import GridNodes, Tessellation, cell_corners, grid_nodes
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import cross
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.placed_surface import PlacedSurface
@@ -57,11 +58,11 @@ class OnSurfaces(ABC):
         """(k,d) places moved; a direction in which the surface stands still is not moved in."""
         surface = self.surface_at(places)
         along_u, along_v = surface.partials(*_home(surface, places))
-        long_u, long_v = (np.sqrt((a * a).sum(axis=1)) for a in (along_u, along_v))
+        long_u, long_v = (np.sqrt(component_sum(a * a)) for a in (along_u, along_v))
         with np.errstate(all="ignore"):
             a, b = along_u / long_u[:, None], along_v / long_v[:, None]
             a, b = (np.where(np.isfinite(x), x, 0.0) for x in (a, b))
-            cosine, by_a, by_b = (a * b).sum(axis=1), (a * steps).sum(axis=1), (b * steps).sum(axis=1)
+            cosine, by_a, by_b = component_sum(a * b), component_sum(a * steps), component_sum(b * steps)
             sine = np.maximum(1.0 - cosine * cosine, LEAST_SINE_SQUARED)
             change = np.stack([(by_a - cosine * by_b) / sine / long_u, (by_b - cosine * by_a) / sine / long_v], axis=1)
         change = np.where(np.isfinite(change), change, 0.0)
@@ -93,8 +94,8 @@ class OnSurfaces(ABC):
         uu, uv, vv = surface.second_partials(*at)
         with np.errstate(all="ignore"):
             product = cross(along_u, along_v)
-            height = product / (product * frames[:, 2]).sum(axis=1, keepdims=True)
-            bend = np.stack([(d * height).sum(axis=1) for d in (uu, uv, uv, vv)], axis=1).reshape(-1, 2, 2)
+            height = product / component_sum(product * frames[:, 2])[..., None]
+            bend = np.stack([component_sum(d * height) for d in (uu, uv, uv, vv)], axis=1).reshape(-1, 2, 2)
             flat = np.stack([np.einsum("kij,kj->ki", frames[:, :2], d) for d in (along_u, along_v)], axis=2)
             inverse = _inverse(flat)
             return np.asarray(np.einsum("kji,kjl,klm->kim", inverse, bend, inverse))

@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.tessellation import FREE, Tessellation
 from vectorplot.geometry.bounds.boxes import PAIRS_AT_ONCE, overlapping_boxes
+from vectorplot.geometry.components import all_components, any_component, component_sum
 from vectorplot.tolerances.of_numbers import ULP
 
 Pair = tuple[Ints, Ints]
@@ -171,7 +172,7 @@ def _meet(one: Tessellation, two: Tessellation, origin: Floats, i: Ints, j: Ints
     up = _is_up(past, one.triangles[i], two.triangles[j])
     # Edge k of a pierces b where its ends differ and it passes all edges of b on the same side.
     through_b = (above_b >= 0.0) != (np.roll(above_b, -1, axis=1) >= 0.0)
-    through_b &= up.all(axis=2) | ~up.any(axis=2)
+    through_b &= all_components(up) | ~any_component(up)
     through_a = (above_a >= 0.0) != (np.roll(above_a, -1, axis=1) >= 0.0)
     through_a &= up.all(axis=1) | ~up.any(axis=1)
     through = np.concatenate([through_b, through_a], axis=1)
@@ -194,7 +195,7 @@ def _meet(one: Tessellation, two: Tessellation, origin: Floats, i: Ints, j: Ints
 def _volumes(a: Floats, b: Floats, c: Floats, points: Floats) -> Floats:
     """(k,3) six times the volumes of the tetrahedra of triangles a, b, c (k,3) and each of points (k,3,3)."""
     normal = np.cross(b - a, c - a)
-    return np.asarray(((points - a[:, None]) * normal[:, None]).sum(axis=2))
+    return np.asarray(component_sum((points - a[:, None]) * normal[:, None]))
 
 
 def _differ(up: Bools) -> Bools:
@@ -230,7 +231,7 @@ def _weights(above: Floats, past: Floats, pair: Ints, k: Ints) -> tuple[Floats, 
         t = here / (here - there)
         areas = np.abs(past[pair, k])
         # The edge from corner n to the next faces corner n + 2.
-        inside = np.roll(areas / areas.sum(axis=1, keepdims=True), -1, axis=1)
+        inside = np.roll(areas / component_sum(areas)[..., None], -1, axis=1)
     own = np.zeros((len(pair), 3))
     row = np.arange(len(pair))
     own[row, k], own[row, (k + 1) % 3] = 1.0 - t, t

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.components import any_component
 
 
 @dataclass(frozen=True, eq=False)
@@ -29,7 +30,7 @@ def level_segments(triangles: Ints, values: Floats) -> LevelSegments:
     """
     negative = values[triangles] < 0.0
     count = negative.sum(axis=1)
-    row = np.flatnonzero((count % 3 != 0) & ~np.isnan(values)[triangles].any(axis=1))
+    row = np.flatnonzero((count % 3 != 0) & ~any_component(np.isnan(values)[triangles]))
     alone = count[row] == 1
     lone = np.where(alone, negative[row].argmax(axis=1), (~negative[row]).argmax(axis=1))
     corner, after, before = (triangles[row, (lone + k) % 3] for k in range(3))

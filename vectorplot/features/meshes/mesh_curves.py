@@ -12,6 +12,7 @@ from vectorplot.curves.bezier.fit import fitted_paths
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.features.meshes.level_segments import level_segments
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import all_components
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
@@ -24,6 +25,7 @@ from vectorplot.geometry.polylines import (
     with_points_kept,
 )
 from vectorplot.geometry.strokes import Strokes
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
 from vectorplot.words import LineKind
@@ -141,7 +143,7 @@ def joined_segments(points: Floats, pairs: Ints, face: Ints, level: float) -> Me
     faces[last[~branches.closed]] = NO_FACE
     own = points[branches.points]
     # A segment without length goes, and its first point with it; at the end of an open curve its second.
-    still = (own == points[after]).all(axis=1)
+    still = all_components(own == points[after])
     still[last[~branches.closed]] = False
     whole = MeshCurves(own, branches.offsets, branches.closed, faces, np.full(len(branches), level))
     return with_points_kept(whole, ~still)
@@ -156,7 +158,7 @@ def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
     here, chord = curves.points, curves.points[after] - curves.points[before]
     on = np.einsum("ij,ij->i", here - curves.points[before], curves.points[after] - here) > 0.0
     length = np.maximum(np.linalg.norm(chord, axis=1), LEAST_DIVISOR)
-    aside = np.linalg.norm(np.cross(here - curves.points[before], chord), axis=1) / length
+    aside = norm(np.cross(here - curves.points[before], chord)) / length
     straight = on & (aside <= ZERO_OF_EXTENT * extent)
     inner = straight & (curves.faces == curves.faces[before]) & (curves.faces != NO_FACE)
     return with_points_kept(curves, ~inner)

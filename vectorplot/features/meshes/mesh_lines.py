@@ -20,10 +20,11 @@ from vectorplot.features.meshes.mesh_curves import (
     without_inner,
 )
 from vectorplot.features.meshes.smooth_patches import apart_at_creases
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import face_barycentres
 from vectorplot.geometry.repair.winding import edge_uses
-from vectorplot.geometry.vectors import normalize
+from vectorplot.geometry.vectors import norm, normalize
 from vectorplot.tolerances.of_angles import NO_NORMAL
 from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
 
@@ -371,7 +372,7 @@ def vertex_normals(mesh: Mesh) -> Floats:
     before[following] = np.arange(len(following))
     here = mesh.vertices[corner]
     out, back = mesh.vertices[corner[following]] - here, mesh.vertices[corner[before]] - here
-    angle = np.arctan2(np.linalg.norm(np.cross(out, back), axis=1), (out * back).sum(axis=1))
+    angle = np.arctan2(norm(np.cross(out, back)), component_sum(out * back))
     weighted = mesh.face_normals[mesh.corner_face] * angle[:, None]
     total = np.stack([np.bincount(corner, weighted[:, k], len(mesh.vertices)) for k in range(3)], axis=1)
     length = np.linalg.norm(total, axis=1, keepdims=True)

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.zero_manifold import ZeroManifold
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import all_finite
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_parameters import BORDER_SEEN_FROM
@@ -54,7 +55,7 @@ def _points(surface: Surface, axis: int, along: Floats, place: float) -> Floats:
 
 def _spread(points: Floats) -> float:
     """The diagonal of the box around points, those in holes left out."""
-    return float(np.linalg.norm(np.ptp(points[np.isfinite(points).all(axis=-1)], axis=0)))
+    return float(np.linalg.norm(np.ptp(points[all_finite(points)], axis=0)))
 
 
 def through_poles(surface: Surface, found: ZeroManifold) -> ZeroManifold:

@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import greatest_component, least_component
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -57,7 +58,7 @@ def places_on_terrain(mesh: Mesh, places: ArrayLike, what: str = "terrain") -> t
     corners = (mesh.vertices - centre)[mesh.corners].reshape(-1, TRIANGLE, 3)
     x, y = corners[..., 0], corners[..., 1]
     at = given - centre[:2]
-    tree = STRtree(box(x.min(axis=1), y.min(axis=1), x.max(axis=1), y.max(axis=1)))
+    tree = STRtree(box(least_component(x), least_component(y), greatest_component(x), greatest_component(y)))
     slack = ZERO_OF_EXTENT * float(np.ptp(mesh.bounds, axis=0).max())
     place, face = tree.query(points(at), predicate="dwithin", distance=slack)
     weights = _weights(corners[face, :, :2], at[place])

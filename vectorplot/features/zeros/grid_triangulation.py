@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
@@ -72,7 +73,7 @@ def normals_among(points: Floats, around: Floats) -> Floats:
 
 def _unit(vectors: Floats) -> Floats:
     """Unit vectors; zero for zero and for NaN."""
-    size = np.sqrt((vectors * vectors).sum(axis=-1, keepdims=True))
+    size = np.sqrt(component_sum(vectors * vectors)[..., None])
     good = size > 0.0
     return np.asarray(np.where(good, vectors, 0.0) / np.where(good, size, 1.0))
 
@@ -145,7 +146,7 @@ def _deviation(points: Floats, normals: Floats, corners: tuple[int, int, int]) -
     face = _unit(cross(b - a, c - a))
     total = np.zeros(points.shape[1])
     for k in corners:
-        total += np.arccos(np.clip(np.abs((face * normals[k]).sum(axis=-1)), 0.0, 1.0))
+        total += np.arccos(np.clip(np.abs(component_sum(face * normals[k])), 0.0, 1.0))
     return total
 
 

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import any_component
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_parameters import BORDER_SEEN_FROM, FIRST_DIFFERENCE, SECOND_DIFFERENCE
 from vectorplot.tolerances.of_values import VANISHED_ON_BORDER
@@ -59,7 +60,7 @@ class ScalarFields:
         at, of = self.wrapped(points)[:, :2], number(points)
         first, last = self.start, self.start + self.size
         slack = 4.0 * np.spacing(np.maximum(np.abs(first), np.abs(last)))
-        outside = ((at < (first - slack)[of]) | (at > (last + slack)[of])).any(axis=1)
+        outside = any_component((at < (first - slack)[of]) | (at > (last + slack)[of]))
         u, v = (np.clip(at[:, axis], self.low[of, axis], self.high[of, axis]) for axis in (0, 1))
         w = self._evaluated(u, v, of)
         w[outside] = np.nan

@@ -15,6 +15,7 @@ from vectorplot.features.zeros.zero_refinement import of_lines, up_to_holes, wit
 from vectorplot.features.zeros.zero_segments import Segments
 from vectorplot.geometry import ragged
 from vectorplot.geometry.chord_refinement import Traces
+from vectorplot.geometry.components import all_components
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN, ROUNDING_OF_DOMAIN
@@ -170,5 +171,5 @@ def ends_meet(field: ScalarFields, first: Floats, last: Floats) -> Bools:
     """(b,) polylines that end where they start, whole periods aside."""
     turned = (last - first)[:, :2] / field.size[number(first)]
     return np.asarray(
-        (np.abs(turned - np.where(field.closed, np.round(turned), 0.0)) <= ROUNDING_OF_DOMAIN).all(axis=1)
+        all_components(np.abs(turned - np.where(field.closed, np.round(turned), 0.0)) <= ROUNDING_OF_DOMAIN)
     )

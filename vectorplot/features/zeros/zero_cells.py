@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.scalar_field import ScalarFields, next_to, number
 from vectorplot.geometry import records
+from vectorplot.geometry.components import component_sum
 
 ALIGNED = 0.25
 """Cosine down to which the gradients in a cell count as pointing the same way: then the curve is one arc there."""
@@ -231,8 +232,8 @@ def _aligned(g: Floats) -> Bools:
     """(k,) whether gradients (c,k,2) in c places of each cell all point roughly the way of their mean, and none of them
     is next to nothing beside the others."""
     mean = g.mean(axis=0)
-    product = (g * mean).sum(axis=2)
-    squares = (g * g).sum(axis=2)
+    product = component_sum(g * mean)
+    squares = component_sum(g * g)
     sizes = np.sqrt(squares * (mean * mean).sum(axis=1))
     steady = squares.min(axis=0) > STEADY * STEADY * squares.max(axis=0)
     return np.asarray((product > ALIGNED * sizes).all(axis=0) & steady, dtype=np.bool_)

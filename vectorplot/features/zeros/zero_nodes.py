@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.scalar_field import ScalarFields, moved, number
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import all_finite, component_sum
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_lengths import NODE_SETTLED_OF_CELL
 from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
@@ -137,7 +138,7 @@ def _critical(field: ScalarFields, starts: Floats, cell: Floats) -> tuple[Floats
         own = cell[of[active]]
         g = field.gradients(points[active]) * own
         h = field.hessians(points[active]) * (own[:, :, None] * own[:, None, :])
-        sound = np.isfinite(g).all(axis=1) & np.isfinite(h).all(axis=(1, 2))
+        sound = all_finite(g) & np.isfinite(h).all(axis=(1, 2))
         active, g, h = active[sound], g[sound], h[sound]
         bend, axes = np.linalg.eigh(h)
         curvature[active] = bend
@@ -227,7 +228,7 @@ def within(field: ScalarFields, points: Floats, centres: Floats, reach: Floats) 
         pairs.append((centre, order[place]))
     centre, point = (np.concatenate([pair[k] for pair in pairs]) for k in (0, 1))
     d = _difference(field, points[point], centres[centre]) / reach[centre]
-    near = (d * d).sum(axis=1) <= 1.0
+    near = component_sum(d * d) <= 1.0
     return centre[near], point[near]
 
 

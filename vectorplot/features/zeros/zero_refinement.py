@@ -11,6 +11,7 @@ from vectorplot.features.zeros.scalar_field import ScalarFields, moved, number
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged
 from vectorplot.geometry.chord_refinement import Traces, refined, torn
+from vectorplot.geometry.components import greatest_component
 from vectorplot.geometry.vectors import from_components
 from vectorplot.tolerances.of_parameters import DOT_OF_DOMAIN, REPEATED_OF_DOMAIN
 
@@ -130,7 +131,7 @@ def without_repeats(lines: Traces, size: Floats) -> tuple[Traces, Floats]:
     (s,2), and the points (k,3) of those that were nothing but one point."""
     if not len(lines.points):
         return lines, lines.points
-    step = (np.abs(np.diff(lines.points[:, :2], axis=0)) / size[number(lines.points[1:])]).max(axis=1)
+    step = greatest_component(np.abs(np.diff(lines.points[:, :2], axis=0)) / size[number(lines.points[1:])])
     step[lines.last[:-1]] = np.inf
     drop = np.concatenate([[False], step <= REPEATED_OF_DOMAIN])
     # The last point stays: the one before it goes instead.

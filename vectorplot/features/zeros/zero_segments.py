@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.zero_cells import Lattice
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros, cubic_parabola, zero_of_cubic_parabola
 from vectorplot.features.zeros.zero_triangles import Corners
+from vectorplot.geometry.components import any_component, greatest_component, least_component
 from vectorplot.tolerances.of_parameters import FIRST_GUESS
 from vectorplot.tolerances.of_values import FALLS_BESIDE, GRID_NOISE, ZERO_RESIDUAL
 
@@ -49,7 +50,7 @@ def crossing_segments(lattice: Lattice, corners: Corners, scale: Floats, zero: F
     w = np.where(np.abs(corners.w) <= GRID_NOISE * scale[corners.of, None], 0.0, corners.w)
     negative = w < 0.0
     count = negative.sum(axis=1)
-    row = np.flatnonzero((count % 3 != 0) & ~np.isnan(w).any(axis=1))
+    row = np.flatnonzero((count % 3 != 0) & ~any_component(np.isnan(w)))
     alone = count[row] == 1
     lone = np.where(alone, negative[row].argmax(axis=1), (~negative[row]).argmax(axis=1))
     # The two sides at the lone corner; a positive one is on the left on the way from the first to the second.
@@ -82,7 +83,7 @@ def _zero_corners(lattice: Lattice, sides: Sides) -> Ints:
 def _there_and_back(corners: Ints) -> Bools:
     """(q,) pieces between corners (q,2) that are zeros of f, with f negative on both sides: they are there in both
     directions, once for each triangle beside them."""
-    low, high = corners.min(axis=1), corners.max(axis=1)
+    low, high = least_component(corners), greatest_component(corners)
     rows = np.flatnonzero((low >= 0) & (low < high))
     _, piece = np.unique(np.stack([low[rows], high[rows]], axis=1), axis=0, return_inverse=True)
     double = np.zeros(len(corners), dtype=np.bool_)

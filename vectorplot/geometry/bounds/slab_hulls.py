@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.bounds.boxes import overlapping_boxes
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import normalize
 
 _DIAGONALS = [(1, 1, 0), (1, -1, 0), (1, 0, 1), (1, 0, -1), (0, 1, 1), (0, 1, -1)]
@@ -35,7 +36,7 @@ class SlabHulls:
         low, high = (best.reduceat(along, first, axis=1) for best in (np.minimum, np.maximum))
         middle = 0.5 * (low[:3] + high[:3]).T
         away = points - np.repeat(middle, sizes, axis=0)
-        radius = np.sqrt(np.maximum.reduceat((away * away).sum(axis=1), first))
+        radius = np.sqrt(np.maximum.reduceat(component_sum(away * away), first))
         return cls(low, high, middle, radius)
 
     def widened(self, by: Floats) -> SlabHulls:

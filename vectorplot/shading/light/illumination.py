@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import component_sum
 from vectorplot.scene.light import Light
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
@@ -190,7 +191,7 @@ def facing(normals: ArrayLike, to_eye: ArrayLike) -> Floats:
     """(n, 3) the normals, turned to the side the eye is on: so the faces of hollow bodies are lit if eye and light are
     on the same side. Source: Glaeser, section 4.5."""
     n, e = np.asarray(normals, dtype=np.float64), np.asarray(to_eye, dtype=np.float64)
-    return np.where((n * e).sum(axis=-1, keepdims=True) < 0.0, -n, n)
+    return np.where(component_sum(n * e)[..., None] < 0.0, -n, n)
 
 
 def reflected(normals: ArrayLike, to_light: ArrayLike) -> Floats:

@@ -11,6 +11,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.components import any_component
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
@@ -200,7 +201,7 @@ def _normals(triangles: SceneTriangles, found: VisiblePoints, to_eye: Floats) ->
     )
     smooth = unit(smooth)
     smooth[np.einsum("ij,ij->i", smooth, faces) < 0.0] *= -1.0
-    lost = ~smooth.any(axis=1)
+    lost = ~any_component(smooth)
     smooth[lost] = faces[lost]
     return faces, smooth
 

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import component_sum
 from vectorplot.shading.depth.depth_buffer import DepthBuffer
 
 
@@ -75,9 +76,9 @@ def points_in_pixels(
 
 def _normalized(parts: Floats) -> Floats:
     """(m, 3) weights in proportion to parts; where these have no sum, as for a triangle seen edge-on, equal ones."""
-    total = parts.sum(axis=1)
+    total = component_sum(parts)
     known = total != 0.0
     weights = parts / np.where(known, total, 1.0)[:, None]
     np.clip(weights, 0.0, 1.0, out=weights)
     weights[~known] = 1.0 / 3.0
-    return np.asarray(weights / weights.sum(axis=1)[:, None])
+    return np.asarray(weights / component_sum(weights)[:, None])

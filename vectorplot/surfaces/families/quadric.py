@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.placed_surface import MovableImplicit
 
@@ -77,7 +78,7 @@ class Quadric(MovableImplicit):
     def values(self, points: Floats) -> Floats:
         """(...,) F."""
         c, p = np.asarray(self.coefficients), points - np.asarray(self.origin)
-        return np.asarray(((p @ self.matrix + c[6:9]) * p).sum(axis=-1) + c[9])
+        return np.asarray(component_sum((p @ self.matrix + c[6:9]) * p) + c[9])
 
     def gradients(self, points: Floats) -> Floats:
         """(..., 3) gradients."""

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
+from vectorplot.geometry.components import component_sum
 from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
 from vectorplot.surfaces.placed_surface import MovableImplicit
 from vectorplot.surfaces.surface import Domain
@@ -131,7 +132,7 @@ class ImplicitTorus(MovableImplicit):
     def values(self, points: Floats) -> Floats:
         """(...,) F."""
         p = points - np.asarray(self.centre)
-        return np.asarray(self._sum(p) ** 2 - 4.0 * self.major**2 * (p[..., :2] ** 2).sum(axis=-1))
+        return np.asarray(self._sum(p) ** 2 - 4.0 * self.major**2 * component_sum(p[..., :2] ** 2))
 
     def gradients(self, points: Floats) -> Floats:
         """(..., 3) gradients."""
@@ -145,7 +146,7 @@ class ImplicitTorus(MovableImplicit):
         return np.asarray(same + 8.0 * p[..., :, None] * p[..., None, :])
 
     def _sum(self, p: Floats) -> Floats:
-        return np.asarray((p * p).sum(axis=-1) + (self.major - self.minor) * (self.major + self.minor))
+        return np.asarray(component_sum(p * p) + (self.major - self.minor) * (self.major + self.minor))
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.components import all_components, any_component
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_parameters import BESIDE_STANDSTILL
@@ -67,7 +68,7 @@ class ChordParts:
         if len(odd):
             inwards = BESIDE_STANDSTILL * np.concatenate([span, -span])
             way[odd] = self._limits(view, chord[odd], part[odd], inwards[odd])
-        angle = np.where(way.any(axis=1), np.arctan2(way[:, 1], way[:, 0]), np.nan)
+        angle = np.where(any_component(way), np.arctan2(way[:, 1], way[:, 0]), np.nan)
         result[on] = angle.reshape(2, count).T
         return result
 
@@ -86,7 +87,7 @@ class ChordParts:
     def _images(self, view: View, chord: Ints, part: Floats) -> tuple[Floats, Floats, Bools]:
         """Places (k,2) in the image, how they move (k,2), and whether (k,) that is only how the chord runs."""
         here, points = self.curves.with_exact_slopes(chord, part), self.curves.points
-        straight = (here.slopes == points[chord + 1] - points[chord]).all(axis=1)
+        straight = all_components(here.slopes == points[chord + 1] - points[chord])
         way = sight_lines.image_slopes(view, here.points, here.slopes)
         return sight_lines.image(view, here.points), way, straight
 

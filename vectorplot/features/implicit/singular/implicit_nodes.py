@@ -15,6 +15,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points, one_each
+from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
 from vectorplot.tolerances.of_extent import CRITICAL_SETTLED, SECOND_DIFFERENCE_IN_SPACE
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -55,7 +56,7 @@ class SpecialPoints:
 def special_points(curve: CurveInSpace, own: ImplicitMesh, band: Band) -> SpecialPoints:
     """The special points of a curve, from the triangles of its band that are still open at the finest resolution."""
     corners = own.mesh.vertices[own.mesh.corners.reshape(-1, 3)]
-    longest = float(np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max())
+    longest = float(norm(corners - np.roll(corners, 1, axis=1)).max())
     singular = _met_by(curve, isolated_singular_points(curve.surface, own, longest))
     triangles = band.nodes.points[band.triangles[band.open]]
     near = np.zeros((0, 3))

@@ -16,6 +16,7 @@ from vectorplot.features.parametric.holes.holes import (
     ways_between,
 )
 from vectorplot.features.parametric.holes.resolved_rims import resolved
+from vectorplot.geometry.components import all_components, any_component
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_parameters import REPEATED_OF_DOMAIN
 
@@ -73,14 +74,14 @@ def cut_at_holes(surface: Surface, places: Floats, triangles: Ints, known: Bools
     parts = [np.stack([c, on_a, on_b], axis=1)[alone], np.where(far, one, two), np.where(far, three, four)]
     every = np.concatenate([triangles[whole], *parts])
     of = np.concatenate([whole, cut_up[alone], cut_up[~alone], cut_up[~alone]])
-    kept = (every != np.roll(every, 1, axis=1)).all(axis=1)
+    kept = all_components(every != np.roll(every, 1, axis=1))
     rims = np.where(alone[:, None], np.stack([on_a, on_b], axis=1), np.stack([on_b, on_a], axis=1))
     return CutTriangles(np.concatenate([places, new]), every[kept], _once(rims), finer.of[of[kept]])
 
 
 def _with_surface(surface: Surface, places: Floats, triangles: Ints, known: Bools) -> Bools:
     """(n,) the known places but those beside holes around which nothing is known: x^y at whole y and x < 0."""
-    mixed = triangles[known[triangles].any(axis=1) & ~known[triangles].all(axis=1)]
+    mixed = triangles[any_component(known[triangles]) & ~all_components(known[triangles])]
     beside = np.unique(mixed[known[mixed]])
     result = known.copy()
     result[beside] = _has_surface(surface, places[beside])

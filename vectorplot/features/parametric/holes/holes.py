@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Domain, Surface
@@ -38,7 +39,7 @@ def is_known(surface: Surface, places: Floats) -> Bools:
     each of the k on its own one."""
     u, v = wrapped(surface.domain, places[..., 0], places[..., 1])
     with np.errstate(all="ignore"):
-        known = np.isfinite(surface.points(u, v)).all(axis=-1)
+        known = all_finite(surface.points(u, v))
     closed = (surface.domain.closed_u, surface.domain.closed_v)
     starts = (surface.domain.u_start, surface.domain.v_start)
     for axis, (round_, start, size) in enumerate(zip(closed, starts, surface.domain.size, strict=True)):

@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.parametric.holes.holes import is_known, ways_between
 from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.geometry.components import any_component
 from vectorplot.geometry.triangle_edges import edges_of
 from vectorplot.surfaces.surface import Surface
 
@@ -89,7 +90,7 @@ def _around(triangles: Ints, some: Bools) -> Bools:
         return some
     used = np.zeros(int(triangles.max()) + 1, dtype=np.bool_)
     used[triangles[some]] = True
-    return np.asarray(used[triangles].any(axis=1))
+    return np.asarray(any_component(used[triangles]))
 
 
 def _holes(surface: Surface, places: Floats, edges: Ints, asked: Bools) -> Floats:

@@ -14,6 +14,7 @@ from vectorplot.features.edge_splitting import LOOKS, NONE, Edges
 from vectorplot.features.facet_demands import INSIDE, JUMP, Allowed, off_chords, turning
 from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.coincidence.twins import fingerprint
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
@@ -96,7 +97,7 @@ class PictureFineness:
         return np.where(self._long(edges, allowed), off_chords(edges) / (INSIDE * allowed), 0.0)
 
     def _long(self, edges: Edges, allowed: Floats) -> Bools:
-        length = np.linalg.norm(edges.end.points - edges.start.points, axis=-1)
+        length = norm(edges.end.points - edges.start.points)
         return np.asarray(length > SHORTEST * allowed, dtype=np.bool_)
 
     def _apart_from_others(self, edges: Edges, least: Floats, most: Floats) -> Floats:

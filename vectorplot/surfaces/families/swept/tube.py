@@ -10,6 +10,7 @@ from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.splines.kinds import CubicSpline, InterpolatingSpline
 from vectorplot.curves.splines.spline_curve import spline_curve
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import cross, normalize
 from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
 from vectorplot.surfaces.surface import Domain
@@ -72,7 +73,7 @@ def tube(curve: Curve | ArrayLike, radius: float) -> FunctionSurface:
     def points(u: Floats, v: Floats) -> Floats:
         tangent = normalize(curve.tangents(v))
         near = guide.points(v)
-        first = normalize(near - (near * tangent).sum(axis=-1, keepdims=True) * tangent)
+        first = normalize(near - component_sum(near * tangent)[..., None] * tangent)
         around = np.cos(u)[..., None] * first + np.sin(u)[..., None] * cross(tangent, first)
         return np.asarray(curve.points(v) + radius * around)
 

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import EDGE_ON_SINE
 from vectorplot.visibility.smooth.events.events import Events, all_events
@@ -37,7 +37,7 @@ def edge_on_curves(view: View, sheets: Sheets, curves: Curves) -> Bools:
 def _facing(view: View, sheets: Sheets, number: Ints, points: Floats, places: Floats) -> Floats:
     """(k,) cosines of the angles between normals and sight lines."""
     way = sight_lines.sight(view, points)
-    return np.asarray(dot(sheets.normals(number, places), way) / np.linalg.norm(way, axis=1))
+    return np.asarray(dot(sheets.normals(number, places), way) / norm(way))
 
 
 def own_events(view: View, sheets: Sheets, curves: Curves, edge_on: Bools) -> Events:

@@ -13,6 +13,7 @@ from vectorplot.features.implicit.singular.singular_equations import SingularEqu
 from vectorplot.features.parametric.conditions import SurfaceCondition
 from vectorplot.features.parametric.holes.holes import beside_rim_chords
 from vectorplot.geometry import records
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import cross, dot, from_components
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
@@ -204,7 +205,7 @@ class ConditionCurves:
         forward = dot(tangent, way)
         with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
             tangent = tangent * (dot(way, way) / forward)[:, None]
-        tangent = np.where(np.isfinite(tangent).all(axis=1, keepdims=True), tangent, way)
+        tangent = np.where(all_finite(tangent)[..., None], tangent, way)
         places_at = np.concatenate([at * size, start[:, 2:]], axis=1)
         u, v = inside(domain, places_at)
         along_u, along_v = surface.partials(u, v)
@@ -301,6 +302,6 @@ def inner_part(part: Floats) -> Floats:
 
 def no_longer(steps: Floats, longest: Floats) -> Floats:
     """(k,3) the steps, those longer than this (k,) shortened; none where they are not finite."""
-    steps = np.where(np.isfinite(steps).all(axis=1, keepdims=True), steps, 0.0)
+    steps = np.where(all_finite(steps)[..., None], steps, 0.0)
     long = np.sqrt(dot(steps, steps))
     return np.asarray(steps * np.minimum(1.0, longest / np.maximum(long, LEAST_DIVISOR))[:, None])

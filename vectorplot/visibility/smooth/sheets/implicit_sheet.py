@@ -12,7 +12,7 @@ from vectorplot.features.implicit.implicit_mesh import ImplicitMesh, mesh_with_l
 from vectorplot.features.implicit.polygonize import polygonized
 from vectorplot.features.implicit.singular.implicit_singular_lines import singular_lines, usual_gradient
 from vectorplot.features.implicit.singular.singular_equations import CuspidalEdges
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.surfaces.surface import ImplicitSurface
@@ -184,7 +184,7 @@ def placed_in_view(view: View, surface: ImplicitSurface) -> PlacedImplicit:
 def _sags(surface: PlacedImplicit, triangles: Floats) -> Floats:
     """(t,) how far the middles of triangles (t,3,3) are off the surface, not more than they are large."""
     middles = triangles.mean(axis=1)
-    size = np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1, initial=0.0)
+    size = norm(triangles - np.roll(triangles, 1, axis=1)).max(axis=1, initial=0.0)
     with np.errstate(all="ignore"):
         off = np.abs(surface.values(middles)) / np.linalg.norm(surface.gradients(middles), axis=1)
     return np.asarray(np.fmin(off, size))

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.bounds.slab_hulls import SlabHulls
+from vectorplot.geometry.components import all_finite
 
 SLACK = 0.01
 """Part of its size that a tessellation may lie inside of its sheet."""
@@ -19,7 +20,7 @@ def near_sheets(points: Sequence[Floats]) -> list[tuple[int, int]]:
 
     Degenerate: a sheet without points is near none.
     """
-    finite = [own[np.isfinite(own).all(axis=1)] for own in points]
+    finite = [own[all_finite(own)] for own in points]
     known = np.flatnonzero([len(own) > 0 for own in finite])
     if not len(known):
         return []

@@ -10,6 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family, FamilyOfCubics
 
@@ -122,7 +123,7 @@ class Curves:
             places[which], points[which], slopes[which] = found.places, found.points, found.slopes
             if len(found.second_places):
                 second[which] = found.second_places
-        lost = np.flatnonzero(~np.isfinite(points + slopes).all(axis=1))
+        lost = np.flatnonzero(~all_finite(points + slopes))
         if len(lost):
             start, end = (ends[lost] for ends in chords.points)
             points[lost], slopes[lost] = start + part[lost, None] * (end - start), end - start
