@@ -8,25 +8,27 @@ numpy's own.
 from __future__ import annotations
 
 from functools import reduce
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats
 
+N = TypeVar("N", bound=np.number[Any])
 
-def all_components(flags: Bools) -> Bools:
+
+def all_components(flags: NDArray[Any]) -> Bools:
     """(...) where all of flags (..., k) are true."""
     return _reduced(np.logical_and, flags)
 
 
-def any_component(flags: Bools) -> Bools:
+def any_component(flags: NDArray[Any]) -> Bools:
     """(...) where at least one of flags (..., k) is true."""
     return _reduced(np.logical_or, flags)
 
 
-def all_finite(vectors: Floats) -> Bools:
+def all_finite(vectors: NDArray[Any]) -> Bools:
     """(...) where all components of vectors (..., k) are finite."""
     return all_components(np.isfinite(vectors))
 
@@ -36,12 +38,12 @@ def component_sum(values: Floats) -> Floats:
     return _reduced(np.add, values)
 
 
-def least_component(values: Floats) -> Floats:
+def least_component(values: NDArray[N]) -> NDArray[N]:
     """(...) the smallest of values (..., k); NaN where one of them is."""
     return _reduced(np.minimum, values)
 
 
-def greatest_component(values: Floats) -> Floats:
+def greatest_component(values: NDArray[N]) -> NDArray[N]:
     """(...) the largest of values (..., k); NaN where one of them is."""
     return _reduced(np.maximum, values)
 

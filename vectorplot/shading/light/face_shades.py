@@ -24,12 +24,12 @@ from vectorplot.shading.light.illumination import (
     FINISHES,
     Finish,
     backlit,
+    brightness,
     depth_cue,
     facing,
     fitting_factor,
-    homogeneous_light,
     intensities,
-    light_shares,
+    light_cosines,
     shades,
     towards,
 )
@@ -227,20 +227,17 @@ def point_shades(
     eye = view_eye(view)
     words = list(dict.fromkeys(some.material.word for some in items))
     word = np.array([words.index(some.material.word) for some in items], dtype=np.intp)[item]
-    shares, matt = np.zeros((2, len(lights), len(points)))
-    for number, name in enumerate(words):
-        own = np.flatnonzero(word == number)
-        finish = FINISHES.get(name, Finish())
-        shares[:, own] = light_shares(points[own], normals[own], eye, lights, finish)
-        plain = replace(finish, highlight=0.0)
-        matt[:, own] = (
-            light_shares(points[own], normals[own], eye, lights, plain) if finish.highlight else shares[:, own]
-        )
-    dark = np.zeros((len(lights), len(points)), dtype=np.bool_)
-    for row, light in zip(dark, lights, strict=True):
-        row[:] = backlit(np.einsum("ij,ij->i", normals, towards(points, homogeneous_light(light))))
+    finishes = [FINISHES.get(name, Finish()) for name in words]
+    shining = any(finish.highlight for finish in finishes)
+    alpha, beta = light_cosines(points, normals, eye if shining else None, lights)
+    shares, matt = np.zeros((2, *alpha.shape))
+    for number, finish in enumerate(finishes):
+        own = word == number if len(words) > 1 else slice(None)
+        cosines = alpha[:, own], beta[:, own]
+        shares[:, own] = brightness(*cosines, finish)
+        matt[:, own] = brightness(*cosines, replace(finish, highlight=0.0)) if finish.highlight else shares[:, own]
     low, high = depth_limits(view)
-    found = Shades(shares, matt, dark, light_colours(lights), depth_cue(points[:, 2], low, high - low))
+    found = Shades(shares, matt, backlit(alpha), light_colours(lights), depth_cue(points[:, 2], low, high - low))
     return faded(view, found, lights, points.T) if any(light.fading for light in lights) else found
 
 

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
@@ -271,7 +272,7 @@ def towards(points: ArrayLike, source: ArrayLike) -> Floats:
     if s.shape != (4,) or not np.isfinite(s).all():
         raise InputError("a light or an eye needs four finite homogeneous coordinates")
     ray = s[:3] - p if s[3] != 0.0 else np.broadcast_to(s[:3] / np.abs(s[:3]).max(initial=LEAST_DIVISOR), p.shape)
-    length = np.sqrt(np.einsum("ij,ij->i", ray, ray))
+    length = norm(ray)
     return np.asarray(ray / np.where(length > 0.0, length, 1.0)[:, None])
 
 
@@ -300,17 +301,25 @@ def light_shares(
     Source: Glaeser, sections 4.5 and 8.5.
     """
     p, n = np.asarray(points, dtype=np.float64), np.asarray(normals, dtype=np.float64)
-    to_eye = towards(p, eye) if finish.highlight else None
-    shares = np.zeros((len(lights), len(p)))
-    for share, light in zip(shares, lights, strict=True):
-        to_light = towards(p, homogeneous_light(light))
-        alpha = np.einsum("ij,ij->i", n, to_light)
-        beta = np.zeros(len(p))
+    alpha, beta = light_cosines(p, n, eye if finish.highlight else None, lights)
+    return np.array([brightness(*cosines, finish) for cosines in zip(alpha, beta, strict=True)]).reshape(alpha.shape)
+
+
+def light_cosines(
+    points: Floats, normals: Floats, eye: ArrayLike | None, lights: Sequence[Light]
+) -> tuple[Floats, Floats]:
+    """Cosines of the angles at points (n, 3) that brightness is made of, each (l, n): between normal and light, and
+    between reflected ray and eye; the latter are zeros without an eye, for what has no highlights."""
+    to_eye = None if eye is None else towards(points, eye)
+    alpha, beta = np.zeros((2, len(lights), len(points)))
+    for row, light in enumerate(lights):
+        to_light = towards(points, homogeneous_light(light))
+        alpha[row] = component_sum(normals * to_light)
         if to_eye is not None:
             # The reflected ray against the direction to the eye, without the ray itself.
-            beta = 2.0 * alpha * np.einsum("ij,ij->i", n, to_eye) - np.einsum("ij,ij->i", to_light, to_eye)
-        share[:] = brightness(alpha, beta, finish)
-    return shares
+            along = component_sum(normals * to_eye)
+            beta[row] = 2.0 * alpha[row] * along - component_sum(to_light * to_eye)
+    return alpha, beta
 
 
 def distance_factor(light_distance: float, depth: ArrayLike, nearest: float) -> Floats:
