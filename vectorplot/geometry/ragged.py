@@ -22,7 +22,7 @@ def offsets(sizes: Sizes) -> Ints:
     Of a mask: how many elements are kept before each one, and in all.
     """
     result = np.zeros(len(sizes) + 1, dtype=np.intp)
-    np.cumsum(sizes, out=result[1:])
+    np.add.accumulate(sizes, out=result[1:], dtype=np.intp)
     return result
 
 
@@ -33,12 +33,12 @@ def starts(sizes: Sizes) -> Ints:
 
 def owner(sizes: Sizes) -> Ints:
     """(n,) the group every element belongs to: 0 as often as the first size says, and so on."""
-    return np.repeat(np.arange(len(sizes)), sizes)
+    return np.arange(len(sizes)).repeat(sizes)
 
 
 def place(sizes: Ints) -> Ints:
     """(n,) how many elements of its group stand before each element: 0, 1, ... in every group."""
-    return np.arange(sizes.sum(), dtype=np.intp) - np.repeat(starts(sizes), sizes)
+    return np.arange(sizes.sum(), dtype=np.intp) - starts(sizes).repeat(sizes)
 
 
 def ranges(first: Ints, sizes: Ints) -> Ints:

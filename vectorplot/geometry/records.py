@@ -33,7 +33,7 @@ R = TypeVar("R", bound=Record)
 def some(record: R, which: Ints | Bools) -> R:
     """Some of the elements, with all that is said of them: those with these indices, in this order; or those where a
     mask is true."""
-    chosen = np.flatnonzero(which) if which.dtype == np.bool_ else which
+    chosen = which.nonzero()[0] if which.dtype == np.bool_ else which
     values = {f: getattr(record, f.name) for f in fields(record)}
     return replace(record, **{f.name: entries(f, v, chosen) for f, v in values.items() if v is not None})
 
@@ -50,7 +50,7 @@ def entries(f: Field[Any], values: NDArray[Any], which: Ints | Bools | slice) ->
         return values[..., which] if _COLUMNS in f.metadata else values[which]
     axis = values.ndim - 1 if _COLUMNS in f.metadata else 0
     # take moves rows and columns several times as fast as an index between brackets does.
-    return values.take(np.flatnonzero(which) if which.dtype == np.bool_ else which, axis=axis)
+    return values.take(which.nonzero()[0] if which.dtype == np.bool_ else which, axis=axis)
 
 
 def in_a_row(f: Field[Any], values: Sequence[NDArray[Any]]) -> NDArray[Any]:

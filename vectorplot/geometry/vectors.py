@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import component_sum
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 FEW_COMPONENTS = 7
@@ -54,11 +55,7 @@ def norm(vectors: ArrayLike) -> Floats:
     v = np.asarray(vectors, dtype=np.float64)
     if not 1 <= v.shape[-1] <= FEW_COMPONENTS:
         return np.asarray(np.linalg.norm(v, axis=-1))
-    # Sums of whole components: numpy's own sums along a short axis take five times as long.
-    total = v[..., 0] * v[..., 0]
-    for axis in range(1, v.shape[-1]):
-        total += v[..., axis] * v[..., axis]
-    return np.asarray(np.sqrt(total))
+    return np.asarray(np.sqrt(component_sum(v * v)))
 
 
 def largest_component(vectors: ArrayLike) -> Floats:
