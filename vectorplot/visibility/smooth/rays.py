@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
+from vectorplot.geometry.components import greatest_component, least_component
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import GRAZING_ANGLE
@@ -141,12 +142,14 @@ def _meetings(
     image = sight_lines.image(view, samples.points)
     sample, triangle = pairs
     # What lies behind a point hides nothing of it.
-    nearest = targets.depth(triangle).min(axis=1) - targets.triangles.off[triangle]
+    nearest = least_component(targets.depth(triangle)) - targets.triangles.off[triangle]
     before = nearest <= sight_lines.depth(view, samples.points)[sample]
     sample, triangle = sample[before], triangle[before]
     corners = targets.image(triangle)
     weight = weights(corners, image[sample])
-    reach = targets.triangles.margin[triangle] + 0.02 * np.ptp(corners, axis=1).max(axis=1)
+    columns = corners.swapaxes(1, 2)
+    size = greatest_component(greatest_component(columns) - least_component(columns))
+    reach = targets.triangles.margin[triangle] + 0.02 * size
     near = distance_to(corners, weight, image[sample]) <= reach
     sample, triangle, weight = sample[near], triangle[near], inside(weight[near])
     places, number = np.einsum("ij,ijk->ik", weight, targets.places(triangle)), targets.sheet[triangle]

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.bounds.slab_hulls import SlabHulls
+from vectorplot.geometry.components import greatest_component, least_component
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ALONG_SHEET_SINE, ROUGHLY_ALONG_SHEET_SINE
@@ -174,7 +175,8 @@ def _near_triangles(
     one, two = depth[chord[box]], depth[chord[box] + 1]
     deep = target.depth(triangle)
     margin = target.triangles.off[triangle]
-    near = (np.minimum(one, two) <= deep.max(axis=1) + margin) & (np.maximum(one, two) >= deep.min(axis=1) - margin)
+    nearest, farthest = least_component(deep), greatest_component(deep)
+    near = (np.minimum(one, two) <= farthest + margin) & (np.maximum(one, two) >= nearest - margin)
     box, triangle, margin = box[near], triangle[near], margin[near]
     chord = chord[box]
     corners = target.corners(triangle)
