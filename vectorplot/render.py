@@ -218,7 +218,7 @@ def render(
     _tell_what_is_missing(walk, seen, kinds)
     fine = (size[0] * samples, size[1] * samples)
     projection = projection_of(subject.camera, seen.bounds)
-    facets = FacetedScene(seen, (None,) * len(seen.items))
+    facets = FacetedScene.of_meshes(seen)
     if walk.calls_for("facets"):
         demand = Within(allowed_in_space(seen, projection, Page(*fine, 0.0), fit, FACET_PIXELS))
         facets = walk.run("facets", faceted, without_twins(seen), lambda number: demand, budget_of(budget))

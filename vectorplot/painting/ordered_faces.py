@@ -60,7 +60,7 @@ def ordered_faces(
 
     Warns: InputWarning for items that may be in a wrong order.
     """
-    facets = FacetedScene(shown, (None,) * len(shown.items))
+    facets = FacetedScene.of_meshes(shown)
     if walk.calls_for("facets"):
         facets = walk.run("facets", faceted, shown, demand(), budget)
     facets = replace(facets, scene=_with_clear_items(facets.scene))

@@ -9,15 +9,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Floats, Ints
-from vectorplot.geometry import ragged
-from vectorplot.geometry.chunks import slices
+from vectorplot.arrays import Floats
 from vectorplot.geometry.cuts.half_spaces import nothing_beside
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import cross, dot
-
-PIECE = 1 << 14
-"""Points that are looked up at a time."""
+from vectorplot.geometry.triangle_places import places_in_triangles
 
 AXES = ("x", "y", "z")
 
@@ -94,39 +89,13 @@ class Fields:
             same = far <= nothing_beside(self.mesh.vertices)
             result[same] = values[nearest[same]]
             left = np.flatnonzero(~same)
-        place, corners, weights, face = self._places(points[left])
+        place, corners, weights, face = places_in_triangles(self.mesh, points[left])
         if self.is_on_faces(name):
             result[left[place]] = values[face]
         else:
             # A corner without a number that weighs nothing does not matter.
             result[left[place]] = np.where(weights > 0.0, weights * values[corners], 0.0).sum(axis=1)
         return result
-
-    def _places(self, points: Floats) -> tuple[Ints, Ints, Floats, Ints]:
-        """Which of the points (n,3) are on triangles of the mesh, the corners (k,3) of these, the weights (k,3) of
-        those, and the faces (k,)."""
-        import shapely
-
-        fans, face = ragged.fans(self.mesh.offsets)
-        triangles, size = self.mesh.corners[fans], np.ptp(self.mesh.bounds, axis=0)
-        flat = np.sort(np.argsort(size, kind="stable")[1:])
-        low = self.mesh.vertices[triangles].min(axis=1)[:, flat]
-        high = self.mesh.vertices[triangles].max(axis=1)[:, flat]
-        near = nothing_beside(self.mesh.vertices)
-        tree = shapely.STRtree(shapely.box(*(low - near).T, *(high + near).T))
-        found = []
-        for piece in slices(len(points), PIECE):
-            here = points[piece]
-            which, triangle = tree.query(shapely.points(here[:, flat]))
-            weights, off = _weights(here[which], self.mesh.vertices[triangles[triangle]])
-            order = np.lexsort((off, which))
-            first = order[np.diff(which[order], prepend=-1) > 0]
-            found.append((which[first] + piece.start, triangle[first], weights[first]))
-        none = np.zeros(0, dtype=np.intp)
-        place, triangle, weight = (
-            np.concatenate(parts) for parts in zip((none, none, np.zeros((0, 3))), *found, strict=True)
-        )
-        return place, triangles[triangle], weight, face[triangle]
 
     def transformed(self, matrix: ArrayLike) -> Fields:
         """The fields on the mesh under a 4x4 matrix acting on columns: the same numbers."""
@@ -147,17 +116,3 @@ def _numbers(given: Mapping[str, Any], count: int) -> dict[str, Floats]:
         parts = AXES if values.shape[1] == len(AXES) else [str(k + 1) for k in range(values.shape[1])]
         found |= {f"{name}.{part}": values[:, k] for k, part in enumerate(parts)}
     return found
-
-
-def _weights(points: Floats, corners: Floats) -> tuple[Floats, Floats]:
-    """(k,3) weights of the corners (k,3,3) of triangles that give the places in them near points (k,3), and how far
-    these are (k,)."""
-    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
-    normal = cross(b - a, c - a)
-    area = dot(normal, normal)
-    with np.errstate(all="ignore"):
-        parts = [dot(cross(q - p, points - p), normal) / area for p, q in ((b, c), (c, a), (a, b))]
-    weights = np.clip(np.nan_to_num(np.stack(parts, axis=1), nan=1.0), 0.0, 1.0)
-    weights /= weights.sum(axis=1, keepdims=True)
-    away = points - np.einsum("kc,kcx->kx", weights, corners)
-    return weights, np.asarray(np.sqrt(dot(away, away)))

@@ -16,6 +16,7 @@ from vectorplot.scene.fields import Fields
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.material import Material
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
+from vectorplot.scene.surface_normals import SurfaceNormals
 from vectorplot.surfaces.placed_surface import placed_shape
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.words import OWN_LINE_WORDS, check_colour, line_words
@@ -97,6 +98,8 @@ class Item(Movable["Item"]):
         It is what a cut shows of another item: its sections are hatches, and it meets others only where that one does.
     fields : Fields, optional
         Numbers at its vertices and on its faces, by which it can be coloured.
+    normals : SurfaceNormals, optional
+        Of the smooth surface that a mesh was made of: it is shaded by them.
 
     Raises
     ------
@@ -126,6 +129,7 @@ class Item(Movable["Item"]):
     cut_by: tuple[HalfSpaces, ...] = ()
     is_cut_face: bool = False
     fields: Fields | None = None
+    normals: SurfaceNormals | None = None
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
@@ -167,7 +171,10 @@ class Item(Movable["Item"]):
         cut_by = tuple(region.transformed(m) for region in self.cut_by)
         patterns = self.patterns if patterns is None else patterns
         fields = None if self.fields is None else self.fields.transformed(m)
-        return replace(self, shape=shape, curves=curves, patterns=patterns, cut_by=cut_by, fields=fields)
+        normals = None if self.normals is None else self.normals.transformed(m)
+        return replace(
+            self, shape=shape, curves=curves, patterns=patterns, cut_by=cut_by, fields=fields, normals=normals
+        )
 
     @property
     def hides(self) -> bool:

@@ -241,7 +241,7 @@ def _face_items(item: Item, name: str, frame: PlaneFrame, area: Any, cut: Cut, w
     curves = NO_LINES if section is None else SurfaceLines(sections=(section,))
     colour = cut.colour or item.colour
     face = Item(name, mesh, colour, item.material, (), lines, item.occludes, curves, item.group, hatch)
-    return [replace(face, is_cut_face=True)]
+    return [replace(face, is_cut_face=True, normals=None)]
 
 
 def _away(scene: Scene, cut: Cut, body: Body, region: HalfSpaces, before: list[HalfSpaces]) -> list[Item]:

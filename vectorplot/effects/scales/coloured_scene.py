@@ -26,6 +26,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.naming.scales import Colouring
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
+from vectorplot.scene.surface_normals import SurfaceNormals
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances.of_extent import COLOURED_OF_EXTENT
 from vectorplot.words import unknown
@@ -44,13 +45,14 @@ PART_OF_STEP = 0.25
 @dataclass(frozen=True, eq=False)
 class _Valued:
     """Triangles (t,3) of points (n,3), with a number (n,) at each; and the mesh of those without a number, if there are
-    any. is_stepped: numbers are of faces, which share no points."""
+    any. is_stepped: numbers are of faces, which share no points. normals: of the surface they stand for."""
 
     points: Floats
     values: Floats
     triangles: Ints
     without: Mesh | None = None
     is_stepped: bool = False
+    normals: SurfaceNormals | None = None
 
 
 @dataclass(frozen=True)
@@ -119,7 +121,7 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
                 name = f"{item.name} {k + 1}"
                 group = item.group or item.name
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
-                items.append(replace(band, fields=None))
+                items.append(replace(band, fields=None, normals=whole.normals))
                 own.append(name)
                 pens.append(PenRule(item=name, colour=colours[k]))
                 pens.append(PenRule("boundary", name, width_mm=LINE_MM))
@@ -137,12 +139,13 @@ def _kept_lines(lines: SurfaceLines) -> SurfaceLines:
 
 def _valued(item: Item, colouring: Colouring, size: float) -> _Valued:
     """The triangles of an item and the numbers at their corners; what has none has the lowest there is."""
-    shape, normals = item.shape, None
+    shape, normals, of_surface = item.shape, None, None
     if isinstance(shape, Mesh):
         mesh = shape
     elif is_parametrised(shape) or is_implicit(shape):
         found = facets(shape, Within(lambda points: np.full(points.shape[:-1], COLOURED_OF_EXTENT * size)))
         mesh, normals = found.mesh, found.normals
+        of_surface = SurfaceNormals(mesh, np.nan_to_num(normals), found.sharp)
     else:
         mesh = item.mesh
     if not mesh.face_count:
@@ -162,7 +165,7 @@ def _valued(item: Item, colouring: Colouring, size: float) -> _Valued:
         raise InputError(f"{item.name}: {error.cause}") from None
     known = np.isfinite(values)
     least = float(values[known].min()) if known.any() else np.nan
-    return _Valued(points, np.where(known, values, least), triangles)
+    return _Valued(points, np.where(known, values, least), triangles, normals=of_surface)
 
 
 def _has_field(item: Item, name: str) -> bool:

@@ -12,9 +12,10 @@ from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.features.facets import facets
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
+from vectorplot.geometry.triangle_places import places_in_triangles
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.corner_normals import TrueNormals
+from vectorplot.shading.light.corner_normals import TrueNormals, unit
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
 
@@ -25,6 +26,11 @@ class FacetedScene:
 
     scene: Scene
     normals: tuple[TrueNormals | None, ...]
+
+    @classmethod
+    def of_meshes(cls, scene: Scene) -> FacetedScene:
+        """A scene that has no smooth surfaces."""
+        return cls(scene, tuple(_normals_of(item) for item in scene.items))
 
 
 def faceted(scene: Scene, demand: Callable[[int], Demand], budget: Budget = USUAL) -> FacetedScene:
@@ -51,10 +57,22 @@ def _faceted_item(
 ) -> tuple[Item, TrueNormals | None]:
     shape = item.shape
     if not (is_parametrised(shape) or is_implicit(shape)):
-        return replace(item, shape=item.mesh), None
+        return replace(item, shape=item.mesh), _normals_of(item)
     found = facets(shape, demand(number), budget.facets)
     if not found.complete:
         text = unresolved("the surface is shown by triangles that are coarser than the tolerance")
         warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=5)
     normals = TrueNormals(np.nan_to_num(found.normals), found.sharp)
     return replace(without_curved_mirror(item), shape=found.mesh), normals
+
+
+def _normals_of(item: Item) -> TrueNormals | None:
+    """The normals at the vertices of a mesh: those of the surface that it is a part of, if it is one of one."""
+    known, points = item.normals, item.mesh.vertices
+    if known is None or not len(points):
+        return None
+    place, corners, weights, _ = places_in_triangles(known.mesh, points)
+    normals, on_edge = np.zeros(points.shape), np.ones(len(points), dtype=np.bool_)
+    normals[place] = unit(np.einsum("kc,kcx->kx", weights, known.at_vertices[corners]))
+    on_edge[place] = ((weights > 0.0) & known.on_edge[corners]).any(axis=1)
+    return TrueNormals(normals, on_edge)

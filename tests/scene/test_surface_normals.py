@@ -1,0 +1,35 @@
+"""Normals of surfaces on meshes made of them."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot.effects.scales.coloured_scene import coloured
+from vectorplot.scene.naming.scales import Colouring
+from vectorplot.scene.surface_normals import SurfaceNormals
+from vectorplot.shading.light.fineness.faceted import FacetedScene
+from vectorplot.surfaces import Sphere
+
+
+def test_bands_of_colours_have_the_normals_of_their_ball():
+    ball = vp.Item("BALL", Sphere(2.0), material=vp.Material("matte"))
+    bands, _ = coloured(vp.Scene((ball,)), Colouring("z", steps=5))
+    moved = replace(bands, items=tuple(item.moved(3.0, 0.0, 0.0) for item in bands.items))
+    found = FacetedScene.of_meshes(moved).normals
+    assert len(found) == 5
+    for item, normals in zip(moved.items, found, strict=True):
+        points = item.mesh.vertices - [3.0, 0.0, 0.0]
+        true = points / np.linalg.norm(points, axis=1)[:, None]
+        assert (np.einsum("ij,ij->i", true, normals.at_vertices) > 1.0 - 1e-4).all() and not normals.on_edge.any()
+
+
+def test_normals_stay_upright_on_what_is_stretched_and_mirrored():
+    triangle = vp.Mesh.from_triangles([(1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2)])
+    normals = SurfaceNormals(triangle, np.tile(triangle.face_normals, (3, 1)), np.zeros(3, dtype=bool))
+    moved = normals.transformed(np.diag([-3.0, 1.0, 0.5, 1.0]))
+    sides = np.diff(moved.mesh.vertices, axis=0)
+    assert np.allclose(moved.at_vertices @ sides.T, 0.0, atol=1e-15)
+    assert np.allclose(np.linalg.norm(moved.at_vertices, axis=1), 1.0)

@@ -1,0 +1,71 @@
+"""Where points lie in the triangles of a mesh."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import slices
+from vectorplot.geometry.cuts.half_spaces import nothing_beside
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import cross, dot
+
+PIECE = 1 << 14
+"""Points that are looked up at a time."""
+
+
+class TrianglePlaces(NamedTuple):
+    """Which points (k,) are on triangles of a mesh, the corners (k,3) of these, the weights (k,3) of those, which add
+    up to 1, and the faces (k,) that the triangles are parts of."""
+
+    point: Ints
+    corners: Ints
+    weights: Floats
+    face: Ints
+
+
+def places_in_triangles(mesh: Mesh, points: Floats) -> TrianglePlaces:
+    """The places of those of some points (n,3) that are on a mesh, but for rounding: each in the triangle it is nearest
+    to.
+
+    Degenerate: points off the mesh are left out.
+    """
+    import shapely
+
+    fans, face = ragged.fans(mesh.offsets)
+    triangles, size = mesh.corners[fans], np.ptp(mesh.bounds, axis=0)
+    flat = np.sort(np.argsort(size, kind="stable")[1:])
+    low = mesh.vertices[triangles].min(axis=1)[:, flat]
+    high = mesh.vertices[triangles].max(axis=1)[:, flat]
+    near = nothing_beside(mesh.vertices)
+    tree = shapely.STRtree(shapely.box(*(low - near).T, *(high + near).T))
+    found = []
+    for piece in slices(len(points), PIECE):
+        here = points[piece]
+        which, triangle = tree.query(shapely.points(here[:, flat]))
+        weights, off = _weights(here[which], mesh.vertices[triangles[triangle]])
+        order = np.lexsort((off, which))
+        first = order[np.diff(which[order], prepend=-1) > 0]
+        found.append((which[first] + piece.start, triangle[first], weights[first]))
+    none = np.zeros(0, dtype=np.intp)
+    place, triangle, weight = (
+        np.concatenate(parts) for parts in zip((none, none, np.zeros((0, 3))), *found, strict=True)
+    )
+    return TrianglePlaces(place, triangles[triangle], weight, face[triangle])
+
+
+def _weights(points: Floats, corners: Floats) -> tuple[Floats, Floats]:
+    """(k,3) weights of the corners (k,3,3) of triangles that give the places in them near points (k,3), and how far
+    these are (k,)."""
+    a, b, c = corners[:, 0], corners[:, 1], corners[:, 2]
+    normal = cross(b - a, c - a)
+    area = dot(normal, normal)
+    with np.errstate(all="ignore"):
+        parts = [dot(cross(q - p, points - p), normal) / area for p, q in ((b, c), (c, a), (a, b))]
+    weights = np.clip(np.nan_to_num(np.stack(parts, axis=1), nan=1.0), 0.0, 1.0)
+    weights /= weights.sum(axis=1, keepdims=True)
+    away = points - np.einsum("kc,kcx->kx", weights, corners)
+    return weights, np.asarray(np.sqrt(dot(away, away)))
