@@ -20,6 +20,7 @@ from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.surface_normals import SurfaceNormals
 from vectorplot.stages.walk import Stage, StageReport, Walk
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
@@ -34,6 +35,8 @@ CLEAR = replace(PANE, material=Material("transparent", 0.5), occludes=False)
 GLASS = replace(PANE, material=Material("transparent", 0.5, 1.4), occludes=False)
 SPOT = replace(CUBE, patterns=(Pattern("SPOT", "red", 1, np.array([(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)])),))
 BALL = Item("BALL", Sphere(0.5))
+CORNERS = CUBE.mesh.vertices
+BAND = replace(CUBE, normals=SurfaceNormals(CUBE.mesh, CORNERS / np.sqrt(3.0), np.zeros(len(CORNERS), dtype=bool)))
 CAMERA = Camera((4.0, -6.0, 5.0))
 
 
@@ -74,6 +77,7 @@ CALLS = [
     (Scene((CUBE, GLASS)), {}, with_sheets("refraction")),
     (Scene((CUBE, GLASS), (SUN,)), {"shadows": "none"}, with_sheets("refraction")),
     (Scene((CUBE, BALL)), {}, ["facets", *PLAIN[:3], "unseen facets", *PLAIN[3:]]),
+    (Scene((BAND,)), {}, [*PLAIN[:3], "unseen facets", *PLAIN[3:]]),
     (Scene((CUBE,)), {"fills": "visible"}, [*PLAIN, "visible fills"]),
     (Scene((CUBE,)), {"lines": ("crease",)}, [*PLAIN, "lines"]),
 ]

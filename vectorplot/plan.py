@@ -264,7 +264,8 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
     stages.append(Stage("order", "back to front; what pierces or overlaps in circles is cut"))
     # Mirrors and refracting glass show what nothing else does.
     shows_more = any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items)
-    if stages[0].name == "facets" and not shows_more:
+    of_surfaces = any(not isinstance(item.shape, Mesh) or item.normals is not None for item in scene.items)
+    if of_surfaces and not shows_more:
         stages.append(Stage("unseen facets", "triangles of smooth surfaces that are wholly covered are left out"))
     if fills != "erasing" and any(item.material.opacity < 1.0 for item in scene.items):
         stages.append(Stage("transparent sheets", "polygons of transparent items stand together where they can"))
