@@ -1,5 +1,4 @@
-"""Draws the gallery: every scene in data/, some of them painted too, every script in examples/, and the page that shows
-them.
+"""Draws the gallery: scenes in data/, some of them painted too, scripts in examples/, and the page that shows them.
 
 ``python docs/gallery.py`` writes docs/gallery/*.svg, docs/gallery/*.png and docs/gallery/README.md. A test
 compares what it would write with what is stored.

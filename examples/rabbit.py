@@ -62,11 +62,11 @@ def even(mesh: vp.Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def write_ply(points: np.ndarray, triangles: np.ndarray, path: Path) -> None:
-    """A binary PLY file."""
-    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\nproperty float x\nproperty float y\n"
-    head += f"property float z\nelement face {len(triangles)}\nproperty list uchar ushort vertex_indices\nend_header\n"
-    rows = np.zeros(len(triangles), dtype=[("count", "u1"), ("corners", "<u2", 3)])
-    rows["count"], rows["corners"] = 3, triangles
+    places = "".join(f"property float {axis}\n" for axis in "xyz")
+    head = f"ply\nformat binary_little_endian 1.0\nelement vertex {len(points)}\n{places}"
+    head += f"element face {len(triangles)}\nproperty list uchar ushort vertex_indices\nend_header\n"
+    rows = np.full(len(triangles), 3, dtype=[("count", "u1"), ("corners", "<u2", 3)])
+    rows["corners"] = triangles
     path.write_bytes(head.encode() + points.astype("<f4").tobytes() + rows.tobytes())
 
 
@@ -75,7 +75,7 @@ def main(folder: Path) -> None:
     with tempfile.TemporaryDirectory() as place:
         write_ply(*even(polygonized(soft, 120)), Path(place) / "rabbit.ply")
         rabbit = vp.read(Path(place) / "rabbit.ply")
-    drawing = vp.draw(
+    vp.draw(
         with_lines(rabbit, sections=round_sections(rabbit, count=40), smooth_contours=True),
         vp.Camera((-9.0, -14.0, 6.0), (0.0, 0.0, 1.5), fov_deg=16.0),
         page="fit",
@@ -83,8 +83,7 @@ def main(folder: Path) -> None:
         lines="contour,suggestive,section,index",
         crease_angle_deg=90.0,
         pens="contour=0.5,suggestive=0.4,section=0.1:#777777,index=0.1:#777777",
-    )
-    vp.save(drawing, folder / "rabbit.svg")
+    ).save(folder / "rabbit.svg")
 
 
 if __name__ == "__main__":

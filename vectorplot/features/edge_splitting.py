@@ -16,7 +16,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conforming_triangles import divided
 from vectorplot.geometry import records
 from vectorplot.geometry.components import all_finite, any_component, greatest_component
-from vectorplot.geometry.triangle_edges import edges_of
+from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 

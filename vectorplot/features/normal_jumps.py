@@ -8,7 +8,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.edge_splitting import Between, Net, Vertices
 from vectorplot.geometry.components import component_sum
-from vectorplot.geometry.triangle_edges import edges_of
+from vectorplot.geometry.triangles.triangle_edges import edges_of
 
 HALVINGS = 40
 """How often the part of a side on which the normal turns over is halved."""

@@ -13,7 +13,7 @@ from vectorplot.features.parametric.curve_tracing import TURN
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.grid_triangulation import average_normals, cut_cells
-from vectorplot.geometry.triangle_edges import edges_of
+from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.surfaces.surface import Domain, Surface
 
 UNEVEN = 0.17

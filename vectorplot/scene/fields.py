@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.geometry.cuts.half_spaces import nothing_beside
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.triangle_places import places_in_triangles
+from vectorplot.geometry.triangles.triangle_places import places_in_triangles
 
 AXES = ("x", "y", "z")
 

@@ -320,9 +320,9 @@ def test_every_scene_of_the_gallery_loads_without_a_warning(path):
         scene = read_scene(path)
     assert scene.items and scene.title and scene.camera is not None
     for item in scene.items:
-        assert (
-            item.mesh is not item.shape or is_closed_oriented(item.shape) or item.name in ("PYRAMID", "LIGHT", "DARK")
-        )
+        # Panes of windows and the like are open.
+        is_open = item.name.split()[0] in ("PYRAMID", "LIGHT", "DARK", "PANE", "GLASS")
+        assert item.mesh is not item.shape or is_closed_oriented(item.shape) or is_open, item.name
 
 
 def test_empty_text_is_an_empty_scene():

@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conforming_triangles import divided
-from vectorplot.geometry.triangle_edges import edges_of
+from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 LOOKS = (0.21, 0.5, 0.79)

@@ -16,7 +16,7 @@ from vectorplot.features.intersections.triangle_pairs import overlapping_triangl
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.tessellation import FREE, Tessellation
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.triangle_edges import edges_of
+from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.geometry.vectors import dot
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
 

@@ -15,7 +15,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.triangle_edges import edges_of
+from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 

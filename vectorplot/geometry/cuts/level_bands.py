@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
-from vectorplot.geometry.triangle_edges import edges_of
+from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 NONE = -1

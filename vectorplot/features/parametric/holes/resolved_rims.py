@@ -11,7 +11,7 @@ from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.parametric.holes.holes import is_known, ways_between
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.components import any_component
-from vectorplot.geometry.triangle_edges import edges_of
+from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.surfaces.surface import Surface
 
 ROUNDS = 12

@@ -12,7 +12,7 @@ from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.features.facets import facets
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
-from vectorplot.geometry.triangle_places import places_in_triangles
+from vectorplot.geometry.triangles.triangle_places import places_in_triangles
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.corner_normals import TrueNormals, unit

@@ -1,0 +1,1 @@
+"""Triangles of meshes: their edges, and places in them."""
