@@ -293,7 +293,10 @@ def unknown(what: str, word: object, known: Iterable[str], more: str = "") -> In
     more: what else would have been right.
     """
     words = list(known)
-    near = nearest(word.lower(), words) if isinstance(word, str) else None
+    # Names of items and fields have capitals.
+    names = {one.lower(): one for one in words}
+    asked = word.lower() if isinstance(word, str) else ""
+    near = names.get(asked) or names.get(nearest(asked, names) or "")
     return _unknown(what, word, words, near, more)
 
 

@@ -16,6 +16,7 @@ from .pages.paper import sheet_size
 from .placement import Placement, field_of_vision, fitted_picture
 from .scene import Scene
 from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
+from .surface_normals import SurfaceNormals
 from .terrains.level_lines import level_sections, round_heights
 from .terrains.terrain_lines import Roads, WaterCourses, Watersheds
 from .terrains.terrain_mesh import terrain_mesh, terrain_scene
@@ -54,6 +55,7 @@ __all__ = [
     "ShortestPaths",
     "Stippling",
     "SurfaceLines",
+    "SurfaceNormals",
     "SurfacePath",
     "View",
     "WaterCourses",

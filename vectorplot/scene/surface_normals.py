@@ -33,7 +33,7 @@ class SurfaceNormals:
     --------
     >>> import numpy as np
     >>> import vectorplot as vp
-    >>> from vectorplot.scene.surface_normals import SurfaceNormals
+    >>> from vectorplot.scene import SurfaceNormals
     >>> triangle = vp.Mesh.from_triangles([(1, 0, 0), (0, 1, 0), (0, 0, 1)], [(0, 1, 2)])
     >>> of_ball = SurfaceNormals(triangle, triangle.vertices, np.zeros(3, dtype=bool))
     >>> of_ball.transformed(np.diag([2.0, 1.0, 1.0, 1.0])).at_vertices[0].tolist()

@@ -108,3 +108,5 @@ def test_a_cut_of_some_items_leaves_the_others_whole():
         vp.cut(by_python, "y < 0.7", items=["T"])
     with pytest.raises(InputError, match="expected names of items in quotes behind 'of'"):
         parse_scene('A box 2 2 2  cut "y < 0.7" of A')
+    with pytest.raises(InputError, match=r"2: cut: item 'LIP': .*did you mean 'LID'"):
+        parse_scene('LID box 2 2 2\ncut "y < 0.7" of "LIP"')

@@ -40,7 +40,7 @@ from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.naming.labels import Label
 from vectorplot.scene.pages.inks import check_item, target_of
 from vectorplot.scene.scene import Scene
-from vectorplot.words import WIRE_STYLES
+from vectorplot.words import WIRE_STYLES, unknown
 
 MAX_FILE_BYTES = 64 << 20
 """The largest scene file that is read."""
@@ -166,6 +166,7 @@ class _Reader(ItemReader):
         self.labels: list[tuple[int, Label]] = []
         self.annotations: list[Scene] = []
         self.pens: list[tuple[int, str]] = []
+        self.cuts: list[int] = []
         self.settings = Scene(items=())
         self.set: set[str] = set()
         self.lit: list[tuple[int, Draft]] = []
@@ -188,6 +189,7 @@ class _Reader(ItemReader):
         for place, draft in self.lit:
             self.items[place] = self.lit_item(self.items[place], draft, numbers)
         self.check_range()
+        self.check_cuts()
         shown = [item for place, item in enumerate(self.items) if place not in self.parts] if self.parts else self.items
         found = replace(self.settings, items=tuple(shown), lights=tuple(self.lights))
         return self.labelled(found) if self.labels else found
@@ -216,6 +218,14 @@ class _Reader(ItemReader):
                     check_item(item, tuple(names))
                 except InputError as error:
                     self.source.fail(index, error.cause)
+
+    def check_cuts(self) -> None:
+        """An InputError for cuts of items that are not there; items may come behind them."""
+        known = [item.name for item in self.items]
+        for index, cut in zip(self.cuts, self.settings.cuts, strict=True):
+            for name in cut.items or ():
+                if name not in known:
+                    self.source.fail(index, unknown("cut: item", name, known).cause)
 
     def check_range(self) -> None:
         """An InputError for polyhedra, as they stand in the scene, whose coordinates leave the range of numbers."""
@@ -252,6 +262,7 @@ class _Reader(ItemReader):
             label, self.at = read_label(source, self.at)
             self.labels.append((start, label))
         elif word == "cut":
+            self.cuts.append(self.at)
             cut, self.at = read_cut(source, self.at)
             self.settings = replace(now, cuts=(*now.cuts, cut))
         elif word in INK_WORDS:
