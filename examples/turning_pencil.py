@@ -16,7 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 
 def main(folder: Path) -> None:
     scene = vp.read(ROOT / "data" / "pencil.scene")
-    animation = vp.read_animation(ROOT / "anim" / "pencil.anim", scene)
+    animation = vp.read_animation(ROOT / "data" / "pencil.anim", scene)
     once = vp.Animation(animation.motion, frames=16, fps=8, loop=True)
     film = vp.animate(once, mode="lines", page="120x90", lines="contour,crease", crease_angle_deg=40)
     vp.save(film, folder / "turning_pencil.svg")

@@ -56,8 +56,7 @@ FILES = {
 @pytest.fixture
 def checkout(tmp_path, monkeypatch):
     """A folder with the data, which one may write into."""
-    for folder in ("data", "anim"):
-        shutil.copytree(ROOT / folder, tmp_path / folder)
+    shutil.copytree(ROOT / "data", tmp_path / "data")
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)

@@ -12,7 +12,6 @@ import vectorplot as vp
 from vectorplot.animation import read_movie
 from vectorplot.cli.main import run
 
-ANIM = ROOT / "anim"
 
 
 @pytest.fixture
@@ -40,9 +39,9 @@ def test_files_lie_where_the_book_has_them(workplace):
 
 
 def test_the_pencil_is_animated_recorded_and_replayed(tmp_path, monkeypatch, capsys):
-    for folder, name in ((DATA, "pencil.scene"), (ANIM, "pencil.anim")):
-        (tmp_path / folder.name).mkdir()
-        shutil.copy(folder / name, tmp_path / folder.name)
+    (tmp_path / DATA.name).mkdir()
+    for name in ("pencil.scene", "pencil.anim"):
+        shutil.copy(DATA / name, tmp_path / DATA.name)
     monkeypatch.chdir(tmp_path)
     assert run(["animate", "pencil", "-a", "pencil", "-v", "pencil", "-o", "film.pdf", "--frames", "4"]) == 0
     assert len(read_movie("video/pencil")) == 4
@@ -86,7 +85,7 @@ def test_options_mean_what_they_mean_to_the_verbs(workplace):
         (["animate", "die", "-a", "turn"], 2, "nothing to write: give -o OUT, or -v NAME, or both"),
         (["animate", "die", "-o", "a.pdf"], 2, "Missing option '-a'"),
         (["animate", "dye", "-a", "turn", "-o", "a.pdf"], 1, "dye: no such data file, nor in data/"),
-        (["animate", "die", "-a", "trun", "-o", "a.pdf"], 1, "trun: no such animation file, nor in anim/"),
+        (["animate", "die", "-a", "trun", "-o", "a.pdf"], 1, "trun: no such animation file, nor in anim/ or data/"),
         (["animate", "die", "-a", "turn", "-o", "a.ps"], 2, "frames are written as .pdf, .svg, .mp4"),
         (["animate", "die", "-a", "turn", "-o", "no/a.pdf"], 1, "no: No such file or directory"),
         (["animate", "die", "-a", "turn", "-o", "a.pdf", "--format", "svg"], 2, "--format is that of single frames"),

@@ -28,12 +28,12 @@ def data_file(name: str) -> Path:
 
 
 def animation_file(name: str) -> Path:
-    """The animation file of a name: in the current folder, then in ANIMATIONS; as it is, then with the suffix
-    ANIMATION.
+    """The animation file of a name: in the current folder, then in ANIMATIONS, then in DATA; as it is, then
+    with the suffix ANIMATION.
 
     Errors: InputError where there is none.
     """
-    return _found(name, (Path(), ANIMATIONS), ANIMATION, "animation file")
+    return _found(name, (Path(), ANIMATIONS, DATA), ANIMATION, "animation file")
 
 
 def movie_to_write(name: str | None) -> Path:
@@ -63,4 +63,5 @@ def _found(name: str, folders: tuple[Path, ...], suffix: str, what: str) -> Path
                 return path
         except (OSError, ValueError):
             break
-    raise InputError(f"no such {what}, nor in {folders[-1]}/", file=name)
+    elsewhere = " or ".join(f"{folder}/" for folder in folders[1:])
+    raise InputError(f"no such {what}, nor in {elsewhere}", file=name)

@@ -22,7 +22,7 @@ def pencils(tmp_path, monkeypatch):
     """A folder with the pencil and its animation, of four frames, where the book has them; and what is served there."""
     for folder, name in (("data", "pencil.scene"), ("anim", "pencil.anim")):
         (tmp_path / folder).mkdir()
-        shutil.copy(ROOT / folder / name, tmp_path / folder)
+        shutil.copy(ROOT / "data" / name, tmp_path / folder)
     path = tmp_path / "anim" / "pencil.anim"
     path.write_text(path.read_text(encoding="utf-8").replace("frames 48", "frames 4"), encoding="utf-8")
     monkeypatch.chdir(tmp_path)
