@@ -6,12 +6,11 @@ import sys
 from pathlib import Path
 
 import pytest
-from support.paths import DATA, ROOT
+from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.animation import read_movie
 from vectorplot.cli.main import run
-
 
 
 @pytest.fixture
