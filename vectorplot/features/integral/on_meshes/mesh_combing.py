@@ -21,6 +21,7 @@ from vectorplot.features.integral.spacing.gaps import SEPARATE, WIDEST
 from vectorplot.features.integral.spacing.uncrowded_lines import NEAREST, SHORTEST
 from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
 from vectorplot.geometry import ragged
+from vectorplot.geometry.bounds.boxes import overlapping_boxes
 from vectorplot.geometry.polylines import closed_round, joined, some
 from vectorplot.geometry.vectors import norm
 
@@ -168,6 +169,7 @@ def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None
     own = [np.zeros((0, 6))]
     spans = [np.zeros((0, 3), dtype=np.intp)]
     bounds = np.searchsorted(found.curve, np.arange(count + 1))
+    low, high = _boxes(found.where, bounds[:-1])
     left = np.flatnonzero(free[found.seed])
     while len(left):
         group, left = np.split(left, [max(1, int(np.searchsorted(np.cumsum(np.diff(bounds)[left]), GROUP)))])
@@ -178,13 +180,22 @@ def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None
         own.append(found.where[ragged.ranges(kept[:, 1], kept[:, 2] - kept[:, 1] + 1)])
         last = cKDTree(own[-1])
         left = left[~beside(last, found.where[found.seed[left]], WIDEST * apart)]
-        at = ragged.ranges(bounds[left], bounds[left + 1] - bounds[left])
+        about = _boxes(own[-1], ragged.starts(kept[:, 2] - kept[:, 1] + 1))
+        reach = NEAREST * apart
+        near = left[np.unique(overlapping_boxes(low[:, left], high[:, left], about[0] - reach, about[1] + reach)[0])]
+        at = ragged.ranges(bounds[near], bounds[near + 1] - bounds[near])
         at = at[free[at]]
-        free[at] = ~beside(last, found.where[at], NEAREST * apart)
+        free[at] = ~beside(last, found.where[at], reach)
     line, first, end = np.concatenate(spans).T
     if not len(line):
         return [], np.zeros((0, 6))
     return _cut(shape, lines, line, places[first], places[end]), np.concatenate(own)
+
+
+def _boxes(where: Floats, starts: Ints) -> tuple[Floats, Floats]:
+    """The lowest and the highest corners (3,m) of curves whose places (p,6) begin at starts (m,)."""
+    points = where[:, :3]
+    return np.minimum.reduceat(points, starts).T, np.maximum.reduceat(points, starts).T
 
 
 def _kept(found: PlacedCurves, lines: Ints, free: Bools, apart: float) -> Ints:
