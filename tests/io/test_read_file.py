@@ -90,6 +90,11 @@ def test_a_moebius_band_is_kept_and_said(tmp_path: Path) -> None:
         ("shape.step", "ISO-10303-21;", "a STEP file, which is not read; export it as stl, obj, ply, off or glb"),
         ("shape", "ISO-10303-21;", "a STEP file, which is not read"),
         ("shape.SCAD", "cube([1,2,3]);", "an OpenSCAD program, which is not read"),
+        (
+            "turn.anim",
+            "frames 48",
+            "an animation, not a scene, which is not read; animate SCENE -a FILE moves a scene by it",
+        ),
         ("shape.dxf", "0\nSECTION\n", "a DXF drawing, which is not read"),
         ("shape.gltf", "{}", "a glTF text with its data beside it, which is not read; save it as one glb file"),
         ("shape.3mf", "PK\x03\x04", "a 3MF package, which is not read"),

@@ -43,6 +43,9 @@ _SUFFIXES = {
     ".eps": ("a PostScript file", _NO_SHAPES),
     ".png": ("a PNG picture", _NO_SHAPES),
     ".jpg": ("a JPEG picture", _NO_SHAPES),
+    ".anim": ("an animation, not a scene", "animate SCENE -a FILE moves a scene by it"),
+    ".vd1": ("a film", "replay shows it"),
+    ".vd2": ("a film", "replay shows it"),
     ".py": ("a Python program", "run it with python"),
 }
 

@@ -198,9 +198,12 @@ def test_what_is_no_condition_is_told_in_a_line(text, cause):
         Cut.of(text)
 
 
-def test_a_plane_that_is_seen_edge_on_has_no_side():
-    scene = vp.cut(vp.Scene((vp.Item("A", box((2, 2, 2))),)), "x = 1")
-    with pytest.raises(vp.InputError, match="edge-on"):
+@pytest.mark.parametrize(
+    ("condition", "said"), [("x = 1", "x = 1"), ("3x - 4z = 5", "0.6x - 0.8z = 1"), ("-z = 1", "-z = 1")]
+)
+def test_a_plane_that_is_seen_edge_on_has_no_side(condition, said):
+    scene = vp.cut(vp.Scene((vp.Item("A", box((2, 2, 2))),)), condition)
+    with pytest.raises(vp.InputError, match=f"the plane {said} is seen edge-on: say < or >"):
         cut_scene(scene, "front")
 
 

@@ -211,9 +211,19 @@ def _side_of_eye(plane: CutPlane, camera: Camera) -> float:
     way = way / max(float(np.abs(way).max()), 1.0)
     height = float(way @ normal)
     if abs(height) <= EDGE_ON_SINE * float(np.linalg.norm(way)):
-        x, y, z = plane.normal
-        raise InputError(f"cut: the plane {x:g}x + {y:g}y + {z:g}z = {plane.offset:g} is seen edge-on: say < or >")
+        raise InputError(f"cut: the plane {_equation(plane)} is seen edge-on: say < or >")
     return float(np.sign(height))
+
+
+def _equation(plane: CutPlane) -> str:
+    """A plane as conditions spell it: 0.6x - 0.8y = 2."""
+    terms = [
+        f"{'-' if part < 0.0 else '+'} {'' if abs(part) == 1.0 else f'{abs(part):g}'}{axis}"
+        for part, axis in zip(plane.normal, "xyz", strict=True)
+        if part
+    ]
+    first, *others = terms
+    return " ".join([first.removeprefix("+ ").replace("- ", "-"), *others, f"= {plane.offset:g}"])
 
 
 _SIGN = re.compile(r"<=|>=|<|>|=")
