@@ -136,5 +136,5 @@ def _between(nodes: Floats, node: Floats) -> Floats:
     """(k,d) what is on the way from one of the points (n,d) of curves to the next one."""
     low = np.floor(node).astype(np.intp)
     high = np.minimum(low + 1, len(nodes) - 1)
-    part = (node - low)[:, None]
-    return np.where(part > 0.0, nodes[low] + part * (nodes[high] - nodes[low]), nodes[low])
+    begin = nodes[low]
+    return np.asarray(begin + (node - low)[:, None] * (nodes[high] - begin))

@@ -147,8 +147,9 @@ def _compared(shape: CombedMesh, curves: MeshCurves, spots: Floats) -> PlacedCur
     owner = ragged.owner(counts)[np.floor(node).astype(np.intp)]
     where = shape.where(shape.at(curves, node))
     away = norm(where - spots[curves.levels.astype(np.intp)][owner])
-    nearest = np.lexsort((away, owner))
-    seed = nearest[np.searchsorted(owner, np.arange(len(curves)))]
+    starts = np.searchsorted(owner, np.arange(len(curves)))
+    nearest = np.flatnonzero(away == np.minimum.reduceat(away, starts)[owner])
+    seed = nearest[np.searchsorted(owner[nearest], np.arange(len(curves)))]
     return PlacedCurves(curves, owner, along, node, where, seed, total[ends])
 
 
