@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import Edges, Net, Vertices
+from vectorplot.features.implicit.implicit_sides import BOXED, sides_of
 from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
 from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines, singular_lines, usual_gradient
 from vectorplot.features.implicit.singular.singular_set import led_into_singular_set
@@ -52,15 +53,16 @@ class Level:
     def __call__(self, start: Vertices, end: Vertices, t: Floats, border: Bools) -> Vertices:
         """The vertices over parts t of sides, on the surface; border: of sides at its borders."""
         first, last = start.points, end.points
-        low, high = np.asarray(self.surface.box, dtype=np.float64)
-        fixed = (first == last) & ((first == low) | (first == high))
+        sides = sides_of(self.surface)
+        fixed = sides.on(first) & sides.on(last)
+        fixed[:, :BOXED] &= first == last
         length = np.linalg.norm(last - first, axis=1)
         between = first + t[:, None] * (last - first)
         points, _ = onto_surface(self.surface, between, reach=length, fixed=fixed)
         along = np.flatnonzero(np.isnan(start.normals).any(axis=1) & np.isnan(end.normals).any(axis=1))
         on_line, on = self.lines.onto(between[along], HALF * length[along])
         points[along[on]] = on_line[on]
-        return self.at(np.clip(points, low, high))
+        return self.at(np.clip(points, *sides.box))
 
     def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
         """The ends of sides as they are."""

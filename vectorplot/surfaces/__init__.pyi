@@ -43,6 +43,7 @@ from .terrains.terrain import (
     thinned_terrain,
 )
 from .trims.boxed_implicit import BoxedImplicit
+from .trims.cut_implicit import CutImplicit
 from .trims.cut_surface import CutSurface
 from .trims.trimmed import TrimmedSurface
 
@@ -50,6 +51,7 @@ __all__ = [
     "BoxedImplicit",
     "Capped",
     "Cone",
+    "CutImplicit",
     "CutSurface",
     "Cylinder",
     "Disc",

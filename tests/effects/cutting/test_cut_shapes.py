@@ -9,10 +9,12 @@ import vectorplot as vp
 from vectorplot.curves import Circle, CutCurve, Helix, Line
 from vectorplot.curves.cut_curve import parts_outside
 from vectorplot.effects import cut_scene
-from vectorplot.errors import InputError, InputWarning
+from vectorplot.errors import InputError
+from vectorplot.features import polygonized
 from vectorplot.geometry import HalfSpaces, box
 from vectorplot.io import parse_scene, scene_of, write_scene
-from vectorplot.surfaces import ImplicitTorus
+from vectorplot.surfaces import CutImplicit, ImplicitTorus, Torus, implicit_sphere
+from vectorplot.testing import assert_drawing_is_right
 
 CAMERA = vp.Camera((7.0, -11.0, 6.0), (0.0, 0.0, 0.0))
 BEFORE = HalfSpaces(((0.0, -1.0, 0.0),), (0.0,))
@@ -81,11 +83,42 @@ def test_implicit_surfaces_end_on_the_plane_and_show_their_true_section():
     assert len(points["hatch"]) and len(points["contour"]) and points["contour"][:, 1].min() > 0.2 - 1e-6
 
 
-def test_implicit_surfaces_that_cannot_be_cut_are_named():
-    ring = vp.Scene((vp.Item("T", ImplicitTorus(3.0, 1.0)),))
-    with pytest.warns(InputWarning, match="T: implicit surfaces are cut by single planes across x, y or z only"):
-        after = cut_scene(vp.cut(ring, "x + y > 0"), CAMERA)
-    assert after.items[0].shape is ring.items[0].shape
+def test_implicit_surfaces_end_on_oblique_planes_and_at_corners_as_parametrised_ones_do():
+    text = "x + y > 0.1, z > 0.2"
+    (cut,) = vp.cut(vp.Scene((vp.Item("T", ImplicitTorus(3.0, 1.0)),)), text).cuts
+    region, areas = cut.region(CAMERA), []
+    for shape in (ImplicitTorus(3.0, 1.0), Torus(3.0, 1.0)):
+        ring = cut_scene(vp.cut(vp.Scene((vp.Item("T", shape),)), text), CAMERA)
+        areas.append([np.linalg.norm(one.mesh.area_vectors, axis=1).sum() for one in ring.items if one.is_cut_face])
+        if shape.__class__ is Torus:
+            continue
+        assert isinstance(ring.items[0].shape, CutImplicit)
+        drawing = vp.draw(ring, CAMERA, lines="contour,cut", curves="polyline", tolerance_mm=0.1)
+        assert assert_drawing_is_right(drawing, ring, CAMERA, samples=100) > 80
+        points = {layer.name: np.concatenate([one.points3d for one in layer.strokes]) for layer in drawing.layers}
+        assert np.abs(region.heights(points["cut"])).min(axis=0).max() < 1e-9
+        assert region.heights(points["contour"]).min(axis=0).max() < 1e-9 and len(points["hatch"])
+        x, y, z = points["contour"].T
+        assert np.abs((np.hypot(x, y) - 3.0) ** 2 + z**2 - 1.0).max() < 1e-9
+    np.testing.assert_allclose(areas[0], areas[1], rtol=1e-4)
+
+
+def test_what_planes_leave_of_implicit_surfaces_ends_at_corners_in_single_points():
+    region = HalfSpaces(((0.6, 0.0, 0.8), (0.0, 1.0, 0.0)), (0.1, 0.2))
+    mesh = polygonized(CutImplicit(implicit_sphere(1.0), (region,)), 12)
+    np.testing.assert_allclose(np.linalg.norm(mesh.vertices, axis=1), 1.0, atol=1e-12)
+    heights = region.heights(mesh.vertices)
+    assert heights.min(axis=0).max() < 1e-12
+    assert ((np.abs(heights) < 1e-12).all(axis=0)).sum() == 2
+    moved = CutImplicit(implicit_sphere(1.0), (), region).turned((0, 0, 1), 30.0).moved(1.0, 2.0, 3.0)
+    other = polygonized(moved, 12)
+    assert moved.within.heights(other.vertices).min() > -1e-12 and 0 < other.face_count < mesh.face_count
+
+
+def test_planes_that_miss_an_implicit_surface_leave_it_what_it_is_or_nothing():
+    ball = vp.Scene((vp.Item("B", implicit_sphere(1.0)),))
+    assert cut_scene(vp.cut(ball, "x + y > 1.5"), CAMERA).items[0].shape is ball.items[0].shape
+    assert not cut_scene(vp.cut(ball, "x + y > -1.5"), CAMERA).items[0].mesh.face_count
 
 
 def test_cuts_go_through_the_items_of_their_own_scene():

@@ -128,7 +128,7 @@ def cut_scene(scene: Scene, camera: Camera | str | None = None) -> Scene:
     Warns
     -----
     InputWarning
-        For bodies that are open, whose cut faces are unknown, and for what cannot be cut.
+        For bodies that are open, whose cut faces are unknown.
 
     Notes
     -----
@@ -193,7 +193,7 @@ def _kept(body: Body, regions: list[HalfSpaces]) -> Item:
         kept = tuple(replace(p, face=int(place[p.face])) for p in item.patterns if place[p.face] >= 0)
         return replace(item, shape=mesh, patterns=kept, lines=lines, cut_by=tuple(met))
     part = smooth_part(item, tuple(met))
-    if part is None or part is item.shape:
+    if part is item.shape:
         return item
     if is_curve(item.shape):
         return replace(item, shape=part, cut_by=tuple(met))
@@ -259,8 +259,6 @@ def _away(scene: Scene, cut: Cut, body: Body, region: HalfSpaces, before: list[H
         part: Any = divided_mesh(mesh, region).inside
     else:
         part = smooth_part(item, tuple(met), region)
-    if part is None:
-        return []
     if isinstance(part, Mesh) and not part.face_count:
         return []
     if cut.away == "ghost":

@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.cut_curve import CutCurve, parts_outside
-from vectorplot.errors import InputWarning
+from vectorplot.features.implicit.implicit_sides import BOXED, sides_of
+from vectorplot.features.implicit.polygonize import polygonized
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import is_annotation
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.surfaces.trims.boxed_implicit import BoxedImplicit
+from vectorplot.surfaces.trims.cut_implicit import CutImplicit
 from vectorplot.surfaces.trims.cut_surface import CutSurface
 from vectorplot.tolerances.of_numbers import ROUNDING
 
@@ -34,9 +34,9 @@ def is_cut(item: Item) -> bool:
 
 def smooth_part(
     item: Item, gone: tuple[HalfSpaces, ...], within: HalfSpaces | None = None
-) -> Mesh | Surface | ImplicitSurface | Curve | None:
+) -> Mesh | Surface | ImplicitSurface | Curve:
     """What of the smooth surface or the curve of an item is outside of some regions, and inside of one; a mesh without
-    faces where that is nothing, None where it cannot be cut, which an InputWarning says of the whole."""
+    faces where that is nothing."""
     shape = item.shape
     assert not isinstance(shape, Mesh)
     if is_curve(shape):
@@ -46,20 +46,33 @@ def smooth_part(
     if is_parametrised(shape):
         return _part_of_surface(CutSurface(shape, gone, within))
     assert is_implicit(shape)
-    box = np.array(shape.box, dtype=np.float64)
+    return _part_of_implicit(shape, gone, within)
+
+
+def _part_of_implicit(
+    shape: ImplicitSurface, gone: tuple[HalfSpaces, ...], within: HalfSpaces | None
+) -> ImplicitSurface | Mesh:
+    """The surface in a smaller box, as far as planes are across x, y or z, and cut by the others; a mesh without faces
+    where nothing is left of it."""
+    box, oblique, inner = np.array(shape.box, dtype=np.float64), [], within
     for region in (*gone, *([] if within is None else [within])):
         if (side := _across_axis(region)) is None:
-            if within is None:
-                text = f"{item.name}: implicit surfaces are cut by single planes across x, y or z only"
-                warnings.warn(f"{text}; this one stays whole", InputWarning, stacklevel=6)
-            return None
+            oblique += [region] if region is not within else []
+            continue
+        inner = None if region is within else inner
         axis, sign, at = side
         is_low = (sign > 0.0) == (region is within)
         row = 0 if is_low else 1
         box[row, axis] = max(box[row, axis], at) if is_low else min(box[row, axis], at)
     if not (box[0] < box[1]).all():
         return NOTHING
-    return shape if np.array_equal(box, shape.box) else BoxedImplicit(shape, box)
+    boxed = shape if np.array_equal(box, shape.box) else BoxedImplicit(shape, box)
+    if not oblique and inner is None:
+        return boxed
+    part = CutImplicit(boxed, tuple(oblique), inner)
+    whole, left = polygonized(boxed, LOOKS), polygonized(part, LOOKS)
+    untouched = left.face_count == whole.face_count and not sides_of(part).on(left.vertices)[:, BOXED:].any()
+    return boxed if untouched else part if left.face_count else NOTHING
 
 
 def _part_of_surface(surface: CutSurface) -> CutSurface | Mesh:

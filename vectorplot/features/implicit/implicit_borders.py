@@ -9,11 +9,11 @@ from vectorplot.features.implicit.implicit_conditions import (
     MeetsPlane,
 )
 from vectorplot.features.implicit.implicit_refinement import curve_in_space, refined_chords
+from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.implicit_tracing import (
     ImplicitCurves,
     ImplicitTracing,
     all_curves,
-    box_sides,
     curves_of_lines,
     mesh_of,
     no_curves,
@@ -28,8 +28,8 @@ from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
 
 
 def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing) -> ImplicitCurves:
-    """Where an implicit surface ends: its curves on the sides of its box, cut at the edges of the box, and the rims of
-    its holes. The surface is on the left, seen from where F > 0.
+    """Where an implicit surface ends: its curves on the sides of its box and on planes that cut it, divided at the
+    edges of these, and the rims of its holes. The surface is on the left, seen from where F > 0.
 
     Rims of holes, where F is not finite, are known to a cell of the lattice only, and a doubt says so.
     """
@@ -40,13 +40,15 @@ def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing) -> I
     uses = edge_uses(mesh)
     corner = uses.corner[uses.first[uses.count == 1]]
     a, b = mesh.corners[corner], mesh.corners[mesh.next_corner[corner]]
-    sides = box_sides(surface, mesh.vertices)
+    known = sides_of(surface)
+    sides = known.on(mesh.vertices)
     # On singular lines sheets go on in each other, with vertices of their own.
     ends = ~(own.on_line[a] & own.on_line[b])
     a, b = a[ends], b[ends]
     common = sides[a] & sides[b]
     families = [
-        _border(surface, mesh.vertices, a, b, axis, np.flatnonzero(common[:, axis]), tracing) for axis in range(3)
+        _border(surface, mesh.vertices, a, b, side, np.flatnonzero(common[:, side]), tracing)
+        for side in range(common.shape[1])
     ]
     rims = np.flatnonzero(~common.any(axis=1))
     if len(rims):
@@ -55,25 +57,24 @@ def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing) -> I
 
 
 def _border(
-    surface: ImplicitSurface, vertices: Floats, a: Ints, b: Ints, axis: int, chosen: Ints, tracing: ImplicitTracing
+    surface: ImplicitSurface, vertices: Floats, a: Ints, b: Ints, side: int, chosen: Ints, tracing: ImplicitTracing
 ) -> ImplicitCurves:
-    """The borders on the two sides of the box across an axis, from the edges a, b (e,) that are chosen."""
-    box = np.asarray(surface.box, dtype=np.float64)
-    extent = float(np.ptp(box, axis=0).max())
+    """The borders on the two sides of the box across an axis, or on a plane that cuts, from the edges a, b (e,) that
+    are chosen."""
+    known = sides_of(surface)
+    extent = float(np.ptp(known.box, axis=0).max())
     families = []
-    for side in (0, 1):
-        here = chosen[vertices[a[chosen], axis] == box[side, axis]]
+    for plane in known.planes(side):
+        here = chosen[plane.holds(vertices[a[chosen]], known.nothing)]
         branches = concat(np.stack([a[here], b[here]], axis=1))
         if not len(branches):
             continue
         lines = Traces.of(vertices[branches.points], closed_round(branches))
-        plane = MeetsPlane(np.eye(3)[axis], float(box[side, axis]))
-        curve = curve_in_space(surface, plane, extent)
+        curve = curve_in_space(surface, MeetsPlane(plane.normal, plane.offset), extent)
         tolerance = CHORD_OF_EXTENT * extent if tracing.tolerance is None else tracing.tolerance
         most = tracing.budget.points
         finer = refined_chords(curve, lines, tolerance, tracing.picture, most)
-        points = finer.lines.points.copy()
-        points[:, axis] = box[side, axis]
+        points = plane.put(finer.lines.points)
         texts = [
             (finer.unsure.any(), f"{finer.unsure.sum()} chords of a border could not be refined"),
             (not finer.enough.all(), unresolved("borders are off by more than the tolerance")),

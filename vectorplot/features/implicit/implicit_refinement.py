@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
+from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.polygonize import checked_values, onto_surface
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry.chord_refinement import Refined, Traces, refined
@@ -52,7 +53,7 @@ class CurveInSpace:
     def onto(self, points: Floats, reach: Floats, fixed: Bools | None = None) -> tuple[Floats, Bools]:
         """Points (n,3) moved the shortest way onto the curve, steps not longer than reach (n,), and which got there.
 
-        fixed (n,3): coordinates that stay as they are. A point that ends further off than twice its reach did not.
+        fixed (n,3+k): sides that they stay on. A point that ends further off than twice its reach did not.
         """
         x, arrived = points.copy(), np.zeros(len(points), dtype=np.bool_)
         active: Ints = np.arange(len(points))
@@ -79,7 +80,8 @@ class CurveInSpace:
             f, g = checked_values(self.surface, x), self.values(x)
             slope_f, slope_g = self.surface.gradients(x), self.condition.gradients(x)
             if fixed is not None:
-                slope_f, slope_g = np.where(fixed, 0.0, slope_f), np.where(fixed, 0.0, slope_g)
+                sides = sides_of(self.surface)
+                slope_f, slope_g = sides.along(slope_f, fixed), sides.along(slope_g, fixed)
             ff, fg, gg = dot(slope_f, slope_f), dot(slope_f, slope_g), dot(slope_g, slope_g)
             determinant = ff * gg - fg * fg
             of_f, of_g = (gg * f - fg * g) / determinant, (ff * g - fg * f) / determinant

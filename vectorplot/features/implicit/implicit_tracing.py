@@ -14,6 +14,7 @@ from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.implicit_folds import without_folds
 from vectorplot.features.implicit.implicit_mesh import ImplicitMesh, implicit_mesh, sheets_apart
 from vectorplot.features.implicit.implicit_refinement import CurveInSpace, Picture, curve_in_space, refined_chords
+from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.polygonize import onto_surface
 from vectorplot.features.implicit.singular.implicit_nodes import joined_at_nodes, special_points
 from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines
@@ -203,19 +204,13 @@ def _check(tracing: ImplicitTracing) -> None:
         raise InputError(f"tracing: tolerance {tracing.tolerance:g} must be positive")
 
 
-def box_sides(surface: ImplicitSurface, points: Floats) -> Bools:
-    """(n,3) coordinates of points that are those of the sides of the box, to the last bit."""
-    low, high = np.asarray(surface.box, dtype=np.float64)
-    return np.asarray((points == low) | (points == high), dtype=np.bool_)
-
-
 def _nodes(curve: CurveInSpace, own: ImplicitMesh) -> tuple[Nodes, Ints, bool]:
     """The vertices with the condition, those on singular lines once for every sheet; triangles (t,3) of them; and
     whether it holds in some area."""
     sheets = sheets_apart(own.mesh, own.on_line)
     points = own.mesh.vertices[sheets.vertex]
     on_line = own.on_line[sheets.vertex]
-    fixed = box_sides(curve.surface, points)
+    fixed = sides_of(curve.surface).on(points)
     places = points.copy()
     places[on_line] = _beside(curve.surface, points[on_line], sheets.inner[on_line], fixed[on_line])
     w = curve.values(places)
@@ -245,7 +240,7 @@ def _inner(points: Floats, triangles: Ints, known: Bools) -> Floats:
 
 def _beside(surface: ImplicitSurface, points: Floats, inner: Floats, fixed: Bools) -> Floats:
     """(n,3) places of the surface next to points (n,3) on its singular lines, on the way to inner points (n,3)."""
-    way = np.where(fixed, 0.0, BESIDE_LINE * (inner - points))
+    way = sides_of(surface).along(BESIDE_LINE * (inner - points), fixed)
     return onto_surface(surface, points + way, reach=np.linalg.norm(way, axis=1), fixed=fixed)[0]
 
 

@@ -9,12 +9,16 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
+from vectorplot.geometry import ragged
 from vectorplot.geometry.components import all_components, greatest_component
+from vectorplot.geometry.cuts.divided_meshes import divided_mesh
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.geometry.repair.winding import components, edge_uses
 from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.trims.cut_implicit import CutImplicit
 from vectorplot.tolerances.of_extent import RESIDUAL_OF_EXTENT
 from vectorplot.tolerances.of_lengths import MERGED_OF_CELL
 from vectorplot.tolerances.of_numbers import LARGEST_OF_SINGLES, ROUNDING, SMALLEST_OF_SINGLES
@@ -83,7 +87,7 @@ def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
     -------
     Mesh
         Vertices lie on the edges of the lattice's cells, on the surface to 1e-13 of the extent or what rounding leaves;
-        where it leaves the box, on the sides of the box exactly.
+        where it leaves the box, on the sides of the box exactly; where it is cut, on the planes.
 
     Raises
     ------
@@ -106,6 +110,8 @@ def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
     >>> mesh.is_triangular, bool(np.allclose(np.linalg.norm(mesh.vertices, axis=1), 1.0))
     (True, True)
     """
+    if isinstance(surface, CutImplicit):
+        return _cut(surface, polygonized(surface.surface, cells), float(_lattice(surface, cells).cell.min()))
     lattice = _lattice(surface, cells)
     w = lattice.values(surface)
     if not ((w > 0.0).any() and (w <= 0.0).any()):
@@ -232,8 +238,9 @@ def onto_surface(
 ) -> tuple[Floats, Bools]:
     """Points (n,3) moved along the gradient onto F = 0, not further than reach (or (n,)), and which of them got there.
 
-    fixed (n,3): coordinates that stay as they are.
+    fixed (n,3) or (n,3+k): sides of `sides_of` that they stay on.
     """
+    sides = sides_of(surface)
     x, arrived = points.copy(), np.zeros(len(points), dtype=np.bool_)
     far = np.broadcast_to(np.asarray(reach, dtype=np.float64), len(points))
     active: Ints = np.arange(len(points))
@@ -244,7 +251,7 @@ def onto_surface(
         with np.errstate(all="ignore"):
             slope = surface.gradients(x[active])
             if fixed is not None:
-                slope = np.where(fixed[active], 0.0, slope)
+                slope = sides.along(slope, fixed[active])
             length = np.linalg.norm(slope, axis=1)
             w = checked_values(surface, x[active])
             step = np.where(w == 0.0, 0.0, w / length)
@@ -264,14 +271,33 @@ def _compact(lattice: _Lattice, vertices: Floats, triangles: Ints) -> Mesh:
     digits = SIDE_ULPS * np.spacing(np.abs(np.stack([lattice.low, lattice.high])).max())
     below, above = vertices - lattice.low <= digits, lattice.high - vertices <= digits
     vertices = np.where(below, lattice.low, np.where(above, lattice.high, vertices))
-    order = np.argsort(-(below | above).sum(axis=1), kind="stable")
+    return _merged(vertices, triangles, below | above, MERGED_OF_CELL * float(lattice.cell.min()))
+
+
+def _merged(vertices: Floats, triangles: Ints, on_sides: Bools, distance: float) -> Mesh:
+    """The mesh of triangles (t,3) with vertices closer than a distance made one, without those that are nothing then;
+    of such vertices one that lies on most sides (v,k) stays."""
+    order = np.argsort(-on_sides.sum(axis=1), kind="stable")
     heads = np.empty_like(order)
-    heads[order] = order[close_points(vertices[order], MERGED_OF_CELL * float(lattice.cell.min()))]
+    heads[order] = order[close_points(vertices[order], distance)]
     triangles = heads[triangles]
     a, b, c = triangles.T
     triangles = triangles[(a != b) & (b != c) & (c != a)]
     used, corners = np.unique(triangles, return_inverse=True)
     return Mesh.from_triangles(vertices[used], corners.reshape(-1, 3)) if len(used) else _empty()
+
+
+def _cut(surface: CutImplicit, mesh: Mesh, cell: float) -> Mesh:
+    """What is left of a mesh of a surface, whose cells are so large, behind the planes that cut it."""
+    for region in surface.regions:
+        mesh = divided_mesh(mesh, region).outside
+    if surface.within is not None:
+        mesh = divided_mesh(mesh, surface.within).inside
+    if not mesh.face_count:
+        return _empty()
+    triangles, sides = mesh.corners[ragged.fans(mesh.offsets)[0]], sides_of(surface)
+    points = onto_surface(surface, mesh.vertices, fixed=sides.on(mesh.vertices), reach=cell)[0]
+    return _merged(points, triangles, sides.on(points), MERGED_OF_CELL * cell)
 
 
 def _empty() -> Mesh:

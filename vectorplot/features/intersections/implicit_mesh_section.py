@@ -8,7 +8,8 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing, box_sides, mesh_of, no_curves
+from vectorplot.features.implicit.implicit_sides import BOXED, sides_of
+from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing, mesh_of, no_curves
 from vectorplot.features.intersections.contacts import contacts
 from vectorplot.features.intersections.joined_courses import doubts_about, joined, repeats_dropped
 from vectorplot.features.intersections.patches import MeshPatch, SingleShape
@@ -29,7 +30,7 @@ ROUNDS = 3
 @dataclass(frozen=True, eq=False)
 class ImplicitPatch(SingleShape):
     """An implicit surface within its box as a patch of `intersections.patches`: places are its points; rails 0, 1, 2
-    the sides of the box across x, y and z. mesh: the surface polygonised."""
+    the sides of the box across x, y and z, then planes that cut. mesh: the surface polygonised."""
 
     surface: ImplicitSurface
     mesh: Mesh
@@ -40,8 +41,8 @@ class ImplicitPatch(SingleShape):
         points, triangles = self.mesh.vertices, self.mesh.corners.reshape(-1, 3)
         edges, sides, uses = edges_of(triangles, len(points))
         border = np.asarray(uses == 1, dtype=np.bool_)
-        sides_of = box_sides(self.surface, points)
-        common: Bools = sides_of[edges[:, 0]] & sides_of[edges[:, 1]]
+        on = sides_of(self.surface).on(points)
+        common: Bools = on[edges[:, 0]] & on[edges[:, 1]]
         rails = np.where(border & common.any(axis=1), common.argmax(axis=1), FREE)
         return Tessellation(
             points, triangles, points[triangles], np.arange(len(triangles)), edges, sides, rails, border
@@ -75,13 +76,16 @@ class ImplicitPatch(SingleShape):
 
     def along_rails(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) directions of the curves on the sides of the box."""
-        return np.cross(self.normals(places), np.eye(3)[rails])
+        return np.cross(self.normals(places), sides_of(self.surface).normals[rails])
 
     def on_rails(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) places put onto their sides of the box."""
         low, high = np.asarray(self.surface.box, dtype=np.float64)
         side = np.where(places - low < high - places, low, high)
-        return np.where(rails[:, None] == np.arange(3), side, places)
+        result, sides = np.where(rails[:, None] == np.arange(3), side, places), sides_of(self.surface)
+        for rail in range(BOXED, len(sides.normals)):
+            result[rails == rail] = sides.planes(rail)[0].put(places[rails == rail])
+        return result
 
     def bends(self, places: Floats, frames: Floats) -> Floats:
         """(k,2,2) second derivatives of the height above the first two axes of frames (k,3,3), along the third."""
@@ -103,14 +107,14 @@ class ImplicitPatch(SingleShape):
 
     def _onto(self, points: Floats) -> Floats:
         """(k,3) points of the box on the surface; those beyond a side of the box stay in it."""
-        low, high = np.asarray(self.surface.box, dtype=np.float64)
-        x = np.clip(points, low, high)
-        held = (x == low) | (x == high)
+        sides = sides_of(self.surface)
+        x = sides.clipped(points)
+        held = sides.on(x)
         with np.errstate(all="ignore"):
             for _ in range(ROUNDS):
-                slopes = np.where(held, 0.0, self.surface.gradients(x))
+                slopes = sides.along(self.surface.gradients(x), held)
                 back = (self.surface.values(x) / dot(slopes, slopes))[:, None] * slopes
-                x = np.clip(x - np.where(np.isfinite(back), back, 0.0), low, high)
+                x = sides.clipped(x - np.where(np.isfinite(back), back, 0.0))
         return x
 
 

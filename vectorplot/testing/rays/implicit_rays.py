@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
+from vectorplot.surfaces.trims.cut_implicit import CutImplicit
 from vectorplot.testing.rays.mesh_rays import Rays
 from vectorplot.testing.rays.surface_rays import AROUND, Hiding
 from vectorplot.tolerances.of_angles import ON_CONTOUR_SINE
@@ -55,8 +56,11 @@ class _Field:
             )
 
     def outside(self, points: Floats) -> Floats:
-        """How far points are outside the box; negative: how far inside."""
-        return np.asarray(np.maximum(self.box[0] - points, points - self.box[1]).max(axis=-1))
+        """How far points are outside the box, or cut away; negative: how far inside."""
+        outside = np.maximum(self.box[0] - points, points - self.box[1]).max(axis=-1)
+        if isinstance(self.surface, CutImplicit):
+            outside = np.maximum(outside, self.surface.beyond(points * self.size + self.middle) / self.size)
+        return np.asarray(outside)
 
 
 def _walk(field: _Field, rays: Rays) -> Hiding:

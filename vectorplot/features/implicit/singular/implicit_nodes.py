@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.curve_band import Band
 from vectorplot.features.implicit.implicit_mesh import ImplicitMesh
 from vectorplot.features.implicit.implicit_refinement import CurveInSpace
+from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.polygonize import checked_values, onto_surface
 from vectorplot.geometry import ragged
 from vectorplot.geometry.chord_refinement import Traces
@@ -80,12 +81,12 @@ def special_points(curve: CurveInSpace, own: ImplicitMesh, band: Band) -> Specia
 def isolated_singular_points(surface: ImplicitSurface, own: ImplicitMesh, reach: float) -> Floats:
     """(k,3) singular points of the surface on none of its singular lines, and those in which these end."""
     found = singular_points(surface, own.mesh, reach)
-    low, high = np.asarray(surface.box, dtype=np.float64)
+    sides = sides_of(surface)
     for _, lines in own.lines.kinds:
         found = found[_apart(found, lines.points, reach)]
         open_ = ~lines.closed
         ends = lines.points[np.concatenate([lines.offsets[:-1][open_], lines.offsets[1:][open_] - 1])]
-        inside = ((ends > low) & (ends < high)).all(axis=1)
+        inside = sides.has(ends) & ~sides.on(ends).any(axis=1)
         found = _distinct(np.concatenate([found, ends[inside]]), 0.5 * reach)
     return found
 
@@ -118,9 +119,7 @@ def singular_points(surface: ImplicitSurface, mesh: Mesh, reach: float) -> Float
         flatness = np.nan_to_num(np.linalg.norm(surface.gradients(x), axis=1), nan=np.inf)
         on = np.abs(checked_values(surface, x)) <= VANISHED_VALUE * usual * reach
     stays = np.linalg.norm(x - start, axis=1) <= 4.0 * reach
-    low, high = np.asarray(surface.box)
-    inside = ((x >= low) & (x <= high)).all(axis=1)
-    found = _distinct(x[on & stays & inside & (flatness <= VANISHED_GRADIENT * usual)], 0.5 * reach)
+    found = _distinct(x[on & stays & sides_of(surface).has(x) & (flatness <= VANISHED_GRADIENT * usual)], 0.5 * reach)
     return found if len(found) <= MOST_ALONE else found[:0]
 
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
+from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.singular.singular_equations import (
     CuspidalEdges,
     DoubleLines,
@@ -165,8 +166,7 @@ def _traced(equations: SingularEquations, start: Floats) -> Polylines:
     """The lines on which equations hold, from places (k,3) near them."""
     step = equations.extent / STEPS
     found, on = onto_lines(equations, start, np.full(len(start), REACH * step))
-    low, high = np.asarray(equations.surface.box, dtype=np.float64)
-    found = found[on & ((found >= low) & (found <= high)).all(axis=1)]
+    found = found[on & sides_of(equations.surface).has(found)]
     found = found[one_each(found, step)]
     beads = _Beads(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2), dtype=np.intp))
     beads = beads.joined(found, line_tangents(equations, found))
@@ -189,8 +189,7 @@ def _ahead(equations: SingularEquations, points: Floats, ways: Floats, lengths: 
     """(k,3) the points of lines in the planes that lie ahead of points (k,3), across unit ways (k,3), by lengths (k,);
     and which there are, in the box."""
     found, on = onto_lines(equations, points + lengths[:, None] * ways, STRAYS * lengths, across=ways)
-    low, high = np.asarray(equations.surface.box, dtype=np.float64)
-    return found, on & ((found >= low) & (found <= high)).all(axis=1)
+    return found, on & sides_of(equations.surface).has(found)
 
 
 def _linked(equations: SingularEquations, beads: _Beads, step: float) -> _Beads:
@@ -274,17 +273,19 @@ def _farthest(equations: SingularEquations, points: Floats, ways: Floats, step: 
 
 
 def _on_side(equations: SingularEquations, points: Floats, ways: Floats, step: float) -> tuple[Floats, Bools]:
-    """(k,3) where lines ahead of points (k,3) leave the box, in the side that the unit ways (k,3) lead to first; and
-    which do within a step."""
-    low, high = np.asarray(equations.surface.box, dtype=np.float64)
+    """(k,3) where lines ahead of points (k,3) leave the box or are cut, in the plane that the unit ways (k,3) lead to
+    first; and which do within a step."""
+    sides = sides_of(equations.surface)
+    planes = [plane for side in range(len(sides.normals)) for plane in sides.planes(side)]
+    normals, offsets = np.array([plane.normal for plane in planes]), np.array([plane.offset for plane in planes])
     with np.errstate(all="ignore"):
-        lengths = np.where(ways > 0.0, high - points, low - points) / ways
-    axis = np.nanargmin(np.where(lengths >= 0.0, lengths, np.inf), axis=1)
-    each = np.arange(len(points))
-    length = lengths[each, axis]
+        lengths = (offsets - points @ normals.T) / (ways @ normals.T)
+    ahead = np.where(lengths >= 0.0, lengths, np.inf)
+    nearest = np.argmin(ahead, axis=1)
+    length = ahead[np.arange(len(points)), nearest]
     start = points + np.minimum(length, step)[:, None] * ways
-    start[each, axis] = np.where(ways > 0.0, high, low)[each, axis]
-    found, on = onto_lines(equations, start, np.full(len(points), step), across=np.eye(3)[axis])
-    found[each, axis] = start[each, axis]
-    on &= (length <= step) & (length > 0.0) & ((found >= low) & (found <= high)).all(axis=1)
+    found, on = onto_lines(equations, start, np.full(len(points), step), across=normals[nearest])
+    for number, plane in enumerate(planes):
+        found[nearest == number] = plane.put(found[nearest == number])
+    on &= (length <= step) & (length > 0.0) & sides.has(found)
     return found, on

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.implicit.implicit_sides import BOXED, Plane, sides_of
 from vectorplot.features.implicit.polygonize import checked_values
 from vectorplot.features.implicit.singular.implicit_singular_lines import SLOW, SingularLines, usual_gradient
 from vectorplot.features.implicit.singular.singular_equations import SingularEquations, onto_lines
@@ -99,7 +100,7 @@ class _Near:
 
     def led(self, points: Floats, which: Bools, reach: float, there: Bools) -> Floats:
         """The points (n,3), those of which that lie nearer to a line than reach moved onto it, and marked as there."""
-        low, high = np.asarray(self.equations.surface.box, dtype=np.float64)
+        sides = sides_of(self.equations.surface)
         chosen = np.flatnonzero(which)
         far, place = self.tree.query(points[chosen], distance_upper_bound=reach)
         # Points without a line within reach have a place behind the last one.
@@ -110,15 +111,28 @@ class _Near:
         # Where lines end their equations have no rank: what is known is the last point.
         found[~on] = self.points[self.corners.query(self.places[place[~on]])[1]]
         start = points[chosen]
-        for side in (low, high):
-            held = start == side
-            leaves = (held & (found != side)).any(axis=1)
+        for row in sides.box:
+            held = start == row
+            leaves = (held & (found != row)).any(axis=1)
             found[leaves] = self._in_side(start[leaves], held[leaves], reach)
-        inside = np.isfinite(found).all(axis=1) & ((found >= low) & (found <= high)).all(axis=1)
+        for side in range(BOXED, len(sides.normals)):
+            plane = sides.planes(side)[0]
+            leaves = sides.on(start)[:, side] & ~plane.holds(found, sides.nothing)
+            found[leaves] = self._in_plane(start[leaves], plane, sides.nothing, reach)
+        inside = np.isfinite(found).all(axis=1) & sides.has(found)
         result = points.copy()
         result[chosen[inside]] = found[inside]
         there[chosen[inside]] = True
         return result
+
+    def _in_plane(self, start: Floats, plane: Plane, nothing: float, reach: float) -> Floats:
+        """(k,3) the nearest points of the lines in a plane next to points (k,3); NaN where none is within reach."""
+        some = self.points[plane.holds(self.points, nothing)]
+        gap = np.linalg.norm(some - start[:, None], axis=2)
+        near = (gap <= reach).any(axis=1)
+        found = np.full_like(start, np.nan)
+        found[near] = some[np.argmin(gap[near], axis=1)] if len(some) else np.nan
+        return found
 
     def _in_side(self, start: Floats, held: Bools, reach: float) -> Floats:
         """(k,3) the nearest points of the lines in the sides of the box that points (k,3) lie in, by their coordinates
@@ -172,6 +186,7 @@ def _tips(surface: ImplicitSurface, points: Floats, triangles: Ints, there: Bool
 def _into_points(surface: ImplicitSurface, points: Floats, reach: float) -> Floats:
     """The points (n,3), those near isolated singular points, such as the apex of a cone, moved into them."""
     low, high = np.asarray(surface.box, dtype=np.float64)
+    sides = sides_of(surface)
     with np.errstate(all="ignore"):
         usual = usual_gradient(surface, points)
         steep = np.linalg.norm(surface.gradients(points), axis=1)
@@ -187,7 +202,8 @@ def _into_points(surface: ImplicitSurface, points: Floats, reach: float) -> Floa
         sizes = np.abs(np.linalg.eigvalsh(np.nan_to_num(hessians(surface, x))))
         flat = np.linalg.norm(np.nan_to_num(surface.gradients(x), nan=np.inf), axis=1) <= VANISHED_GRADIENT * usual
         on = np.abs(checked_values(surface, x)) <= VANISHED_GRADIENT * usual * reach
-    good = flat & on & (np.linalg.norm(x - start, axis=1) <= reach) & ((x >= low) & (x <= high)).all(axis=1)
+    good = flat & on & (np.linalg.norm(x - start, axis=1) <= reach) & sides.has(x)
+    good &= ~(sides.on(start) & ~sides.on(x)).any(axis=1)
     good &= sizes.min(axis=1) > FIRM * sizes.max(axis=1)
     result = points.copy()
     result[near[good]] = x[good]

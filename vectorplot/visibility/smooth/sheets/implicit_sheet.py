@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.implicit_mesh import ImplicitMesh, mesh_with_lines
+from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.polygonize import polygonized
 from vectorplot.features.implicit.singular.implicit_singular_lines import singular_lines, usual_gradient
 from vectorplot.features.implicit.singular.singular_equations import CuspidalEdges
@@ -16,6 +17,7 @@ from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.trims.cut_implicit import CutImplicit
 from vectorplot.tolerances.of_angles import SAME_DIRECTION_SINE
 from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
@@ -95,15 +97,18 @@ class ImplicitSheet:
         return np.asarray(places + _tangential(steps, self.normals(places)))
 
     def inwards(self, places: Floats) -> Floats:
-        """(k,3) tangents into the sheet at places on the sides of the box; 0 elsewhere."""
+        """(k,3) tangents into the sheet at places on the sides of the box and planes that cut it; 0 elsewhere."""
         part = self._parts(places)
         sides = (part <= self._beyond).astype(np.float64) - (part >= 1.0 - self._beyond)
+        if self._cuts is not None:
+            on = self._cuts.on_borders(self.view.world_of(places.T), self._nothing)
+            sides = np.concatenate([sides, on.astype(np.float64)], axis=1)
         inner = np.zeros_like(places)
         at = np.flatnonzero(sides.any(axis=1))
         # One row for each side: its normal into the box, as far as it is tangential. At edges of the box the way is
         # into both of its sides.
         normals = np.nan_to_num(self.normals(places[at]))
-        along = sides[at, :, None] * self.view.axes.T
+        along = sides[at, :, None] * (sides_of(self.home).normals @ self.view.axes.T)
         along = along - np.einsum("kij,kj->ki", along, normals)[:, :, None] * normals[:, None]
         inner[at] = np.einsum("kij,kj->ki", np.linalg.pinv(along, rcond=SAME_DIRECTION_SINE), np.abs(sides[at]))
         return inner
@@ -128,14 +133,35 @@ class ImplicitSheet:
         return np.asarray(np.linalg.norm(one - two, axis=1))
 
     def on_sheet(self, places: Floats) -> Bools:
-        """(k,) whether places lie in the box."""
+        """(k,) whether places lie in the box, and are not cut away."""
         part = self._parts(places)
-        return np.asarray(((part >= -self._beyond) & (part <= 1.0 + self._beyond)).all(axis=1), dtype=np.bool_)
+        on = np.asarray(((part >= -self._beyond) & (part <= 1.0 + self._beyond)).all(axis=1), dtype=np.bool_)
+        if self._cuts is not None:
+            on &= self._cuts.beyond(self.view.world_of(places.T)) <= self._nothing
+        return on
 
     def depths_in_box(self, places: Floats) -> Floats:
-        """(k,) how far places are from the nearest side of the box, as parts of it; negative outside."""
+        """(k,) how far places are from the nearest side of the box, as parts of it, or cut; negative outside."""
         part = self._parts(places)
-        return np.asarray(np.minimum(part, 1.0 - part).min(axis=1))
+        inside = np.minimum(part, 1.0 - part).min(axis=1)
+        if self._cuts is not None:
+            inside = np.minimum(inside, -self._cuts.beyond(self.view.world_of(places.T)) / self._extent)
+        return np.asarray(inside)
+
+    @property
+    def _cuts(self) -> CutImplicit | None:
+        """The surface, if planes cut it."""
+        return self.home if isinstance(self.home, CutImplicit) else None
+
+    @property
+    def _extent(self) -> float:
+        """The longest side of the box."""
+        return float(np.ptp(np.asarray(self.home.box, dtype=np.float64), axis=0).max())
+
+    @property
+    def _nothing(self) -> float:
+        """The distance from a plane that rounding may make."""
+        return float(self._beyond.max()) * self._extent
 
     def _parts(self, places: Floats) -> Floats:
         """(k,3) where places are between the sides of the box: 0 to 1 along each."""

@@ -27,6 +27,7 @@ from vectorplot.features.implicit.implicit_curves import (
     implicit_plane_sections,
     implicit_point_light_isophotes,
 )
+from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
 from vectorplot.features.implicit.singular.singular_curves import refined_line
 from vectorplot.features.implicit.singular.singular_equations import CuspidalEdges, DoubleLines
@@ -165,17 +166,17 @@ def _sections(
 
 
 def _borders(found: ImplicitCurves, sheet: ImplicitSheet, number: int) -> list[Curves]:
-    """The borders, each with the plane of the side of the box that it lies on; the rims of holes lie on none."""
-    view, box = sheet.view, np.asarray(sheet.home.box, dtype=np.float64)
+    """The borders, each with the plane that it lies on; the rims of holes lie on none."""
+    view, sides = sheet.view, sides_of(sheet.home)
     rims = as_spatial_curves(found, LineKind.BOUNDARY, sheet, NearChords(sheet, number))
     left, result = np.ones(len(found), dtype=np.bool_), []
-    for axis in range(3):
-        normal = view.axes[:, axis]
-        for side in box[:, axis].tolist():
-            on = np.logical_and.reduceat(np.append(found.points[:, axis] == side, True), found.offsets[:-1])
+    for side in range(len(sides.normals)):
+        for plane in sides.planes(side):
+            held = plane.holds(found.points, sides.nothing)
+            on = np.logical_and.reduceat(np.append(held, True), found.offsets[:-1])
             here = np.flatnonzero(on & left)
             left[here] = False
-            plane = MeetsPlane(normal, (side - float(view.centre[axis])) / view.scale)
-            own = as_spatial_curves(found, LineKind.BOUNDARY, sheet, SpatialCurves(sheet, number, plane))
+            seen = MeetsPlane(view.axes @ plane.normal, (plane.offset - float(view.centre @ plane.normal)) / view.scale)
+            own = as_spatial_curves(found, LineKind.BOUNDARY, sheet, SpatialCurves(sheet, number, seen))
             result.append(own.some(here))
     return [*result, rims.some(np.flatnonzero(left))]
