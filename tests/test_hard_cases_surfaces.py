@@ -9,6 +9,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.curves.families.line import Line
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing
+from vectorplot.surfaces.families.capped import Capped
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
@@ -178,3 +179,11 @@ def test_balls_that_touch_or_coincide_and_a_cylinder_along_its_axis(name: str, e
     camera = vp.Camera(eye, parallel=parallel)
     drawing = vp.draw(scene, camera, hidden="solid")
     assert assert_drawing_is_right(drawing, scene, camera, samples=150, clearance=1e-4) > 50
+
+
+@pytest.mark.filterwarnings("error")
+@pytest.mark.parametrize("view", ["top", "front"])
+def test_a_cylinder_with_parts_seen_edge_on_is_drawn_without_a_word(view: str) -> None:
+    axis = vp.Item("AXIS", Line((0.0, 0.0, -1.0), (0.0, 0.0, 2.0)))
+    for shape in (Cylinder(), Capped(Cylinder())):
+        assert vp.draw(vp.Scene((axis, vp.Item("CYLINDER", shape))), view).layers

@@ -9,7 +9,7 @@ import pytest
 import shapely
 
 import vectorplot as vp
-from vectorplot.curves import Circle
+from vectorplot.curves import Circle, Line
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.geometry import box
@@ -196,3 +196,13 @@ def test_what_lies_in_boxes_is_cut_away_and_nothing_else() -> None:
     assert after.length == pytest.approx(sum(shapely.difference(line, mask).length for line in before.geoms))
     assert max(shapely.intersection(line, mask.buffer(-1e-6)).length for line in after.geoms) < 1e-6
     assert (np.diff(cut.item) >= 0).all()
+
+
+@pytest.mark.parametrize("letter", ["h", "height"])
+def test_a_label_along_a_curve_that_is_seen_end_on_stands_beside_it(letter: str) -> None:
+    up = vp.Item("UP", Line((0, 0, 0), (0, 0, 4)), "black")
+    scene = vp.Scene((up, vp.Item("BOX", box((2, 2, 2)))), labels=(vp.Label(letter, vp.Along("UP")),))
+    written = [letters(vp.draw(scene, camera)) for camera in ("front", "top")]
+    assert written[0].points.shape == written[1].points.shape
+    width, height = np.ptp(written[1].points, axis=0)
+    assert width > height or len(letter) == 1

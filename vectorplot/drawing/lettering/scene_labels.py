@@ -167,7 +167,8 @@ def seen_labels(
 def labels_on_page(
     seen: SeenLabels, placement: Placement, strokes: Paths, hidden: str, text: str = "strokes", mm: float = 1.0
 ) -> SceneLabels:
-    """The letters of labels, apart from strokes and from each other.
+    """The letters of labels, apart from strokes and from each other. Along a curve whose image is shorter than a letter
+    is high, seen end-on, they stand beside its point.
 
     strokes: of the drawing; hidden: what becomes of hidden lines; text: a word of LETTERS; mm: how long a millimetre is
     in units of the page.
@@ -177,8 +178,9 @@ def labels_on_page(
     ways = [label.hidden or hidden for label in seen.anchors.labels]
     some = [k for k, way in enumerate(ways) if not seen.hidden_by[k] or way != "none"]
     labels = [seen.anchors.labels[k] for k in some]
-    along = [k for k in some if isinstance(seen.anchors.labels[k].at, Along)]
-    set_: dict[int, Lettering] = {k: _along(letters, seen, k, placement, mm) for k in along}
+    paths = {k: _path(seen, k, placement) for k in some if isinstance(seen.anchors.labels[k].at, Along)}
+    along = [k for k, path in paths.items() if _length(path) > seen.anchors.labels[k].size_mm * mm]
+    set_: dict[int, Lettering] = {k: _along(letters, seen, k, paths[k], mm) for k in along}
     beside = [k for k in some if k not in set_]
     texts = [_set(letters, seen.anchors.labels[k], mm) for k in beside]
     shown = strokes if hidden != "none" else chosen(strokes, strokes.hidden_by == 0)
@@ -259,14 +261,22 @@ def _set(letters: Letters, label: Label, mm: float) -> Lettering:
         raise InputError(f"label {label.name}: {error.cause}") from None
 
 
-def _along(letters: Letters, seen: SeenLabels, number: int, placement: Placement, mm: float) -> Lettering:
-    """Letters along the course of a curve on the page."""
-    label, course = seen.anchors.labels[number], seen.anchors.courses[number]
-    assert course is not None and isinstance(label.at, Along)
-    projection = placement.projection
+def _path(seen: SeenLabels, number: int, placement: Placement) -> Floats:
+    """(n,2) on the page, the course of the curve that a label stands along."""
+    course, projection = seen.anchors.courses[number], placement.projection
+    assert course is not None
     points = projection.points_of(course)
     ahead = projection.depth_of(points) > projection.near
-    path = placement.on_page(projection.image_of(points.compress(ahead, axis=1)))
+    return placement.on_page(projection.image_of(points.compress(ahead, axis=1)))
+
+
+def _length(path: Floats) -> float:
+    return float(np.hypot(*np.diff(path, axis=0).T).sum())
+
+
+def _along(letters: Letters, seen: SeenLabels, number: int, path: Floats, mm: float) -> Lettering:
+    """Letters along the course of a curve on the page."""
+    label = seen.anchors.labels[number]
     steps = np.hypot(*np.diff(path, axis=0).T)
     nearest = int(np.argmin(np.hypot(*(path - seen.points[number]).T)))
     whole = float(steps.sum())

@@ -10,14 +10,20 @@ JUMPS = "f changes its sign without being zero"
 """How the doubt about poles and jumps of f begins."""
 
 
+EVERYWHERE = "f is zero all over its domain, which is no curve"
+"""The doubt about f that is nothing but zero."""
+
+
 def doubts_of_one(
-    flat: int, found: Sequence[int], complete: bool, unsure: int, enough: bool, tangled: float
+    flat: int, cells: int, found: Sequence[int], complete: bool, unsure: int, enough: bool, tangled: float
 ) -> tuple[str, ...]:
-    """What could not be decided of one function, a sentence each; found: a row of the counts of what was found."""
+    """What could not be decided of one function, a sentence each; flat: cells, of so many, in which it is
+    zero; found: a row of the counts of what was found."""
     poles, missed, beads, touching = found
     line = touching - beads
     texts = [
-        (flat > 0, f"f is zero all over {flat} cells: only the border towards negative values is a curve"),
+        (flat == cells, EVERYWHERE),
+        (0 < flat < cells, f"f is zero all over {flat} cells: only the border towards negative values is a curve"),
         (poles > 0, f"{JUMPS} at {poles} places: poles or jumps, not part of the curve"),
         (
             tangled > 0.0,

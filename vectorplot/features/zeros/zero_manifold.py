@@ -264,6 +264,7 @@ def zero_manifolds(
         doubts_of_one(*faults)
         for faults in zip(
             flat.sum(axis=(1, 2)).tolist(),
+            [flat[0].size] * len(field),
             found.counts(len(field)).tolist(),
             subdivision.complete.tolist(),
             unsure.tolist(),

@@ -29,7 +29,7 @@ from vectorplot.features.parametric.stacked_conditions import stacked, stacks
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.surface_paths import surface_path
 from vectorplot.features.parametric.surface_sections import plane_sections
-from vectorplot.features.zeros.zero_doubts import JUMPS
+from vectorplot.features.zeros.zero_doubts import EVERYWHERE, JUMPS
 from vectorplot.geometry.budget import unheard
 from vectorplot.scene.item import Item
 from vectorplot.scene.lines.curve_light import curve_light
@@ -105,7 +105,9 @@ def curves_of_parametrised(
     """The curves of an item, each list entry of one kind, and doubts about them; contour, borders and cuspidal edges
     always, because they hide. contour: that of the sheet."""
     item = scene.items[sheet.item]
-    found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet, number, _turn(view, sheet.surface)), contour)]
+    # Of a surface that is all seen edge-on, as a cylinder from the top, the borders are the whole picture.
+    seen = replace(contour, doubts=tuple(text for text in contour.doubts if text != EVERYWHERE))
+    found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet, number, _turn(view, sheet.surface)), seen)]
     found += [*_edges(view, sheet, number, tracing), *_asked_for(scene, view, item, sheet, number, wanted, tracing)]
     doubts = tuple(text for _, _, curves in found for text in curves.doubts)
     if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
