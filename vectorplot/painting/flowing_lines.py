@@ -9,12 +9,13 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.hatching.line_ranks import place_ranks
 from vectorplot.errors import InputError
+from vectorplot.features.integral.bent_faces import USUAL_CREASE_DEG, BentFaces
 from vectorplot.features.integral.charts import charts
 from vectorplot.features.integral.curvature_fields import AsymptoticDirections, PrincipalDirections
 from vectorplot.features.integral.face_sites import FaceSites
 from vectorplot.features.integral.isophote_fields import IsophoteDirections
-from vectorplot.features.integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
-from vectorplot.features.integral.sites import Sites
+from vectorplot.features.integral.on_meshes.mesh_evenly_spaced import evenly_spaced_on_faces
+from vectorplot.features.integral.sites import Sites, unit
 from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, evenly_spaced_curves
 from vectorplot.features.integral.tangent_fields import SteepestSlope, TangentField, TurnedField
 from vectorplot.features.meshes.mesh_curves import MeshCurves, face_triangles
@@ -28,6 +29,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement
 from vectorplot.surfaces.surface import Surface, is_parametrised
+from vectorplot.visibility.polyhedra.mesh_integral_lines import warn_of_no_lines
 
 SLOPES: tuple[TangentField, TangentField] = (SteepestSlope(), TurnedField(SteepestSlope(), 0.5 * np.pi))
 
@@ -41,7 +43,7 @@ FIELDS: dict[str, tuple[TangentField, TangentField]] = {
 
 ISOPHOTES = "isophotes"
 
-ON_MESHES = ("slope", "level")
+ON_MESHES = ("slope", "level", "curvature", "asymptotic")
 """Those of them that meshes have."""
 
 ROUGH = 64
@@ -89,38 +91,47 @@ def field_of(along: str, family: int, light: Light) -> TangentField:
 
 
 def flowing_lines(
-    item: Item, along: str, field: TangentField, spacing_mm: float, tolerance_mm: float, placement: Placement
+    item: Item,
+    along: str,
+    field: TangentField,
+    spacing_mm: float,
+    tolerance_mm: float,
+    placement: Placement,
+    crease_angle_deg: float = USUAL_CREASE_DEG,
 ) -> FlowingLines:
     """The lines of a field on an item, so close that they do for the darkest places; along: the word for it.
 
-    Errors: InputError, with the item's name, as of evenly_spaced_curves.
+    Warnings: where a mesh has no such lines. Errors: InputError, with the item's name, as of evenly_spaced_curves.
     """
     shape = item.shape
+    bent = BentFaces(shape, crease_angle_deg) if isinstance(shape, Mesh) else None
     try:
-        if isinstance(shape, Mesh):
-            points, area = shape.vertices, _area_of_mesh(shape, field)
-            whole = float(np.ptp(shape.bounds, axis=0).max())
+        if bent is not None:
+            points, area = bent.mesh.vertices, _area_of_mesh(bent, field)
+            whole = float(np.ptp(bent.mesh.bounds, axis=0).max())
         else:
-            assert is_parametrised(shape)
             (points, area), whole = _all_over(shape, field), extent(shape)[0]
         largest = _largest(points, placement)
         apart = max(spacing_mm / largest, whole / (FEWER * MOST_LINES))
         curves = (
-            evenly_spaced_mesh_curves(shape, field, apart)
-            if isinstance(shape, Mesh)
-            else evenly_spaced_curves(shape, field, apart, tracing=Tracing(tolerance=tolerance_mm / largest))
+            evenly_spaced_curves(shape, field, apart, tracing=Tracing(tolerance=tolerance_mm / largest))
+            if bent is None
+            else evenly_spaced_on_faces(bent, field, apart)
         )
     except InputError as error:
         raise InputError(f"{item.name}: hatching along {along}: {error.cause}") from None
+    if bent is not None and not len(curves):
+        warn_of_no_lines(item.name, field, crease_angle_deg)
     return _sampled(item, curves, area, apart, placement)
 
 
-def _area_of_mesh(mesh: Mesh, field: TangentField) -> float:
+def _area_of_mesh(bent: BentFaces, field: TangentField) -> float:
     """How large a mesh is where a field has directions."""
+    mesh = bent.mesh
     faces = face_triangles(mesh)
     corners = faces.mesh.vertices[faces.triangles]
     doubled = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
-    sites = FaceSites(corners.mean(axis=1), mesh.face_normals[faces.face])
+    sites = FaceSites(corners.mean(axis=1), unit(mesh.face_normals)[faces.face], bent, faces.face)
     known = np.isfinite(field.tangents(sites)[0]).all(axis=1)
     return float(0.5 * doubled[known].sum())
 

@@ -73,7 +73,7 @@ def hatched(
     lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
     fills = coloured(walk, seen, lighting, page, 0.0, ROUGHLY * tolerance_mm, budget)
     regions = walk.run("visible fills", toned_regions, fills)
-    lines = followed_lines(scene, how, seen.view, placement, trace, tolerance_mm)
+    lines = followed_lines(scene, how, seen.view, placement, trace, tolerance_mm, crease_angle_deg)
     return hatched_regions(regions, how, placement.page_from_world, lines)
 
 

@@ -55,11 +55,12 @@ def followed_lines(
     placement: Placement,
     trace: Callable[[Scene], Paths],
     tolerance_mm: float,
+    crease_angle_deg: float,
 ) -> list[FollowedLines]:
     """The visible lines to hatch along of each item that has such, and of each family where they cross.
 
     how: of every item; view: of the scene; trace: the visible lines of a scene in their places, as of draw;
-    tolerance_mm: as of draw.
+    tolerance_mm, crease_angle_deg: as of draw.
     """
     found: list[FollowedLines] = []
     for family in (0, 1):
@@ -68,7 +69,8 @@ def followed_lines(
         for number, (item, one) in enumerate(zip(scene.items, how, strict=True)):
             lines: tuple[str, ...] = ()
             if isinstance(one, Hatching) and followed(item, one) and (family == 0 or one.cross):
-                spaced[number] = _spaced(item, one, family, curve_light(scene, view, item), placement, tolerance_mm)
+                light = curve_light(scene, view, item)
+                spaced[number] = _spaced(item, one, family, light, placement, tolerance_mm, crease_angle_deg)
                 item = replace(item, curves=spaced[number].asked)
                 lines = ("parameter", "integral")
             items.append(replace(item, lines=lines, patterns=()))
@@ -105,12 +107,20 @@ class SpacedLines:
 
 
 def _spaced(
-    item: Item, hatching: Hatching, family: int, light: Light, placement: Placement, tolerance_mm: float
+    item: Item,
+    hatching: Hatching,
+    family: int,
+    light: Light,
+    placement: Placement,
+    tolerance_mm: float,
+    crease_angle_deg: float,
 ) -> SpacedLines:
     """The lines of a family on an item, so close that they do for the darkest places; light: that of isophotes."""
     if hatching.along != "surface":
         field = field_of(hatching.along, family, light)
-        flow = flowing_lines(item, hatching.along, field, hatching.spacing_mm, tolerance_mm, placement)
+        flow = flowing_lines(
+            item, hatching.along, field, hatching.spacing_mm, tolerance_mm, placement, crease_angle_deg
+        )
         asked = SurfaceLines(integral=(KnownCurves(flow.curves),))
         return SpacedLines(asked, flow.samples, flow.apart, flow.line, flow.ranks, SHORTEST * hatching.spacing_mm)
     assert is_parametrised(item.shape)

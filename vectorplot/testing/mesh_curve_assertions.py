@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.features.integral.bent_faces import BentFaces
 from vectorplot.features.integral.on_meshes.mesh_flows import corner_angles, face_field_flow
 from vectorplot.features.integral.on_meshes.mesh_integral_curves import starts_in_faces
 from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides, mesh_sides
@@ -52,7 +53,7 @@ def assert_mesh_integral_curve(points: Curves, mesh: Mesh, field: TangentField, 
     """Nothing, where every segment of curves has the direction of its face, or follows an edge that both sides lead to,
     or both away from. Errors: as of assert_integral_curve."""
     own = _segments(points, mesh, tolerance)
-    flow = face_field_flow(own.sides, mesh, field)
+    flow = face_field_flow(own.sides, BentFaces(mesh), field)
     candidates = flow.candidates[:, own.face]
     known = np.isfinite(candidates).all(axis=(0, 2))
     step, length = own.end - own.start, norm(own.end - own.start)

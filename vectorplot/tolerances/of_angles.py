@@ -79,6 +79,10 @@ SOLID_ANGLE_ROUNDING = 1e-3
 """Solid angles of a closed mesh around a point inside add up to that of a sphere but for so much: anything else is off
 by half of it or more."""
 
+UNIT_LENGTH = 1e-6
+"""What the length of a direction that fields give in faces of meshes may differ from one by, and the sine of its angle
+with the face: those of single precision are good enough."""
+
 FLAT_SLOPE = 1e-12
 """Sine of the slope of a surface below which it is level, and has no direction of steepest slope: a thousand roundings
 of a unit normal."""

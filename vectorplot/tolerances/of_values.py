@@ -141,6 +141,11 @@ LENGTH_ROUGHLY = 1e-3
 MET_OF_INTEGRATED = 1e-3
 """Part of the error they are integrated with that geodesics to a place may miss it by."""
 
+BEYOND_NOISE = 4.0
+"""Times what curvatures fitted to the normals of a mesh may be wrong by, as the rest of the fit says, by which the
+principal ones differ at least where it has principal directions: on meshes of balls and rough planes they differ by
+less, but for one face in fifty; on a coarse ring, of 16 by 8 cells, by 4.4 times as much, on finer ones by more."""
+
 SETTLED_FIT = 1e-6
 """Part of the trace of a least-squares fit that is added to its diagonal: what its equations leave open becomes zero,
 and what they settle changes by as little."""

@@ -163,7 +163,7 @@ def test_terrains_are_hatched_as_water_runs_and_what_has_no_lines_along_the_page
     rises = [np.diff(line[:, 2]) for line in found]
     # Strokes that meet in a valley are one.
     assert sum((rise >= -1e-9).all() or (rise <= 1e-9).all() for rise in rises) > 0.8 * len(found) > 10
-    cubes = [vp.Item("A", box((2, 2, 2)), hatch=vp.Hatching("even", along=along)) for along in ("curvature", "page")]
+    cubes = [vp.Item("A", box((2, 2, 2)), hatch=vp.Hatching("even", along=along)) for along in ("isophotes", "page")]
     flowing, plain = (strokes(vp.draw(vp.Scene((cube,)), page="60x60", lines="none")) for cube in cubes)
     assert len(flowing) == len(plain) > 10
 

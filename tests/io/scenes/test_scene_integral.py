@@ -77,7 +77,7 @@ def test_field_lines_of_formulas_are_drawn_and_written():
 @pytest.mark.parametrize(
     ("words", "cause"),
     [
-        ("box 1 1 1 curvature_lines", "'curvature_lines' is for surfaces with parameters u and v only"),
+        ("box 1 1 1 curvature_lines 0", "family 0, expected 1 or 2"),
         ("box 1 1 1 loxodromes 30 u", "polyhedra have no lines u = const"),
         ("box 1 1 1 slope_lines through 1 2", "a point of slope_lines"),
         ("box 1 1 1 geodesics 0 0 0", "a point of geodesics"),

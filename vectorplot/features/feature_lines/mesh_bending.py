@@ -9,6 +9,7 @@ from vectorplot.features.feature_lines.bending import Bending
 from vectorplot.features.meshes.mesh_curves import FaceTriangles
 from vectorplot.geometry.chunks import slices
 from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.tolerances.of_extent import ROUNDING_OF_POINTS
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.tolerances.of_values import SETTLED_FIT
 
@@ -22,11 +23,19 @@ UNKNOWN = 7
 
 
 def mesh_bending(faces: FaceTriangles) -> Bending:
-    """How a mesh bends at its vertices.
+    """How a mesh bends at its vertices, as of noisy_bending."""
+    return noisy_bending(faces, np.ones(len(faces.mesh.vertices)))[0]
+
+
+def noisy_bending(faces: FaceTriangles, trust: Floats) -> tuple[Bending, Floats]:
+    """How a mesh bends at its vertices, whose normals count as much as they are trusted (n,), and by how much (n,)
+    curvatures may be wrong there.
 
     Over the tangent plane of a vertex the surface is taken for one of third order, whose slopes are those of the
     normals at the vertices up to two edges away, by least squares; what these leave open is taken for zero.
     Error: on a mesh of a smooth surface curvatures are off by the square of the edges, their derivatives by the edges.
+    By how much is what the fit leaves of the slopes, and what rounding may do to them, over the distance of neighbours;
+    infinite where there are no more slopes than unknowns.
     Degenerate: not a number at vertices without faces.
     Source: Goldfeather, Interrante (2004), section 3.
     """
@@ -38,14 +47,16 @@ def mesh_bending(faces: FaceTriangles) -> Bending:
     aside = cross(normals, along)
     count = len(mesh.vertices)
     starts = np.searchsorted(first, np.arange(count + 1))
-    forms = np.full((count, UNKNOWN), np.nan)
+    forms, noise = np.full((count, UNKNOWN), np.nan), np.full(count, np.inf)
+    rounding = ROUNDING_OF_POINTS * float(np.abs(mesh.bounds).max())
     for part in slices(count, VERTICES_AT_ONCE):
         pairs = slice(int(starts[part.start]), int(starts[part.stop]))
         own, other = first[pairs], second[pairs]
-        forms[part] = _fitted(
-            mesh.vertices, normals, along, aside, own, other, areas[other], part.start, part.stop - part.start
+        forms[part], left, usual = _fitted(
+            mesh.vertices, normals, along, aside, own, other, (trust * areas)[other], part.start, part.stop - part.start
         )
-    return Bending(mesh.vertices, normals, along, forms[:, :3], forms[:, 3:])
+        noise[part] = (left + rounding / usual) / usual
+    return Bending(mesh.vertices, normals, along, forms[:, :3], forms[:, 3:]), noise
 
 
 def smooth_normals(points: Floats, triangles: Ints) -> Floats:
@@ -83,9 +94,9 @@ def _fitted(
     areas: Floats,
     start: int,
     count: int,
-) -> Floats:
+) -> tuple[Floats, Floats, Floats]:
     """(count,7) p, m, q, d, e, f, g of the vertices from start on, from the pairs of them (k,) with others, which
-    count by their areas (k,)."""
+    count by their areas (k,); what the fit leaves of the slopes (count,), and the usual distance (count,) of others."""
     away, turned = points[other] - points[own], normals[other]
     axes = along[own], aside[own], normals[own]
     x, y = dot(away, axes[0]), dot(away, axes[1])
@@ -113,12 +124,37 @@ def _fitted(
             matrix[:, i, j] = matrix[:, j, i] = np.bincount(row, both, count)
     trace = np.maximum(np.einsum("nii->n", matrix), LEAST_DIVISOR)
     matrix += SETTLED_FIT * trace[:, None, None] * np.eye(UNKNOWN)
-    found = np.linalg.solve(matrix, right)[:, :, 0]
-    usual = np.maximum(usual, LEAST_DIVISOR)[:, None]
+    three = np.broadcast_to(np.eye(UNKNOWN)[:, :3], (count, UNKNOWN, 3))
+    solved = np.linalg.solve(matrix, np.concatenate([right, three], axis=2))
+    found, spread = solved[:, :, 0], np.einsum("nii->ni", solved[:, :3, 1:]).max(axis=1)
+    squares = weight * (slopes[0] ** 2 + slopes[1] ** 2)
+    left = _left_over(squares, weight, found, right[:, :, 0], spread, row)
+    distance = np.maximum(usual, LEAST_DIVISOR)
+    usual = distance[:, None]
     # One division after the other: of a vertex without neighbours the square would be zero.
     found /= usual
     found[:, 3:] /= usual
-    return np.asarray(found)
+    return np.asarray(found), left, distance
+
+
+def _left_over(squares: Floats, weight: Floats, found: Floats, right: Floats, spread: Floats, row: Ints) -> Floats:
+    """(count,) how much slopes are off the fitted ones, by their weighted squares (k,), as from as many as are more
+    than the unknowns; and how much that makes of it in the curvatures, by what the inverse of the fit spreads (count,).
+    Infinite where there are no more slopes than unknowns.
+
+    Source: Kish, Survey sampling, 1965, for how many slopes of different weights are.
+    """
+    count = len(found)
+    off = np.maximum(np.bincount(row, squares, count) - (found * right).sum(axis=1), 0.0)
+    whole = np.maximum(np.bincount(row, weight, count), LEAST_DIVISOR)
+    usual = np.maximum(np.bincount(row, weight * weight, count), LEAST_DIVISOR) / whole
+    slopes = 2.0 * whole / usual
+    spare = slopes - UNKNOWN
+    known = spare > 0.0
+    size = np.sqrt(0.5 * off / whole * slopes / np.where(known, spare, 1.0))
+    # What the fit does not settle at all has no more than this to do with the directions that it settles.
+    spread = np.clip(usual * spread, 0.0, 1.0)
+    return np.where(known, size * (1.0 + np.sqrt(spread)), np.inf)
 
 
 def _neighbours(count: int, triangles: Ints) -> tuple[Ints, Ints]:

@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from vectorplot.arrays import Floats
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.features.integral.bent_faces import USUAL_CREASE_DEG, BentFaces
 from vectorplot.features.integral.sites import TangentPlanes, unit
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import face_barycentres
@@ -20,6 +23,10 @@ class FaceSites(TangentPlanes):
         In world coordinates.
     facing : (f, 3) array of float
         Unit normals; NaN of faces without area.
+    bent : BentFaces, optional
+        How the mesh bends: fields that go by curvatures need it.
+    faces : (f,) array of int, optional
+        In which of its faces each place is.
 
     Examples
     --------
@@ -31,6 +38,8 @@ class FaceSites(TangentPlanes):
 
     centres: Floats
     facing: Floats
+    bent: BentFaces | None = None
+    faces: Ints | None = None
 
     @property
     def points(self) -> Floats:
@@ -43,18 +52,25 @@ class FaceSites(TangentPlanes):
         return self.facing
 
 
-def face_sites(mesh: Mesh) -> FaceSites:
-    """The barycentres of the faces of a mesh, with their planes.
+def face_sites(mesh: Mesh, crease_angle_deg: float = USUAL_CREASE_DEG) -> FaceSites:
+    """The barycentres of the faces of a mesh, with their planes, and how the mesh bends.
 
     Parameters
     ----------
     mesh : Mesh
         With f faces.
+    crease_angle_deg : float
+        At edges where faces turn by more, 0 to 180 degrees, the mesh is not smooth.
 
     Returns
     -------
     FaceSites
         f of them.
+
+    Raises
+    ------
+    InputError
+        For an angle that is not within 0 and 180.
 
     Examples
     --------
@@ -62,4 +78,5 @@ def face_sites(mesh: Mesh) -> FaceSites:
     >>> features.face_sites(geometry.box((2, 2, 2))).normals[4:].tolist()
     [[0.0, 0.0, -1.0], [0.0, 0.0, 1.0]]
     """
-    return FaceSites(face_barycentres(mesh), unit(mesh.face_normals))
+    bent = BentFaces(mesh, crease_angle_deg)
+    return FaceSites(face_barycentres(mesh), unit(mesh.face_normals), bent, np.arange(mesh.face_count))

@@ -360,8 +360,8 @@ def mesh_curve_lines(
     """The isophotes, sections, integral curves, lines of terrains, feature lines and contours across faces that
     polyhedra ask for: they lie in the faces.
 
-    Isophotes end at edges that turn by more than the crease angle. budget: of shortest ways; done: is told the part of
-    the work that is done.
+    At edges that turn by more than the crease angle a mesh is not smooth: isophotes end there. budget: of shortest
+    ways; done: is told the part of the work that is done.
     Errors: InputError, with the item's name, for a light that the scene does not have, and as of item_integral_lines.
     """
     parts = []
@@ -383,7 +383,7 @@ def mesh_curve_lines(
                 told = part_of(done, number, len(scene.items))
                 for place, lines in enumerate(item.curves.integral):
                     own = part_of(told, place, len(item.curves.integral))
-                    found = item_integral_lines(item, lines, budget, own)
+                    found = item_integral_lines(item, lines, budget, own, crease_angle_deg)
                     parts.append(_lines_of_curves(view, found, LineKind.INTEGRAL, number, item.curves.smooth))
             if LineKind.INTEGRAL in wanted:
                 for asked in item.curves.terrain:

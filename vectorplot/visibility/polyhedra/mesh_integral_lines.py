@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 
 import numpy as np
 
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.features.integral.bent_faces import USUAL_CREASE_DEG
+from vectorplot.features.integral.curvature_fields import AsymptoticDirections, PrincipalDirections
 from vectorplot.features.integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
 from vectorplot.features.integral.on_meshes.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
 from vectorplot.features.integral.on_meshes.shortest_paths import mesh_shortest_paths
+from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.features.meshes.nearest_on_mesh import nearest_on_mesh
 from vectorplot.geometry.budget import USUAL, Budget, unheard
@@ -18,6 +22,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.lines.integral_lines import (
     ON_MESHES,
     USUAL_APART,
+    FieldLines,
     GeodesicLines,
     GeodesicsBetween,
     IntegralLines,
@@ -28,20 +33,42 @@ from vectorplot.scene.lines.integral_lines import (
 
 
 def item_integral_lines(
-    item: Item, lines: IntegralLines, budget: Budget = USUAL, done: Callable[[float], None] = unheard
+    item: Item,
+    lines: IntegralLines,
+    budget: Budget = USUAL,
+    done: Callable[[float], None] = unheard,
+    crease_angle_deg: float = USUAL_CREASE_DEG,
 ) -> MeshCurves:
     """The curves on a polyhedron with faces that are asked for. done: is told the part of the work that is done.
 
-    Errors: as of mesh_integral_lines, with the item's name.
+    Warnings: where there are none that go by curvatures. Errors: as of mesh_integral_lines, with the item's name.
     """
     try:
-        return mesh_integral_lines(item.mesh, lines, budget, done)
+        found = mesh_integral_lines(item.mesh, lines, budget, done, crease_angle_deg)
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
+    if isinstance(lines, FieldLines) and not len(found):
+        warn_of_no_lines(item.name, lines.field, crease_angle_deg)
+    return found
+
+
+def warn_of_no_lines(name: str, field: TangentField, crease_angle_deg: float) -> None:
+    """Warns that a mesh has no lines of a field that goes by curvatures."""
+    edges = f"or all edges turn by more than {crease_angle_deg:g} degrees"
+    if isinstance(field, PrincipalDirections):
+        text = f"{name}: no lines of curvature: it is flat, or round as a ball, {edges}"
+        warnings.warn(text, InputWarning, stacklevel=3)
+    elif isinstance(field, AsymptoticDirections):
+        text = f"{name}: no asymptotic lines: it is flat, or nowhere saddle-shaped, {edges}"
+        warnings.warn(text, InputWarning, stacklevel=3)
 
 
 def mesh_integral_lines(
-    mesh: Mesh, lines: IntegralLines, budget: Budget = USUAL, done: Callable[[float], None] = unheard
+    mesh: Mesh,
+    lines: IntegralLines,
+    budget: Budget = USUAL,
+    done: Callable[[float], None] = unheard,
+    crease_angle_deg: float = USUAL_CREASE_DEG,
 ) -> MeshCurves:
     """The curves on a mesh that are asked for, from the nearest points of the mesh.
 
@@ -64,7 +91,7 @@ def mesh_integral_lines(
         return mesh_geodesics(mesh, places.faces, places.points, directions, length=lines.length)
     if lines.through:
         places = nearest_on_mesh(mesh, np.array(lines.through))
-        return mesh_integral_curves(mesh, lines.field, places.faces, places.points)
+        return mesh_integral_curves(mesh, lines.field, places.faces, places.points, crease_angle_deg=crease_angle_deg)
     extent = float(np.ptp(mesh.bounds, axis=0).max())
     apart = USUAL_APART * extent if lines.apart is None else lines.apart
-    return evenly_spaced_mesh_curves(mesh, lines.field, apart)
+    return evenly_spaced_mesh_curves(mesh, lines.field, apart, crease_angle_deg=crease_angle_deg)

@@ -162,7 +162,6 @@ def test_mistakes_about_them_are_told():
     slope = features.SteepestSlope()
     for call, cause in (
         (lambda: mesh_integral_curves(CUBE, features.loxodromes(1.0), 0), "only surfaces with parameters"),
-        (lambda: mesh_integral_curves(CUBE, features.PrincipalDirections(), 0), "only surfaces with parameters"),
         (lambda: mesh_integral_curves(CUBE, slope, 6), "there is no face 6 among 6"),
         (lambda: mesh_integral_curves(CUBE, slope, 0, (5.0, 5.0, 5.0)), "point 1 is not in face 0"),
         (lambda: mesh_integral_curves(CUBE, slope, 0, length=0.0), "length"),

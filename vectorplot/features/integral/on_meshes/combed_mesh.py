@@ -8,11 +8,13 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.features.integral.bent_faces import BentFaces
 from vectorplot.features.integral.face_sites import FaceSites
 from vectorplot.features.integral.on_meshes.mesh_flows import FaceFieldFlow
 from vectorplot.features.integral.on_meshes.mesh_integral_curves import led_curves, starts_in_faces
 from vectorplot.features.integral.on_meshes.mesh_sides import MeshSides
 from vectorplot.features.integral.sites import unit
+from vectorplot.features.integral.spacing.uncrowded_lines import NEAREST
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.features.meshes.mesh_curves import NO_FACE, FaceTriangles, MeshCurves, face_triangles
 from vectorplot.geometry import ragged
@@ -26,18 +28,24 @@ MOST_PLACES = 40_000
 
 @dataclass(frozen=True, eq=False)
 class CombedMesh:
-    """A mesh, a field, and the distance of curves; turned: the flow at right angles to that of the field.
+    """A mesh (bent: and how it bends), a field, and the distance of curves; turned: the flow at right angles to that of
+    the field.
 
     Places are x, y, z and the number of the face (k,4); nodes (k,) count the points of curves that are led round, and
     what part of the way to the next one.
     """
 
-    mesh: Mesh
+    bent: BentFaces
     field: TangentField
     apart: float
     sides: MeshSides
     flow: FaceFieldFlow
     turned: FaceFieldFlow
+
+    @property
+    def mesh(self) -> Mesh:
+        """On which they run."""
+        return self.bent.mesh
 
     @property
     def extent(self) -> float:
@@ -52,7 +60,8 @@ class CombedMesh:
     def over(self) -> Floats:
         """Places all over the mesh where the field has a direction."""
         points, face = _all_over(face_triangles(self.mesh), self.apart)
-        known = np.isfinite(self.field.tangents(FaceSites(points, unit(self.mesh.face_normals)[face]))[0]).all(axis=1)
+        sites = FaceSites(points, unit(self.mesh.face_normals)[face], self.bent, face)
+        known = np.isfinite(self.field.tangents(sites)[0]).all(axis=1)
         return np.asarray(np.column_stack([points, face])[known])
 
     def where(self, places: Floats) -> Floats:
@@ -71,7 +80,7 @@ class CombedMesh:
         face, own = starts_in_faces(
             "evenly spaced curves", self.mesh, self.sides, places[:, 3].astype(np.intp), places[:, :3]
         )
-        return led_curves(self.sides, flow, face, own, flow.candidates[0, face], length, both_ways=True)
+        return led_curves(self.sides, flow, face, own, flow.candidates[0, face], length, True, NEAREST * self.apart)
 
     def at(self, curves: MeshCurves, node: Floats) -> Floats:
         """(k,4) the places at nodes of curves."""

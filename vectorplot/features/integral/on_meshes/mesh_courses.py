@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
@@ -10,11 +11,16 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.integral.on_meshes.mesh_flows import MeshFlow, Onward
 from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides
 from vectorplot.geometry import ragged
-from vectorplot.geometry.vectors import dot, point_on_line
+from vectorplot.geometry.vectors import dot, norm, point_on_line
 from vectorplot.tolerances.of_extent import CLOSED_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 MOST_FACES = 100_000
 """A line runs across so many faces at most."""
+
+FAR = 4.0
+"""Times the distance at which lines are beside where they have been, that they run before that is looked for, and
+beyond."""
 
 
 class MeshCourses(NamedTuple):
@@ -48,9 +54,11 @@ def mesh_courses(
     directions: Floats,
     way: Floats,
     length: Floats | float,
+    beside: float = 0.0,
 ) -> MeshCourses:
     """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it; length: of
-    all, or (k,) of each.
+    all, or (k,) of each. beside: those that come back so near to where they have been do not run on for many rounds;
+    all do where it is zero.
 
     A line ends where the flow does not lead on, where it is as long as it may be, and where it comes back to where it
     left its first face, into the same face in the same direction: it is closed then.
@@ -59,6 +67,8 @@ def mesh_courses(
     nowhere = np.full(count, NO_SIDE)
     now = Onward(face, directions, nowhere, nowhere, np.zeros(count, dtype=np.bool_))
     line, here, left = np.arange(count), points, np.array(np.broadcast_to(length, count), dtype=np.float64)
+    longest_side = float(sides.lengths.max(initial=0.0))
+    rounds = _Rounds(sides, beside, np.array(points), np.array(face), np.zeros(count), np.zeros(count))
     closed, last = np.zeros(count, dtype=np.bool_), np.array(points)
     first_point, first_way = np.full((count, 3), np.nan), np.zeros((count, 3))
     first_face = np.full(count, -1)
@@ -77,6 +87,9 @@ def mesh_courses(
         segments.append((line[runs], here[runs], end[runs], now.face[runs]))
         last[line[runs]] = end[runs]
         left[line] -= exits.distance
+        about = rounds.done(line, here, end, now.face)
+        # Far enough to close, at the side where the first face was left.
+        left[line[about]] = np.minimum(left[line[about]], FAR * beside + longest_side)
         go = runs & whole
         line, here, old = line[go], end[go], now.directions[go]
         now = _onward(flow, exits.side[go], exits.at_vertex[go], old, way[line])
@@ -95,6 +108,39 @@ def mesh_courses(
     return MeshCourses(
         rows.astype(np.intp), begin.reshape(-1, 3), end.reshape(-1, 3), faces.astype(np.intp), last, closed
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Rounds:
+    """Whether lines (k,) come back beside where they have been: a place on each (k,3), in a face (k,), and at what part
+    of its way (k,), of which run (k,) is done. The place is their start, and moves on whenever they have run twice as
+    far as to it: what runs into rounds is found in the third of them.
+
+    Source: Brent, An improved Monte Carlo factorization algorithm, 1980, for a place that moves on.
+    """
+
+    sides: MeshSides
+    beside: float
+    place: Floats
+    face: Ints
+    at: Floats
+    run: Floats
+
+    def done(self, line: Ints, start: Floats, end: Floats, face: Ints) -> Bools:
+        """(m,) which of the lines (m,) are back that run on from start to end (m,3) in faces (m,)."""
+        if self.beside <= 0.0:
+            return np.zeros(len(line), dtype=np.bool_)
+        step, place = end - start, self.place[line]
+        part = np.clip(dot(place - start, step) / np.maximum(dot(step, step), LEAST_DIVISOR), 0.0, 1.0)
+        near = norm(start + part[:, None] * step - place) <= self.beside
+        normals = self.sides.mesh.face_normals
+        near &= dot(normals[face], normals[self.face[line]]) > 0.0
+        back = near & (self.run[line] - self.at[line] > FAR * self.beside)
+        self.run[line] += norm(step)
+        onward = self.run[line] >= np.maximum(2.0 * self.at[line], self.sides.extent)
+        moved = line[onward]
+        self.place[moved], self.face[moved], self.at[moved] = end[onward], face[onward], self.run[moved]
+        return np.asarray(back)
 
 
 def _onward(flow: MeshFlow, side: Ints, at_vertex: Bools, directions: Floats, way: Floats) -> Onward:

@@ -8,13 +8,16 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.integral.face_sites import FaceSites, face_sites
+from vectorplot.errors import InputError
+from vectorplot.features.integral.bent_faces import BentFaces
+from vectorplot.features.integral.face_sites import FaceSites
 from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides, outwards
 from vectorplot.features.integral.sites import unit
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.geometry import ragged
-from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.repair.adjacency import face_barycentres
 from vectorplot.geometry.vectors import cross, dot
+from vectorplot.tolerances.of_angles import UNIT_LENGTH
 
 
 class Onward(NamedTuple):
@@ -49,11 +52,33 @@ class MeshFlow(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class FaceFieldFlow:
-    """Along the directions (j,f,3) of faces; directed: they differ from their opposites."""
+    """Along the directions (j,f,3) of faces; directed: they differ from their opposites.
+
+    Errors: InputError for directions that are not at least one for each face, and for such that are neither unit
+    vectors in its plane nor NaN.
+    """
 
     sides: MeshSides
     candidates: Floats
     directed: bool
+
+    def __post_init__(self) -> None:
+        given = np.asarray(self.candidates)
+        count = self.sides.mesh.face_count
+        if given.ndim != 3 or given.shape[1:] != (count, 3) or not len(given) or given.dtype.kind not in "fiu":
+            raise InputError(f"field: directions are {given.dtype} {given.shape}, expected real (j, {count}, 3)")
+        given = given.astype(np.float64)
+        size, height = np.sqrt(dot(given, given)), np.abs(dot(given, self.sides.mesh.face_normals))
+        none = np.isnan(given).all(axis=2)
+        for wrong, told in (
+            (~none & ~np.isfinite(given).all(axis=2), "finite, or NaN where there is none"),
+            (np.abs(size - 1.0) > UNIT_LENGTH, "of length one, or NaN where there is none"),
+            (height > UNIT_LENGTH, "in its plane"),
+        ):
+            if wrong.any():
+                face = int(self.sides.source[np.flatnonzero(wrong.any(axis=0))[0]])
+                raise InputError(f"field: the direction of face {face} is not {told}")
+        object.__setattr__(self, "candidates", given)
 
     def over_edge(self, side: Ints, directions: Floats, way: Floats) -> Onward:
         """Into the other face, where its direction leads away from the edge; else along the edge, as both push.
@@ -62,13 +87,8 @@ class FaceFieldFlow:
         """
         sides, other = self.sides, self.sides.across[side]
         inside = other != NO_SIDE
-        choice = self._of_faces(sides.mesh.corner_face[other], way)
-        straight = unfolded(sides, side, other, directions)
-        # Of several, the one that leads on and is nearest to the way it came.
-        leads = np.stack([outwards(sides, other, c) < 0.0 for c in choice])
-        near = np.nan_to_num(dot(choice, straight[None]), nan=-np.inf) + np.where(leads, 4.0, 0.0)
-        best, row = near.argmax(axis=0), np.arange(len(side))
-        here, leads = choice[best, row], leads[best, row] & inside
+        here = self._nearest(sides.mesh.corner_face[other], unfolded(sides, side, other, directions), way)
+        leads = (outwards(sides, other, here) < 0.0) & inside
         slide = _slide(sides, side, other, directions, here)
         follows = inside & ~leads & (np.abs(slide) > sides.slack[side])
         own = np.where(follows, sides.mesh.corner_face[side], -1)
@@ -89,8 +109,8 @@ class FaceFieldFlow:
         previous, other = sides.before[around], sides.across[around]
         face = sides.mesh.corner_face
         ways = []
-        for k in range(self._choices):
-            own, beyond = (self._of_faces(face[c], way[line])[k] for c in (around, other))
+        for own in self._of_faces(face[around], way[line]):
+            beyond = self._nearest(face[other], unfolded(sides, around, other, own), way[line])
             into = (outwards(sides, around, own) < 0.0) & (outwards(sides, previous, own) < 0.0)
             ways.append((into, own, around, previous, False))
             out = np.where(other != NO_SIDE, outwards(sides, other, beyond), 0.0)
@@ -106,15 +126,20 @@ class FaceFieldFlow:
         follows = np.repeat([w[4] for w in ways], len(around))
         owner = np.tile(line, len(ways))
         near = np.where(ok, dot(direction, directions[owner]), -np.inf)
+        if not self.directed:
+            # What has no sense does not turn back.
+            ok &= near > 0.0
         order = np.lexsort((-near, owner))
         best = order[ragged.starts(np.bincount(owner, minlength=len(side)))]
         return Onward(
             np.where(ok[best], face[first[best]], -1), direction[best], first[best], second[best], follows[best]
         )
 
-    @property
-    def _choices(self) -> int:
-        return 1 if self.directed else 2 * len(self.candidates)
+    def _nearest(self, face: Ints, wanted: Floats, way: Floats) -> Floats:
+        """(k,3) of the directions that lines may take in faces (k,) those nearest to wanted ones (k,3)."""
+        choice = self._of_faces(face, way)
+        near = np.nan_to_num(dot(choice, wanted[None]), nan=-np.inf)
+        return np.asarray(choice[near.argmax(axis=0), np.arange(len(face))])
 
     def first(self, face: Ints, way: Floats) -> Floats:
         """(k,3) the directions in which lines begin."""
@@ -128,13 +153,14 @@ class FaceFieldFlow:
         return np.concatenate([self.candidates[:, face], -self.candidates[:, face]])
 
 
-def face_field_flow(sides: MeshSides, given: Mesh, field: TangentField) -> FaceFieldFlow:
+def face_field_flow(sides: MeshSides, given: BentFaces, field: TangentField) -> FaceFieldFlow:
     """The flow of a field with one direction a face, that at its barycentre.
 
-    Errors: InputError for fields that need parameters.
+    Errors: InputError for fields that need parameters, and as of FaceFieldFlow.
     """
     # Parts of a face that is not plane have planes of their own.
-    places = FaceSites(face_sites(given).points[sides.source], face_sites(sides.mesh).normals)
+    centres = face_barycentres(given.mesh)[sides.source]
+    places = FaceSites(centres, unit(sides.mesh.face_normals), given, sides.source)
     return FaceFieldFlow(sides, field.tangents(places), field.directed)
 
 

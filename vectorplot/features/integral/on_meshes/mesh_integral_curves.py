@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
+from vectorplot.features.integral.bent_faces import USUAL_CREASE_DEG, BentFaces
 from vectorplot.features.integral.integral_curves import USUAL_LENGTH
 from vectorplot.features.integral.on_meshes.mesh_courses import MeshCourses, mesh_courses
 from vectorplot.features.integral.on_meshes.mesh_flows import MeshFlow, StraightFlow, face_field_flow
@@ -32,6 +33,7 @@ def mesh_integral_curves(
     *,
     length: float | None = None,
     both_ways: bool = True,
+    crease_angle_deg: float = USUAL_CREASE_DEG,
 ) -> MeshCurves:
     """The lines across the faces of a mesh that follow a field of directions, one through each of given points.
 
@@ -40,8 +42,9 @@ def mesh_integral_curves(
     mesh : Mesh
         On which they run; open or closed.
     field : TangentField
-        What they follow, such as `SteepestSlope`, `ConstantElevation`, `VectorField`, `TurnedField` of one of these:
-        asked once for every face, at its barycentre. Fields of parameters need a surface.
+        What they follow, such as `SteepestSlope`, `ConstantElevation`, `PrincipalDirections`, `AsymptoticDirections`,
+        `VectorField`, `TurnedField` of one of these: asked once for every face, at its barycentre. Fields of parameters
+        need a surface.
     faces : (k,) array_like of int
         In which faces they begin; or one of them.
     points : (k, 3) array_like of float, optional
@@ -51,6 +54,8 @@ def mesh_integral_curves(
         None.
     both_ways : bool
         Whether they run against the field as well.
+    crease_angle_deg : float
+        At edges where faces turn by more, 0 to 180 degrees, the mesh is not smooth: for fields that go by curvatures.
 
     Returns
     -------
@@ -62,7 +67,7 @@ def mesh_integral_curves(
     ------
     InputError
         For faces that the mesh does not have, points that are not in their faces, a length that is not positive, fields
-        that need parameters.
+        that need parameters, or give what are no directions in faces; an angle that is not within 0 and 180.
 
     Notes
     -----
@@ -71,8 +76,8 @@ def mesh_integral_curves(
     these cancel out it ends. At a vertex it goes into the face, or along the edge, that leads away and is nearest to
     the way it came, and ends where there is none: on a summit, in a pit. It ends at borders, at edges of more than two
     faces or of two that do not agree on their outer side, and at faces in which the field has no direction or that
-    have no area. It is closed where it comes back to the point where it left its first face. No line runs across more
-    than 100000 faces.
+    have no area. What has no sense (lines of curvature) goes on in the one nearest to the way it came. It is closed
+    where it comes back to the point where it left its first face. No line runs across more than 100000 faces.
 
     Source: Glaeser, section 9.4, figure 8; errata G9-14. Filippov, Differential equations with discontinuous righthand
     sides, section 4, for edges.
@@ -88,7 +93,7 @@ def mesh_integral_curves(
     """
     sides = mesh_sides(mesh)
     face, own = starts_in_faces("integral curves", mesh, sides, faces, points)
-    flow = face_field_flow(sides, mesh, field)
+    flow = face_field_flow(sides, BentFaces(mesh, crease_angle_deg), field)
     return led_curves(sides, flow, face, own, flow.candidates[0, face], length, both_ways)
 
 
@@ -200,8 +205,9 @@ def led_curves(
     directions: Floats,
     length: float | None,
     both_ways: bool,
+    beside: float = 0.0,
 ) -> MeshCurves:
-    """The lines of a flow as curves, both ways joined."""
+    """The lines of a flow as curves, both ways joined; beside: as of mesh_courses."""
     longest = USUAL_LENGTH * sides.extent if length is None else positive("integral curves: length", length)
     count = len(face)
     if not count:
@@ -215,6 +221,7 @@ def led_curves(
         np.tile(directions, (1 + both_ways, 1)) * ways[:, None],
         ways,
         longest,
+        beside,
     )
     return _joined_ways(sides, found, count)
 

@@ -113,9 +113,7 @@ FIELDS: dict[str, Fields] = {
 }
 """The words for fields of directions on surfaces, and how what follows them is read."""
 
-MESH_FIELDS = {word: FIELDS[word] for word in ("slope_lines", "helices", "field_lines")} | {
-    "loxodromes": _mesh_loxodromes
-}
+MESH_FIELDS = FIELDS | {"loxodromes": _mesh_loxodromes}
 """Those for fields on polyhedra."""
 
 
@@ -140,8 +138,6 @@ def read_integral(
 def _field_lines(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[IntegralLines, ...], int]:
     """A field of directions, and how far apart its lines are, or what points they go through."""
     word, fields_of = words.words[at], MESH_FIELDS if on == ON_MESHES else FIELDS
-    if word not in fields_of:
-        words.fail(at, f"{owner}'{word}' is for surfaces with parameters u and v only")
     fields, at = fields_of[word](words, at + 1, owner)
     apart, through = None, np.zeros((0, on.points))
     if words.words[at] == "apart":
