@@ -110,14 +110,16 @@ def flowing_lines(
             points, area = bent.mesh.vertices, _area_of_mesh(bent, field)
             whole = float(np.ptp(bent.mesh.bounds, axis=0).max())
         else:
+            assert is_parametrised(shape)
             (points, area), whole = _all_over(shape, field), extent(shape)[0]
         largest = _largest(points, placement)
         apart = max(spacing_mm / largest, whole / (FEWER * MOST_LINES))
-        curves = (
-            evenly_spaced_curves(shape, field, apart, tracing=Tracing(tolerance=tolerance_mm / largest))
-            if bent is None
-            else evenly_spaced_on_faces(bent, field, apart)
-        )
+        curves: SurfaceCurves | MeshCurves
+        if bent is not None:
+            curves = evenly_spaced_on_faces(bent, field, apart)
+        else:
+            assert is_parametrised(shape)
+            curves = evenly_spaced_curves(shape, field, apart, tracing=Tracing(tolerance=tolerance_mm / largest))
     except InputError as error:
         raise InputError(f"{item.name}: hatching along {along}: {error.cause}") from None
     if bent is not None and not len(curves):

@@ -3,6 +3,7 @@ where there are none."""
 
 import numpy as np
 import pytest
+from support.paths import MODELS
 
 import vectorplot as vp
 from vectorplot import Mesh, features, geometry
@@ -242,3 +243,20 @@ def test_senseless_fields_are_told():
         mesh_integral_curves(CUBE, PrincipalDirections(), 0, crease_angle_deg=200.0)
     with pytest.raises(InputError, match="planes of faces do not say how a mesh bends"):
         PrincipalDirections().tangents(features.FaceSites(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])))
+
+
+@pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")
+@pytest.mark.parametrize("name", ["spot", "fandisk"])
+def test_models_have_lines_on_what_bends_and_none_on_what_is_flat(name):
+    path = MODELS / f"{name}.obj"
+    if not path.is_file():
+        pytest.skip("no models")
+    mesh = vp.read(path).items[0].mesh
+    extent = np.ptp(mesh.bounds, axis=0).max()
+    lines = features.evenly_spaced_mesh_curves(mesh, PrincipalDirections(1), 0.05 * extent)
+    assert len(lines) > 40
+    # The one is round but for what its coarse faces leave open, the other is made of planes and of what is rolled.
+    known = np.isfinite(PrincipalDirections(1).tangents(features.face_sites(mesh))[0]).all(axis=1)
+    area = np.linalg.norm(mesh.area_vectors, axis=1)
+    share = area[known].sum() / area.sum()
+    assert share > 0.6 if name == "spot" else 0.05 < share < 0.6
