@@ -221,7 +221,7 @@ def test_asymptotic_lines_are_the_rulings_and_end_where_the_surface_is_domed():
     sites = at(helicoid_to_catenoid(bending=0.4), 0.7, 0.3)
     one, two = (features.AsymptoticDirections(k).tangents(sites)[0, 0] for k in (1, 2))
     assert abs(one @ two) < 1e-9
-    _, (most, least) = principal(sites)
+    _, (most, least) = principal(sites, "asymptotic lines")
     assert np.allclose(most, -least)
 
 
