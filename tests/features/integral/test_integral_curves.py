@@ -9,9 +9,11 @@ from vectorplot.curves import Loxodrome
 from vectorplot.errors import InputError
 from vectorplot.features import Accuracy, Sites, Tracing, geodesics, integral_curves
 from vectorplot.features.integral.curvature_fields import principal
+from vectorplot.geometry import HalfSpaces
 from vectorplot.scene import FieldLines
 from vectorplot.surfaces import (
     Cone,
+    CutSurface,
     Cylinder,
     Domain,
     Ellipsoid,
@@ -351,3 +353,19 @@ def test_geodesics_meridians_and_lines_of_curvature_know_theirs_too():
     assert known.sum() > len(known) - 3 and np.abs(np.abs(meridian.directions[known]) - (0.0, 1.0)).max() < 1e-9
     egg, field = Ellipsoid((3.0, 2.0, 1.4)), features.PrincipalDirections(2)
     assert_integral_curve(integral_curves(egg, field, (0.7, 0.0), tracing=COARSE), egg, field, 1e-6)
+
+
+@pytest.mark.parametrize("along", [features.loxodromes(0.5), None])
+def test_curves_end_where_their_surface_is_cut(along):
+    bowl = CutSurface(Torus(2.0, 0.7), (HalfSpaces(((0.0, 0.0, 1.0),), (0.3,)),))
+    start = [[0.1, -1.0]]
+    found = integral_curves(bowl, along, start) if along else geodesics(bowl, start, [0.8], length=9.0)
+    height = found.points[:, 2]
+    assert len(found) == 1 and np.isfinite(found.points).all()
+    assert height.max() == pytest.approx(0.3, abs=1e-6) and height.max() <= 0.3
+
+
+def test_evenly_spaced_curves_keep_to_what_a_cut_leaves():
+    bowl = CutSurface(Torus(2.0, 0.7), (HalfSpaces(((0.6, 0.8, 0.0),), (0.3,)),))
+    found = features.evenly_spaced_curves(bowl, features.SteepestSlope(), 0.4)
+    assert len(found) > 10 and (found.points @ (0.6, 0.8, 0.0)).max() <= 0.3

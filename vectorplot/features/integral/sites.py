@@ -74,9 +74,11 @@ class Sites(TangentPlanes):
 
     @cached_property
     def planes(self) -> tuple[Floats, Floats, Floats]:
-        """Derivatives by u and by v, and unit normals, (k,3) each; no normals at poles and singular points."""
+        """Derivatives by u and by v, and unit normals, (k,3) each; no normals at poles and singular points, and none in
+        holes, where formulas of derivatives may go on."""
         along_u, along_v = self.surface.partials(self.u, self.v)
-        return along_u, along_v, unit(cross(along_u, along_v))
+        there = np.where(np.isfinite(self.points).all(axis=1)[:, None], 1.0, np.nan)
+        return along_u, along_v, unit(cross(along_u, along_v) * there)
 
     @property
     def normals(self) -> Floats:
