@@ -63,6 +63,7 @@ from .parametric.surface_sections import level_lines, plane_sections, section_by
 from .terrains.label_places import LabelPlaces, label_places
 from .terrains.places import places_on_terrain
 from .terrains.roads import roads
+from .terrains.serpentines import serpentine
 from .terrains.water import basins, valley_lines, water_courses, watersheds
 from .tessellation import Tessellation, surface_tessellation
 from .zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
@@ -155,6 +156,7 @@ __all__ = [
     "roads",
     "section_by_implicit",
     "self_intersections",
+    "serpentine",
     "singular_lines",
     "surface_intersection",
     "surface_tessellation",

@@ -18,7 +18,7 @@ from .scene import Scene
 from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
 from .surface_normals import SurfaceNormals
 from .terrains.level_lines import level_sections, round_heights
-from .terrains.terrain_lines import Roads, WaterCourses, Watersheds
+from .terrains.terrain_lines import Roads, Serpentine, WaterCourses, Watersheds
 from .terrains.terrain_mesh import terrain_mesh, terrain_scene
 from .terrains.tints import TINTS, hill_light, tinted
 from .view import View, look
@@ -52,6 +52,7 @@ __all__ = [
     "Roads",
     "Scene",
     "Section",
+    "Serpentine",
     "ShortestPaths",
     "Stippling",
     "SurfaceLines",

@@ -236,7 +236,7 @@ class SurfaceLines:
         Curves u(t), v(t) on a parametrised surface.
     integral : tuple of FieldLines, GeodesicLines, GeodesicsBetween and ShortestPaths
         Integral curves of a parametrised surface, or a polyhedron.
-    terrain : tuple of WaterCourses, Watersheds and Roads
+    terrain : tuple of WaterCourses, Watersheds, Roads and Serpentine
         Lines of a terrain, a mesh of triangles of which none is above another.
     detail : float
         How much there is of suggestive contours, ridges, valleys and apparent ridges: of twice the detail lines may be

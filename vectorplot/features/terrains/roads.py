@@ -10,17 +10,12 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
-from vectorplot.features.integral.face_sites import face_sites
 from vectorplot.features.integral.on_meshes.mesh_courses import MeshCourses, mesh_courses
-from vectorplot.features.integral.on_meshes.mesh_flows import Onward
-from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides, mesh_sides, outwards
-from vectorplot.features.integral.sites import unit
 from vectorplot.features.meshes.mesh_curves import NO_FACE, MeshCurves
+from vectorplot.features.terrains.hillsides import Hillsides, SlopeFlow, hillsides_of
 from vectorplot.features.terrains.places import places_on_terrain
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import cross, dot
-from vectorplot.tolerances.of_angles import FLAT_SLOPE
 from vectorplot.tolerances.of_extent import ROAD_ARRIVES, ZERO_OF_EXTENT
 
 USUAL_LONGEST = 6.0
@@ -96,7 +91,7 @@ def roads(mesh: Mesh, start: ArrayLike, end: ArrayLike, *, longest: float | None
         raise InputError("road: both ends are of one height: the road would be a level line")
     most = USUAL_LONGEST * distance if longest is None else positive("road: longest", longest)
     order = [0, 1] if rise > 0.0 else [1, 0]
-    search = _Search(_slopes_of(mesh), faces[order], points[order], extent)
+    search = _Search(hillsides_of(mesh), faces[order], points[order], extent)
     found = [road for side in SIDES if (road := search.shortest(side, most)) is not None]
     if not found:
         raise InputError(
@@ -104,70 +99,6 @@ def roads(mesh: Mesh, start: ArrayLike, end: ArrayLike, *, longest: float | None
             f"{points[1, 1]:g} within {most:g}: the ground is less steep somewhere, or the terrain ends"
         )
     return _joined(found, rise < 0.0)
-
-
-@dataclass(frozen=True, eq=False)
-class _Slopes:
-    """The parts of faces, the steepest way up (f,3) in each, and the sine (f,) of its slope."""
-
-    sides: MeshSides
-    steepest: Floats
-    sine: Floats
-    across: Floats
-
-
-def _slopes_of(mesh: Mesh) -> _Slopes:
-    sides = mesh_sides(mesh)
-    sites = face_sites(sides.mesh)
-    up = sites.tangential(np.broadcast_to(np.array([0.0, 0.0, 1.0]), sites.normals.shape))
-    sine = np.sqrt(dot(up, up))
-    sine = np.where(sine > FLAT_SLOPE, sine, np.nan)
-    steepest = unit(up)
-    return _Slopes(sides, steepest, sine, cross(sites.normals, steepest))
-
-
-@dataclass(frozen=True, eq=False)
-class _RoadFlow:
-    """Up with constant slopes: line k with the sine slope[k], on one side of the steepest way; a road does not slide
-    along edges."""
-
-    slopes: _Slopes
-    slope: Floats
-    side: float
-
-    def directions(self, face: Ints, line: Ints) -> Floats:
-        """(k,3) the directions of lines in faces (k,); NaN where these are less steep."""
-        with np.errstate(invalid="ignore"):
-            part = self.slope[line] / self.slopes.sine[face]
-            across = self.side * np.sqrt(1.0 - part * part)
-        found = part[:, None] * self.slopes.steepest[face] + across[:, None] * self.slopes.across[face]
-        return np.asarray(found)
-
-    def over_edge(self, side: Ints, directions: Floats, way: Floats) -> Onward:
-        """Into the other face, where its direction leads away from the edge."""
-        sides, other = self.slopes.sides, self.slopes.sides.across[side]
-        face = np.where(other != NO_SIDE, sides.mesh.corner_face[other], -1)
-        onward = self.directions(face, way.astype(np.intp))
-        leads = (other != NO_SIDE) & (outwards(sides, other, onward) < 0.0)
-        return _onward(np.where(leads, face, -1), onward, other)
-
-    def over_vertex(self, side: Ints, directions: Floats, way: Floats) -> Onward:
-        """Into the face whose direction leads away from the vertex, the nearest to the way it came of several."""
-        sides = self.slopes.sides
-        listed, offsets = ragged.take(sides.vertex_offsets, sides.mesh.corners[side])
-        around, owner = sides.at_vertex[listed], ragged.owner(np.diff(offsets))
-        face, previous = sides.mesh.corner_face[around], sides.before[around]
-        own = self.directions(face, way[owner].astype(np.intp))
-        into = (outwards(sides, around, own) <= 0.0) & (outwards(sides, previous, own) <= 0.0)
-        near = np.where(into, np.nan_to_num(dot(own, directions[owner])), -np.inf)
-        best = np.lexsort((-near, owner))[ragged.starts(np.diff(offsets))]
-        found = _onward(np.where(np.isfinite(near[best]), face[best], -1), own[best], around[best])
-        return found._replace(second=previous[best])
-
-
-def _onward(face: Ints, directions: Floats, first: Ints) -> Onward:
-    none = np.full(len(face), NO_SIDE)
-    return Onward(face, directions, first, none, np.zeros(len(face), dtype=np.bool_))
 
 
 @dataclass(frozen=True, eq=False)
@@ -183,7 +114,7 @@ class _Road:
 class _Search:
     """What is known about a road from the lower of two points to the higher one."""
 
-    slopes: _Slopes
+    hills: Hillsides
     faces: Ints
     points: Floats
     extent: float
@@ -192,7 +123,7 @@ class _Search:
         """The steepest road on one side, None where there is none."""
         start, end = self.points
         rise = float(end[2] - start[2])
-        steepest = float(np.nanmax(self.slopes.sine, initial=0.0))
+        steepest = float(np.nanmax(self.hills.sine, initial=0.0))
         high = min(rise / float(np.linalg.norm(end - start)), steepest)
         low = rise / longest
         if not 0.0 < low < high:
@@ -222,23 +153,23 @@ class _Search:
         # One that begins on an edge may leave its first face at once.
         rows = (found.line == best) & (found.begin != found.end).any(axis=1)
         points = np.concatenate([found.begin[rows], end[None]])
-        return _Road(points, self.slopes.sides.source[found.face[rows]], float(np.arcsin(tried[best])))
+        return _Road(points, self.hills.sides.source[found.face[rows]], float(np.arcsin(tried[best])))
 
     def _ends(self, slope: Floats, side: float) -> tuple[Bools, Floats, MeshCourses]:
         """(k,) whether roads of slopes (k,) come to the height of the end, how far beside it, to its left (positive) or
         right, and the roads."""
         start, end = self.points
-        flow = _RoadFlow(self.slopes, slope, side)
+        flow = SlopeFlow(self.hills, slope, np.full(len(slope), side))
         line = np.arange(len(slope))
         face = np.full(len(slope), self.faces[0])
         length = (end[2] - start[2]) / slope
         first = np.broadcast_to(start, (len(slope), 3))
         found = mesh_courses(
-            self.slopes.sides, flow, face, first, flow.directions(face, line), line.astype(np.float64), length
+            self.hills.sides, flow, face, first, flow.directions(face, line), line.astype(np.float64), length
         )
         way = found.last - end
         reached = np.abs(way[:, 2]) <= ROAD_ARRIVES * self.extent
-        return reached, np.asarray(way @ self.slopes.across[self.faces[1]]), found
+        return reached, np.asarray(way @ self.hills.left[self.faces[1]]), found
 
 
 def _passing(reached: Bools, off: Floats) -> Ints:

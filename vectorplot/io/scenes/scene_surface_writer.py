@@ -24,7 +24,7 @@ from vectorplot.errors import InputError
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.scene.light import Light
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCourses
+from vectorplot.scene.terrains.terrain_lines import Roads, Serpentine, TerrainLines, WaterCourses
 from vectorplot.surfaces.families.capped import Capped, Frustum
 from vectorplot.surfaces.families.cyclide import ImplicitCyclide
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
@@ -99,6 +99,10 @@ def _terrain_text(asked: TerrainLines) -> str:
         return "water " + " , ".join(_numbers(place) for place in asked.places)
     if isinstance(asked, Roads):
         return f"road {_numbers(asked.start)} , {_numbers(asked.end)}"
+    if isinstance(asked, Serpentine):
+        sizes = (("slope", asked.slope_deg), ("radius", asked.radius), ("width", asked.width))
+        said = "".join(f" {name} {_numbers((size,))}" for name, size in sizes if size is not None)
+        return f"serpentine {_numbers(asked.start)} , {_numbers(asked.end)}{said}"
     return "valley_lines" if asked.valleys else "watersheds"
 
 

@@ -14,7 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.tolerances.of_numbers import LARGEST
 from vectorplot.words import is_alike, nearest
 
-TERRAIN_WORDS = ("water", "watersheds", "valley_lines", "road")
+TERRAIN_WORDS = ("water", "watersheds", "valley_lines", "road", "serpentine")
 """The words for lines of a terrain."""
 
 INTEGRAL_WORDS = (

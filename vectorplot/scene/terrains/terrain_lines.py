@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.curves.parameters import number, positive
 from vectorplot.errors import InputError
 
 Pair = tuple[float, float]
@@ -116,7 +117,63 @@ class Roads:
         return Roads(*_moved("road", (self.start, self.end), matrix))
 
 
-TerrainLines = WaterCourses | Watersheds | Roads
+@dataclass(frozen=True)
+class Serpentine:
+    """A road with hairpin bends between two places, of at most a given slope.
+
+    Parameters
+    ----------
+    start, end : (float, float)
+        x and y, in world coordinates.
+    slope_deg : float
+        The largest slope of its legs, in degrees.
+    radius, width : float, optional
+        Of the bends, and how far from the straight line of the plan they begin at most, in world units; a thirtieth of
+        the distance of the ends, and all of it, where None.
+
+    Raises
+    ------
+    InputError
+        For places that are not two finite numbers, a slope that is not between 0 and 90 degrees, a radius or a width
+        that is not positive.
+
+    Notes
+    -----
+    See `serpentine` of the room features.
+
+    Examples
+    --------
+    >>> from vectorplot import scene
+    >>> scene.Serpentine((0, 0), (3, 4), slope_deg=7).end
+    (3.0, 4.0)
+    """
+
+    start: Pair
+    end: Pair
+    slope_deg: float
+    radius: float | None = None
+    width: float | None = None
+
+    def __post_init__(self) -> None:
+        start, end = _pairs("serpentine", (self.start, self.end))
+        object.__setattr__(self, "start", start)
+        object.__setattr__(self, "end", end)
+        if not 0.0 < number("serpentine: slope", self.slope_deg) < 90.0:
+            raise InputError(f"serpentine: slope {self.slope_deg:g}, expected an angle between 0 and 90 degrees")
+        for name in ("radius", "width"):
+            if getattr(self, name) is not None:
+                positive(f"serpentine: {name}", getattr(self, name))
+
+    def transformed(self, matrix: Floats) -> Serpentine:
+        """The same places under a 4x4 matrix acting on columns that keeps verticals, with lengths as areas of the plan
+        grow. Errors: InputError for others."""
+        scale = float(np.sqrt(abs(np.linalg.det(matrix[:2, :2]))))
+        radius, width = (None if size is None else scale * size for size in (self.radius, self.width))
+        start, end = _moved("serpentine", (self.start, self.end), matrix)
+        return Serpentine(start, end, self.slope_deg, radius, width)
+
+
+TerrainLines = WaterCourses | Watersheds | Roads | Serpentine
 
 
 def _pairs(name: str, pairs: tuple[Pair, ...]) -> tuple[Pair, ...]:

@@ -33,7 +33,7 @@ from vectorplot.scene.coincidence.twins import first_twins
 from vectorplot.scene.item import Item
 from vectorplot.scene.lines.curve_light import curve_light
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCourses
+from vectorplot.scene.terrains.terrain_lines import Roads, Serpentine, TerrainLines, WaterCourses
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import FEATURE_KINDS, LineKind
@@ -401,6 +401,7 @@ def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
     """What a terrain asks for. Errors: InputError with the item's name."""
     # Terrains are rare: what finds their lines is loaded for them.
     from vectorplot.features.terrains.roads import roads
+    from vectorplot.features.terrains.serpentines import serpentine
     from vectorplot.features.terrains.water import valley_lines, water_courses, watersheds
 
     try:
@@ -408,6 +409,9 @@ def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
             return water_courses(mesh, asked.places)
         if isinstance(asked, Roads):
             return roads(mesh, asked.start, asked.end)
+        if isinstance(asked, Serpentine):
+            slope = float(np.radians(asked.slope_deg))
+            return serpentine(mesh, asked.start, asked.end, slope, radius=asked.radius, width=asked.width)
         return valley_lines(mesh) if asked.valleys else watersheds(mesh)
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None

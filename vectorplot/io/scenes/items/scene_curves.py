@@ -16,9 +16,11 @@ from vectorplot.scene.surface_lines import (
     even_cosines,
     path_on_surface,
 )
-from vectorplot.scene.terrains.terrain_lines import Roads, TerrainLines, WaterCourses, Watersheds
+from vectorplot.scene.terrains.terrain_lines import Roads, Serpentine, TerrainLines, WaterCourses, Watersheds
 
 AXES: dict[str, Vector] = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
+
+ROADS, SIZES = ("road", "serpentine"), ("slope", "radius", "width")
 
 POLYHEDRON_WORDS = ("vertices", "revolution", "base_points", "box", "intersection")
 """Words that only polyhedra have."""
@@ -139,19 +141,29 @@ def _kind_ahead(words: Words, at: int) -> str:
 
 
 def read_terrain_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
-    """Lines of a terrain: water from places, watersheds, valley lines, roads between two places."""
+    """Lines of a terrain: water from places, watersheds, valley lines, roads between two places, with bends or
+    without."""
     start, word = at, words.words[at]
     at += 1
-    if word not in ("water", "road"):
+    if word not in ("water", *ROADS):
         return _with_terrain(draft, start, Watersheds(valleys=word == "valley_lines")), at
     places: list[tuple[float, float]] = []
-    while not places or words.words[at] == "," or (word == "road" and len(places) == 1):
+    while not places or words.words[at] == "," or (word in ROADS and len(places) == 1):
         at += words.words[at] == ","
         (x, y), at = words.numbers(at, 2, owner, f"a place of {word}")
         places.append((x, y))
-    if word == "road" and len(places) != 2:
-        words.fail(start, f"{owner}road: {len(places)} places, expected 2")
+    if word in ROADS and len(places) != 2:
+        words.fail(start, f"{owner}{word}: {len(places)} places, expected 2")
+    sizes: dict[str, float] = {}
+    while word == "serpentine" and words.words[at] in SIZES:
+        sizes[words.words[at]] = words.number(at + 1, owner, words.words[at])
+        at += 2
+    if word == "serpentine" and "slope" not in sizes:
+        words.fail(start, f"{owner}serpentine: expected 'slope' and an angle in degrees behind its places")
     try:
+        if word == "serpentine":
+            slope = sizes.pop("slope")
+            return _with_terrain(draft, start, Serpentine(places[0], places[1], slope, **sizes)), at
         return _with_terrain(draft, start, Roads(*places) if word == "road" else WaterCourses(tuple(places))), at
     except InputError as error:
         words.fail(start, owner + error.cause)

@@ -182,7 +182,7 @@ def _surface(draft: Draft, surface: Surface | ImplicitSurface) -> tuple[Surface 
     if draft.curves.lines.paths and not is_parametrised(shape):
         raise InputError("'surface_curve' is for surfaces with parameters u and v only")
     if draft.curves.lines.terrain:
-        raise InputError("'water', 'watersheds', 'valley_lines' and 'road' are for terrains only")
+        raise InputError("'water', 'watersheds', 'valley_lines', 'road' and 'serpentine' are for terrains only")
     if draft.curves.lines.integral and not is_parametrised(shape):
         raise InputError("integral curves are for polyhedra and surfaces with parameters u and v only")
     return shape, curves_of(draft.curves, shape, checked_bounds(shape))
