@@ -14,15 +14,12 @@ from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import Surface, is_parametrised
+from vectorplot.testing.chord_assertions import assert_chords
 from vectorplot.testing.curve_points import Curves, polylines_of
 from vectorplot.testing.curves import assert_on_surface, places_near
 from vectorplot.testing.known_directions import KnownDirections, known_directions
 from vectorplot.testing.mesh_curve_assertions import assert_mesh_geodesic, assert_mesh_integral_curve
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
-
-AS_CHORDS = 0.5
-"""Radians by which polylines may run off their curves where these say themselves in which directions they run: more is
-another curve."""
 
 
 class _Middles(NamedTuple):
@@ -67,8 +64,9 @@ def assert_integral_curve(
     -----
     Drawings and curves on surfaces mostly know their directions, which are verified wherever they do: those of a
     drawing in space too, as far as its eye can tell. Elsewhere the tangent at a point is that of the circle through it
-    and its neighbours: off by the square of how far the curve turns between them, and ends are not looked at; where
-    directions are known, it may be off by half a radian. On a mesh every segment is: it has the direction of its face,
+    and its neighbours: off by the square of how far the curve turns between them, and ends are not looked at. Where
+    directions are known, every chord is held to the field at both its ends, but for the angle by which the field turns
+    between them, and for what points may be off. On a mesh every segment is: it has the direction of its face,
     or runs along an edge that the faces on both sides lead to, or both away from.
 
     Source: Glaeser, section 9.4.
@@ -111,7 +109,8 @@ def assert_integral_curve(
         assert not both.any(), f"{int(both.sum())} curves follow the field here and run against it there"
     error = np.arctan2(sines, np.abs(cosines)).min(axis=0)
     if said is not None:
-        error = error - AS_CHORDS
+        assert_chords(polylines_of(lines), surface, field, tolerance)
+        return
     k = int(np.argmax(error))
     assert error[k] <= tolerance, (
         f"{int((error > tolerance).sum())} of {len(error)} points are not on a curve of the field: the angle is "

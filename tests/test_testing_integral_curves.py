@@ -1,0 +1,64 @@
+"""Curves that say in which directions they run are held to the field along their chords too."""
+
+from dataclasses import replace
+from functools import cache
+
+import numpy as np
+import pytest
+
+from vectorplot import features
+from vectorplot.features import Tracing, integral_curves
+from vectorplot.surfaces import Sphere, Torus
+from vectorplot.testing import assert_integral_curve
+
+BALL, FIELD = Sphere(2.0), features.loxodromes(1.1)
+CHORDS = "chords are not on a curve of the field"
+
+
+@cache
+def found(step=0.01, field=FIELD):
+    return integral_curves(BALL, field, ((0.1, 0.2), (2.0, -0.4)), length=2.0, tracing=Tracing(tolerance=step))
+
+
+def on_ball(curves, u, v, **changes):
+    """The same curves with other points, in the directions that they had: u turns the ball."""
+    return replace(curves, points=BALL.points(u, v), u=u, v=v, **changes)
+
+
+@pytest.mark.parametrize("step", [1e-4, 0.01, 0.2])
+def test_curves_of_the_field_pass_however_coarse_they_are(step):
+    assert_integral_curve(found(step), BALL, FIELD, 1e-9)
+
+
+@pytest.mark.parametrize("aside", [0.3, 0.03])
+def test_points_beside_the_curve_fail_though_directions_there_are_right(aside):
+    right = found(1e-4)
+    length = np.linalg.norm(np.diff(right.points, axis=0), axis=1).min()
+    # Across the meridians, to and fro; the field is the same all round the axis.
+    wrong = on_ball(right, right.u + aside * length / 2.0 * (np.arange(len(right.u)) % 2), right.v)
+    with pytest.raises(AssertionError, match=CHORDS):
+        assert_integral_curve(wrong, BALL, FIELD, 1e-6)
+
+
+def test_a_curve_that_jumps_to_a_neighbour_fails():
+    right = found()
+    wrong = on_ball(right, right.u - 0.1 * (np.arange(len(right.u)) >= right.offsets[1] // 2), right.v)
+    with pytest.raises(AssertionError, match="1 of .* " + CHORDS):
+        assert_integral_curve(wrong, BALL, FIELD, 1e-6)
+
+
+@pytest.mark.parametrize("off", [0.2, 0.02])
+def test_a_curve_of_another_field_fails_that_claims_the_directions_of_this_one(off):
+    other = found(1e-4, features.loxodromes(1.1 + off))
+    along_u, along_v = BALL.partials(other.u, other.v)
+    field = FIELD.tangents(features.Sites(BALL, other.u, other.v))[0]
+    parts = [(field * a).sum(axis=1) / (a * a).sum(axis=1) for a in (along_u, along_v)]
+    with pytest.raises(AssertionError, match=CHORDS):
+        assert_integral_curve(replace(other, directions=np.column_stack(parts)), BALL, FIELD, 1e-6)
+
+
+def test_curves_with_inflections_pass():
+    ring = Torus(3.0, 1.2)
+    light = features.IsophoteDirections((2.0, -3.0, 4.0))
+    curves = integral_curves(ring, light, (0.3, 0.7), length=3.0, tracing=Tracing(tolerance=0.05))
+    assert_integral_curve(curves, ring, light, 1e-6)
