@@ -10,7 +10,8 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 
-CELLS, STEPS, AT_ONCE = 500, 1000, 2000
+CELLS, STEPS, AT_ONCE = 200, 1000, 2000
+"""A chord of a circle of so many is off it by 1.2e-4 of its radius, far less than rays beside one another are apart."""
 
 FAR = 1e30
 

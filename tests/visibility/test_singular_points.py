@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from functools import cache
 
 import numpy as np
 import pytest
@@ -21,6 +22,11 @@ from vectorplot.surfaces.families.cylinder import Cone
 from vectorplot.words import LineKind
 
 SURFACES = singular_surfaces()
+
+
+@cache
+def rays_of(name: str) -> DenseRays:
+    return DenseRays(SURFACES[name].surface)
 
 
 def compared(rays: DenseRays, scene: Scene, camera: Camera, samples: int) -> int:
@@ -60,7 +66,7 @@ TRIED = (
 @pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("name", TRIED)
 def test_lines_through_singular_points_as_rays_see_them(name: str) -> None:
-    rays, number = DenseRays(SURFACES[name].surface), len(name)
+    rays, number = rays_of(name), len(name)
     scene = lines_through(name, SURFACES[name], 8, number)
     assert compared(rays, scene, eyes(scene, 2, number)[number % 2], 800) > 600
 
@@ -71,7 +77,7 @@ def test_lines_through_singular_points_as_rays_see_them(name: str) -> None:
 def test_wherever_a_cone_stands_and_whatever_its_size(size: float, seed: int) -> None:
     random = np.random.default_rng(seed)
     matrix = size * np.linalg.qr(random.normal(size=(3, 3)))[0]
-    rays = DenseRays(SURFACES["cone"].surface)
+    rays = rays_of("cone")
     scene = turned(lines_through("cone", SURFACES["cone"], 8, seed), matrix, 1e3 * size * random.normal(size=3))
     assert sum(compared(rays, scene, camera, 600) for camera in eyes(scene, 2, seed)) > 900
 
