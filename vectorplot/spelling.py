@@ -39,8 +39,7 @@ def slips(word: str, other: str) -> int:
 
 def one_slip(word: str, other: str) -> bool:
     """Whether two words are the same but for one slip at most; - and _ are the same."""
-    word, other = _plain(word), _plain(other)
-    return abs(len(word) - len(other)) <= 1 and slips(word, other) <= _most_slips(word, other, 1)
+    return _apart(word, other, 1) < FAR
 
 
 def share(word: str, other: str) -> float:
@@ -57,17 +56,22 @@ def most_alike(word: str, known: Sequence[str]) -> str | None:
     Words one or two slips away come first, the nearest before all, with one slip at most where either word has no more
     than SHORT letters; then those that share most of their letters.
     """
-    found = []
-    for place, other in enumerate(known):
-        letters, of_other = _plain(word), _plain(other)
-        most = _most_slips(letters, of_other, 2)
-        # Each slip changes at most two of the letters that words have.
-        possible = abs(len(letters) - len(of_other)) <= most and len(set(letters) ^ set(of_other)) <= 2 * most
-        apart = slips(letters, of_other) if possible else most + 1
-        shared = share(word, other)
-        if apart <= most or shared:
-            found.append((apart if apart <= most else FAR, -shared, place))
-    return known[min(found)[-1]] if found else None
+    apart = [_apart(word, other, 2) for other in known]
+    least = min(apart, default=FAR)
+    # How much they share decides between those that are as near.
+    near = [(-share(word, other), place) for place, other in enumerate(known) if apart[place] == least]
+    found = min((one for one in near if least < FAR or one[0]), default=None)
+    return None if found is None else known[found[1]]
+
+
+def _apart(word: str, other: str, most: int) -> int:
+    """The slips between two words, or FAR where they are more than so many, or more than leave enough of them."""
+    letters, of_other = _plain(word), _plain(other)
+    most = _most_slips(letters, of_other, most)
+    # Each slip changes at most two of the letters that words have.
+    possible = abs(len(letters) - len(of_other)) <= most and len(set(letters) ^ set(of_other)) <= 2 * most
+    found = slips(letters, of_other) if possible else FAR
+    return found if found <= most else FAR
 
 
 def _most_slips(word: str, other: str, most: int) -> int:

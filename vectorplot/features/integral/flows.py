@@ -11,7 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.features.integral.charts import Charts
 from vectorplot.features.integral.sites import Sites, unit
 from vectorplot.features.integral.tangent_fields import TangentField
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import dot, from_components
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_values import NEIGHBOURS_COUNT
 
@@ -63,8 +63,7 @@ class FieldFlow:
         if len(found) > 1:
             lost = ~np.isfinite(tangents).all(axis=1) & np.isfinite(last).all(axis=1) & np.isfinite(sites.normals[:, 0])
             tangents[lost] = unit(sites.tangential(last))[lost]
-        steps = np.stack(sites.steps(tangents), axis=1)
-        return self.charts.rates(chart, places, steps), tangents
+        return self.charts.rates(chart, places, from_components(*sites.steps(tangents))), tangents
 
 
 @dataclass(frozen=True, eq=False)
@@ -80,12 +79,17 @@ class GeodesicFlow:
 
     def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
         """Derivatives and tangents: x'' is along the normal."""
-        places = self.charts.inside(self.charts.parameters(chart, states[:, :2]))
-        sites = Sites(self.surface, *places.T)
-        tangents = states[:, 2:]
-        steps = np.stack(sites.steps(tangents), axis=1)
-        bent = sites.bends(tangents)[:, None] * sites.normals
-        return np.concatenate([self.charts.rates(chart, places, steps), bent], axis=1), tangents
+        return self.rates_at(chart, states, self.sites(chart, states)), states[:, 2:]
+
+    def sites(self, chart: Ints, states: Floats) -> Sites:
+        """Where points of states (k,d) in charts (k,) are."""
+        return Sites(self.surface, *self.charts.inside(self.charts.parameters(chart, states[:, :2])).T)
+
+    def rates_at(self, chart: Ints, states: Floats, sites: Sites) -> Floats:
+        """Derivatives (k,5) of states (k,5) at their sites."""
+        du, dv = sites.steps(states[:, 2:])
+        along = self.charts.rates(chart, from_components(sites.u, sites.v), from_components(du, dv))
+        return np.concatenate([along, sites.bends_along(du, dv)[:, None] * sites.normals], axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -109,14 +113,12 @@ class JacobiFlow:
     def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
         """Derivatives and tangents."""
         straight = GeodesicFlow(self.surface, self.charts)
-        rates, tangents = straight.rates(chart, states[:, :5], last, way)
-        places = self.charts.inside(self.charts.parameters(chart, states[:, :2]))
-        sites = Sites(self.surface, *places.T)
+        sites = straight.sites(chart, states)
         (e, f, g), (p, m, q) = sites.first_form, sites.second_form
         with np.errstate(all="ignore"):
             curvature = (p * q - m * m) / (e * g - f * f)
-        aside = np.stack([states[:, 6] / self.size, -curvature * self.size * states[:, 5]], axis=1)
-        return np.concatenate([rates, aside], axis=1), tangents
+        aside = from_components(states[:, 6] / self.size, -curvature * self.size * states[:, 5])
+        return np.concatenate([straight.rates_at(chart, states[:, :5], sites), aside], axis=1), states[:, 2:5]
 
 
 def aligned(candidates: Floats, last: Floats) -> Floats:

@@ -108,7 +108,10 @@ class Sites(TangentPlanes):
 
     def bends(self, tangents: Floats) -> Floats:
         """(k,) normal curvatures in the directions of unit tangent vectors (k,3)."""
-        du, dv = self.steps(tangents)
+        return self.bends_along(*self.steps(tangents))
+
+    def bends_along(self, du: Floats, dv: Floats) -> Floats:
+        """(k,) normal curvatures where du and dv (k,) move by unit tangent vectors."""
         p, m, q = self.second_form
         with np.errstate(all="ignore"):
             return np.asarray((p * du + 2.0 * m * dv) * du + q * dv * dv)
