@@ -304,11 +304,15 @@ def _onto(contours: StackedConditions[Contour], of: Ints, at: Floats) -> Floats:
     domain = contour.surface.domain
     for _ in range(4):
         u, v = wrapped(domain, at[:, 0], at[:, 1])
-        slopes = np.stack(contour.slopes(u, v), axis=1) * size
+        values, by_parameters = contour.values_and_slopes(u, v)
+        slopes = np.stack(by_parameters, axis=1) * size
         square = (slopes * slopes).sum(axis=1)
         with np.errstate(invalid="ignore", divide="ignore"):
-            step = (contour.values(u, v) / square)[:, None] * slopes
-        at = _inside(domain, at - np.where(np.isfinite(step), step, 0.0) * size)
+            step = (values / square)[:, None] * slopes
+        step = np.where(np.isfinite(step), step, 0.0)
+        at = _inside(domain, at - step * size)
+        if np.abs(step).max(initial=0.0) <= CUSP_SETTLED:
+            break
     return at
 
 
@@ -335,8 +339,8 @@ def _by_newton(contours: StackedConditions[Contour], pieces: _Pieces) -> tuple[F
         contour = contours.at(pieces.of[active])
         domain = contour.surface.domain
         u, v = wrapped(domain, here[:, 0], here[:, 1])
-        f = contour.values(u, v)
-        f_u, f_v = (slope * side for slope, side in zip(contour.slopes(u, v), own.T, strict=True))
+        f, slopes = contour.values_and_slopes(u, v)
+        f_u, f_v = (slope * side for slope, side in zip(slopes, own.T, strict=True))
         g, g_u, g_v = _curvatures_and_slopes(contours, pieces.of[active], here)
         with np.errstate(invalid="ignore", divide="ignore"):
             det = f_u * g_v - f_v * g_u
@@ -372,10 +376,13 @@ def _curvatures_and_slopes(contours: StackedConditions[Contour], of: Ints, at: F
 def _by_bisection(contours: StackedConditions[Contour], pieces: _Pieces) -> Floats:
     """(k,2) parameters where the curvature changes its sign along pieces, slow and sure."""
     low, high = np.zeros(len(pieces.after)), np.ones(len(pieces.after))
-    at = pieces.start
-    for _ in range(50):
+    at, way = pieces.start, pieces.end - pieces.start
+    longest = np.abs(way / _sizes(contours, pieces.of)).max(initial=0.0)
+    for halvings in range(50):
+        if longest * 0.5**halvings <= ROUNDING_OF_DOMAIN:
+            break
         t = (low + high) / 2.0
-        at = _onto(contours, pieces.of, pieces.start + t[:, None] * (pieces.end - pieces.start))
+        at = _onto(contours, pieces.of, pieces.start + t[:, None] * way)
         same = (_curvatures(contours, pieces.of, at) < 0.0) == (pieces.low < 0.0)
         low, high = np.where(same, t, low), np.where(same, high, t)
     return at
