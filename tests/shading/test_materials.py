@@ -32,7 +32,7 @@ def picture(verb: str, word: str, body: str) -> np.ndarray:
     """(rows, columns, 3) what a verb shows of a scene with a body of this material."""
     scene = parse_scene(SCENE.format(word=word, body=BODIES[body]))
     if verb == "render":
-        return vp.render(scene, size=(96, 72), samples=1).pixels.astype(int)
+        return vp.render(scene, size=(64, 48), samples=1, shadows="none").pixels.astype(int)
     drawing = vp.paint(scene, page=vp.Page(96, 72, 2), tolerance_mm=0.2)
     return painted(np.full((144, 192, 3), 255, dtype=np.uint8), drawing).astype(int)
 

@@ -260,8 +260,8 @@ def unscaled(system, depth):
 )
 def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
     points, corners = field()
-    found, places, normals = visible(points, corners, FIELD_CAMERA, 480, 360)
-    region = seen_region(raster_system(FIELD_CAMERA, 480, 360), 480, 360, bounds(points))
+    found, places, normals = visible(points, corners, FIELD_CAMERA, 320, 240)
+    region = seen_region(raster_system(FIELD_CAMERA, 320, 240), 320, 240, bounds(points))
     exact = blocked_exactly(light, places, found.triangle, points, corners)
     _, facing = stopped(points, corners, places, normals, light)
     distance = np.linalg.norm(places - FIELD_CAMERA.eye, axis=1)

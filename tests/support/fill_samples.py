@@ -41,20 +41,24 @@ def rgb(data: bytes) -> Picture:
     return np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).astype(np.int64)
 
 
-def pictures(drawing: Drawing, folder, dpi=300) -> dict[str, Picture]:
-    """The drawing in every format, seen by real readers."""
-    for suffix in ("svg", "ps", "eps", "pdf"):
-        save(drawing, folder / f"a.{suffix}")
+FORMATS = ("png", "svg", "pdf", "ps", "eps")
+
+
+def pictures(drawing: Drawing, folder, dpi=300, formats=FORMATS) -> dict[str, Picture]:
+    """The drawing in every format, or in some, seen by real readers."""
+    for suffix in formats:
+        if suffix != "png":
+            save(drawing, folder / f"a.{suffix}")
     gs = ("-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-dGraphicsAlphaBits=4", "-sDEVICE=png16m", f"-r{dpi}")
     own = rgb(png_bytes(drawing, dpi))
     size = f"-g{own.shape[1]}x{own.shape[0]}"
-    return {
-        "png": own,
-        "svg": rgb(run("rsvg-convert", "-d", dpi, "-p", dpi, "-b", "white", folder / "a.svg")),
-        "pdf": rgb(run("pdftoppm", "-r", dpi, "-png", folder / "a.pdf")),
-        "ps": rgb(run("gs", *gs, size, "-dFIXEDMEDIA", "-sOutputFile=%stdout", folder / "a.ps")),
-        "eps": rgb(run("gs", *gs, size, "-dFIXEDMEDIA", "-sOutputFile=%stdout", folder / "a.eps")),
+    readers = {
+        "svg": ("rsvg-convert", "-d", dpi, "-p", dpi, "-b", "white", folder / "a.svg"),
+        "pdf": ("pdftoppm", "-r", dpi, "-png", folder / "a.pdf"),
+        "ps": ("gs", *gs, size, "-dFIXEDMEDIA", "-sOutputFile=%stdout", folder / "a.ps"),
+        "eps": ("gs", *gs, size, "-dFIXEDMEDIA", "-sOutputFile=%stdout", folder / "a.eps"),
     }
+    return {suffix: own if suffix == "png" else rgb(run(*readers[suffix])) for suffix in formats}
 
 
 def colour_at(picture: Picture, x: float, y: float, height: float, dpi=300) -> list[int]:

@@ -62,7 +62,7 @@ def test_what_is_drawn_of_a_cut_ball_is_what_rays_see(shape, scale):
     item = vp.Item("ball", shape).scaled(scale)
     cut = vp.cut(vp.Scene((item,)), f"2x - y + 2z > {3.0 * offset * scale!r}")
     camera = vp.Camera(tuple(scale * EYE), (0.0, 0.0, 0.0))
-    drawing = vp.draw(cut, camera, page=vp.Page(100, 80), curves="polyline", tolerance_mm=0.002)
+    drawing = vp.draw(cut, camera, page=vp.Page(100, 80), curves="polyline", tolerance_mm=0.005)
     points = strokes(drawing) / scale
     assert {"contour", "cut", "hatch"} <= {layer.name for layer in drawing.layers if len(layer.strokes[0])}
     # Where the ray enters the ball and the half space: both are convex, and so is what they have in common.

@@ -183,7 +183,7 @@ def test_lines_of_curvature_of_an_ellipsoid_lie_on_confocal_quadrics():
             surface,
             features.PrincipalDirections(family),
             starts,
-            accuracy=Accuracy(1e-9),
+            accuracy=Accuracy(1e-8),
             tracing=COARSE,
         )
         assert found.closed.all()

@@ -239,12 +239,12 @@ class Unplaced:
 def test_many_pairs_at_once_have_the_curves_of_each_alone():
     rng = np.random.default_rng(3)
     wave = surface_of_function(lambda u, v: (u, v, 0.3 * np.sin(3 * u) * np.cos(2 * v)), Domain(-1, 1, -1, 1))
-    made = [Torus(1.0, 0.3), Torus(1.2, 0.4), Cylinder(0.5, -1.0, 1.0), wave, Sphere(0.8)]
+    made = [Torus(1.0, 0.3), Cylinder(0.5, -1.0, 1.0), wave, Sphere(0.8)]
     turned = [np.linalg.qr(rng.normal(size=(3, 3)))[0] for _ in made]
     placed = [PlacedSurface(s, m, rng.uniform(-0.4, 0.4, 3)) for s, m in zip(made, turned, strict=True)]
     # One that meets no other, and two that touch in a point.
     placed += [PlacedSurface(Torus(1.0, 0.3), np.eye(3), (9.0, 0.0, 0.0)), *touching_balls()]
-    pairs = [(i, j) for i in range(len(placed)) for j in range(i + 1, len(placed)) if j < 6 or i == 6]
+    pairs = [(i, j) for i in range(len(placed)) for j in range(i + 1, len(placed)) if j < 5 or i == 5]
     tracing, grids = Tracing(columns=15, rows=13), [SurfaceGrids(surface) for surface in placed]
     found = intersections_of_grids([(grids[i], grids[j]) for i, j in pairs], tracing)
     for (i, j), curves in zip(pairs, found, strict=True):

@@ -80,6 +80,7 @@ def subdivided(mesh):
 
 
 @pytest.mark.capability("G9.4-polyhedron")
+@pytest.mark.spread
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize(("scale", "offset"), [(1.0, 0.0), (1e-6, 0.0), (1e3, 1e6)])
 def test_on_rough_ground_with_holes_they_do_not_depend_on_its_triangles_and_are_the_same_back(seed, scale, offset):
