@@ -86,6 +86,13 @@ def floor_scene(lights):
     return vp.Scene((sphere(), plate), lights)
 
 
+@cache
+def floor_seen(lights, camera, shadows):
+    """The levels of its picture."""
+    options = {"size": FINE, "fit": False, "samples": 1, "shadow_size": 1024}
+    return levels(render(floor_scene(lights), camera, shadows=shadows, **options))
+
+
 def floor_places(camera, size):
     """Points of the plane z = -1 seen through the centres of pixels, and which of them are on the floor, unhidden."""
     columns, rows = size
@@ -114,10 +121,7 @@ def off_the_ball(place, light):
 @pytest.mark.parametrize("light", [SUN, vp.Light((-2.0, -4.0, 5.0), intensity=1.0)], ids=["sun", "lamp"])
 def test_the_shadow_of_a_ball_is_where_geometry_puts_it(shadows, light):
     camera = vp.Camera((2.0, -9.0, 8.0), (0, 0, -1), fov_deg=35.0)
-    scene = floor_scene((light,))
-    with_, without = (
-        levels(render(scene, camera, size=FINE, fit=False, shadows=how, shadow_size=1024)) for how in (shadows, "none")
-    )
+    with_, without = (floor_seen((light,), camera, how) for how in (shadows, "none"))
     place, floor = floor_places(camera, FINE)
     miss = off_the_ball(place, light)
     dark, lit = floor & (miss < 0.95), floor & (miss > 1.05)
@@ -134,8 +138,7 @@ def test_shades_fall_with_the_number_of_lights_that_are_blocked(shadows):
         vp.Light((2.0 * np.cos(a), 2.0 * np.sin(a), 3.0), parallel=True, intensity=0.3) for a in (0.3, 1.0, 1.7)
     )
     camera = vp.Camera((0.0, -9.0, 9.0), (0, 0, -1), fov_deg=35.0)
-    options = {"size": FINE, "fit": False, "samples": 1, "shadow_size": 1024}
-    shaded, lit = (levels(render(floor_scene(lights), camera, shadows=how, **options)) for how in (shadows, "none"))
+    shaded, lit = (floor_seen(lights, camera, how) for how in (shadows, "none"))
     place, floor = floor_places(camera, FINE)
     miss = np.array([off_the_ball(place, light) for light in lights])
     sure, blocked = floor & (np.abs(miss - 1.0) > 0.06).all(axis=0), (miss < 1.0).sum(axis=0)
@@ -239,9 +242,10 @@ def shell_seen(name, whorl, shadows):
 @pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
 @pytest.mark.parametrize("name", SHELLS)
 def test_a_shell_a_whorl_further_is_the_same_picture_enlarged(shadows, name):
-    """Spiral surfaces are similar to themselves; so are their shadows on themselves."""
-    pictures = [[shell_seen(name, whorl, how) for how in (shadows, "none")] for whorl in (0, 1, -2)]
-    for shaded, plain in pictures[1:]:
-        assert np.abs(shaded - pictures[0][0]).mean() < 0.5 and np.abs(plain - pictures[0][1]).mean() < 0.3
-    shaded, plain = pictures[0]
+    """Spiral surfaces are similar to themselves; so are their shadows on themselves: one shell grows, one shrinks."""
+    (shaded, plain), (further, plain_further) = (
+        [shell_seen(name, whorl, how) for how in (shadows, "none")]
+        for whorl in (0, {"nautilus": 1, "snail": -2}[name])
+    )
+    assert np.abs(further - shaded).mean() < 0.5 and np.abs(plain_further - plain).mean() < 0.3
     assert (shaded <= plain + 2).all() and (shaded < plain - 10).sum() > 3, "its whorls shade each other"

@@ -191,8 +191,9 @@ def limited(code: str, arguments: list[str], **more) -> subprocess.CompletedProc
 @pytest.mark.slow
 @pytest.mark.parametrize("words", [COMMANDS[0], COMMANDS[2]], ids=" ".join)
 def test_a_disk_that_fills_up_leaves_the_old_file(words, place):
+    place.write_text(SCENE.split("GLASS")[0], encoding="utf-8")
     arguments, out = command(place, words)
-    result = limited("resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))", arguments)
+    result = limited("resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))", arguments)
     assert result.returncode == 1
     assert result.stderr.decode().splitlines() == [f"vectorplot: {out}: {os.strerror(27)}"]
     assert_untouched(out, place)

@@ -93,11 +93,19 @@ class NumericFunction:
 
     def gradient(self, *parameters: Floats) -> tuple[Floats, ...]:
         """(..., k) derivatives by each parameter: the function is called as seldom as can be."""
-        if not self.by_complex_step or np.size(parameters[0]) > FEW_PLACES:
+        if np.size(parameters[0]) > FEW_PLACES:
             return tuple(self.derivatives(axis, *parameters) for axis in range(len(self.ranges)))
 
         def evaluate(flat: list[Floats]) -> Floats:
-            return np.concatenate(self._by_complex_step([(axis, flat) for axis in range(len(self.ranges))]), axis=-1)
+            asked = [(axis, flat) for axis in range(len(self.ranges))]
+            if self.by_complex_step:
+                return np.concatenate(self._by_complex_step(asked), axis=-1)
+            found = self._by_stencils(asked, self.steps)
+            for axis, slopes in enumerate(found):
+                lost = ~all_finite(slopes)
+                if lost.any():
+                    slopes[lost] = self._differences(self._values, axis, [p[lost] for p in flat])
+            return np.concatenate(found, axis=-1)
 
         return self._each(evaluate, parameters, len(self.ranges))
 
@@ -106,33 +114,30 @@ class NumericFunction:
         called as seldom as can be."""
         count = len(self.ranges)
         pairs = [(axis, other) for axis in range(count) for other in range(axis, count)]
-        if not self.by_complex_step or len(_NODES) * np.size(parameters[0]) > FEW_PLACES:
+        if len(_NODES) * np.size(parameters[0]) > FEW_PLACES:
             return tuple(self.second_derivatives(*pair, *parameters) for pair in pairs)
 
         def evaluate(flat: list[Floats]) -> Floats:
+            steps = self._outer_steps
             along = [
                 _Stencil.around(other, flat, self.ranges[other].centres(flat[other], step), step)
-                for other, step in enumerate(self.steps)
+                for other, step in enumerate(steps)
             ]
             stencils = [along[other] for _, other in pairs]
-            slopes = self._by_complex_step([(axis, at.nodes) for (axis, _), at in zip(pairs, stencils, strict=True)])
+            asked = [(axis, at.nodes) for (axis, _), at in zip(pairs, stencils, strict=True)]
+            slopes = self._by_complex_step(asked) if self.by_complex_step else self._by_stencils(asked, steps)
             found = [at.slopes(values) for at, values in zip(stencils, slopes, strict=True)]
             for (axis, other), one in zip(pairs, found, strict=True):
                 lost = ~np.isfinite(one).all(axis=-1)
                 if lost.any():
-                    one[lost] = self._differences(self._complex(axis), other, [p[lost] for p in flat])
+                    one[lost] = self._second_differences(axis, other, [p[lost] for p in flat])
             return np.concatenate(found, axis=-1)
 
         return self._each(evaluate, parameters, len(pairs))
 
     def second_derivatives(self, axis: int, other: int, *parameters: Floats) -> Floats:
         """(..., k) derivatives by one parameter and by the same or another."""
-        if self.by_complex_step:
-            return self._shaped(lambda flat: self._differences(self._complex(axis), other, flat), parameters)
-        # Differences of differences want longer steps: the rounding is divided twice.
-        steps = tuple(4.0 * step for step in self.steps)
-        inner = self._by_differences(axis, steps[axis])
-        return self._shaped(lambda flat: self._differences(inner, other, flat, steps[other]), parameters)
+        return self._shaped(lambda flat: self._second_differences(axis, other, flat), parameters)
 
     @cached_property
     def by_complex_step(self) -> bool:
@@ -151,6 +156,12 @@ class NumericFunction:
         """For each parameter the step of differences at which halving it changes the derivatives least."""
         of = self._complex if self.by_complex_step else self._plain
         return tuple(self._best_step(of(axis), axis)[0] for axis in range(len(self.ranges)))
+
+    @property
+    def _outer_steps(self) -> tuple[float, ...]:
+        """The steps of differences of derivatives. Those of differences want longer ones: the rounding is divided
+        twice."""
+        return self.steps if self.by_complex_step else tuple(4.0 * step for step in self.steps)
 
     def _each(
         self, evaluate: Callable[[list[Floats]], Floats], parameters: Sequence[Floats], count: int
@@ -227,6 +238,23 @@ class NumericFunction:
 
     def _by_differences(self, axis: int, step: float) -> Callable[[list[Floats]], Floats]:
         return lambda parameters: self._differences(self._values, axis, parameters, step)
+
+    def _by_stencils(self, asked: Sequence[tuple[int, list[Floats]]], steps: Sequence[float]) -> list[Floats]:
+        """(n, k) derivatives by axes at parameters, (axis, parameters) each, by differences with steps for each axis:
+        in one call. Beside holes they are NaN."""
+        stencils = [
+            _Stencil.around(axis, at, self.ranges[axis].centres(at[axis], steps[axis]), steps[axis])
+            for axis, at in asked
+        ]
+        every = [stencil.nodes for stencil in stencils]
+        values = _split(self._values([np.concatenate(column) for column in zip(*every, strict=True)]), every)
+        return [stencil.slopes(own) for stencil, own in zip(stencils, values, strict=True)]
+
+    def _second_differences(self, axis: int, other: int, parameters: list[Floats]) -> Floats:
+        """(n, k) derivatives by one parameter and by the same or another."""
+        steps = self._outer_steps
+        inner = self._complex(axis) if self.by_complex_step else self._by_differences(axis, steps[axis])
+        return self._differences(inner, other, parameters, steps[other])
 
     def _differences(
         self,

@@ -106,7 +106,11 @@ def _overlaps(regions: Any, opaque: Bools) -> tuple[Ints, Ints, Bools]:
     above = over[above]
     later = above > below
     below, above = below[later], above[later]
-    common = shapely.intersects(regions[below], regions[above]) & ~shapely.touches(regions[below], regions[above])
+    # What each region is asked of many others is looked up in it once for all.
+    shapely.prepare(regions)
+    meet = shapely.intersects(regions[below], regions[above])
+    below, above = below[meet], above[meet]
+    common = ~shapely.touches(regions[below], regions[above])
     below, above = below[common], above[common]
     hidden = np.zeros(len(regions), dtype=np.bool_)
     hidden[below[shapely.covers(regions[above], regions[below])]] = True

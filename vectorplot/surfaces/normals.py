@@ -61,7 +61,8 @@ def _unit(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats
     product = cross(*partials)
     suspect = _small(product, *partials, surface.domain)
     if suspect.any():
-        product[suspect] = _with_limits(of_some(surface, suspect), u[suspect], v[suspect], product[suspect])
+        known = (partials[0][suspect], partials[1][suspect])
+        product[suspect] = _with_limits(of_some(surface, suspect), u[suspect], v[suspect], known, product[suspect])
     # Divided by the largest component first: a product of tiny partials has a square that underflows.
     with np.errstate(divide="ignore", invalid="ignore"):
         product /= largest_component(product)[..., None]
@@ -115,9 +116,11 @@ def _small(product: Floats, along_u: Floats, along_v: Floats, domain: Domain) ->
     return np.asarray(norm(product) * width * height <= SUSPECT_PRODUCT * size * size)
 
 
-def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Floats:
-    """(n, 3) the product where it is one, else its derivative towards the middle of the domain."""
-    along_u, along_v = surface.partials(u, v)
+def _with_limits(
+    surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats], product: Floats
+) -> Floats:
+    """(n, 3) the product of the partials where it is one, else its derivative towards the middle of the domain."""
+    along_u, along_v = partials
     uu, uv, vv = surface.second_partials(u, v)
     domain = surface.domain
     width, height = domain.size
@@ -125,7 +128,7 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, product: Floats) -> Flo
     b = (_inwards(v, domain.v_start, domain.v_end) * height)[:, None]
     towards_u, towards_v = a * uu + b * uv, a * uv + b * vv
     limit = cross(towards_u, along_v) + cross(along_u, towards_v)
-    bound = _bound(domain, (along_u, along_v), (uu, uv, vv))
+    bound = _bound(domain, partials, (uu, uv, vv))
     vanished = norm(product) <= SINGULAR_PRODUCT * bound
     gone = vanished & (norm(limit) <= SINGULAR_PRODUCT * bound)
     return np.where(gone[:, None], np.nan, np.where(vanished[:, None], limit, product))

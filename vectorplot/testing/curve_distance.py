@@ -194,7 +194,14 @@ def furthest(segments: Segments, others: Segments, accuracy: float, enough: floa
     few = owner[:: max(len(owner) // 64, 1)]
     best = looked(few, np.zeros(len(few)), best)[1]
     low, best = looked(owner, np.zeros(len(owner)), best)
-    high, best = looked(owner, np.ones(len(owner)), best)
+    # Most segments end where the next one begins.
+    follows = (segments.ends[:-1, 1] == segments.ends[1:, 0]).all(axis=1)
+    last = np.append(np.flatnonzero(~follows), len(owner) - 1)
+    ends, best = looked(last, np.ones(len(last)), best)
+    high = low.rows(np.minimum(owner + 1, len(owner) - 1))
+    for all_, own in zip(high[1:], ends[1:], strict=True):
+        all_[last] = own
+    high = high._replace(share=np.ones(len(owner)))
     while len(owner):
         middle, best = looked(owner, 0.5 * (low.share + high.share), best)
         open_ = _bound(others.ends, low, middle, high) > max(best.distance + accuracy, enough)

@@ -14,17 +14,14 @@ from support.effort import examples
 from vectorplot.curves.bezier.fit import fitted, fitted_curve, fitted_paths
 from vectorplot.curves.bezier.paths import BezierPath
 from vectorplot.errors import InputError
+from vectorplot.testing.curve_distance import Tree
 
 TURN = np.linspace(0, 2 * np.pi, 401)[:-1]
 
 
 def distance(points: np.ndarray, line: np.ndarray) -> float:
     """The largest distance of points from a polyline."""
-    step = np.diff(line, axis=0)
-    square = np.maximum((step**2).sum(axis=1), 1e-300)
-    place = np.einsum("pkd,kd->pk", points[:, None] - line[:-1], step) / square
-    feet = line[:-1] + np.clip(place, 0, 1)[..., None] * step
-    return float(np.linalg.norm(points[:, None] - feet, axis=2).min(axis=1).max())
+    return float(Tree(np.stack([line[:-1], line[1:]], axis=1)).nearest(points, 0.0)[0].max())
 
 
 def dense(path: BezierPath, each: int = 40) -> np.ndarray:

@@ -71,7 +71,7 @@ def test_random_scenes_as_rays_see_them(seed: int) -> None:
 def test_one_sees_through_removed_faces(name: str) -> None:
     scene = HARD_SHAPES[name]
     for seed in range(several(4, long=40)):
-        for camera in cameras(scene, seed):
+        for camera in list(cameras(scene, seed))[seed % 3 :: several(3, long=1)]:
             assert_as_rays_say(scene, camera, seen(scene, camera, EVERY_EDGE), 60)
 
 

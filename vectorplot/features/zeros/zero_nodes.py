@@ -30,6 +30,10 @@ MOST_ALONE = 16
 """More flat double points of one function than this are a line of them."""
 
 
+MANY_IN_STRIPS = 8
+"""So many points in each strip along one direction, and it is seen whether there are fewer along the other."""
+
+
 @dataclass(frozen=True, eq=False)
 class DoublePoints:
     """points (k,3) where f and its gradient vanish; flat (k,): f has no curvature in some direction there, as along a
@@ -212,24 +216,50 @@ def within(field: ScalarFields, points: Floats, centres: Floats, reach: Floats) 
     not."""
     if not len(centres) or not len(points):
         return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
-    of, at = number(centres), _sort_keys(number(points), field.wrapped(points)[:, 0])
-    order = np.argsort(at, kind="stable")
-    at = at[order]
-    low, high = (field.wrapped(centres)[:, 0] + sign * reach[:, 0] for sign in (-1.0, 1.0))
-    ends = np.searchsorted(at.real, of, side="right")
-    pairs = []
-    for turn in (-1.0, 0.0, 1.0) if field.closed[0] else (0.0,):
-        first, last = (np.searchsorted(at, _sort_keys(of, x + turn * field.size[of, 0])) for x in (low, high))
-        # One place more: the bounds are rounded.
-        last = np.minimum(last + 1, ends)
-        count = np.maximum(last - first, 0)
-        centre = ragged.owner(count)
-        place = ragged.place(count) + first[centre]
-        pairs.append((centre, order[place]))
-    centre, point = (np.concatenate([pair[k] for pair in pairs]) for k in (0, 1))
+    strips = _strips(field, points, centres, reach, 0)
+    if strips.pairs > MANY_IN_STRIPS * (len(points) + len(centres)):
+        # Points of a line along which u stays are all in each other's strips.
+        strips = min(strips, _strips(field, points, centres, reach, 1), key=lambda each: each.pairs)
+    centre, point = strips.found()
     d = _difference(field, points[point], centres[centre]) / reach[centre]
     near = component_sum(d * d) <= 1.0
     return centre[near], point[near]
+
+
+@dataclass(frozen=True, eq=False)
+class _Strips:
+    """Strips about centres, and, in a closed direction, about these a turn further: in order (p,), from first to last
+    (t,k), the points that are in them."""
+
+    order: Ints
+    first: Ints
+    last: Ints
+
+    @property
+    def pairs(self) -> int:
+        """How many pairs of a centre and a point there are."""
+        return int((self.last - self.first).sum())
+
+    def found(self) -> tuple[Ints, Ints]:
+        """The pairs."""
+        count = (self.last - self.first).ravel()
+        strip = ragged.owner(count)
+        return strip % self.first.shape[1], self.order[ragged.place(count) + self.first.ravel()[strip]]
+
+
+def _strips(field: ScalarFields, points: Floats, centres: Floats, reach: Floats, axis: int) -> _Strips:
+    """The strips in which parameters of an axis are within reach (k,2) of those of centres."""
+    of, at = number(centres), _sort_keys(number(points), field.wrapped(points)[:, axis])
+    order = np.argsort(at, kind="stable")
+    at = at[order]
+    ends = np.searchsorted(at.real, of, side="right")
+    turns = np.array([-1.0, 0.0, 1.0] if field.closed[axis] else [0.0])[:, None] * field.size[of, axis]
+    first, last = (
+        np.stack([np.searchsorted(at, _sort_keys(of, x)) for x in field.wrapped(centres)[:, axis] + side + turns])
+        for side in (-reach[:, axis], reach[:, axis])
+    )
+    # One place more: the bounds are rounded.
+    return _Strips(order, first, np.maximum(np.minimum(last + 1, ends), first))
 
 
 def _sort_keys(of: Ints, x: Floats) -> NDArray[np.complex128]:

@@ -110,7 +110,7 @@ def true_outlines(name, eye):
 
 @pytest.mark.slow
 @pytest.mark.spread
-@pytest.mark.parametrize("tolerance", [0.1, 0.02, 1.0, 0.01])
+@pytest.mark.parametrize("tolerance", [0.01, 1.0, 0.02, 0.1])
 @pytest.mark.parametrize("eye", [(7.0, -5.0, 14.0), (8.0, -16.0, 11.0), (3.0, 20.0, -8.0)])
 @pytest.mark.parametrize("name", OUTLINED)
 def test_outlines_are_within_the_tolerance_whatever_it_is(name, eye, tolerance):
@@ -150,7 +150,7 @@ def test_shades_between_corners_are_within_their_bound(surface):
 @pytest.mark.slow
 def test_a_coarser_tolerance_makes_fewer_polygons():
     cyclide = dupin_cyclide(3.0, 1.0, (6.5, 0.0, 0.0), 5.0)
-    counts = [made(cyclide, tolerance_mm=t)[0].mesh.face_count for t in (0.005, 0.02, 0.2)]
+    counts = [made(cyclide, tolerance_mm=t)[0].mesh.face_count for t in (0.01, 0.05, 0.4)]
     assert counts[0] > 1.3 * counts[1] > 1.5 * counts[2]
 
 
