@@ -76,7 +76,7 @@ def test_of_turned_tori_the_last_one_is_painted_and_rendered() -> None:
     one, other = vp.Item("A", torus, "red"), vp.Item("B", turned(torus, 30.0), "blue")
     for first, last in ((one, other), (other, one)):
         both, alone = scene_of(first, last), scene_of(last)
-        fills = [vp.paint(scene, CAMERA, tolerance_mm=2.0).layers[0].fills[0] for scene in (both, alone)]
+        fills = [vp.paint(scene, CAMERA, tolerance_mm=0.5).layers[0].fills[0] for scene in (both, alone)]
         # The boxes of both scenes differ in the last digits.
         assert len(fills[0]) == len(fills[1]) and np.ptp([some.colours.astype(int) for some in fills], axis=0).max() < 2
         pixels = [vp.render(scene, CAMERA, size=(40, 30), samples=1).pixels for scene in (both, alone)]

@@ -12,7 +12,6 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.features.edge_splitting import Edges
 from vectorplot.features.facet_demands import INSIDE, AllSidesAlike, off_chords
-from vectorplot.features.facets import facets
 from vectorplot.geometry import ragged
 from vectorplot.scene.item import Item
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
@@ -84,6 +83,8 @@ def triangles_of_item(item: Item, box: Floats) -> tuple[Floats, float]:
         return sides[np.isfinite(sides).all(axis=(1, 2))], COARSENESS * extent
     mesh, off = item.mesh, 0.0
     if is_parametrised(item.shape) or is_implicit(item.shape):
+        from vectorplot.features.facets import facets
+
         found = facets(item.shape, Coarse(COARSENESS * extent), MOST_COARSE)
         mesh, off = found.mesh, COARSENESS * extent if found.complete else np.inf
     corners, _ = ragged.fans(mesh.offsets)

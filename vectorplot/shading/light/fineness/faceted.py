@@ -10,7 +10,6 @@ import numpy as np
 
 from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Demand
-from vectorplot.features.facets import facets
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.triangles.triangle_places import places_in_triangles
 from vectorplot.scene.item import Item
@@ -58,6 +57,9 @@ def _faceted_item(
     shape = item.shape
     if not (is_parametrised(shape) or is_implicit(shape)):
         return replace(item, shape=item.mesh), _normals_of(item)
+    # Of polyhedra nothing is asked that takes surfaces to be loaded.
+    from vectorplot.features.facets import facets
+
     found = facets(shape, demand(number), budget.facets)
     if not found.complete:
         text = unresolved("the surface is shown by triangles that are coarser than the tolerance")
