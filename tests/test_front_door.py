@@ -135,11 +135,22 @@ def test_verbs_stay_verbs_when_their_modules_were_imported_first():
     subprocess.run([sys.executable, "-c", script], check=True)
 
 
+@cache
+def verbs_that_stay():
+    """Those that the package gives after they were taken from their modules. Package and module are loaded anew for
+    each verb, all others once."""
+    script = f"import sys\nfor verb in {VERBS}:\n"
+    script += "    for name in ('vectorplot', f'vectorplot.{verb}'): sys.modules.pop(name, None)\n"
+    script += "    exec(f'from vectorplot.{verb} import {verb} as taken; import vectorplot as vp')\n"
+    script += "    if getattr(vp, verb) is taken: print(verb)\n"
+    result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
+    return result.stdout.split()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("verb", VERBS)
 def test_a_verb_stays_a_verb_when_it_was_taken_from_its_module(verb):
-    script = f"from vectorplot.{verb} import {verb}; import vectorplot as vp; assert vp.{verb} is {verb}"
-    subprocess.run([sys.executable, "-c", script], check=True)
+    assert verb in verbs_that_stay()
 
 
 @pytest.mark.slow

@@ -6,6 +6,7 @@ import subprocess
 import sys
 from collections.abc import Callable
 from dataclasses import replace
+from functools import cache
 
 import numpy as np
 import pytest
@@ -153,22 +154,36 @@ def test_the_scenes_that_come_with_the_package(name: str) -> None:
 
 
 LOADED = """
-import sys
+import os, sys
 import numpy as np
 import vectorplot as vp
 from vectorplot.paint import paint
-{scene}
-paint(scene{options})
-print(*(name for name in sys.modules if name.startswith(("vectorplot.", "scipy", "shapely", "cairo", "svgwrite"))))
+for scene_code in {codes}:
+    sys.stdout.flush()
+    if not os.fork():
+        exec(scene_code)
+        paint(scene)
+        kept = ("vectorplot.", "scipy", "shapely", "cairo", "svgwrite")
+        print(*(name for name in sys.modules if name.startswith(kept)), flush=True)
+        os._exit(0)
+    assert os.wait()[1] == 0
 """
+"""Each scene is painted by a process of its own, a copy of one that has loaded what all of them begin with."""
+
 CUBE_TEXT = "from vectorplot.testing.shapes import box\nitem = vp.Item('A', box((0, 0, 0), (1, 1, 1)){more})\n"
 
 
-def loaded(scene: str, options: str = "") -> set[str]:
-    """The modules that painting a scene in a new process loads."""
-    code = LOADED.format(scene=scene, options=options)
+def cube_text(more: str = "", lights: str = "()") -> str:
+    """A scene of a cube, as Python."""
+    return CUBE_TEXT.format(more=more) + f"scene = vp.Scene((item,), {lights})"
+
+
+@cache
+def every_loaded() -> dict[str, set[str]]:
+    """The modules that painting each scene in a new process loads."""
+    code = LOADED.format(codes=list(SCENES.values()))
     found = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, timeout=60)
-    return set(found.stdout.split())
+    return dict(zip(SCENES, map(set, map(str.split, found.stdout.splitlines())), strict=True))
 
 
 def effects_of(modules: set[str]) -> set[str]:
@@ -177,8 +192,7 @@ def effects_of(modules: set[str]) -> set[str]:
 
 @pytest.mark.slow
 def test_a_scene_without_lights_mirrors_patterns_and_clear_things_loads_no_effect() -> None:
-    pencil = f"from vectorplot.io.read_file import read\nscene = read({str(DATA / 'pencil.scene')!r})"
-    modules = loaded(pencil)
+    modules = every_loaded()["pencil"]
     assert not {name for name in modules if name.startswith("vectorplot.effects")}
     assert not {name.split(".")[0] for name in modules} & {"cairo", "svgwrite"}
     assert not {name for name in modules if name.startswith("vectorplot.backends")}
@@ -186,7 +200,7 @@ def test_a_scene_without_lights_mirrors_patterns_and_clear_things_loads_no_effec
 
 @pytest.mark.slow
 def test_a_single_body_needs_nothing_heavy() -> None:
-    modules = loaded(CUBE_TEXT.format(more="") + "scene = vp.Scene((item,))")
+    modules = every_loaded()["cube"]
     assert not {name.split(".")[0] for name in modules} & {"cairo", "svgwrite", "scipy"}
     assert not effects_of(modules)
 
@@ -201,13 +215,18 @@ EFFECTS = {
     "mirrors": (", material=vp.Material('mirror')", "()", "mirrors.reflection_fills"),
     "glass": (", material=vp.Material('transparent', 0.5, 1.4), occludes=False", "()", "glass.glass_fills"),
 }
+SCENES = {
+    "pencil": f"from vectorplot.io.read_file import read\nscene = read({str(DATA / 'pencil.scene')!r})",
+    "cube": cube_text(),
+    "clear": cube_text(", material=vp.Material('transparent', 0.5), occludes=False"),
+    **{effect: cube_text(more, lights) for effect, (more, lights, _) in EFFECTS.items()},
+}
 
 
 @pytest.mark.slow
 @pytest.mark.parametrize("effect", EFFECTS)
 def test_an_effect_loads_its_own_code_and_not_that_of_the_others(effect: str) -> None:
-    more, lights, own = EFFECTS[effect]
-    found = effects_of(loaded(CUBE_TEXT.format(more=more) + f"scene = vp.Scene((item,), {lights})"))
+    own, found = EFFECTS[effect][2], effects_of(every_loaded()[effect])
     assert own in found
     others = {module for name, (_, _, module) in EFFECTS.items() if name != effect}
     assert not found & (others - {own}), found
@@ -215,8 +234,7 @@ def test_an_effect_loads_its_own_code_and_not_that_of_the_others(effect: str) ->
 
 @pytest.mark.slow
 def test_transparency_without_refraction_loads_no_effect() -> None:
-    more = ", material=vp.Material('transparent', 0.5), occludes=False"
-    assert not effects_of(loaded(CUBE_TEXT.format(more=more) + "scene = vp.Scene((item,))"))
+    assert not effects_of(every_loaded()["clear"])
 
 
 def test_what_overflows_in_a_stage_is_infinite_without_a_warning() -> None:

@@ -105,7 +105,7 @@ def test_pictures_say_what_their_colours_and_their_size_are():
     assert png[37:41] == b"sRGB" and png[50:54] == b"pHYs"
     assert struct.unpack(">IIB", png[54:63]) == (round(150 / 0.0254), round(150 / 0.0254), 1)
     assert replace(image, dpi=300.0).png()[54:58] == struct.pack(">I", 11811)
-    plate = vp.paint(vp.Scene((sphere(),)))
+    plate = vp.paint(vp.Scene((sphere(),)), page=vp.Page(40, 30, 2))
     assert write(plate, "png")[33:67] == png[33:67], "drawings saved as pixels say the same"
 
 

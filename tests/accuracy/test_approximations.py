@@ -23,7 +23,7 @@ FEW = {
     "mesh-contour": (16, 32),
     "polygonised": (16, 32, 64),
     "painted-outline": (1.0, 0.1),
-    "painted-colours": (1.0, 0.1),
+    "painted-colours": (1.0, 0.3),
     "depth-buffer": (64, 256),
     "sampled-visibility": (16, 64),
     "snapping": (1e-2, 1e-6, 1e-9, 1e-12),

@@ -95,7 +95,8 @@ def test_strokes_follow_their_field_and_are_long_enough(along):
 def test_a_combed_ball_is_as_dark_as_the_light_leaves_it(along):
     ball = vp.Scene((vp.Item("ball", Sphere(1.0)),), (SUN,))
     hatch = vp.Hatching("tone", spacing_mm=1.0, width_mm=0.3, along=along)
-    drawing = vp.draw(ball, CAMERA, page=PAGE, fit=False, lines="none", hatch=hatch, curves="polyline")
+    coarse = {"curves": "polyline", "tolerance_mm": 0.04}
+    drawing = vp.draw(ball, CAMERA, page=PAGE, fit=False, lines="none", hatch=hatch, **coarse)
     surface = cairo.ImageSurface.create_from_png(io.BytesIO(png_bytes(drawing, 6.0 * 25.4)))
     size = surface.get_height()
     pixels = np.frombuffer(surface.get_data(), dtype=np.uint8).reshape(size, surface.get_width(), 4)
@@ -123,7 +124,8 @@ def test_along_isophotes_strokes_have_one_angle_to_the_light_that_the_item_names
     lights = (vp.Light((9.0, 9.0, 9.0)), vp.Light((2.0, -3.0, 1.5), intensity=1.0))
     hatch = vp.Hatching("even", spacing_mm=6.0, along="isophotes")
     ball = vp.Item("BALL", Sphere(1.0), curves=vp.SurfaceLines(light=1), hatch=hatch)
-    drawing = vp.draw(vp.Scene((ball,), lights), CAMERA, page=PAGE, fit=False, lines="none", curves="polyline")
+    coarse = {"curves": "polyline", "tolerance_mm": 0.1}
+    drawing = vp.draw(vp.Scene((ball,), lights), CAMERA, page=PAGE, fit=False, lines="none", **coarse)
     found = strokes(drawing)
     assert len(found) > 4
     assert max(np.ptp(cosines(line, lights[1].position, False)) for line in found) < 5e-3
@@ -143,7 +145,8 @@ def test_what_crosses_isophotes_leads_into_the_light():
 
 def test_without_a_light_isophotes_are_of_one_from_the_upper_left():
     ball = vp.Item("BALL", Sphere(1.0), hatch=vp.Hatching("even", spacing_mm=6.0, along="isophotes"))
-    drawing = vp.draw(vp.Scene((ball,)), CAMERA, page=PAGE, fit=False, lines="none", curves="polyline")
+    coarse = {"curves": "polyline", "tolerance_mm": 0.1}
+    drawing = vp.draw(vp.Scene((ball,)), CAMERA, page=PAGE, fit=False, lines="none", **coarse)
     right, up, back = CAMERA.axes
     assert max(np.ptp(cosines(line, up - right + back, True)) for line in strokes(drawing)) < 5e-3
     cubes = [vp.Item("A", box((2, 2, 2)), hatch=vp.Hatching("even", along=along)) for along in ("isophotes", "page")]

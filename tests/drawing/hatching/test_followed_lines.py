@@ -18,8 +18,8 @@ PAGE = vp.Page(66.0, 66.0, 0.0)
 
 
 def drawn(scene: vp.Scene, **how: object) -> vp.Drawing:
-    hatching = vp.Hatching("tone", along="surface", **how)
-    return vp.draw(scene, CAMERA, page=PAGE, fit=False, lines="none", hatch=hatching, curves="polyline")
+    hatching, coarse = vp.Hatching("tone", along="surface", **how), {"curves": "polyline", "tolerance_mm": 0.1}
+    return vp.draw(scene, CAMERA, page=PAGE, fit=False, lines="none", hatch=hatching, **coarse)
 
 
 def ink(drawing: vp.Drawing) -> np.ndarray:
