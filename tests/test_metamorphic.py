@@ -142,7 +142,7 @@ def lines(seen: Seen) -> Floats:
 
 def painted(seen: Seen) -> Floats:
     """The pixels of a painted picture."""
-    picture = vp.paint(seen.scene, seen.camera, page=PAGE, tolerance_mm=0.05)
+    picture = vp.paint(seen.scene, seen.camera, page=PAGE, tolerance_mm=0.1)
     return 255.0 * grey_of_png(png_bytes(picture, 25.4))[..., None]
 
 

@@ -114,5 +114,6 @@ def test_a_closed_body_is_one_veil_and_an_open_one_a_veil_for_every_layer(inside
         closed, open_ = (set(np.unique(picture).tolist()) for picture in pictures)
         assert {128.0, 255.0} <= closed and 64.0 not in closed
         assert {64.0, 128.0, 255.0} <= open_
-    within = render(vp.Scene((vp.Item("A", cube, "black", glass),)), vp.Camera((0, 0.5, 0), (0, -1, 0)), fit=False)
+    eye = vp.Camera((0, 0.5, 0), (0, -1, 0))
+    within = render(vp.Scene((vp.Item("A", cube, "black", glass),)), eye, size=(80, 60), fit=False)
     assert set(np.unique(within.pixels).tolist()) == {128}, "an eye in a body sees its walls"

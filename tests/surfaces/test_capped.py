@@ -62,7 +62,7 @@ VOLUMES = {
 
 @pytest.mark.parametrize("name", BODIES)
 def test_a_body_is_watertight_and_its_triangles_turn_outwards(name):
-    mesh = facets(BODIES[name], Within(lambda points: np.full(points.shape[:-1], 2e-3))).mesh
+    mesh = facets(BODIES[name], Within(lambda points: np.full(points.shape[:-1], 4e-3))).mesh
     corners = mesh.corners.reshape(-1, 3)
     sides = np.sort(np.concatenate([corners[:, [0, 1]], corners[:, [1, 2]], corners[:, [2, 0]]]), axis=1)
     _, uses = np.unique(sides, axis=0, return_counts=True)
