@@ -9,6 +9,7 @@ import pytest
 import shapely
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.spatial import cKDTree
 from support.effort import examples
 
 from vectorplot.curves.bezier.fit import fitted, fitted_curve, fitted_paths
@@ -221,7 +222,7 @@ def test_a_curve_is_within_the_tolerance_between_the_samples_too(tolerance):
     assert path.closed and joined_exactly(path) and kinks(path).max() < 1e-7 and path.error <= tolerance
     truth = Knot().points(np.linspace(0, 2 * np.pi, 997))
     t = np.linspace(0, path.end, 20 * len(path.control) + 1)
-    nearest = t[np.linalg.norm(truth[:, None] - path.points(t), axis=2).argmin(axis=1)]
+    nearest = t[cKDTree(path.points(t)).query(truth)[1]]
     for _ in range(6):
         apart, speed = path.points(nearest) - truth, path.tangents(nearest)
         nearest = np.clip(nearest - (apart * speed).sum(axis=1) / (speed**2).sum(axis=1), 0, path.end)

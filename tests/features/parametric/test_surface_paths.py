@@ -14,6 +14,7 @@ from vectorplot.scene.surface_lines import SurfaceLines, path_on_surface
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.testing import assert_drawing_is_right
+from vectorplot.testing.curve_distance import Tree
 from vectorplot.words import LineKind
 
 TORUS = Torus(3.0, 1.0)
@@ -37,12 +38,8 @@ def test_knots_on_a_torus_are_one_closed_curve_over_all_seams(p: int, q: int, to
     )
     t = np.linspace(0, 2 * np.pi, 4001)
     true = TORUS.points(*knot(p, q)(t).T)
-    way = found[0]
-    start, chord = way[:-1], np.diff(way, axis=0)
-    for lot in np.array_split(true, 20):
-        share = np.clip(((lot[:, None] - start) * chord).sum(axis=2) / (chord * chord).sum(axis=1), 0, 1)
-        away = np.linalg.norm(start + share[..., None] * chord - lot[:, None], axis=2).min(axis=1)
-        assert away.max() < 1.01 * tolerance
+    chords = Tree(np.stack([found[0][:-1], found[0][1:]], axis=1))
+    assert chords.nearest(true, 0.0)[0].max() < 1.01 * tolerance
 
 
 @pytest.mark.capability("G8.2-surface")
