@@ -244,8 +244,7 @@ def shell_seen(name, whorl, shadows):
 def test_a_shell_a_whorl_further_is_the_same_picture_enlarged(shadows, name):
     """Spiral surfaces are similar to themselves; so are their shadows on themselves: one shell grows, one shrinks."""
     (shaded, plain), (further, plain_further) = (
-        [shell_seen(name, whorl, how) for how in (shadows, "none")]
-        for whorl in (0, {"nautilus": 1, "snail": -2}[name])
+        [shell_seen(name, whorl, how) for how in (shadows, "none")] for whorl in (0, {"nautilus": 1, "snail": -2}[name])
     )
     assert np.abs(further - shaded).mean() < 0.5 and np.abs(plain_further - plain).mean() < 0.3
     assert (shaded <= plain + 2).all() and (shaded < plain - 10).sum() > 3, "its whorls shade each other"

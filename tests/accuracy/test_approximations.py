@@ -11,6 +11,7 @@ from vectorplot.accuracy.approximation import Approximation, check_values
 from vectorplot.accuracy.catalogue import APPROXIMATIONS
 from vectorplot.accuracy.curves_of_error import Accuracy
 from vectorplot.accuracy.measuring import measured
+from vectorplot.accuracy.of_surfaces import painted_facets
 
 FEW = {
     "drawn-curves": (0.1, 0.01),
@@ -71,7 +72,10 @@ def named(name: str) -> Approximation:
 
 @cache
 def found(name: str) -> Accuracy:
-    return measured(named(name), FEW[name])
+    with pytest.MonkeyPatch.context() as patch:
+        # Coarser pictures are compared here: the finest one may be as coarse.
+        patch.setattr(painted_facets, "FINEST_MM", 0.05)
+        return measured(named(name), FEW[name])
 
 
 def test_every_approximation_is_here_under_one_name():

@@ -116,9 +116,7 @@ def _small(product: Floats, along_u: Floats, along_v: Floats, domain: Domain) ->
     return np.asarray(norm(product) * width * height <= SUSPECT_PRODUCT * size * size)
 
 
-def _with_limits(
-    surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats], product: Floats
-) -> Floats:
+def _with_limits(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats], product: Floats) -> Floats:
     """(n, 3) the product of the partials where it is one, else its derivative towards the middle of the domain."""
     along_u, along_v = partials
     uu, uv, vv = surface.second_partials(u, v)

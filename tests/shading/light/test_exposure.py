@@ -95,9 +95,9 @@ def test_what_is_no_exposure_is_told(wrong):
 def test_the_command_and_files_tell_what_is_wrong(tmp_path, capsys):
     file = tmp_path / "a.scene"
     file.write_text(write_scene(replace(CUBE, camera=CAMERA)), encoding="utf-8")
-    for verb in ("paint", "render"):
+    for verb, small in (("paint", ["--page", "40x30"]), ("render", ["--size", "40x30"])):
         out = tmp_path / "a.png"
-        assert run([verb, str(file), "-o", str(out), "--exposure", "fitted"]) == 0
+        assert run([verb, str(file), "-o", str(out), "--exposure", "fitted", *small]) == 0
         assert run([verb, str(file), "-o", str(out), "--exposure", "0"]) == 2
         assert "exposure 0: expected fitted" in capsys.readouterr().err
     for text, told in (("exposure bright", "expected 'fitted' or a factor"), ("exposure -1", "positive factor")):

@@ -55,8 +55,13 @@ class SurfaceCondition(Condition, Protocol):
 class _Alike(ABC):
     """A condition, a dataclass, that is the same for all parameters that it is asked for."""
 
+    surface: Surface
+
     def on(self, surface: Surface, which: Ints) -> Self:
         """The same on another surface, whatever it is asked for."""
+        if surface is self.surface:
+            # To make and check one anew takes as long as to ask for a few values.
+            return self
         changes: Any = {"surface": surface}
         return replace(self, **changes)  # type: ignore[type-var]
 
