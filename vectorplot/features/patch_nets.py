@@ -243,9 +243,9 @@ def _enough(lines: Callable[[int], Edges], closed: bool, demand: Demand) -> int:
         sides = lines(count)
         # What lies in a hole is not cut at all.
         inside = sides.start.known | sides.end.known
-        excess = np.nan_to_num(demand.excess(sides.some(inside)), nan=2.0).max(axis=0)
-        if not len(excess):
+        if not inside.any():
             return USUAL
+        excess = np.nan_to_num(demand.excess(sides.some(inside)), nan=2.0).max(axis=0)
         if count < USUAL:
             if excess.max() <= 1.0:
                 return count

@@ -42,7 +42,7 @@ def like_ours(drawing, seen):
 
 @pytest.mark.parametrize("name", ["pencil", "curves"])
 def test_latex_sets_lines_in_their_size_and_place(name, tmp_path):
-    drawing = vp.draw(vp.read(f"data/{name}.scene"), hidden="dashed")
+    drawing = vp.draw(vp.read(f"data/{name}.scene"), page=vp.Page(148, 105, 10), hidden="dashed")
     seen, log = set_by_latex(drawing, tmp_path)
     assert like_ours(drawing, seen) < 2e-4 and "Overfull" not in log
     assert (seen.min(axis=2) < 128).mean() > 1e-3

@@ -10,6 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.surface import Surface
 
@@ -77,7 +78,7 @@ class Sites(TangentPlanes):
         """Derivatives by u and by v, and unit normals, (k,3) each; no normals at poles and singular points, and none in
         holes, where formulas of derivatives may go on."""
         along_u, along_v = self.surface.partials(self.u, self.v)
-        there = np.where(np.isfinite(self.points).all(axis=1)[:, None], 1.0, np.nan)
+        there = np.where(all_finite(self.points)[:, None], 1.0, np.nan)
         return along_u, along_v, unit(cross(along_u, along_v) * there)
 
     @property
