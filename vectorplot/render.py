@@ -25,7 +25,13 @@ from vectorplot.linework.ruler import Ruler
 from vectorplot.plan import accuracy_of_render, chosen_shadows, plan_render, with_accuracy
 from vectorplot.rendering.pixel_bands import pixels_in_bands
 from vectorplot.rendering.pixels_beside_bar import PIXELS_PER_MM, pixels_beside_bar, pixels_left_of_bar
-from vectorplot.rendering.render_options import check_lights, check_render_options, check_whole, usual_samples
+from vectorplot.rendering.render_options import (
+    check_lights,
+    check_render_options,
+    check_whole,
+    usual_samples,
+    usual_shadow_size,
+)
 from vectorplot.rendering.scene_shadows import ShadowMaps, scene_lighting, tapered_for
 from vectorplot.scene.coincidence.twins import without_twins
 from vectorplot.scene.depth_cue import DepthCue
@@ -88,7 +94,7 @@ def render(
     lights: Sequence[Light] | None = None,
     exposure: Exposure | None = None,
     shadows: Literal["auto", "none", "buffer", "trapezoid", "exact"] = "auto",
-    shadow_size: int = 1024,
+    shadow_size: int | None = None,
     shadow_bits: int = 32,
     shadow_casters: Literal["all", "away"] = "all",
     shadow_focus: float | None = None,
@@ -124,8 +130,9 @@ def render(
     shadows : {"auto", "none", "buffer", "trapezoid", "exact"}
         Of these lights, found with shadow buffers, plain ones or such that show most of what is near the eye, or
         exactly; auto: as the view calls for.
-    shadow_size : int
-        Shadow buffers have shadow_size x shadow_size texels.
+    shadow_size : int, optional
+        Shadow buffers have shadow_size x shadow_size texels (None: the power of two no less than the longer side
+        of the picture, 256 to 4096).
     shadow_bits : int
         The bits of each texel.
     shadow_casters : {"all", "away"}
@@ -198,9 +205,11 @@ def render(
     """
     kinds = line_kinds(lines)
     samples = usual_samples(size) if samples is None else samples
-    check_whole(columns=size[0], rows=size[1], samples=samples, shadow_size=shadow_size)
+    check_whole(columns=size[0], rows=size[1], samples=samples)
     check_render_options(size, shadows, samples, crease_angle_deg)
-    settings = MapSettings(shadow_size, shadow_bits, shadow_casters, shadow_focus)
+    texels = usual_shadow_size(size) if shadow_size is None else shadow_size
+    check_whole(shadow_size=texels)
+    settings = MapSettings(texels, shadow_bits, shadow_casters, shadow_focus)
     budget_of(budget)
     threads = threads_of(jobs)
     given = scene_of(scene)
@@ -213,7 +222,7 @@ def render(
     check_lights(seen.lights)
     whole, size = size, pixels_left_of_bar(size, bar)
     how, why = chosen_shadows(seen, subject.camera, size, fit) if shadows == "auto" else (shadows, "")
-    said = accuracy_of_render(FACET_PIXELS, how, shadow_size)
+    said = accuracy_of_render(FACET_PIXELS, how, texels)
     walk = Walk(with_accuracy(plan_render(seen, how, bool(kinds), why), said), explain, progress, threads)
     _tell_what_is_missing(walk, seen, kinds)
     fine = (size[0] * samples, size[1] * samples)

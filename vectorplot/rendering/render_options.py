@@ -17,10 +17,21 @@ SAMPLES = 2
 """Along each side of a pixel, unless told otherwise."""
 
 
+FEWEST_TEXELS, MOST_TEXELS = 256, 4096
+"""Along the side of a shadow map, unless told otherwise."""
+
+
 def usual_samples(size: tuple[int, int]) -> int:
     """Along each side of a pixel where nobody says how many."""
     fine = (size[0] * SAMPLES, size[1] * SAMPLES)
     return SAMPLES if max(fine) <= LARGEST_SIDE_PIXELS and fine[0] * fine[1] <= LARGEST_RASTER_PIXELS else 1
+
+
+def usual_shadow_size(size: tuple[int, int]) -> int:
+    """Texels along the side of a shadow map where nobody says how many: the power of two no less than the longer
+    side of the picture, 256 to 4096."""
+    needed = 1 << (int(max(size)) - 1).bit_length()
+    return min(max(needed, FEWEST_TEXELS), MOST_TEXELS)
 
 
 def check_render_options(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: float) -> None:

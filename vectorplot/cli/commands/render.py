@@ -36,7 +36,12 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     LIGHTS,
     EXPOSURE,
     shadows_option(SHADOWS, "How shadows are found."),
-    click.option("--shadow-size", type=click.IntRange(8, 8192), default=1024, metavar="N", help="Texels along a map."),
+    click.option(
+        "--shadow-size",
+        type=click.IntRange(8, 8192),
+        metavar="N",
+        help="Texels along a shadow map.  [default: about the longer side of the picture]",
+    ),
     click.option(
         "--shadow-bits", type=click.Choice(["8", "16", "32"]), default="32", help="Of a depth in a shadow map."
     ),
