@@ -9,8 +9,9 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
-from vectorplot.geometry.mesh import next_positions
-from vectorplot.geometry.regions import corners_of, polygons_of, unions, without_holes, without_splinters
+from vectorplot.geometry.mesh import TRIANGLE, next_positions
+from vectorplot.geometry.regions import POLYGON, corners_of, polygons_of, unions, without_holes, without_splinters
+from vectorplot.geometry.triangles.overlapping_triangles import overlapping
 from vectorplot.tolerances.of_angles import EDGE_ON_SINE
 from vectorplot.tolerances.of_the_page import GRID_MM
 
@@ -106,11 +107,7 @@ def _overlaps(regions: Any, opaque: Bools) -> tuple[Ints, Ints, Bools]:
     above = over[above]
     later = above > below
     below, above = below[later], above[later]
-    # What each region is asked of many others is looked up in it once for all.
-    shapely.prepare(regions)
-    meet = shapely.intersects(regions[below], regions[above])
-    below, above = below[meet], above[meet]
-    common = ~shapely.touches(regions[below], regions[above])
+    common = _common(regions, below, above)
     below, above = below[common], above[common]
     hidden = np.zeros(len(regions), dtype=np.bool_)
     hidden[below[shapely.covers(regions[above], regions[below])]] = True
@@ -118,6 +115,25 @@ def _overlaps(regions: Any, opaque: Bools) -> tuple[Ints, Ints, Bools]:
     # What hides a hidden one hides whatever that one would.
     needed = ~hidden[below] & ~hidden[above]
     return below[needed], above[needed], hidden
+
+
+def _common(regions: Any, below: Ints, above: Ints) -> Bools:
+    """(k,) which pairs of regions have inner points in common."""
+    import shapely
+
+    # Most regions are triangles, and most of those that are near each other touch at most: a few products tell.
+    three = (shapely.get_type_id(regions) == POLYGON) & (shapely.get_num_coordinates(regions) == TRIANGLE + 1)
+    triangles = np.full((len(regions), TRIANGLE + 1, 2), np.nan)
+    triangles[three] = shapely.get_coordinates(regions[three]).reshape(-1, TRIANGLE + 1, 2)
+    corners = np.ascontiguousarray(triangles[:, :TRIANGLE].T)
+    common = np.ones(len(below), dtype=np.bool_)
+    plain = three[below] & three[above]
+    common[plain] = overlapping(corners[..., below[plain]], corners[..., above[plain]])
+    # What each region is asked of many others is looked up in it once for all.
+    shapely.prepare(regions)
+    common[common] = shapely.intersects(regions[below[common]], regions[above[common]])
+    common[common] = ~shapely.touches(regions[below[common]], regions[above[common]])
+    return common
 
 
 def _listed(fills: Fills, parts: Any, source: Ints, page_from_world: Floats) -> Fills:
