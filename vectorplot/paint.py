@@ -212,7 +212,7 @@ def paint(
     def demand() -> Callable[[int], Demand]:
         allowed = allowed_in_space(scene, projection, sheet, fit, tolerance_mm)
         # Where each triangle has one shade they have to be so small that nobody sees it.
-        if not (smooth and fills == "painted"):
+        if not smooth or fills == "erasing":
             return lambda _: Within(allowed)
         casts = shadows != "none" and bool(scene.lights)
         return picture_fineness(shown, projection, casts, allowed, tolerance_mm)
@@ -231,20 +231,23 @@ def paint(
     if smooth and fills == "painted":
         normals = painted_normals(view, scene.items, here, true, plane, crease_angle_deg)
     elif smooth and fills == "visible":
-        # Pens have no gradients: meshes and planes keep one shade for each of their faces.
+        # Pens have no gradients: smooth surfaces have steps, meshes and planes one shade for each of their faces.
         normals = painted_normals(view, scene.items, (), true, plane, 0.0)
-    lighting = Lighting(scene.items, here, normals, plane, palette)
+    steps = palette if fills == "visible" else None
+    lighting = Lighting(scene.items, here, normals, plane, palette, smooth_size=steps)
     ruler = Ruler(scene, view, seen.projected, seen.placement, crease_angle_deg, tolerance_mm, budget)
     if walk.calls_for("erasing"):
         polygons = erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
-        polygons = coloured(walk, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
+        painted = coloured(walk, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
+        polygons = painted.fills
     for stage in ("order", "shadows"):
         walk.measured(stage, "mm", lambda: view.tolerance * placement.scale)
     if walk.calls_for("visible fills"):
-        from vectorplot.drawing.fills_without_overlaps import visible_fills
+        from vectorplot.drawing.united_fills import visible_shades
 
-        polygons = walk.run("visible fills", visible_fills, polygons, world)
+        curved = np.array([normals is not None for normals in ordered.facets.normals], dtype=np.bool_) & smooth
+        polygons = walk.run("visible fills", visible_shades, painted, curved, world)
     if walk.calls_for("screen door"):
         from vectorplot.effects.windows.screened_fills import screened
 

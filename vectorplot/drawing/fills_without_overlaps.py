@@ -2,15 +2,24 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
+from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import TRIANGLE, next_positions
-from vectorplot.geometry.regions import POLYGON, corners_of, polygons_of, unions, without_holes, without_splinters
+from vectorplot.geometry.regions import (
+    POLYGON,
+    corners_of,
+    mosaics,
+    polygons_of,
+    unions,
+    without_holes,
+    without_splinters,
+)
 from vectorplot.geometry.triangles.overlapping_triangles import overlapping
 from vectorplot.tolerances.of_angles import EDGE_ON_SINE
 from vectorplot.tolerances.of_the_page import GRID_MM
@@ -57,7 +66,7 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
     sizes = np.diff(fills.offsets)
     solid, lines = fills.some(np.flatnonzero(sizes > 2)), fills.some(np.flatnonzero(sizes == 2))
     parts, source = without_holes(*visible_regions(solid))
-    return Fills.joined(_listed(solid, parts, source, page_from_world), lines)
+    return Fills.joined(listed(solid, parts, source, page_from_world), lines)
 
 
 def cut_out(fills: Fills, over: Fills, page_from_world: Floats) -> Fills:
@@ -73,10 +82,61 @@ def visible_regions(fills: Fills) -> tuple[Any, Ints]:
 
     Errors as of visible_fills.
     """
+    return _seen(_regions(fills) if len(fills) else np.zeros(0, object), fills.opacity >= 1.0)
+
+
+@dataclass(frozen=True, eq=False)
+class PartsOfWholes:
+    """What is seen of polygons: parts (n,), polygons of shapely, and source (n,), the polygon each is a part of; uncut
+    (n,): whether it is that polygon, point by point."""
+
+    parts: Any
+    source: Ints
+    uncut: Bools
+
+
+def visible_parts(fills: Fills, whole: Ints) -> PartsOfWholes:
+    """What is seen of polygons of three corners or more, those of one number (m,) convex parts of a convex one, that
+    have whole sides in common, and that are painted one after the other but for what lies on them.
+
+    What covers a whole one covers its parts, and it is looked at once for all of them. Errors as of visible_fills.
+    """
     import shapely
 
-    regions = _regions(fills) if len(fills) else np.zeros(0, object)
-    below, above, hidden = _overlaps(regions, fills.opacity >= 1.0)
+    regions = _regions(fills)
+    _, first, of = np.unique(whole, return_index=True, return_inverse=True)
+    order = np.argsort(first, kind="stable")
+    rank = np.empty_like(order)
+    rank[order] = np.arange(len(order))
+    of, first = rank[of.reshape(-1)], first[order]
+    several = np.bincount(of) > 1
+    wholes = regions[first]
+    inside = several[of]
+    group = np.cumsum(several) - 1
+    wholes[several] = mosaics(regions[inside], group[of[inside]])
+    seen, number = _seen(wholes.copy(), fills.opacity[first] >= 1.0)
+    same = (np.bincount(number, minlength=len(wholes))[number] == 1) & shapely.equals_identical(seen, wholes[number])
+    left = np.flatnonzero(np.isin(of, number[same]) & inside)
+    alone = np.flatnonzero(~several[number])
+    # Of wholes that are covered in part: what is left of each, with each of its parts.
+    row = np.flatnonzero(~same & several[number])
+    starts, count = ragged.starts(counts := np.bincount(of, minlength=len(wholes))), counts[number[row]]
+    by_whole = np.argsort(of, kind="stable")
+    part = by_whole[ragged.ranges(starts[number[row]], count)]
+    cut = shapely.intersection(np.repeat(seen[row], count), regions[part], grid_size=GRID_MM)
+    cut, of_cut = without_splinters(cut, GRID_MM)
+    parts = np.concatenate([regions[left], seen[alone], cut])
+    source = np.concatenate([left, first[number[alone]], part[of_cut]])
+    uncut = np.concatenate([np.ones(len(left), dtype=np.bool_), same[alone], np.zeros(len(cut), dtype=np.bool_)])
+    order = np.argsort(source, kind="stable")
+    return PartsOfWholes(parts[order], source[order], uncut[order])
+
+
+def _seen(regions: Any, opaque: Bools) -> tuple[Any, Ints]:
+    """What is seen of regions (n,), and the region of each part, ascending."""
+    import shapely
+
+    below, above, hidden = _overlaps(regions, opaque)
     cut, of = np.unique(below, return_inverse=True)
     if len(cut):
         covers = unions(regions[above], of, GRID_MM)
@@ -136,7 +196,7 @@ def _common(regions: Any, below: Ints, above: Ints) -> Bools:
     return common
 
 
-def _listed(fills: Fills, parts: Any, source: Ints, page_from_world: Floats) -> Fills:
+def listed(fills: Fills, parts: Any, source: Ints, page_from_world: Floats) -> Fills:
     """Polygons of shapely, without holes, in the colours of the fills they are parts of."""
     flat, offsets = corners_of(parts)
     sizes = np.diff(offsets)

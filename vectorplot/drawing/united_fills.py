@@ -2,14 +2,25 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.fills_without_overlaps import listed, visible_parts
 from vectorplot.drawing.painted_fills import Overlay
 from vectorplot.geometry import ragged
-from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, unions, without_holes, without_splinters
-from vectorplot.tolerances.of_the_page import GRID_MM
+from vectorplot.geometry.mesh import TRIANGLE
+from vectorplot.geometry.regions import (
+    corners_of,
+    insides_of,
+    polygons_of,
+    unions,
+    without_holes,
+    without_splinters,
+)
+from vectorplot.tolerances.of_the_page import GRID_MM, STEP_BORDER_MM
 
 
 def united(overlay: Overlay, sheet: Ints) -> Overlay:
@@ -36,22 +47,44 @@ def united(overlay: Overlay, sheet: Ints) -> Overlay:
     leader, kept = mine[first], np.flatnonzero(~several)
     parts, which = without_splinters(region, GRID_MM)
     parts, which = without_holes(shapely.simplify(parts, GRID_MM), which)
-    flat, offsets = corners_of(parts)
-    points, in_space = _as_they_were(some, flat.T)
     source = leader[which]
-    corner = np.repeat(source, np.diff(offsets))
-    made = Fills(
-        points,
-        offsets,
-        fills.colours[fills.offsets[corner]],
-        fills.opacity[source],
-        fills.item[source],
-        in_space,
-        fills.kind[source],
-    )
+    made = _listed(some, parts, first[which])
     order = np.argsort(np.concatenate([kept, source]), kind="stable")
     after = np.concatenate([overlay.after[kept], overlay.after[source]])
     return Overlay(Fills.joined(fills.some(kept), made).some(order), after[order])
+
+
+def visible_shades(painted: Overlay, smooth: Bools, page_from_world: Floats) -> Fills:
+    """What is seen of polygons, as of visible_fills, with one region, cut open to its holes, in place of those of one
+    colour of an item, among the items that are smooth (i,). What one can see through stays in its parts.
+
+    painted: the polygons; those that come after one number are parts of one, as of visible_parts, those of -1 of none.
+    Corners in space, errors as of united; borders of regions are off by less than STEP_BORDER_MM, on both sides alike.
+    """
+    import shapely
+
+    fills = painted.fills
+    whole = np.where(painted.after < 0, -1 - np.arange(len(fills)), painted.after)
+
+    sizes = np.diff(fills.offsets)
+    solid, lines = fills.some(np.flatnonzero(sizes >= TRIANGLE)), fills.some(np.flatnonzero(sizes < TRIANGLE))
+    if not len(solid):
+        return fills
+    seen = visible_parts(solid, whole[sizes >= TRIANGLE])
+    of_item = np.append(smooth, False)[solid.item] & (solid.opacity >= 1.0) & ~_shaded(solid)
+    mine = of_item[seen.source]
+    rest = listed(solid, *without_holes(seen.parts[~mine], seen.source[~mine]), page_from_world)
+    parts, source, uncut = seen.parts[mine], seen.source[mine], seen.uncut[mine]
+    rows = np.column_stack([solid.item, solid.kind, solid.colours[solid.offsets[:-1]]])[source]
+    _, first, of = np.unique(rows, axis=0, return_index=True, return_inverse=True)
+    of = of.reshape(-1)
+    # Those that nothing was taken from have whole sides in common, which is told fast.
+    some, group = np.unique(of[uncut], return_inverse=True)
+    every = np.concatenate([unions(parts[uncut], group.reshape(-1), None), parts[~uncut]])
+    group = np.concatenate([some, of[~uncut]])
+    regions, which = without_splinters(unions(every, group, GRID_MM), GRID_MM)
+    regions, which = without_holes(shapely.coverage_simplify(regions, STEP_BORDER_MM), which)
+    return Fills.joined(rest, _listed(solid, regions, source[first][which]), lines)
 
 
 def _runs(overlay: Overlay, sheet: Ints) -> Ints:
@@ -70,6 +103,14 @@ def _shaded(fills: Fills) -> Bools:
     first = np.repeat(fills.colours[fills.offsets[:-1]], np.diff(fills.offsets), axis=0)
     differs = ragged.offsets((fills.colours != first).any(axis=1))[fills.offsets]
     return np.asarray(differs[1:] > differs[:-1])
+
+
+def _listed(fills: Fills, parts: Any, source: Ints) -> Fills:
+    """Polygons of shapely, without holes, that are unions of fills, each in the colours of the fill source (n,)."""
+    flat, offsets = corners_of(parts)
+    points, in_space = _as_they_were(fills, flat.T)
+    colours = fills.colours[fills.offsets[np.repeat(source, np.diff(offsets))]]
+    return Fills(points, offsets, colours, fills.opacity[source], fills.item[source], in_space, fills.kind[source])
 
 
 def _as_they_were(fills: Fills, points: Floats) -> tuple[Floats, Floats]:

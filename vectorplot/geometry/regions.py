@@ -59,6 +59,18 @@ def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
     return shapely.union_all(several[:, None], axis=1, grid_size=grid)
 
 
+def mosaics(polygons: Any, group: Ints) -> Any:
+    """(g,) the unions of groups 0, 1, ... of polygons that do not overlap, and have in common whole sides only: what is
+    between two of a group goes, in a tenth of the time of `unions`."""
+    import shapely
+
+    order = np.argsort(group, kind="stable")
+    if not len(order):
+        return polygons
+    several = shapely.geometrycollections(polygons[order], indices=group[order])
+    return shapely.coverage_union_all(several[:, None], axis=1)
+
+
 def cells_of(regions: Any, group: Ints, tolerance: float) -> tuple[Any, Ints]:
     """The cells that the borders of the regions (n,) of each of the groups 0, 1, ... cut the plane into, those without
     bounds left out: polygons (k,), and the group of each; no two of a group overlap by more than a few tolerances.

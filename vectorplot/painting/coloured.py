@@ -8,15 +8,15 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from vectorplot.arrays import Bools
+from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay, fills_on_page, stacked
 from vectorplot.geometry.budget import Budget
 from vectorplot.painting.painted_paper import background, paper
 from vectorplot.painting.seen import Seen, finer, shades_of_faces
 from vectorplot.painting.shade_errors import shade_error_steps
+from vectorplot.painting.stepped import stepped
 from vectorplot.scene.pages.page import Page
-from vectorplot.shading.light.face_shades import Shades
 from vectorplot.shading.light.fineness.refinement import shade_error
 from vectorplot.shading.light.painted_colours import Lighting, colours_of, opacities
 from vectorplot.stages.walk import Walk
@@ -27,16 +27,21 @@ if TYPE_CHECKING:
 
 def coloured(
     walk: Walk, seen: Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float, budget: Budget
-) -> Fills:
-    """The polygons of the picture in their colours, with all that lies on them and is seen in them."""
+) -> Overlay:
+    """The polygons of the picture in their colours, with all that lies on them and is seen in them; after: the polygon
+    whose steps of shade they are, -1 for what lies on such, is seen in them, or is paper."""
     seen = replace(seen, faces=finer(seen, lighting, budget.facets, shade_error(tolerance_mm)))
-    shades = walk.run("shades", shades_of_faces, seen, lighting)
+    shades = walk.run("shades", shades_of_faces, seen, lighting).total
     walk.measured("shades", "of 255", shade_error_steps, seen, lighting)
+    seen, shades, whole = stepped(seen, lighting, shades)
     aura = aura_mm / seen.placement.scale
     decals, lighting = _decals(walk, seen, lighting, aura, budget)
     laid = _laid(seen, lighting, decals)
     overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm, budget)
-    return walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
+    painted = walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
+    # A face comes before all that lies on it.
+    is_face = (painted.after >= 0) & (np.diff(painted.after, prepend=-1) != 0)
+    return replace(painted, after=np.where(is_face, np.append(whole, -1)[painted.after], -1))
 
 
 def _decals(
@@ -129,11 +134,11 @@ def _fills(
     walk: Walk,
     seen: Seen,
     lighting: Lighting,
-    shades: Shades,
+    shades: Floats,
     laid: tuple[Overlay, ...],
     overlays: tuple[Overlay, ...],
     page: Page,
-) -> Fills:
+) -> Overlay:
     """The polygons of the picture on the page, with what lies on them and what is painted between them."""
     view, faces = seen.view, seen.faces
     item = view.face_item[faces.source]
@@ -143,7 +148,7 @@ def _fills(
         faces.points,
         faces.offsets,
         seen.placement,
-        colours=colours_of(view, lighting, np.repeat(faces.source, np.diff(faces.offsets)), shades.total),
+        colours=colours_of(view, lighting, np.repeat(faces.source, np.diff(faces.offsets)), shades),
         opacity=opacity,
         item=item,
         kind=np.where(opacity < 1.0, int(FillKind.GLASS), int(FillKind.FACE)),
@@ -167,4 +172,5 @@ def _fills(
 
         world, plane = seen.placement.page_from_world, lighting.plane[faces.source]
         with_decals = flattened(fills, laid, world, plane)
-    return Fills.joined(*background(seen.scene, page), stacked([with_decals, *overlays]).fills)
+    every, below = stacked([with_decals, *overlays]), background(seen.scene, page)
+    return Overlay(Fills.joined(*below, every.fills), np.concatenate([np.full(len(below), -1), every.after]))

@@ -71,7 +71,7 @@ def hatched(
     # Planes have one shade each: no light varies on them.
     normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, crease_angle_deg)
     lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
-    fills = coloured(walk, seen, lighting, page, 0.0, ROUGHLY * tolerance_mm, budget)
+    fills = coloured(walk, seen, lighting, page, 0.0, ROUGHLY * tolerance_mm, budget).fills
     regions = walk.run("visible fills", toned_regions, fills)
     lines = followed_lines(scene, how, seen.view, placement, trace, tolerance_mm, crease_angle_deg)
     return hatched_regions(regions, how, placement.page_from_world, lines)

@@ -31,3 +31,7 @@ ARC_DECIMAL_MM = 1e-5
 HATCH_GAP_MM = 0.005
 """Strokes of a hatching on one line that are no further apart are one: between the parts of a region that was cut to
 pieces there are gaps of some GRID_MM, and no pen shows them."""
+
+STEP_BORDER_MM = 0.005
+"""Borders between steps of shade are known to a part of a triangle's size: points that are no further from the chord of
+their neighbours say nothing, and no pen shows them."""

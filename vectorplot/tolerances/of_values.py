@@ -149,3 +149,7 @@ less, but for one face in fifty; on a coarse ring, of 16 by 8 cells, by 4.4 time
 SETTLED_FIT = 1e-6
 """Part of the trace of a least-squares fit that is added to its diagonal: what its equations leave open becomes zero,
 and what they settle changes by as little."""
+
+SAME_SHADE = 1e-9
+"""Shades of one point, found from two triangles at it, differ by rounding only below this part of a palette; those on
+two sides of a sharp edge by much more."""

@@ -32,6 +32,8 @@ class LevelBands:
         Where each of them begins.
     band : (p,) array of int
         Below how many levels the part lies, counted from the lowest: 0, 1, ...
+    source : (p,) array of int
+        The triangle it is a part of, among those that are not left out.
     """
 
     points: Floats
@@ -39,6 +41,7 @@ class LevelBands:
     corners: Ints
     offsets: Ints
     band: Ints
+    source: Ints
 
     def mesh(self, band: int) -> Mesh:
         """The parts in a band, with the points that they have; a mesh without faces where there are none."""
@@ -52,8 +55,8 @@ def level_bands(points: Floats, values: Floats, triangles: Ints, levels: Floats)
 
     Parameters
     ----------
-    points : (n, 3) array of float
-        Corners.
+    points : (n, 3 or more) array of float
+        Corners, and what else is linear between them.
     values : (n,) array of float
         The number at each, finite.
     triangles : (t, 3) array of int
@@ -114,7 +117,7 @@ def level_bands(points: Floats, values: Floats, triangles: Ints, levels: Floats)
     there = slots != NONE
     every = np.concatenate([points, _between(points[edges[edge]], values[edges[edge]], levels[level])])
     return LevelBands(
-        every, np.concatenate([values, levels[level]]), slots[there], ragged.offsets(there.sum(axis=1)), band
+        every, np.concatenate([values, levels[level]]), slots[there], ragged.offsets(there.sum(axis=1)), band, of
     )
 
 

@@ -36,7 +36,7 @@ class Lighting:
     """What colours are made of: items and lights of the view, the latter as of view_lights; normals (3,c) at the
     corners of the faces of the view, as of painted_normals; plane (f,) as of plane_numbers; size: shades of each
     palette; doubles: of lights in mirrors, where such light falls; ambient: what ambient light adds everywhere, where
-    None more to what is nearer to the eye."""
+    None more to what is nearer to the eye; smooth_size: shades on smooth surfaces, where None without steps."""
 
     items: Sequence[Item]
     lights: Sequence[Light]
@@ -45,6 +45,7 @@ class Lighting:
     size: int = PALETTE_SIZE
     doubles: tuple[Light, ...] = ()
     ambient: float | None = None
+    smooth_size: int | None = None
 
 
 def smooth_faces(view: View, normals: Floats) -> Bools:
@@ -103,12 +104,13 @@ def _with_ambient(found: Shades, lighting: Lighting) -> Shades:
 
 
 def colours_of(view: View, lighting: Lighting, source: Ints, shade: Floats) -> Colours:
-    """(n,3) the colours of points on faces (n,) at shades (n,) or (3,n): on smooth surfaces without steps."""
+    """(n,3) the colours of points on faces (n,) at shades (n,) or (3,n): on smooth surfaces without steps
+    unless the lighting has such."""
     item = view.face_item[source]
     found = item_colours(lighting.items, item, shade, lighting.size)
     at = np.flatnonzero(smooth_faces(view, lighting.normals)[source])
     if len(at):
-        found[at] = item_colours(lighting.items, item[at], shade[..., at], COLOUR_MAP)
+        found[at] = item_colours(lighting.items, item[at], shade[..., at], lighting.smooth_size or COLOUR_MAP)
     return found
 
 
