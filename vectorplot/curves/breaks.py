@@ -29,10 +29,22 @@ def breaks_of(curve: Curve) -> Floats:
     return curve.breaks if isinstance(curve, PiecewiseCurve) and len(curve.breaks) > 2 else np.zeros(0)
 
 
-def is_cubic(curve: Curve) -> bool:
-    """Whether all pieces of a curve are polynomials of degree 3 or less: parallel images of them are Bézier curves."""
+def degree_of(curve: Curve) -> int:
+    """Of which degree the polynomials are that the pieces of a curve are, or their quotients; 0 where there are none."""
     curve = _at_home(curve)
-    return isinstance(curve, SplineCurve) and curve.weights is None and curve.order <= 4
+    return curve.order - 1 if isinstance(curve, SplineCurve) else 0
+
+
+def weights_of(curve: Curve, t: Floats) -> Floats:
+    """(k,) what the polynomials of a curve are divided by at parameters (k,): 1 where there is nothing."""
+    curve = _at_home(curve)
+    return curve.weight(t) if isinstance(curve, SplineCurve) else np.ones(len(t))
+
+
+def is_weighted(curve: Curve) -> bool:
+    """Whether the pieces of a curve are quotients of polynomials."""
+    curve = _at_home(curve)
+    return isinstance(curve, SplineCurve) and curve.weights is not None
 
 
 def _at_home(curve: Curve) -> Curve:

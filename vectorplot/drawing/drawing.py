@@ -73,9 +73,9 @@ class Paths:
         The curve that a path is a part of, by a number of its own in the drawing; -1, as everywhere unless said
         otherwise, where it is none or not known. Of a path that follows several curves that of its first part.
     handles : (p, 2) array of float
-        The lengths in mm of the handles, from each point back and ahead, of the Bézier curves that are exactly the
-        curve that a smooth path follows from point to point. NaN, as everywhere unless said otherwise, where there are
-        none.
+        The lengths in mm of the handles, from each point back and ahead, of the Bézier curves that are exactly, or but
+        for a ten-thousandth of a mm, the curve that a smooth path follows from point to point. NaN, as everywhere unless
+        said otherwise, where there are none.
 
     Examples
     --------

@@ -6,18 +6,22 @@ from dataclasses import replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.duplicates.duplicates import without_duplicates
 from vectorplot.drawing.strokes.duplicates.smooth_duplicates import without_smooth_duplicates
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.geometry import ragged
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, fitted_picture
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_the_page import COINCIDENT_MM
+from vectorplot.tolerances.of_the_page import COINCIDENT_MM, EXACT_MM
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.words import LineKind
+
+MOST_DIVISIONS = 8
+"""A line is cut into so many parts at most, to be Bézier curves."""
 
 
 def fitted_lines(view: View, lines: Lines, seen: Visibility, page: Page) -> Placement:
@@ -32,6 +36,13 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     Of coincident strokes the visible one stays, then the one whose kind comes first, then the one nearer the eye.
     """
     parts = lines.cut(view, seen.segment, seen.low, seen.high)
+    handles, off = parts.chords.handles(view) if parts.chords else (np.zeros((0, 2)), np.zeros(0))
+    count = _divisions(placement.scale * off)
+    if parts.chords and (count > 1).any():
+        seen = _divided(seen, count)
+        parts = lines.cut(view, seen.segment, seen.low, seen.high)
+        assert parts.chords is not None
+        handles, off = parts.chords.handles(view)
     ends = np.stack([parts.start, parts.end], axis=2).reshape(3, -1)
     points = placement.on_page(view.image_of(ends))
     count, kind, item = len(parts), parts.kind, parts.item
@@ -46,7 +57,8 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     if parts.chords:
         # A page shows the image larger, not turned.
         directions = _at_ends(parts.chords.directions(view))
-        handles = placement.scale * _at_ends(parts.chords.handles(view))
+        handles = np.where((placement.scale * off <= EXACT_MM)[:, None], handles, np.nan)
+        handles = placement.scale * _at_ends(handles)
         paths = replace(paths, directions=directions, curve=parts.chords.curve, handles=handles)
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
     once = without_duplicates(chosen(paths, straight), rank[straight], COINCIDENT_MM, placement.page_from_world)
@@ -54,6 +66,26 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
         return once
     curve_rank = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
     return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
+
+
+def _divisions(off_mm: Floats) -> Ints:
+    """(n,) into how many parts lines have to be cut for each to be a cubic, 1 where nothing helps; off_mm (n,): how far
+    cubics are off them.
+
+    Source: Farin, Curves and Surfaces for CAGD, section 6.5: the difference falls with the fourth power of the length.
+    """
+    ratio = np.where(np.isfinite(off_mm), off_mm / EXACT_MM, 1.0)
+    return np.clip(np.ceil(ratio**0.25), 1, MOST_DIVISIONS).astype(np.intp)
+
+
+def _divided(seen: Visibility, count: Ints) -> Visibility:
+    """The parts cut into so many equal ones each (k,)."""
+    own, share = ragged.owner(count), ragged.place(count) / count[ragged.owner(count)]
+    step = (seen.high - seen.low)[own]
+    low, high = seen.low[own] + share * step, seen.low[own] + (share + 1.0 / count[own]) * step
+    ends = ragged.offsets(count)[1:] - 1
+    high[ends] = seen.high
+    return Visibility(seen.segment[own], low, high, seen.hidden_by[own])
 
 
 def _at_ends(directions: Floats) -> Floats:

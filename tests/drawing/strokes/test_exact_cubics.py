@@ -1,4 +1,4 @@
-"""Splines in parallel projection leave as the Bézier curves that they are."""
+"""Splines leave as the Bézier curves that they are, or as few that are near enough."""
 
 from __future__ import annotations
 
@@ -23,6 +23,16 @@ def drawn(*items: vp.Item, camera: vp.Camera = SOUTH) -> tuple[vp.Drawing, Curve
     drawing = vp.draw(vp.Scene(items), camera)
     (paths,) = (mark for layer in drawing.layers for mark in layer.strokes if (mark.kind == vp.LineKind.CURVE).any())
     return drawing, curved_strokes(paths, 0.01)
+
+
+PART = np.linspace(0, 1, 9)
+BERNSTEIN = np.stack([(1 - PART) ** 3, 3 * PART * (1 - PART) ** 2, 3 * PART**2 * (1 - PART), PART**3], axis=1)
+
+
+def homogeneous(drawing: vp.Drawing, points: np.ndarray) -> np.ndarray:
+    """(n,1) what the rows of a page of points are divided by."""
+    rows = points @ drawing.page_from_world[:, :3].T + drawing.page_from_world[:, 3]
+    return rows[:, 3:] if rows.shape[1] == 4 else np.ones((len(rows), 1))
 
 
 def on_page(drawing: vp.Drawing, points: np.ndarray) -> np.ndarray:
@@ -85,9 +95,46 @@ def test_what_is_cut_by_what_hides_it_is_exact():
         (nurbs_curve(POINTS, [1, 2, 1, 1, 3, 1]), SOUTH),
     ],
 )
-def test_what_is_no_cubic_in_the_image_is_fitted(curve, camera):
-    _, strokes = drawn(vp.Item("A", curve), camera=camera)
-    assert np.isnan(strokes.paths.handles).all() and 0.0 < strokes.beziers.error.max() < 0.01
+def test_what_is_no_cubic_in_the_image_is_cut_into_cubics_and_served_by_few(curve, camera):
+    """Every chord is a cubic but for a ten-thousandth of a mm; few serve them all, with true directions where they meet."""
+    from scipy.spatial import cKDTree
+
+    drawing, strokes = drawn(vp.Item("A", curve), camera=camera)
+    assert np.isfinite(strokes.paths.handles[1:-1]).all() and 0.0 < strokes.beziers.error.max() < 0.01
+    t = np.linspace(curve.start, curve.end, 200_001)
+    dense = on_page(drawing, curve.points(t))
+    dense /= homogeneous(drawing, curve.points(t))
+    assert cKDTree(dense).query(BERNSTEIN @ strokes.beziers.control)[0].max() < 0.01
+    joints = strokes.beziers.control[1:]
+    nearest = cKDTree(dense[1:-1]).query(joints[:, 0])[1] + 1
+    way, true = joints[:, 1] - joints[:, 0], dense[nearest + 1] - dense[nearest - 1]
+    sine = (
+        (way[:, 0] * true[:, 1] - way[:, 1] * true[:, 0]) / np.linalg.norm(way, axis=1) / np.linalg.norm(true, axis=1)
+    )
+    assert np.abs(sine).max() < 1e-3
+    # Chords as of a stroke of which nothing but its directions is known.
+    blind = replace(strokes.paths, handles=np.full_like(strokes.paths.handles, np.nan))
+    assert len(strokes.beziers.control) <= len(curved_strokes(blind, 0.01).beziers.control)
+
+
+@pytest.mark.capability("G9.2-surface")
+@pytest.mark.parametrize("count", [12, 40])
+def test_pieces_between_many_knots_are_joined_where_fewer_serve(count):
+    x, y = np.meshgrid(np.linspace(-3, 3, count), np.linspace(-3, 3, count), indexing="ij")
+    grid = np.stack([x, y, 0.6 * np.sin(1.3 * x) * np.cos(1.1 * y)], axis=-1)
+    surface = spline_surface(grid, CubicSpline(), CubicSpline())
+    item = vp.Item("A", surface, curves=vp.SurfaceLines(4, 4), lines=("parameter",))
+    drawing = vp.draw(vp.Scene((item,)), SOUTH, page=vp.Page(180, 180, 5))
+    (paths,) = (mark for layer in drawing.layers for mark in layer.strokes if len(mark))
+    few, exact = curved_strokes(paths, 0.02).beziers, curved_strokes(paths, 1e-6).beziers
+    assert 0.0 < few.error.max() < 0.0181 and not exact.error.any()
+    assert len(few.control) < 0.5 * len(exact.control) and len(few.control) < 6 * len(paths)
+    part = np.linspace(0, 1, 400)
+    bernstein = np.stack([(1 - part) ** 3, 3 * part * (1 - part) ** 2, 3 * part**2 * (1 - part), part**3], axis=1)
+    from scipy.spatial import cKDTree
+
+    dense = (bernstein @ exact.control).reshape(-1, 2)
+    assert cKDTree(dense).query((BERNSTEIN @ few.control).reshape(-1, 2))[0].max() < 0.02
 
 
 @pytest.mark.capability("G9.2-surface")
@@ -106,7 +153,8 @@ def test_parameter_lines_and_borders_of_spline_surfaces_are_exact_where_they_are
     for paths in (mark for layer in drawing.layers for mark in layer.strokes):
         own = np.isin(paths.kind, (vp.LineKind.PARAMETER, vp.LineKind.BOUNDARY))
         if own.any():
-            curves = curved_strokes(paths, 0.05)
+            # So near that no others serve.
+            curves = curved_strokes(paths, 1e-6)
             assert (curves.beziers.error[own] == 0.0).all()
             control = curves.beziers.control[np.repeat(own, np.diff(curves.beziers.offsets))]
             found.append((bernstein @ control).reshape(-1, 2))
@@ -125,8 +173,8 @@ def test_lines_along_which_weights_change_are_fitted():
     grid = [[(x, y, x * y - x * x) for y in range(4)] for x in range(4)]
     weights = np.repeat([[1.0], [2.0], [1.0], [3.0]], 4, axis=1)
     pieces = line_pieces(PlacedSurface(nurbs_surface(grid, weights), np.eye(3), np.zeros(3)))
-    assert pieces.cubic == (False, True) and pieces.breaks[0].tolist() == [0.0, 1.0]
-    assert line_pieces(Sphere()).cubic == (False, False)
+    assert pieces.degrees == (3, 3) and pieces.weighted is not None and pieces.breaks[0].tolist() == [0.0, 1.0]
+    assert line_pieces(Sphere()).degrees == (0, 0)
 
 
 def test_points_of_known_cubics_stay_though_they_lie_on_a_straight_line():

@@ -112,6 +112,10 @@ class SplineCurve(MovableCurve):
         """(..., 3) points."""
         return self._home.points(self._sums(t, 0))
 
+    def weight(self, t: Floats) -> Floats:
+        """(...) what points are divided by: the sums of the weights, 1 where there are none."""
+        return self._sums(t, 0)[..., 3] if self._home.rational else np.ones(np.shape(t))
+
     def tangents(self, t: Floats) -> Floats:
         """(..., 3) derivatives by t; at a corner that behind it."""
         slopes = self._sums(t, 1)

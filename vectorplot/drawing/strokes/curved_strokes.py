@@ -12,6 +12,7 @@ from vectorplot.curves.bezier.fit import fitted_paths
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.drawing.drawing import CurvedStrokes, Paths
 from vectorplot.drawing.strokes.exact_cubics import exact_cubics
+from vectorplot.drawing.strokes.fewer_cubics import fewer_cubics
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
@@ -51,7 +52,8 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
 
     Notes
     -----
-    Strokes of which all handles are known leave as the Bézier curves that they are, without an error.
+    Strokes of which all handles are known leave as the Bézier curves that they are, without an error, or as fewer that
+    are fitted to these, with true tangents and within nearly the whole tolerance.
 
     Degenerate: without smooth strokes of three points or more the strokes themselves.
 
@@ -78,14 +80,15 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
     if not len(which):
         return paths
     smooth = chosen(paths, which)
-    known, cubics = exact_cubics(smooth, tolerance=CUBIC_OF_TOLERANCE * tolerance_mm)
-    exact, which = which[known], np.delete(which, known)
-    smooth = chosen(paths, which)
     arcs = recognised_arcs(smooth.points, smooth.offsets, smooth.closed, tolerance=ARC_OF_TOLERANCE * tolerance_mm)
+    arcs = replace(arcs, stroke=which[arcs.stroke])
     fit = FIT_SHARE * tolerance_mm
-    round_ones = arc_segments(arcs, smooth.closed[arcs.stroke], tolerance=fit)
-    others = np.setdiff1d(np.arange(len(smooth)), arcs.stroke, assume_unique=True)
-    rest = chosen(smooth, others)
+    round_ones = arc_segments(arcs, paths.closed[arcs.stroke], tolerance=fit)
+    which = np.setdiff1d(which, arcs.stroke, assume_unique=True)
+    known, cubics = exact_cubics(chosen(paths, which), tolerance=CUBIC_OF_TOLERANCE * tolerance_mm)
+    cubics = fewer_cubics(cubics, tolerance_mm, CORNER_ANGLE)
+    exact, which = which[known], np.delete(which, known)
+    rest = chosen(paths, which)
     fitted = fitted_paths(
         rest.points,
         rest.offsets,
@@ -95,8 +98,8 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
         corner_angle=CORNER_ANGLE,
         sag=CHORD_SHARE * tolerance_mm,
     )
-    beziers = _in_places((cubics, round_ones, fitted), (exact, which[arcs.stroke], which[others]), paths)
-    return CurvedStrokes(paths, beziers, replace(arcs, stroke=which[arcs.stroke]))
+    beziers = _in_places((cubics, round_ones, fitted), (exact, arcs.stroke, which), paths)
+    return CurvedStrokes(paths, beziers, arcs)
 
 
 def one_mark(marks: tuple[Paths | CurvedStrokes, ...]) -> CurvedStrokes:

@@ -121,6 +121,12 @@ class SplineSurface(MovableSurface):
         """(..., 3) points."""
         return self._home.points(self._sums(u, v, 0, 0))
 
+    def weight(self, u: Floats, v: Floats) -> Floats:
+        """(...) what points are divided by: the sums of the weights, 1 where there are none."""
+        if not self._home.rational:
+            return np.ones(np.broadcast_shapes(np.shape(u), np.shape(v)))
+        return self._sums(u, v, 0, 0)[..., 3]
+
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """(..., 3) derivatives by u and by v; where they jump those behind the jump."""
         by_u, by_v = self._sums(u, v, 1, 0), self._sums(u, v, 0, 1)

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.bezier.cubic_error import bernstein, cubic_error, places
 from vectorplot.geometry.components import all_components, any_component
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
@@ -72,17 +73,46 @@ class ChordParts:
         result[on] = angle.reshape(2, count).T
         return result
 
-    def handles(self, view: View) -> Floats:
-        """(n,2) how long the handles of a Bézier curve are in the image that is exactly the curve, at the starts of the
-        lines and at their ends; NaN for lines that are of none, and where there is no such curve."""
-        result = np.full((len(self.chord), 2), np.nan)
+    def handles(self, view: View) -> tuple[Floats, Floats]:
+        """(n,2) how long the handles are of the cubic Bézier curve with the ends and the derivatives of the image, at
+        the starts of the lines and at their ends, and how far (n,) it is off the image, at most; NaN and infinite for
+        lines that are of no rational curve."""
+        handles, error = np.full((len(self.chord), 2), np.nan), np.full(len(self.chord), np.inf)
         on = np.flatnonzero(self.chord >= 0)
-        on = on[self.curves.cubic(self.chord[on])]
-        if len(on):
-            chord, span = self.chord[on], (self.end - self.begin)[on, None]
-            way = np.stack([self._images(view, chord, part[on])[1] for part in (self.begin, self.end)], axis=1)
-            result[on] = np.linalg.norm(way, axis=2) * span / 3.0
-        return result
+        degree, rational = self.curves.degrees(self.chord[on])
+        # In a central image depths are weights.
+        code = np.where(degree > 0, 2 * degree + (rational | (view.eye is not None)), 0)
+        for own in np.unique(code[code > 0]).tolist():
+            some = on[code == own]
+            handles[some], error[some] = self._cubics(view, some, own // 2, own % 2 == 1)
+        return handles, error
+
+    def _cubics(self, view: View, which: Ints, degree: int, rational: bool) -> tuple[Floats, Floats]:
+        """(k,2) how long the handles are of the cubics with the ends and derivatives of the images of lines (k,), and
+        how far (k,) these are off the images, at most."""
+        chord, begin, span = self.chord[which], self.begin[which], (self.end - self.begin)[which]
+        start, end = (self.curves.with_exact_slopes(chord, part) for part in (begin, self.end[which]))
+        leaving, arriving = (
+            sight_lines.image_slopes(view, here.points, here.slopes) * span[:, None] / 3.0 for here in (start, end)
+        )
+        handles = np.stack([np.linalg.norm(leaving, axis=1), np.linalg.norm(arriving, axis=1)], axis=1)
+        share = places(degree, rational)
+        if not len(share):
+            return handles, np.zeros(len(chord))
+        first, last = (sight_lines.image(view, here.points) for here in (start, end))
+        control = np.stack([first, first + leaving, last - arriving, last])
+        part = (begin + share[:, None] * span).ravel()
+        there = self.curves.at(np.tile(chord, len(share)), part).points
+        image = sight_lines.image(view, there).reshape(len(share), -1, 2)
+        off = image - np.einsum("cj,jkd->ckd", bernstein(3, share), control)
+        weights = None
+        if rational:
+            all_parts = np.concatenate([begin, part, self.end[which]])
+            weights = self.curves.weights(np.tile(chord, len(share) + 2), all_parts)
+            if view.eye is not None:
+                weights = weights * sight_lines.depth(view, np.concatenate([start.points, there, end.points]))
+            weights = weights.reshape(len(share) + 2, -1)
+        return handles, cubic_error(degree, off, weights)
 
     def _images(self, view: View, chord: Ints, part: Floats) -> tuple[Floats, Floats, Bools]:
         """Places (k,2) in the image, how they move (k,2), and whether (k,) that is only how the chord runs."""

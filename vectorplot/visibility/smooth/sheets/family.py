@@ -7,7 +7,7 @@ from typing import Protocol, runtime_checkable
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.singular.singular_equations import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.parametric.conditions import SurfaceCondition
@@ -15,6 +15,7 @@ from vectorplot.features.parametric.holes.holes import beside_rim_chords
 from vectorplot.geometry import records
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import cross, dot, from_components
+from vectorplot.surfaces.splines.spline_surface import SplineSurface
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -84,11 +85,20 @@ class Family(Protocol):
 
 
 @runtime_checkable
-class FamilyOfCubics(Protocol):
-    """Curves of which some may be cubics in the image."""
+class FamilyOfPolynomials(Protocol):
+    """Curves of which some may be polynomials in their parameter, or quotients of two."""
 
-    def cubic_chords(self, chords: Chords) -> Bools:
-        """(k,) whether the images of chords are those of polynomials of degree 3 or less."""
+    def degrees(self, chords: Chords) -> Ints:
+        """(k,) of which degree the polynomials are; 0 where a chord is of no such curve."""
+        ...
+
+    @property
+    def rational(self) -> bool:
+        """Whether they are quotients."""
+        ...
+
+    def weights(self, chords: Chords, part: Floats) -> Floats:
+        """(k,) what the polynomials are divided by at a part (k,) of chords."""
         ...
 
 
@@ -111,19 +121,33 @@ class StraightLines:
 class ParameterCurves:
     """Curves that are straight in the parameters: parameter lines, borders; and, nearly, those known by points only.
 
-    cubic: whether images of the lines along which u grows are those of polynomials of degree 3 or less, and of those
-    along which v grows; no chord runs over a break of these then."""
+    degrees_along: of the polynomials that the lines are along which u grows, and those along which v grows, 0 where
+    they are none; no chord runs over a break of these then. weighted: where they are divided by its weights."""
 
     surface: OnParametrised
     sheet: int
     second: int = -1
-    cubic: tuple[bool, bool] = (False, False)
+    degrees_along: tuple[int, int] = (0, 0)
+    weighted: SplineSurface | None = None
 
-    def cubic_chords(self, chords: Chords) -> Bools:
-        """(k,) whether the images of chords are those of polynomials of degree 3 or less."""
+    @property
+    def rational(self) -> bool:
+        """Whether there are weights."""
+        return self.weighted is not None
+
+    def degrees(self, chords: Chords) -> Ints:
+        """(k,) of which degree the polynomials are; 0 where a chord is of no such curve."""
         start, end = chords.places
         stays = start[:, :2] == end[:, :2]
-        return np.asarray((stays[:, 1] & self.cubic[0]) | (stays[:, 0] & self.cubic[1]))
+        return np.where(stays[:, 1], self.degrees_along[0], np.where(stays[:, 0], self.degrees_along[1], 0))
+
+    def weights(self, chords: Chords, part: Floats) -> Floats:
+        """(k,) what the polynomials are divided by at a part (k,) of chords."""
+        start, end = chords.places
+        if self.weighted is None:
+            return np.ones(len(part))
+        at = start + part[:, None] * (end - start)
+        return self.weighted.weight(*inside(self.weighted.domain, at))
 
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords."""
@@ -133,7 +157,7 @@ class ParameterCurves:
         surface = self.surface.surface_at(start)
         u, v = inside(surface.domain, at)
         # At a break derivatives may jump: those of the piece that the chord belongs to.
-        piece = start + inner_part(part)[:, None] * way if any(self.cubic) else at
+        piece = start + inner_part(part)[:, None] * way if any(self.degrees_along) else at
         along_u, along_v = surface.partials(*inside(surface.domain, piece))
         return Along(at, surface.points(u, v), way[:, :1] * along_u + way[:, 1:2] * along_v)
 

@@ -69,8 +69,10 @@ def _merged(family: Family, sheets: Sheets) -> _Merged | None:
     surface = sheets.groups[group].as_one
     if group == NONE or not isinstance(surface, StackedSheets):
         return None
-    cubic = family.cubic if isinstance(family, ParameterCurves) else ()
-    key = (type(family), group, _said(family) if isinstance(family, ConditionCurves) else cubic)
+    if isinstance(family, ParameterCurves) and family.weighted is not None:
+        return None
+    degrees = family.degrees_along if isinstance(family, ParameterCurves) else ()
+    key = (type(family), group, _said(family) if isinstance(family, ConditionCurves) else degrees)
     return _Merged(key, replace(family, surface=surface), False)
 
 

@@ -117,8 +117,8 @@ def curves_of_parametrised(
 
 
 def _lines_of_parameters(view: View, sheet: ParametricSheet, number: int) -> ParameterCurves:
-    cubic = line_pieces(sheet.surface).cubic if view.eye is None else (False, False)
-    return ParameterCurves(sheet, number, cubic=cubic)
+    pieces = line_pieces(sheet.surface)
+    return ParameterCurves(sheet, number, degrees_along=pieces.degrees, weighted=pieces.weighted)
 
 
 def _edges(view: View, sheet: ParametricSheet, number: int, tracing: Tracing) -> list[Found]:

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
-from vectorplot.curves.breaks import breaks_of, is_cubic
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.breaks import breaks_of, degree_of, is_weighted, weights_of
 from vectorplot.curves.curve import Curve
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry import ragged
@@ -40,9 +40,19 @@ class SpaceCurve:
     sheet: int
     second: int = -1
 
-    def cubic_chords(self, chords: Chords) -> Bools:
-        """(k,) whether the images of chords are those of polynomials of degree 3 or less."""
-        return np.full(len(chords.level), self.view.eye is None and is_cubic(self.curve))
+    @property
+    def rational(self) -> bool:
+        """Whether its pieces are quotients of polynomials."""
+        return is_weighted(self.curve)
+
+    def degrees(self, chords: Chords) -> Ints:
+        """(k,) of which degree the polynomials are; 0 where it is none."""
+        return np.full(len(chords.level), degree_of(self.curve), dtype=np.intp)
+
+    def weights(self, chords: Chords, part: Floats) -> Floats:
+        """(k,) what the polynomials are divided by at a part (k,) of chords."""
+        start, end = (places[:, 2] for places in chords.places)
+        return weights_of(self.curve, np.clip(start + part * (end - start), self.curve.start, self.curve.end))
 
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curve at a part of its chords."""

@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
-from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family, FamilyOfCubics
+from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family, FamilyOfPolynomials
 
 
 def _none() -> Ints:
@@ -102,15 +102,26 @@ class Curves:
             found.slopes[inner] = again.slopes / np.where(late, part[inner], 1.0 - part[inner])[:, None]
         return found
 
-    def cubic(self, chord: Ints) -> Bools:
-        """(k,) whether the images of the chords that begin at these points (k,) are known to be those of polynomials of
-        degree 3 or less."""
-        result, family = np.zeros(len(chord), dtype=np.bool_), self.family[self.owner[chord]]
+    def degrees(self, chord: Ints) -> tuple[Ints, Bools]:
+        """(k,) of which degree the polynomials are that the chords which begin at these points (k,) belong to, 0 where
+        they belong to none; and whether (k,) they are quotients of two."""
+        family = self.family[self.owner[chord]]
+        degree, rational = np.zeros(len(chord), dtype=np.intp), np.zeros(len(chord), dtype=np.bool_)
         for number in np.unique(family).tolist():
             curves = self.families[number]
-            if isinstance(curves, FamilyOfCubics):
+            if isinstance(curves, FamilyOfPolynomials):
                 which = np.flatnonzero(family == number)
-                result[which] = curves.cubic_chords(self._chords(chord[which]))
+                degree[which], rational[which] = curves.degrees(self._chords(chord[which])), curves.rational
+        return degree, rational
+
+    def weights(self, chord: Ints, part: Floats) -> Floats:
+        """(k,) what the polynomials of chords are divided by at parts (k,) of them; 1 where there is nothing."""
+        family, result = self.family[self.owner[chord]], np.ones(len(chord))
+        for number in np.unique(family).tolist():
+            curves = self.families[number]
+            if isinstance(curves, FamilyOfPolynomials) and curves.rational:
+                which = np.flatnonzero(family == number)
+                result[which] = curves.weights(self._chords(chord[which]), part[which])
         return result
 
     def _between(self, chords: Chords, family: Ints, part: Floats) -> Along:
