@@ -30,7 +30,7 @@ def breaks_of(curve: Curve) -> Floats:
 
 
 def degree_of(curve: Curve) -> int:
-    """Of which degree the polynomials are that the pieces of a curve are, or their quotients; 0 where there are none."""
+    """Of which degree the polynomials are that the pieces of a curve are, or their quotients; 0 if there are none."""
     curve = _at_home(curve)
     return curve.order - 1 if isinstance(curve, SplineCurve) else 0
 

@@ -74,8 +74,8 @@ class Paths:
         otherwise, where it is none or not known. Of a path that follows several curves that of its first part.
     handles : (p, 2) array of float
         The lengths in mm of the handles, from each point back and ahead, of the Bézier curves that are exactly, or but
-        for a ten-thousandth of a mm, the curve that a smooth path follows from point to point. NaN, as everywhere unless
-        said otherwise, where there are none.
+        for a ten-thousandth of a mm, the curve that a smooth path follows from point to point. NaN, as everywhere
+        unless said otherwise, where there are none.
 
     Examples
     --------

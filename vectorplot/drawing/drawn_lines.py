@@ -37,9 +37,9 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     """
     parts = lines.cut(view, seen.segment, seen.low, seen.high)
     handles, off = parts.chords.handles(view) if parts.chords else (np.zeros((0, 2)), np.zeros(0))
-    count = _divisions(placement.scale * off)
-    if parts.chords and (count > 1).any():
-        seen = _divided(seen, count)
+    cuts = _divisions(placement.scale * off)
+    if parts.chords and (cuts > 1).any():
+        seen = _divided(seen, cuts)
         parts = lines.cut(view, seen.segment, seen.low, seen.high)
         assert parts.chords is not None
         handles, off = parts.chords.handles(view)

@@ -96,7 +96,7 @@ def test_what_is_cut_by_what_hides_it_is_exact():
     ],
 )
 def test_what_is_no_cubic_in_the_image_is_cut_into_cubics_and_served_by_few(curve, camera):
-    """Every chord is a cubic but for a ten-thousandth of a mm; few serve them all, with true directions where they meet."""
+    """Every chord is a cubic but for 0.0001 mm; few serve them all, with true directions where they meet."""
     from scipy.spatial import cKDTree
 
     drawing, strokes = drawn(vp.Item("A", curve), camera=camera)
