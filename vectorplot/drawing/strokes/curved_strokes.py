@@ -86,7 +86,7 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
     round_ones = arc_segments(arcs, paths.closed[arcs.stroke], tolerance=fit)
     which = np.setdiff1d(which, arcs.stroke, assume_unique=True)
     known, cubics = exact_cubics(chosen(paths, which), tolerance=CUBIC_OF_TOLERANCE * tolerance_mm)
-    cubics = fewer_cubics(cubics, tolerance_mm, CORNER_ANGLE)
+    cubics = fewer_cubics(cubics, tolerance_mm)
     exact, which = which[known], np.delete(which, known)
     rest = chosen(paths, which)
     fitted = fitted_paths(

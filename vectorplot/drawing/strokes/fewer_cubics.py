@@ -16,11 +16,14 @@ FIT_OF_KNOWN = 0.9
 SAG_OF_KNOWN = 0.03
 """The part of the tolerance that the samples which the fit goes by are apart from the curve in their middles."""
 
+CORNER_ANGLE = np.radians(1.0)
+"""Known directions that differ by more at one point are those of a corner."""
+
 MOST_SAMPLES = 64
 """Of one curve, at most."""
 
 
-def fewer_cubics(paths: BezierPaths, tolerance: float, corner_angle: float) -> BezierPaths:
+def fewer_cubics(paths: BezierPaths, tolerance: float) -> BezierPaths:
     """The paths, those that fewer curves serve within the tolerance as these, with their error.
 
     They are sampled, with their true tangents, so closely that chords are nowhere farther off than a part of the
@@ -40,7 +43,7 @@ def fewer_cubics(paths: BezierPaths, tolerance: float, corner_angle: float) -> B
         many.closed,
         tangents,
         tolerance=FIT_OF_KNOWN * tolerance,
-        corner_angle=corner_angle,
+        corner_angle=CORNER_ANGLE,
         sag=SAG_OF_KNOWN * tolerance,
     )
     better = (np.diff(found.offsets) < count[which]) & (found.error <= FIT_OF_KNOWN * tolerance)
