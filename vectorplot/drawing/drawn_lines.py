@@ -21,7 +21,11 @@ from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.words import LineKind
 
 MOST_DIVISIONS = 8
-"""A line is cut into so many parts at most, to be Bézier curves."""
+"""A line is cut into so many parts at most in one go, to be Bézier curves; all together into so many times
+their number."""
+
+MOST_ROUNDS = 4
+"""So often what is still no Bézier curve is cut again: where weights change fast the fourth power comes late."""
 
 
 def fitted_lines(view: View, lines: Lines, seen: Visibility, page: Page) -> Placement:
@@ -35,14 +39,7 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
 
     Of coincident strokes the visible one stays, then the one whose kind comes first, then the one nearer the eye.
     """
-    parts = lines.cut(view, seen.segment, seen.low, seen.high)
-    handles, off = parts.chords.handles(view) if parts.chords else (np.zeros((0, 2)), np.zeros(0))
-    cuts = _divisions(placement.scale * off)
-    if parts.chords and (cuts > 1).any():
-        seen = _divided(seen, cuts)
-        parts = lines.cut(view, seen.segment, seen.low, seen.high)
-        assert parts.chords is not None
-        handles, off = parts.chords.handles(view)
+    seen, parts, handles = _as_cubics(view, lines, seen, placement.scale)
     ends = np.stack([parts.start, parts.end], axis=2).reshape(3, -1)
     points = placement.on_page(view.image_of(ends))
     count, kind, item = len(parts), parts.kind, parts.item
@@ -57,15 +54,31 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     if parts.chords:
         # A page shows the image larger, not turned.
         directions = _at_ends(parts.chords.directions(view))
-        handles = np.where((placement.scale * off <= EXACT_MM)[:, None], handles, np.nan)
-        handles = placement.scale * _at_ends(handles)
-        paths = replace(paths, directions=directions, curve=parts.chords.curve, handles=handles)
+        paths = replace(paths, directions=directions, curve=parts.chords.curve, handles=_at_ends(handles))
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
     once = without_duplicates(chosen(paths, straight), rank[straight], COINCIDENT_MM, placement.page_from_world)
     if not len(smooth):
         return once
     curve_rank = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
     return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
+
+
+def _as_cubics(view: View, lines: Lines, seen: Visibility, scale: float) -> tuple[Visibility, Lines, Floats]:
+    """Visible parts, cut so finely that they are cubics, as lines, and (n,2) how long the handles of these are in mm:
+    NaN where a part is none."""
+    parts, most = lines.cut(view, seen.segment, seen.low, seen.high), MOST_DIVISIONS * len(seen.segment)
+    if parts.chords is None:
+        return seen, parts, np.zeros((0, 2))
+    handles, off = parts.chords.handles(view)
+    for _ in range(MOST_ROUNDS):
+        cuts = _divisions(scale * off)
+        if (cuts == 1).all() or cuts.sum() > most:
+            break
+        seen = _divided(seen, cuts)
+        parts = lines.cut(view, seen.segment, seen.low, seen.high)
+        assert parts.chords is not None
+        handles, off = parts.chords.handles(view)
+    return seen, parts, np.where((scale * off <= EXACT_MM)[:, None], scale * handles, np.nan)
 
 
 def _divisions(off_mm: Floats) -> Ints:

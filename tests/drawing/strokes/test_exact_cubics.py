@@ -117,6 +117,16 @@ def test_what_is_no_cubic_in_the_image_is_cut_into_cubics_and_served_by_few(curv
     assert len(strokes.beziers.control) <= len(curved_strokes(blind, 0.01).beziers.control)
 
 
+def test_where_weights_change_fast_chords_are_cut_more_than_once():
+    """Polygons stay exact whatever the weights; others are cubics throughout, though speeds differ by thousands."""
+    random = np.random.default_rng(0)
+    points, weights = random.normal(size=(14, 3)), 10 ** random.uniform(-3, 3, 14)
+    _, polygon = drawn(vp.Item("A", nurbs_curve(points, weights, order=2)))
+    assert polygon.beziers.error.max() < 1e-4 and len(polygon.beziers.control) == 13
+    _, curve = drawn(vp.Item("A", nurbs_curve(points, weights, order=4)))
+    assert np.isfinite(curve.paths.handles[1:-1]).all()
+
+
 @pytest.mark.capability("G9.2-surface")
 @pytest.mark.parametrize("count", [12, 40])
 def test_pieces_between_many_knots_are_joined_where_fewer_serve(count):

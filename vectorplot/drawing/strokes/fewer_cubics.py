@@ -19,8 +19,8 @@ SAG_OF_KNOWN = 0.03
 CORNER_ANGLE = np.radians(1.0)
 """Known directions that differ by more at one point are those of a corner."""
 
-MOST_SAMPLES = 64
-"""Of one curve, at most."""
+MOST_SAMPLES = 1024
+"""Of one curve, at most: one that would need more is drawn far beyond any page, and stays."""
 
 
 def fewer_cubics(paths: BezierPaths, tolerance: float) -> BezierPaths:
@@ -31,8 +31,9 @@ def fewer_cubics(paths: BezierPaths, tolerance: float) -> BezierPaths:
     Source: Farin, Curves and Surfaces for CAGD, section 6.9: a chord is off its curve by no more than an eighth of
     the second derivative.
     """
-    count = np.diff(paths.offsets)
-    which = np.flatnonzero(count > 1)
+    count, samples = np.diff(paths.offsets), _samples_needed(paths, SAG_OF_KNOWN * tolerance)
+    too_large = np.bincount(ragged.owner(count)[samples > MOST_SAMPLES], minlength=len(count)) > 0
+    which = np.flatnonzero((count > 1) & ~too_large)
     if not len(which):
         return paths
     many = some(paths, which)
@@ -66,8 +67,7 @@ def _put(paths: BezierPaths, which: Ints, others: BezierPaths) -> BezierPaths:
 def _samples(paths: BezierPaths, sag: float) -> tuple[Floats, Ints, Floats]:
     """Points (p,2) on paths, their offsets (m+1,), and the tangents (p,2,2) with which the paths arrive and leave."""
     control, pieces = paths.control, np.diff(paths.offsets)
-    bend = np.linalg.norm(control[:, 2:] - 2.0 * control[:, 1:-1] + control[:, :-2], axis=2).max(axis=1)
-    count = np.clip(np.ceil(np.sqrt(0.75 * bend / sag)), 1, MOST_SAMPLES).astype(np.intp)
+    count = _samples_needed(paths, sag).astype(np.intp)
     own, part = ragged.owner(count), ragged.place(count) / count[ragged.owner(count)]
     points, leaving = _at(control[own], part)
     first = ragged.starts(count)
@@ -87,6 +87,13 @@ def _samples(paths: BezierPaths, sag: float) -> tuple[Floats, Ints, Floats]:
     ways[(ways == 0.0).all(axis=2)] = np.nan
     sizes = np.bincount(owner, minlength=len(pieces))
     return np.concatenate([points, last])[order], ragged.offsets(sizes), ways
+
+
+def _samples_needed(paths: BezierPaths, sag: float) -> Floats:
+    """(s,) into how many parts of equal parameters each curve has to go for chords to be no farther off."""
+    control = paths.control
+    bend = np.linalg.norm(control[:, 2:] - 2.0 * control[:, 1:-1] + control[:, :-2], axis=2).max(axis=1, initial=0.0)
+    return np.asarray(np.maximum(np.ceil(np.sqrt(0.75 * bend / sag)), 1.0))
 
 
 def _at(control: Floats, part: Floats) -> tuple[Floats, Floats]:

@@ -95,11 +95,14 @@ class ChordParts:
         leaving, arriving = (
             sight_lines.image_slopes(view, here.points, here.slopes) * span[:, None] / 3.0 for here in (start, end)
         )
+        first, last = (sight_lines.image(view, here.points) for here in (start, end))
+        if degree == 1:
+            # Straight, however fast it is run along.
+            return np.repeat(np.linalg.norm(last - first, axis=1)[:, None] / 3.0, 2, axis=1), np.zeros(len(chord))
         handles = np.stack([np.linalg.norm(leaving, axis=1), np.linalg.norm(arriving, axis=1)], axis=1)
         share = places(degree, rational)
         if not len(share):
             return handles, np.zeros(len(chord))
-        first, last = (sight_lines.image(view, here.points) for here in (start, end))
         control = np.stack([first, first + leaving, last - arriving, last])
         part = (begin + share[:, None] * span).ravel()
         there = self.curves.at(np.tile(chord, len(share)), part).points
