@@ -14,7 +14,8 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Ints
-from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through, extent, mutual_nearest, nearer_than
+from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
+from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through, extent, mutual_nearest
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
@@ -116,8 +117,8 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places, layer: Ints) -
     spots = np.append(spread[odd], complex(np.nan, np.nan))
     of = np.append(part[odd], -1)
     mate = np.append(np.where(link[odd] >= 0, number[link[odd]], -1), -1)
-    curves, anywhere, itself = curves_through(spots[:-1], layer[odd]), np.full(len(odd), np.inf), np.arange(len(odd))
-    one, other, apart = nearer_than(anywhere, spots[:-1], itself, layer[odd], curves)
+    among = crowd(spots[:-1], layer[odd], curves_through(spots[:-1], layer[odd]))
+    one, other, apart = nearer_than(np.full(len(odd), np.inf), np.arange(len(odd)), among)
     some = np.flatnonzero((of[one] == of[other]) & (one < other))
     one, other, apart = one[some], other[some], apart[some]
     for _ in range(_EXCHANGES):

@@ -1,4 +1,4 @@
-"""Places of the ends of strokes, and which of them are near each other."""
+"""Places of the ends of strokes, curves through them, and which of them are each other's nearest."""
 
 from __future__ import annotations
 
@@ -6,7 +6,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.chunks import mapped, slices
 
 Places = NDArray[np.complex128]
 Curves = tuple[Ints, ...]
@@ -16,10 +15,10 @@ Curves = tuple[Ints, ...]
 ALL_PAIRS = 128
 # Neighbours on each side along a space-filling curve among which the nearest end is sought.
 REACH = 4
+# The curve is shifted by these parts of the extent.
+_SHIFTS = (0.0, (1 + 1j) / 3, (2 + 2j) / 3)
 # So many bits has a code of Morton's curve.
 _CODE_BITS = 60
-# So many ends are looked at at once.
-_ENDS_AT_ONCE = 1 << 12
 
 
 def extent(spots: Places) -> float:
@@ -69,10 +68,10 @@ def _nearest_along_curves(spots: Places, other: Ints, layer: Ints, curves: Curve
     return near, apart
 
 
-def curves_through(spots: Places, layer: Ints) -> Curves:
+def curves_through(spots: Places, layer: Ints, before: Curves | None = None) -> Curves:
     """Orders of the places, layer (n,) ascending after layer, along Morton's curve, which keeps near places together
     whatever their density; and along the same curve shifted by a third and by two, since every curve separates some
-    neighbours (Chan)."""
+    neighbours (Chan). before: the curves when most of the ends were where they are now: this costs less."""
     low = complex(spots.real.min(), spots.imag.min())
     unit = (spots - low) / (extent(spots) or 1.0)
     number = np.arange(len(spots), dtype=np.uint64)
@@ -85,12 +84,16 @@ def curves_through(spots: Places, layer: Ints) -> Curves:
     rank <<= np.uint64(64 - of_layer) if of_layer else np.uint64(0)
     mask = np.uint64((1 << of_number) - 1)
 
-    def curve(shift: complex) -> Ints:
+    def curve(shift: complex, order: Ints | None) -> Ints:
         key = rank | _morton(unit + shift) >> coarser << np.uint64(of_number) | number
-        key.sort()
+        if order is None:
+            key.sort()
+        else:
+            key = key.take(order)
+            key.sort(kind="stable")  # merges what is in order
         return (key & mask).astype(np.intp)
 
-    return curve(0.0), curve((1 + 1j) / 3), curve((2 + 2j) / 3)
+    return tuple(curve(shift, order) for shift, order in zip(_SHIFTS, before or (None,) * 3, strict=True))
 
 
 def thinned(curves: Curves, kept: Bools) -> Curves:
@@ -115,45 +118,3 @@ def _every_other_bit(x: Floats) -> NDArray[np.uint64]:
     ):
         bits = (bits | bits << np.uint64(shift)) & np.uint64(mask)
     return bits
-
-
-def nearer_than(reach: Floats, spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> tuple[Ints, Ints, Floats]:
-    """Ends (p,), ends of the same layer (n,) less than reach (n,) from them, and how far. Not all that are so near, if
-    many others are nearer; some twice.
-
-    opposite (n,): the end that does not count for each, besides itself; curves: through these ends.
-    """
-    if len(spots) <= ALL_PAIRS:
-        apart = np.abs(spots[:, None] - spots)
-        one, other = np.nonzero(apart < reach[:, None])
-        some = np.flatnonzero((one != other) & (opposite[one] != other) & (layer[one] == layer[other]))
-        one, other = one[some], other[some]
-        return one, other, apart[one, other]
-    first_place = np.empty_like(curves[0])
-    first_place[curves[0]] = np.arange(len(spots))
-    several = layer[0] != layer[-1]
-
-    steps = np.delete(np.arange(-REACH, REACH + 1), REACH)
-
-    def of_part(curve: Ints, along: Places, far: Floats, some: Ints) -> tuple[Ints, Ints, Floats]:
-        at = some[:, None] + steps
-        apart = np.abs(along.take(at, mode="wrap") - along.take(some)[:, None])
-        near = np.flatnonzero(apart < far.take(some)[:, None])
-        one, other = curve.take(some[near // len(steps)]), curve.take(at.take(near), mode="wrap")
-        good = opposite.take(one) != other
-        if curve is not curves[0]:
-            # Those that are so near along the first curve are known.
-            good &= np.abs(first_place.take(one) - first_place.take(other)) > REACH
-        if several:
-            good &= layer.take(one) == layer.take(other)
-        return one[good], other[good], apart.take(near[good])
-
-    parts = []
-    for curve in curves:
-        along, far = spots.take(curve), reach.take(curve)
-        awake = np.flatnonzero(far > 0.0)
-        parts += [(curve, along, far, awake[part]) for part in slices(len(awake), _ENDS_AT_ONCE)]
-    none = np.zeros(0, dtype=np.intp)
-    pairs = [(none, none, np.zeros(0)), *mapped(lambda part: of_part(*part), parts)]
-    one, other, apart = (np.concatenate(column) for column in zip(*pairs, strict=True))
-    return one, other, apart

@@ -15,7 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent, nearer_than
+from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
+from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
@@ -67,14 +68,14 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
     spots = np.append(ends, np.full(2 * len(borders), complex(np.nan, np.nan)))
     layers = np.append(layer, np.full(2 * len(borders), -1))
     mean //= len(borders) + 1
-    opposite = np.arange(count) ^ 1
+    opposite, among = np.arange(count) ^ 1, crowd(ends, layer, curves)
     everything = awake = np.ones(len(spots), dtype=np.bool_)
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
         partner = _partners(tour)
         # A gap of no length has nothing to gain, and only one as long as the way to a neighbour has.
         own = np.fmax(np.abs(spots - spots.take(partner, mode="clip")), 0.0)
         reach = np.where(awake & (partner >= 0), own, 0.0)[:count]
-        pairs = nearer_than(reach, ends, opposite, layer, curves)
+        pairs = nearer_than(reach, opposite, among)
         moved, tried = _runs_moved(_row(spots, tour, layers, pairs), zero)
         turned, tried_too = _stretches_turned(_row(spots, moved, layers, pairs), zero)
         # Only where something changed, or a move was put off, is there something to gain in the next round.
