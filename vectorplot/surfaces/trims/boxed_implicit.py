@@ -4,15 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from vectorplot.arrays import Floats
-from vectorplot.surfaces.placed_surface import MovableImplicit
-from vectorplot.surfaces.surface import ImplicitSurface, hessians
+from vectorplot.surfaces.trims.part_of_implicit import PartOfImplicit
 
 
 @dataclass(frozen=True, eq=False)
-class BoxedImplicit(MovableImplicit):
+class BoxedImplicit(PartOfImplicit):
     """The part of an implicit surface within a box of its own.
 
     Parameters
@@ -36,17 +33,4 @@ class BoxedImplicit(MovableImplicit):
     [0.0]
     """
 
-    surface: ImplicitSurface
     box: Floats
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) F."""
-        return self.surface.values(points)
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients of F."""
-        return self.surface.gradients(points)
-
-    def hessians(self, points: Floats) -> Floats:
-        """(..., 3, 3) second derivatives of F."""
-        return np.asarray(hessians(self.surface, points))

@@ -9,12 +9,13 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
-from vectorplot.surfaces.placed_surface import MovableImplicit, placed_shape
-from vectorplot.surfaces.surface import ImplicitSurface, hessians
+from vectorplot.surfaces.placed_surface import placed_shape
+from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.surfaces.trims.part_of_implicit import PartOfImplicit
 
 
 @dataclass(frozen=True, eq=False)
-class CutImplicit(MovableImplicit):
+class CutImplicit(PartOfImplicit):
     """What is left of an implicit surface outside of some regions, or inside of one.
 
     Parameters
@@ -40,7 +41,6 @@ class CutImplicit(MovableImplicit):
     [0.8, -0.8]
     """
 
-    surface: ImplicitSurface
     regions: tuple[HalfSpaces, ...]
     within: HalfSpaces | None = None
 
@@ -48,18 +48,6 @@ class CutImplicit(MovableImplicit):
     def box(self) -> Floats:
         """(2,3) that of the surface."""
         return np.asarray(self.surface.box, dtype=np.float64)
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) F."""
-        return self.surface.values(points)
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients of F."""
-        return self.surface.gradients(points)
-
-    def hessians(self, points: Floats) -> Floats:
-        """(..., 3, 3) second derivatives of F."""
-        return np.asarray(hessians(self.surface, points))
 
     def transformed(self, matrix: ArrayLike) -> CutImplicit:  # type: ignore[override]
         """The surface and its planes under a matrix (4,4) that acts on columns."""
