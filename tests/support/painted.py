@@ -175,3 +175,16 @@ def compared(scene: Scene, camera: Camera, samples: int = 1500, seed: int = 0) -
     apart = np.abs(np.where(both, mine, 0.0) - np.where(both, truth, 0.0))
     same |= both & (apart <= SAME_DEPTH * scale)
     return Compared(view, painted, int((sure & ~same).sum()), int(sure.sum()))
+
+
+def wrong_points(view: View, faces: ImageFaces, samples: int = 800) -> int:
+    """In how many of the points something else than the nearest face is on top."""
+    x, y = sample_points(view, samples)
+    truth, sure = nearest(view, x, y)
+    top = top_polygon(faces, x, y)
+    mine = heights_on(view, np.append(faces.source, -1)[top], x, y)
+    shown = np.isfinite(truth) & (truth != 0.0)
+    assert sure.sum() > 0.5 * samples
+    assert ((top >= 0) == shown)[sure].all()
+    apart = np.abs(mine[shown] - truth[shown]) > SAME_DEPTH * np.maximum(np.abs(truth[shown]), 0.1)
+    return int((apart & sure[shown]).sum())

@@ -99,6 +99,27 @@ class View(Projection):
         """
         return next_positions(self.offsets, position)
 
+    def only_sides(self, position: Ints) -> Bools:
+        """Which of some sides no other one of them has the same two corners as.
+
+        Parameters
+        ----------
+        position : (n,) array of int
+            Into corners, where the sides start.
+
+        Returns
+        -------
+        (n,) array of bool
+        """
+        a, b = self.corners[position], self.corners[self.after(position)]
+        key = np.minimum(a, b) * self.points.shape[1] + np.maximum(a, b)
+        order = np.argsort(key, kind="stable")
+        same = key[order][1:] == key[order][:-1]
+        result = np.ones(len(key), dtype=np.bool_)
+        result[order[1:][same]] = False
+        result[order[:-1][same]] = False
+        return result
+
     @cached_property
     def depth(self) -> Floats:
         """(v,) distance from the eye along the principal ray; in a parallel projection from the middle of the scene."""

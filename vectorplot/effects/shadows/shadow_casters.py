@@ -95,7 +95,7 @@ def _volumes(
     behind = planes.planes[:, face] * -facing[face]
     position, offsets = ragged.take(view.offsets, face)
     owner = ragged.owner(np.diff(offsets))
-    sides = _single_sides(view, position[: offsets[len(of_solid)]])
+    sides = np.flatnonzero(view.only_sides(position[: offsets[len(of_solid)]]))
     used = np.concatenate([sides, np.arange(int(offsets[len(of_solid)]), len(position))])
     start = view.points[:, view.corners[position[used]]]
     along = view.points[:, view.corners[view.after(position[used])]] - start
@@ -109,15 +109,3 @@ def _volumes(
     order = np.argsort(of, kind="stable")
     counts = np.bincount(of, minlength=int(caster[-1]) + 1 if len(caster) else 0)
     return PlaneBundles(np.concatenate([behind, side], axis=1)[:, order], ragged.offsets(counts))
-
-
-def _single_sides(view: View, position: Ints) -> Ints:
-    """Which of the sides that start at some positions in corners belong to one of these faces only."""
-    a, b = view.corners[position], view.corners[view.after(position)]
-    key = np.minimum(a, b) * view.points.shape[1] + np.maximum(a, b)
-    order = np.argsort(key, kind="stable")
-    same = key[order][1:] == key[order][:-1]
-    single = np.ones(len(key), dtype=np.bool_)
-    single[order[1:][same]] = False
-    single[order[:-1][same]] = False
-    return np.flatnonzero(single)

@@ -10,12 +10,12 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.errors import InputError
-from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
+from vectorplot.surfaces.families.elliptic_sections import EllipticSections, OnSemiAxes, Profile
 from vectorplot.surfaces.surface import Domain
 
 
 @dataclass(frozen=True, eq=False)
-class Ellipsoid(EllipticSections):
+class Ellipsoid(OnSemiAxes):
     """The ellipsoid with its axes along x, y and z.
 
     Parameters
@@ -61,13 +61,6 @@ class Ellipsoid(EllipticSections):
     def domain(self) -> Domain:
         """Longitude and latitude."""
         return Domain(0.0, 2.0 * np.pi, -0.5 * np.pi, 0.5 * np.pi, closed_u=True)
-
-    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
-        axes = np.asarray(self.semi_axes)
-        return axes[..., 0], axes[..., 1]
-
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
 
     def _profile(self, v: Floats) -> Profile:
         c = np.asarray(self.semi_axes)[..., 2]

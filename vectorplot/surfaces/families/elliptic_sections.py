@@ -7,6 +7,7 @@ from dataclasses import replace
 from typing import Any, Self
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.vectors import from_components
@@ -84,3 +85,17 @@ class EllipticSections(MovableSurface):
     def _at(self, x: Floats, y: Floats, z: Floats) -> Floats:
         a, b = self._ellipse()
         return from_components(a * x, b * y, z)
+
+
+class OnSemiAxes(EllipticSections):
+    """Such a surface by its semi-axes a, b, c and its centre."""
+
+    semi_axes: ArrayLike
+    centre: ArrayLike
+
+    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
+        axes = np.asarray(self.semi_axes)
+        return axes[..., 0], axes[..., 1]
+
+    def _middle(self) -> Floats:
+        return np.asarray(self.centre)

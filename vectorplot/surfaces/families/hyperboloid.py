@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, parameter_range, positive, vector
 from vectorplot.errors import InputError
-from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
+from vectorplot.surfaces.families.elliptic_sections import EllipticSections, OnSemiAxes, Profile
 from vectorplot.surfaces.surface import Domain
 
 
@@ -29,7 +29,7 @@ def _check_heights(semi_axes: Floats, *heights: float) -> None:
 
 
 @dataclass(frozen=True, eq=False)
-class Hyperboloid(EllipticSections):
+class Hyperboloid(OnSemiAxes):
     """The hyperboloid of one sheet x^2/a^2 + y^2/b^2 - z^2/c^2 = 1, from height bottom to top.
 
     Parameters
@@ -84,13 +84,6 @@ class Hyperboloid(EllipticSections):
             0.0, 2.0 * np.pi, float(np.arcsinh(self.bottom / c)), float(np.arcsinh(self.top / c)), closed_u=True
         )
 
-    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
-        axes = np.asarray(self.semi_axes)
-        return axes[..., 0], axes[..., 1]
-
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
-
     def _profile(self, v: Floats) -> Profile:
         c = np.asarray(self.semi_axes)[..., 2]
         cosh, sinh = np.cosh(v), np.sinh(v)
@@ -98,7 +91,7 @@ class Hyperboloid(EllipticSections):
 
 
 @dataclass(frozen=True, eq=False)
-class HyperboloidSheet(EllipticSections):
+class HyperboloidSheet(OnSemiAxes):
     """The upper sheet of x^2/a^2 + y^2/b^2 - z^2/c^2 = -1, from its lowest point z = c up to the height top.
 
     Parameters
@@ -149,13 +142,6 @@ class HyperboloidSheet(EllipticSections):
         """Angle, and v where the height is c cosh v."""
         c = np.asarray(self.semi_axes)[2]
         return Domain(0.0, 2.0 * np.pi, 0.0, float(np.arccosh(self.top / c)), closed_u=True)
-
-    def _ellipse(self) -> tuple[float | Floats, float | Floats]:
-        axes = np.asarray(self.semi_axes)
-        return axes[..., 0], axes[..., 1]
-
-    def _middle(self) -> Floats:
-        return np.asarray(self.centre)
 
     def _profile(self, v: Floats) -> Profile:
         c = np.asarray(self.semi_axes)[..., 2]

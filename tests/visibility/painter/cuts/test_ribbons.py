@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.painted import SAME_DEPTH, heights_on, nearest, sample_points, top_polygon
+from support.painted import wrong_points
 from support.strewn import placed
 
 import vectorplot as vp
@@ -96,19 +96,6 @@ def sight(shape, seed, parallel=False):
     return look(numbered([shape]), camera), Section(tuple(normal), tuple(offsets.tolist()), slices=True)
 
 
-def wrong_points(view, faces, samples=400):
-    """In how many of the points something else than the nearest face is on top."""
-    x, y = sample_points(view, samples)
-    truth, sure = nearest(view, x, y)
-    top = top_polygon(faces, x, y)
-    mine = heights_on(view, np.append(faces.source, -1)[top], x, y)
-    shown = np.isfinite(truth) & (truth != 0.0)
-    assert sure.sum() > 0.5 * samples
-    assert ((top >= 0) == shown)[sure].all()
-    apart = np.abs(mine[shown] - truth[shown]) > SAME_DEPTH * np.maximum(np.abs(truth[shown]), 0.1)
-    return int((apart & sure[shown]).sum())
-
-
 @pytest.mark.slow
 @pytest.mark.capability("G5.3-sliced")
 @pytest.mark.spread
@@ -119,7 +106,7 @@ def test_surfaces_painted_ribbon_by_ribbon_show_what_is_nearest(name, parallel):
         view, planes = sight(SHAPES[name], seed, parallel)
         painted = painters_order(view, sliced={0: planes})
         assert painted.ribbons[0] > 0
-        assert wrong_points(view, painted.faces) == 0
+        assert wrong_points(view, painted.faces, 400) == 0
         if name in ("knot", "torus"):
             assert len(painted) == painted.uncut, "ribbons have an order of their own"
 

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from support.painted import SAME_DEPTH, heights_on, nearest, sample_points, top_polygon
+from support.painted import wrong_points
 from support.strewn import placed
 
 from vectorplot.errors import InputError
@@ -21,19 +21,6 @@ from vectorplot.visibility.painter.cuts.slices import cut_into_slices, eye_coord
 from vectorplot.visibility.painter.image_faces import image_faces, image_points, polygons_of
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.precedence import Precedence
-
-
-def wrong_points(view, faces, samples=800):
-    """In how many of the points something else than the nearest face is on top."""
-    x, y = sample_points(view, samples)
-    truth, sure = nearest(view, x, y)
-    top = top_polygon(faces, x, y)
-    mine = heights_on(view, np.append(faces.source, -1)[top], x, y)
-    shown = np.isfinite(truth) & (truth != 0.0)
-    assert sure.sum() > 0.5 * samples
-    assert ((top >= 0) == shown)[sure].all()
-    apart = np.abs(mine[shown] - truth[shown]) > SAME_DEPTH * np.maximum(np.abs(truth[shown]), 0.1)
-    return int((apart & sure[shown]).sum())
 
 
 def graph_mesh(x, y, heights):

@@ -123,7 +123,10 @@ def _outlines(view: View, number: Ints, count: int, shown: Ints) -> tuple[Ints, 
     The sides of an outline are those of shown faces that no other shown face shares. All outlines are walked along at
     once, a step at a time.
     """
-    start, end, owner = _single_sides(view, number, shown)
+    position, _ = ragged.take(view.offsets, shown)
+    single = view.only_sides(position)
+    start, end = view.corners[position[single]], view.corners[view.after(position[single])]
+    owner = np.repeat(number[view.face_item[shown]], view.face_sizes[shown])[single]
     sides = np.bincount(owner, minlength=count)
     following = np.full(view.points.shape[1], -1, dtype=np.intp)
     following[start] = end
@@ -145,19 +148,6 @@ def _outlines(view: View, number: Ints, count: int, shown: Ints) -> tuple[Ints, 
     order = np.argsort(body, kind="stable")
     order = order[sizes[body[order]] > 0]
     return vertex[order], sizes
-
-
-def _single_sides(view: View, number: Ints, shown: Ints) -> tuple[Ints, Ints, Ints]:
-    position, _ = ragged.take(view.offsets, shown)
-    a, b = view.corners[position], view.corners[view.after(position)]
-    key = np.minimum(a, b) * view.points.shape[1] + np.maximum(a, b)
-    order = np.argsort(key, kind="stable")
-    same = key[order][1:] == key[order][:-1]
-    single = np.ones(len(key), dtype=np.bool_)
-    single[order[1:][same]] = False
-    single[order[:-1][same]] = False
-    owner = np.repeat(number[view.face_item[shown]], view.face_sizes[shown])
-    return a[single], b[single], owner[single]
 
 
 def _spheres(view: View, items: Ints) -> Floats:
