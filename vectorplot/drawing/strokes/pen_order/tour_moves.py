@@ -49,7 +49,7 @@ class _Row:
     def between(self, s: Ints, t: Ints) -> Floats:
         """The distances of the ends at these indices in the row."""
         # fmax passes the number where the other is not one.
-        apart: Floats = np.fmax(np.abs(self.spots[s] - self.spots[t]), 0.0)
+        apart: Floats = np.fmax(np.abs(self.spots.take(s) - self.spots.take(t)), 0.0)
         return apart
 
 
@@ -62,6 +62,12 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
         return tour
     zero = ZERO_OF_EXTENT * extent(ends)
     count, mean = len(ends), len(tour)
+    # Ends are numbered as the tour meets them: what is near in the tour is near in memory.
+    met = np.stack((tour, tour ^ 1), axis=1).ravel()
+    number = np.empty_like(met)
+    number[met] = np.arange(count)
+    ends, layer, curves = ends.take(met), layer.take(met), tuple(number.take(curve) for curve in curves)
+    tour = np.arange(0, count, 2)
     # Between two layers stands a stroke that is nowhere: what ends there costs nothing, and nothing is near it.
     borders = np.flatnonzero(np.diff(layer[tour])) + 1
     tour = np.insert(tour, borders, count + 2 * np.arange(len(borders)))
@@ -86,7 +92,7 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
             if looked_at is everything:
                 break
             awake = everything
-    return tour[tour < count]
+    return met[tour[tour < count]]
 
 
 def _partners(tour: Ints) -> Ints:
@@ -113,11 +119,11 @@ def _row(ends: Places, tour: Ints, layer: Ints, pairs: tuple[Ints, Ints, Floats]
 def _stretches_turned(at: _Row, zero: float) -> tuple[Ints, Ints]:
     """The tour with stretches turned round (2-opt): two ends on the same side of their gaps are joined instead. And the
     ends that would gain."""
-    same = (at.near ^ at.to) & 1 == 0
-    s, t = at.near[same], at.to[same]
-    gain = at.gap[s >> 1] + at.gap[t >> 1] - at.apart[same] - at.between(s ^ 1, t ^ 1)
-    good = gain > zero
-    s, t, gain = s[good], t[good], gain[good]
+    same = np.flatnonzero((at.near ^ at.to) & 1 == 0)
+    s, t = at.near.take(same), at.to.take(same)
+    gain = at.gap.take(s >> 1) + at.gap.take(t >> 1) - at.apart.take(same) - at.between(s ^ 1, t ^ 1)
+    good = np.flatnonzero(gain > zero)
+    s, t, gain = s.take(good), t.take(good), gain.take(good)
     low, high = np.minimum(s, t) >> 1, np.maximum(s, t) >> 1
     kept = _undisputed(low, high, gain, len(at.gap))
     low, high = low[kept], high[kept]
@@ -135,9 +141,15 @@ def _undisputed(low: Ints, high: Ints, gain: Floats, size: int) -> Ints:
     # The best ones, as many as cost no more than some passes over the tour.
     counts = (high - low + 1)[by_gain]
     affordable = np.cumsum(counts[::-1])[::-1] <= _PASSES * size
-    by_gain, counts = by_gain[affordable], counts[affordable]
+    by_gain = by_gain[affordable]
     if not len(by_gain):
         return best
+    # Gaps at which none of them begins or ends make no difference: the others are numbered anew.
+    matters = np.zeros(size, dtype=np.bool_)
+    matters[low[by_gain]] = matters[high[by_gain]] = True
+    number = np.cumsum(matters) - 1
+    low, high, size = number.take(low), number.take(high), int(number[-1]) + 1
+    counts = (high - low + 1)[by_gain]
     kept = [np.zeros(0, dtype=np.intp)]
     taken = np.zeros(size, dtype=np.bool_)
     owner = np.zeros(size, dtype=np.intp)
@@ -146,10 +158,10 @@ def _undisputed(low: Ints, high: Ints, gain: Floats, size: int) -> Ints:
         begin = ragged.starts(counts)
         move = ragged.owner(counts)
         owner[claimed] = move  # the last one stays
-        won = np.minimum.reduceat(owner[claimed] == move, begin)
+        won = np.minimum.reduceat(owner.take(claimed) == move, begin)
         kept.append(by_gain[won])
         taken[claimed[won[move]]] = True
-        left = ~np.maximum.reduceat(taken[claimed], begin)
+        left = ~np.maximum.reduceat(taken.take(claimed), begin)
         by_gain, counts = by_gain[left], counts[left]
     return np.concatenate(kept)
 
