@@ -10,7 +10,7 @@ Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -71,19 +71,19 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
     # Between two layers stands a stroke that is nowhere: what ends there costs nothing, and nothing is near it.
     borders = np.flatnonzero(np.diff(layer[tour])) + 1
     tour = np.insert(tour, borders, count + 2 * np.arange(len(borders)))
-    spots = np.append(ends, np.full(2 * len(borders), complex(np.nan, np.nan)))
+    spots = np.append(ends, np.full(2 * len(borders) + 1, complex(np.nan, np.nan)))
     layers = np.append(layer, np.full(2 * len(borders), -1))
     mean //= len(borders) + 1
     opposite, among = np.arange(count) ^ 1, crowd(ends, layer, curves)
-    everything = awake = np.ones(len(spots), dtype=np.bool_)
+    everything = awake = np.ones(len(layers), dtype=np.bool_)
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
         partner = _partners(tour)
         # A gap of no length has nothing to gain, and only one as long as the way to a neighbour has.
-        own = np.fmax(np.abs(spots - spots.take(partner, mode="clip")), 0.0)
-        reach = np.where(awake & (partner >= 0), own, 0.0)[:count]
+        own = np.fmax(np.abs(ends - spots.take(partner[:count])), 0.0)
+        reach = np.where(awake[:count], own, 0.0)
         pairs = nearer_than(reach, opposite, among)
         moved, tried = _runs_moved(_row(spots, tour, layers, pairs), zero)
-        turned, tried_too = _stretches_turned(_row(spots, moved, layers, pairs), zero)
+        turned, tried_too = _stretches_turned(_within_gaps(_row(spots, moved, layers, pairs)), zero)
         # Only where something changed, or a move was put off, is there something to gain in the next round.
         changed = _partners(turned) != partner
         changed[tried] = changed[tried_too] = True
@@ -102,18 +102,24 @@ def _partners(tour: Ints) -> Ints:
     return partner
 
 
-def _row(ends: Places, tour: Ints, layer: Ints, pairs: tuple[Ints, Ints, Floats]) -> _Row:
-    nowhere = len(ends)
-    row = np.full(nowhere + 2, nowhere, dtype=np.intp)
+def _row(spots: Places, tour: Ints, layer: Ints, pairs: tuple[Ints, Ints, Floats]) -> _Row:
+    """spots: of the ends, and of the one that is nowhere."""
+    nowhere = len(spots) - 1
+    row = np.empty(nowhere + 2, dtype=np.intp)
+    row[0] = row[-1] = nowhere
     row[1:-1:2], row[2:-1:2] = tour, tour ^ 1
     place = np.empty(nowhere, dtype=np.intp)
     place[row[1:-1]] = np.arange(1, nowhere + 1)
-    spots = np.append(ends, complex(np.nan, np.nan)).take(row)
+    spots = spots.take(row)
     gap = np.fmax(np.abs(spots[0::2] - spots[1::2]), 0.0)
     end, other, apart = pairs
-    near = place.take(end)
-    some = np.flatnonzero(apart < gap.take(near >> 1))
-    return _Row(spots, tour, row, layer[tour], gap, near.take(some), place.take(other.take(some)), apart.take(some))
+    return _Row(spots, tour, row, layer.take(tour), gap, place.take(end), place.take(other), apart)
+
+
+def _within_gaps(at: _Row) -> _Row:
+    """Without pairs of ends that are no nearer to each other than the first one's gap is long."""
+    some = np.flatnonzero(at.apart < at.gap.take(at.near >> 1))
+    return replace(at, near=at.near.take(some), to=at.to.take(some), apart=at.apart.take(some))
 
 
 def _stretches_turned(at: _Row, zero: float) -> tuple[Ints, Ints]:
@@ -169,7 +175,8 @@ def _undisputed(low: Ints, high: Ints, gain: Floats, size: int) -> Ints:
 def _runs_moved(at: _Row, zero: float) -> tuple[Ints, Ints]:
     """The tour with runs of few strokes put into other gaps, either way round (Or-opt). And the ends that would
     gain."""
-    moves = [_run_moves(at, length, zero) for length in range(1, min(_LONGEST_RUN, len(at.tour) - 1) + 1)]
+    opened = at.gap.take(at.to >> 1)
+    moves = [_run_moves(at, opened, length, zero) for length in range(1, min(_LONGEST_RUN, len(at.tour) - 1) + 1)]
     first, length, into, backwards, gain, tried = (np.concatenate(column) for column in zip(*moves, strict=True))
     by_gain = np.argsort(gain, kind="stable")
     first, length, into, backwards = (column[by_gain] for column in (first, length, into, backwards))
@@ -208,21 +215,21 @@ def _with_runs_moved(tour: Ints, first: Ints, length: Ints, into: Ints, backward
     return tour[np.argsort(key, kind="stable")]
 
 
-def _run_moves(at: _Row, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bools, Floats, Ints]:
+def _run_moves(at: _Row, opened: Floats, length: int, zero: float) -> tuple[Ints, Ints, Ints, Bools, Floats, Ints]:
     """Moves of runs of one length: first position, length, gap it goes to, whether it turns round, gain, and the end.
 
-    One end of the run, its head, comes next to an end that is near to it.
+    One end of the run, its head, comes next to an end that is near to it; opened (p,): how long the gaps of these are.
     """
     # Few moves are left where the way back to the head's new neighbour counts as nothing.
-    most = _freed(at, length).take(at.near) + at.gap.take(at.to >> 1) - at.apart
+    most = _freed(at, length).take(at.near) + opened - at.apart
     some = np.flatnonzero(most > zero)
-    head, to = at.near[some], at.to[some]
+    head, to = at.near.take(some), at.to.take(some)
     from_front = head & 1 == 1
     first = np.where(from_front, head >> 1, (head >> 1) - length)
-    gain = most[some] - at.between(np.where(from_front, head + 2 * length - 1, head - 2 * length + 1), to ^ 1)
+    gain = most.take(some) - at.between(np.where(from_front, head + 2 * length - 1, head - 2 * length + 1), to ^ 1)
     into = to >> 1
     good = np.flatnonzero((gain > zero) & ((into < first) | (into > first + length)))
-    head, to, first, into = head[good], to[good], first[good], into[good]
+    head, to, first, into = (column.take(good) for column in (head, to, first, into))
     # After an end on the left of its gap the run begins with its head; before one on the right it ends with it.
     backwards = (to & 1 == 0) != from_front[good]
     return first, np.full(len(first), length, dtype=np.intp), into, backwards, gain[good], at.row[head]
