@@ -89,7 +89,7 @@ FAMILIES = [
                 nurbs_curve(POINTS, [1, 2, 0.5**0.5, 1, 1], order=3),
             ),
             (
-                "nurbs {} knots 0, 0, 0, 0, 2, 3, 3, 3, 3",
+                "nurbs {} knots 0 0 0 0, 2 3 3 3 3",
                 nurbs_curve(POINTS, knots=[0, 0, 0, 0, 2, 3, 3, 3, 3]),
             ),
         )

@@ -5,7 +5,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot import features, geometry, surfaces
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.scene import FieldLines, GeodesicLines, GeodesicsBetween, ShortestPaths
@@ -21,6 +21,7 @@ WORDS = {
     'asymptotic_lines 2 through 0 "pi" , 1 2': (
         FieldLines(features.AsymptoticDirections(2), None, ((0.0, np.pi), (1.0, 2.0))),
     ),
+    "slope_lines through 0 1 length 4": (FieldLines(features.SteepestSlope(), None, ((0.0, 1.0),), 4.0),),
     "geodesics 0 1 90 , 2 1 0 length 3": (GeodesicLines(((0.0, 1.0, np.pi / 2), (2.0, 1.0, 0.0)), 3.0),),
     "geodesics between 0 0 1 0.5": (GeodesicsBetween(((0.0, 0.0, 1.0, 0.5),)),),
     "geodesics between 0 0 1 0.5 , 2 0 3 1 count 3 length 9": (
@@ -43,6 +44,7 @@ MESH_WORDS = {
     "helices 10 right through 1 0 0 , 0 1 0.5": (
         FieldLines(features.ConstantElevation(np.radians(10), -1), None, ((1.0, 0.0, 0.0), (0.0, 1.0, 0.5))),
     ),
+    "slope_lines through 0 0 1 length 0.5": (FieldLines(features.SteepestSlope(), None, ((0.0, 0.0, 1.0),), 0.5),),
     "slope_lines apart 0.3": (FieldLines(features.SteepestSlope(), 0.3),),
     "geodesics 1 0 0 0 1 1 , 0 -1 0.5 1 0 0 length 3": (
         GeodesicLines(((1.0, 0.0, 0.0, 0.0, 1.0, 1.0), (0.0, -1.0, 0.5, 1.0, 0.0, 0.0)), 3.0),
@@ -104,6 +106,31 @@ def test_mistakes_about_them_are_told(words, cause):
         parse_scene(f"A {words}")
 
 
+@pytest.mark.parametrize("body", ["surface cone slope 1 top 3", "vertices 0 0 0, 6 0 6, 6 9 6, 0 9 0 faces 1 2 3 4"])
+def test_lines_through_places_are_no_longer_than_they_are_to_be(body):
+    place = "0 2" if "surface" in body else "3 4 3"
+    scene = parse_scene(f"A {body} slope_lines through {place} length 1.25")
+    parts = curves_in_space(vp.draw(scene, lines="integral", hidden="solid"), kind="integral")
+    assert np.isclose(sum(np.linalg.norm(np.diff(part, axis=0), axis=1).sum() for part in parts), 2.5)
+    with pytest.raises(InputError, match="a length is for lines through given points"):
+        FieldLines(features.SteepestSlope(), 0.5, length=3.0)
+
+
+@pytest.mark.parametrize(
+    ("words", "cause"),
+    [
+        ("sphere curvature_lines", "B: no lines of curvature: it is flat, or round as a ball"),
+        ("sphere asymptotic_lines 1", "B: no asymptotic lines: it is nowhere saddle-shaped"),
+        ("sphere slope_lines through 0 99", "B: no slope lines: it is level, or these places lie beyond the surface"),
+        ("sphere geodesics 0 99 0", "B: no geodesics from these places"),
+        ('graph "0*x" x -1 1 y -1 1 helices 20', "B: no lines of a field: it has no direction there"),
+    ],
+)
+def test_smooth_surfaces_without_such_lines_are_told(words, cause):
+    with pytest.warns(InputWarning, match=cause):
+        vp.draw(parse_scene(f"B surface {words}"))
+
+
 @pytest.mark.capability("G9.4-polyhedron")
 def test_points_of_the_wrong_sort_of_shape_are_told_with_the_items_name():
     box, ball = geometry.box((2, 2, 2)), surfaces.Sphere()
@@ -124,7 +151,7 @@ def test_points_of_the_wrong_sort_of_shape_are_told_with_the_items_name():
 @pytest.mark.capability("G9.4-polyhedron")
 def test_points_and_directions_on_polyhedra_move_with_them():
     lines = (
-        FieldLines(features.SteepestSlope(), None, ((1.0, 0.0, 0.5),)),
+        FieldLines(features.SteepestSlope(), None, ((1.0, 0.0, 0.5),), 0.25),
         GeodesicLines(((1.0, 0.0, 0.5, 0.0, 1.0, 0.0),), 3.0),
         FieldLines(features.SteepestSlope(), 0.5, ((1.0, 0.5),)),
         ShortestPaths(((0.0, 0.0, 0.0, 1.0, 2.0, 2.0),)),
@@ -133,7 +160,7 @@ def test_points_and_directions_on_polyhedra_move_with_them():
     matrix = np.array([(0.0, -2.0, 0.0, 1.0), (2.0, 0.0, 0.0, 2.0), (0.0, 0.0, 2.0, 3.0), (0.0, 0.0, 0.0, 1.0)])
     slope, way, flat, short = item.transformed(matrix).curves.integral
     assert np.allclose(short.ends, [(1.0, 2.0, 3.0, -3.0, 4.0, 7.0)])
-    assert np.allclose(slope.through, [(1.0, 4.0, 4.0)]) and slope.apart is None
+    assert np.allclose(slope.through, [(1.0, 4.0, 4.0)]) and slope.apart is None and np.isclose(slope.length, 0.5)
     assert np.allclose(way.starts, [(1.0, 4.0, 4.0, -2.0, 0.0, 0.0)]) and np.isclose(way.length, 6.0)
     assert flat.through == ((1.0, 0.5),) and np.isclose(flat.apart, 1.0)
 

@@ -42,11 +42,11 @@ def read_points(words: Words, at: int, owner: str, what: str) -> tuple[Floats, i
 
 
 def read_list(words: Words, at: int, owner: str, what: str) -> tuple[Floats, int]:
-    """(n,) numbers with commas between them."""
+    """(n,) numbers with blanks or commas between them."""
     value, at = read_number(words, at, owner, what)
     values = [value]
-    while words.words[at] == ",":
-        value, at = read_number(words, at + 1, owner, what)
+    while words.words[at] == "," or words.is_number(at) or words.words[at].startswith('"'):
+        value, at = read_number(words, at + (words.words[at] == ","), owner, what)
         values.append(value)
     return np.array(values), at
 

@@ -53,12 +53,15 @@ class FieldLines:
     through : tuple of (float, float), or of (float, float, float)
         Parameters u, v of points on a surface, or points in the world, of which the nearest ones on a mesh count; where
         there are some, the lines through these are drawn and no others.
+    length : float, optional
+        How long the lines through given points are to each side of these at most, in world units; ten times the extent
+        of the shape where None.
 
     Raises
     ------
     InputError
-        For a distance that is not positive, points that are not two finite numbers each, or three each, more than 10000
-        of them.
+        For a distance or a length that is not positive, a length without points, points that are not two finite numbers
+        each, or three each, more than 10000 of them.
 
     Examples
     --------
@@ -72,16 +75,22 @@ class FieldLines:
     field: TangentField
     apart: float | None = None
     through: tuple[tuple[float, ...], ...] = ()
+    length: float | None = None
 
     def __post_init__(self) -> None:
         if self.apart is not None:
             positive("field lines: distance", self.apart)
         object.__setattr__(self, "through", _rows("field lines", self.through, ON_SURFACES.points, ON_MESHES.points))
+        if self.length is not None:
+            positive("field lines: length", self.length)
+            if not self.through:
+                raise InputError("field lines: a length is for lines through given points")
 
     def transformed(self, matrix: Floats, larger: float) -> FieldLines:
         """The lines of the shape under a 4x4 matrix acting on columns that makes lengths so many times larger."""
         apart = None if self.apart is None else larger * self.apart
-        return replace(self, apart=apart, through=_moved(self.through, matrix))
+        length = None if self.length is None else larger * self.length
+        return replace(self, apart=apart, through=_moved(self.through, matrix), length=length)
 
 
 @dataclass(frozen=True)

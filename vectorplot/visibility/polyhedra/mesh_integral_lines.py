@@ -91,7 +91,14 @@ def mesh_integral_lines(
         return mesh_geodesics(mesh, places.faces, places.points, directions, length=lines.length)
     if lines.through:
         places = nearest_on_mesh(mesh, np.array(lines.through))
-        return mesh_integral_curves(mesh, lines.field, places.faces, places.points, crease_angle_deg=crease_angle_deg)
+        return mesh_integral_curves(
+            mesh,
+            lines.field,
+            places.faces,
+            places.points,
+            length=lines.length,
+            crease_angle_deg=crease_angle_deg,
+        )
     extent = float(np.ptp(mesh.bounds, axis=0).max())
     apart = USUAL_APART * extent if lines.apart is None else lines.apart
     return evenly_spaced_mesh_curves(mesh, lines.field, apart, crease_angle_deg=crease_angle_deg)

@@ -136,16 +136,17 @@ def read_integral(
 
 
 def _field_lines(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[IntegralLines, ...], int]:
-    """A field of directions, and how far apart its lines are, or what points they go through."""
+    """A field of directions, and how far apart its lines are, or what points they go through, and how far."""
     word, fields_of = words.words[at], MESH_FIELDS if on == ON_MESHES else FIELDS
     fields, at = fields_of[word](words, at + 1, owner)
-    apart, through = None, np.zeros((0, on.points))
+    apart, through, length = None, np.zeros((0, on.points)), None
     if words.words[at] == "apart":
         apart, at = read_number(words, at + 1, owner, f"the distance of {word}")
     elif words.words[at] == "through":
         through, at = _starts(words, at + 1, owner, on.points, word)
+        length, at = _length(words, at, owner, word)
     places = tuple(map(tuple, through.tolist()))
-    return tuple(FieldLines(field, apart, places) for field in fields), at
+    return tuple(FieldLines(field, apart, places, length) for field in fields), at
 
 
 def _geodesics(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[IntegralLines, ...], int]:
@@ -157,9 +158,7 @@ def _geodesics(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tuple[I
     rows, at = _starts(words, at + 1, owner, on.starts, "geodesics")
     if on != ON_MESHES:
         rows[:, 2] = [radians(angle) for angle in rows[:, 2]]
-    length = None
-    if words.words[at] == "length":
-        length, at = read_number(words, at + 1, owner, "the length of geodesics")
+    length, at = _length(words, at, owner, "geodesics")
     return (GeodesicLines(tuple(map(tuple, rows.tolist())), length),), at
 
 
@@ -182,12 +181,18 @@ def _shortest_paths(words: Words, at: int, owner: str, on: PointsOf) -> tuple[tu
 def _between(words: Words, at: int, owner: str) -> tuple[tuple[IntegralLines, ...], int]:
     """Parameters of two places, how many, and a length."""
     rows, at = _starts(words, at, owner, 4, "geodesics between places")
-    most, length = 1, None
+    most = 1
     if words.words[at] == "count":
         most, at = words.whole(at + 1, owner, "a number of geodesics"), at + 2
-    if words.words[at] == "length":
-        length, at = read_number(words, at + 1, owner, "the length of geodesics")
+    length, at = _length(words, at, owner, "geodesics")
     return (GeodesicsBetween(tuple((a, b, c, d) for a, b, c, d in rows.tolist()), most, length),), at
+
+
+def _length(words: Words, at: int, owner: str, what: str) -> tuple[float | None, int]:
+    """A length, where the word stands there."""
+    if words.words[at] != "length":
+        return None, at
+    return read_number(words, at + 1, owner, f"the length of {what}")
 
 
 def _starts(words: Words, at: int, owner: str, width: int, what: str) -> tuple[Floats, int]:
@@ -205,19 +210,23 @@ def integral_text(lines: IntegralLines) -> str:
     if isinstance(lines, GeodesicLines):
         angled = len(lines.starts[0]) != ON_MESHES.starts if lines.starts else False
         rows = (_numbers((*row[:2], _degrees(row[2])) if angled else row) for row in lines.starts)
-        return f"geodesics {' , '.join(rows)}" + ("" if lines.length is None else f" length {float(lines.length)!r}")
+        return f"geodesics {' , '.join(rows)}" + _length_text(lines.length)
     if isinstance(lines, ShortestPaths):
         return "shortest_paths " + " , ".join(f"{_numbers(row[:3])} to {_numbers(row[3:])}" for row in lines.ends)
     if isinstance(lines, GeodesicsBetween):
         text = f"geodesics between {' , '.join(_numbers(row) for row in lines.pairs)}"
         text += f" count {lines.most}" * (lines.most != 1)
-        return text + ("" if lines.length is None else f" length {float(lines.length)!r}")
+        return text + _length_text(lines.length)
     if isinstance(lines, KnownCurves):
         raise InputError("curves that are known already have no words in scene files")
     words = _field_text(lines.field)
     if lines.through:
-        return f"{words} through {' , '.join(_numbers(row) for row in lines.through)}"
+        return f"{words} through {' , '.join(_numbers(row) for row in lines.through)}" + _length_text(lines.length)
     return words if lines.apart is None else f"{words} apart {float(lines.apart)!r}"
+
+
+def _length_text(length: float | None) -> str:
+    return "" if length is None else f" length {float(length)!r}"
 
 
 def _numbers(row: Iterable[float]) -> str:

@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import replace
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.features.integral.curvature_fields import AsymptoticDirections, PrincipalDirections
 from vectorplot.features.integral.geodesics_between import geodesics_between
 from vectorplot.features.integral.integral_curves import geodesics, integral_curves
 from vectorplot.features.integral.spacing.evenly_spaced import DRAWN, evenly_spaced_curves
+from vectorplot.features.integral.tangent_fields import SteepestSlope
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, together
 from vectorplot.scene.item import Item
 from vectorplot.scene.lines.integral_lines import (
     ON_SURFACES,
     USUAL_APART,
+    FieldLines,
     GeodesicLines,
     GeodesicsBetween,
     IntegralLines,
@@ -34,7 +38,8 @@ def integral_curves_in_view(
 ) -> SurfaceCurves:
     """Integral curves of a surface in the view's coordinates, found in the world, where fields know their directions.
 
-    Errors: InputError, with the item's name, for lines that are too close together, or begin at points in space.
+    Warnings: where there are none. Errors: InputError, with the item's name, for lines that are too close together, or
+    begin at points in space.
     """
     world = placed_once(surface, view.scale * view.axes, view.centre, np.zeros(3))
     picture = tracing.picture
@@ -47,7 +52,24 @@ def integral_curves_in_view(
         found = integral_lines(world, lines, replace(tracing, picture=image))
     except InputError as error:
         raise InputError(f"{item.name}: {error.cause}") from None
+    if not len(found) and not isinstance(lines, KnownCurves):
+        warnings.warn(f"{item.name}: {_why_none(lines)}", InputWarning, stacklevel=2)
     return replace(found, points=np.ascontiguousarray(view.points_of(found.points).T))
+
+
+def _why_none(lines: IntegralLines) -> str:
+    """Why a surface has no such curves."""
+    if not isinstance(lines, FieldLines):
+        return "no geodesics from these places: they lie beyond the surface, or lead nowhere"
+    if isinstance(lines.field, PrincipalDirections):
+        why = "no lines of curvature: it is flat, or round as a ball"
+    elif isinstance(lines.field, AsymptoticDirections):
+        why = "no asymptotic lines: it is nowhere saddle-shaped"
+    elif isinstance(lines.field, SteepestSlope):
+        why = "no slope lines: it is level"
+    else:
+        why = "no lines of a field: it has no direction there"
+    return why + ", or these places lie beyond the surface" * bool(lines.through)
 
 
 def integral_lines(surface: Surface, lines: IntegralLines, tracing: Tracing) -> SurfaceCurves:
@@ -78,7 +100,7 @@ def integral_lines(surface: Surface, lines: IntegralLines, tracing: Tracing) -> 
     if lines.through:
         rows = np.array(lines.through)
         rows = rows[_within(surface.domain, rows)]
-        return integral_curves(surface, lines.field, rows, accuracy=DRAWN, tracing=tracing)
+        return integral_curves(surface, lines.field, rows, length=lines.length, accuracy=DRAWN, tracing=tracing)
     apart = USUAL_APART * extent(surface)[0] if lines.apart is None else lines.apart
     return evenly_spaced_curves(surface, lines.field, apart, accuracy=DRAWN, tracing=tracing)
 
