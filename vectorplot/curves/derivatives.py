@@ -184,7 +184,9 @@ class NumericFunction:
     def _asked(self, parameters: Sequence[Numbers]) -> Numbers:
         """(n, k) what the function says at finite parameters inside, NaN elsewhere."""
         wrapped = [r.wrapped(p) for r, p in zip(self.ranges, parameters, strict=True)]
-        ask = np.logical_and.reduce([np.isfinite(p) for p in wrapped])
+        ask = np.isfinite(wrapped[0])
+        for p in wrapped[1:]:
+            ask &= np.isfinite(p)
         if self.inside is not None:
             ask &= self.inside(*(p.real for p in wrapped))
         if ask.all():

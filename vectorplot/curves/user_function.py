@@ -68,7 +68,11 @@ class UserFunction:
             columns = [self._numbers(part) for part in result]
             if any(column.shape not in ((), (1,), (count,)) for column in columns):
                 raise self._wrong_shape(tuple(column.shape for column in columns), count)
-            return np.stack([np.broadcast_to(column, (count,)) for column in columns], axis=-1)
+            # Of small arrays np.stack and np.broadcast_to spend most of their time on checks.
+            rows = np.empty((count, k), dtype=np.result_type(*columns))
+            for axis, column in enumerate(columns):
+                rows[:, axis] = column
+            return rows
         values = self._numbers(result)
         if k == 1 and values.shape in ((), (1,), (count,), (count, 1)):
             # Most functions return as many; to be broadcast takes longer than small arrays take to be computed.

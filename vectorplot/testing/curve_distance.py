@@ -136,7 +136,7 @@ class Tree:
         """(n,) distance of points from the nearest segment, and its index; where the distance from some segment is no
         larger than floor, that one may do."""
         distance, segment = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.intp)
-        left, count = np.arange(len(points)), 4
+        left, count = np.arange(len(points)), 2
         while len(left):
             count = min(count, len(self.owner))
             sure = np.zeros(len(left), dtype=np.bool_)

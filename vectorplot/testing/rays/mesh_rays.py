@@ -23,7 +23,7 @@ from vectorplot.tolerances.of_extent import REACH_OF_CLEARANCE, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_parameters import IN_TRIANGLE
 
 CHUNK = 1 << 18
-CLUSTER = 64
+CLUSTER = 16
 
 
 @dataclass(frozen=True)
@@ -140,15 +140,16 @@ def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
             inner = ragged.place(count)
             simplex = np.repeat(starts[cluster[some]], count) + inner
             of_ray = np.repeat(ray[some], count)
-            kept = near(rays, of_ray, centre[simplex], radius[simplex])
+            kept = near(rays, of_ray, centre.take(simplex, axis=0), radius.take(simplex))
             yield of_ray[kept], simplex[kept]
 
 
 def near(rays: Rays, ray: Ints, centre: Floats, radius: Floats) -> Ints:
     """Indices of the pairs whose ray comes nearer to the sphere than REACH_OF_CLEARANCE."""
-    arm = centre - rays.origin[ray]
-    along = dot(arm, rays.direction[ray])
-    foot = np.clip(along, 0.0, rays.length[ray])
+    # Rows are taken in half the time in which they are indexed.
+    arm = centre - rays.origin.take(ray, axis=0)
+    along = dot(arm, rays.direction.take(ray, axis=0))
+    foot = np.clip(along, 0.0, rays.length.take(ray))
     square = dot(arm, arm) - foot * (2.0 * along - foot)
     return np.flatnonzero(square <= (radius + 2.0 * REACH_OF_CLEARANCE) ** 2)
 
@@ -177,8 +178,8 @@ def hits(rays: Rays, triangles: Solids, item_count: int) -> tuple[Ints, Floats]:
     clearance = np.full(len(rays.length), REACH_OF_CLEARANCE)
     met = [np.zeros(0, dtype=np.int64)]
     for ray, index in near_pairs(rays, triangles):
-        a, b, c = (triangles.corners[index, k] for k in range(3))
-        origin, direction, length = rays.origin[ray], rays.direction[ray], rays.length[ray]
+        a, b, c = (triangles.corners[:, k].take(index, axis=0) for k in range(3))
+        origin, direction, length = (part.take(ray, axis=0) for part in (rays.origin, rays.direction, rays.length))
         along = meeting(origin, direction, a, b, c)
         on_line = np.isfinite(along)
         ray, index, along, length = ray[on_line], index[on_line], along[on_line], length[on_line]
