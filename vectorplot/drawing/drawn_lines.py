@@ -56,7 +56,8 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
         directions = _at_ends(parts.chords.directions(view))
         paths = replace(paths, directions=directions, curve=parts.chords.curve, handles=_at_ends(handles))
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
-    once = without_duplicates(chosen(paths, straight), rank[straight], COINCIDENT_MM, placement.page_from_world)
+    given, line = chosen(paths, straight), seen.segment[straight]
+    once = without_duplicates(given, rank[straight], COINCIDENT_MM, placement.page_from_world, line)
     if not len(smooth):
         return once
     curve_rank = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item

@@ -71,15 +71,18 @@ def sections(
     index = ragged.ranges(first, last - first + 2)
     points, points3d = paths.points.take(index, axis=0), paths.points3d.take(index, axis=0)
     directions, handles = (values.take(index, axis=0) for values in (paths.directions, paths.handles))
-    for places, segment, t in ((offsets[:-1], first, t_first), (offsets[1:] - 1, last, t_last)):
+    for places, segment, t, there, point in (
+        (offsets[:-1], first, t_first, t_first == 1.0, first + 1),
+        (offsets[1:] - 1, last, t_last, t_last == 0.0, last),
+    ):
         inside = np.flatnonzero((t != 0.0) & (t != 1.0))
         cut = places[inside]
         points[cut], points3d[cut] = _divided(paths, segment[inside], t[inside], page_from_world)
         directions[cut] = handles[cut] = np.nan
-        for point, there in ((segment, t == 0.0), (segment + 1, t == 1.0)):
-            at, of = places[there], point[there]
-            points[at], points3d[at] = paths.points.take(of, axis=0), paths.points3d.take(of, axis=0)
-            directions[at], handles[at] = paths.directions.take(of, axis=0), paths.handles.take(of, axis=0)
+        # Parts that begin where their segment ends, or end where it begins.
+        at, of = places[there], point[there]
+        points[at], points3d[at] = paths.points.take(of, axis=0), paths.points3d.take(of, axis=0)
+        directions[at], handles[at] = paths.directions.take(of, axis=0), paths.handles.take(of, axis=0)
     open_ = np.zeros(len(stroke), dtype=np.bool_)
     return Paths(
         points,

@@ -35,6 +35,14 @@ def test_strokes_without_length_are_dropped():
     assert len(once(pieces(np.zeros((0, 2)), np.zeros((0, 2))))) == 0
 
 
+def test_parts_of_one_line_are_not_compared_with_each_other():
+    # Two parts of a line, a twin of both, and the same parts as if they lay on each other.
+    lines = pieces([(0, 0), (6, 0), (0, 0), (1, 0)], [(5, 0), (9, 0), (9, 0), (4, 0)])
+    rank, none = np.array([1, 2, 0, 3]), None
+    assert canonical(without_duplicates(lines, rank, TOL, none, np.array([0, 0, 1, 0]))) == [((0.0, 0.0), (9.0, 0.0))]
+    assert canonical(without_duplicates(lines, rank, TOL, none, np.zeros(4, dtype=np.intp))) == canonical(lines)
+
+
 def test_the_smaller_rank_wins_whatever_its_length():
     lines = pieces([(0, 0), (3, 0)], [(10, 0), (4, 0)])
     result = once(lines, [1, 0])

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.neighbours import Keys, companions, overlapping_cells
 from vectorplot.drawing.strokes.stroke_paths import chosen, sections
@@ -24,29 +24,38 @@ _ROUNDS = 3
 """How many of the best strokes of a crowd are tried on all the others before all pairs of it are looked at."""
 
 
-def without_duplicates(paths: Paths, rank: Ints, tolerance_mm: float, page_from_world: Floats | None = None) -> Paths:
+def without_duplicates(
+    paths: Paths,
+    rank: Ints,
+    tolerance_mm: float,
+    page_from_world: Floats | None = None,
+    line: Ints | None = None,
+) -> Paths:
     """The same picture without the parts of strokes that lie on more important ones.
 
     paths: straight strokes of two points; rank (m,): the smaller of two wins; of equal ones the longer, then the one
     further left, so that the picture does not depend on the order of the strokes. Two strokes lie on each other where
     they overlap and the shorter one's ends are within tolerance_mm (and a thousandth of its length) of the other's
     line: lines that only run close together both stay. page_from_world (4,4) as in Drawing, by default a parallel
-    projection: points3d is divided where the page is. Strokes keep their order; what is no longer than tolerance_mm
+    projection: points3d is divided where the page is. line (m,): equal for parts of one straight line, which do not lie
+    on each other; by default each is one of its own. Strokes keep their order; what is no longer than tolerance_mm
     is left out.
     """
     start, end = paths.points[::2], paths.points[1::2]
     length = np.hypot(*(end - start).T)
     long = length > tolerance_mm
     if not long.all():
-        return without_duplicates(chosen(paths, long), rank[long], tolerance_mm, page_from_world)
-    owner, starts = nearly_collinear(start, end, tolerance_mm)
+        line = None if line is None else line[long]
+        return without_duplicates(chosen(paths, long), rank[long], tolerance_mm, page_from_world, line)
+    line = np.arange(len(paths)) if line is None else line
+    owner, starts = nearly_collinear(start, end, tolerance_mm, line)
     if not len(owner):
         return paths
     candidates, index = np.unique(owner, return_inverse=True)
     ordered = candidates[_by_importance(start[candidates], end[candidates], length[candidates], rank[candidates])]
     importance = np.zeros(len(candidates), dtype=np.intp)
     importance[np.searchsorted(candidates, ordered)] = np.arange(len(ordered))
-    segments = _Segments(start[ordered], end[ordered], tolerance_mm)
+    segments = _Segments(start[ordered], end[ordered], line[ordered], tolerance_mm)
     dropped, loser, low, high = _covered(segments, importance[index], starts)
     gap = np.zeros(len(paths))
     gap[ordered] = tolerance_mm / segments.length
@@ -54,11 +63,14 @@ def without_duplicates(paths: Paths, rank: Ints, tolerance_mm: float, page_from_
     return _without(paths, ordered[dropped], ordered[loser], low, high, gap, world)
 
 
-def nearly_collinear(start: Floats, end: Floats, tolerance: float) -> tuple[Ints, Ints]:
+def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -> tuple[Ints, Ints]:
     """(owner, starts): groups of strokes from start to end (n,2), longer than the tolerance, some of which may lie on
-    each other; a group has the strokes owner[starts[k] : starts[k + 1]]. All that do lie on each other share one."""
+    each other; a group has the strokes owner[starts[k] : starts[k + 1]]. All that do lie on each other share one.
+
+    line (n,): equal for strokes that are known not to lie on each other.
+    """
     length = np.hypot(*(end - start).T)
-    return _overlapping(start, end, *_crowds(start, end, length, tolerance), tolerance)
+    return _overlapping(start, end, line, *_crowds(start, end, length, tolerance), tolerance)
 
 
 def _without(
@@ -83,33 +95,44 @@ def _without(
 class _Segments:
     """Straight strokes, the more important first."""
 
-    def __init__(self, start: Floats, end: Floats, tolerance: float) -> None:
-        self.start, self.end, self.tolerance = start, end, tolerance
+    def __init__(self, start: Floats, end: Floats, line: Ints, tolerance: float) -> None:
+        self.start, self.end, self.line, self.tolerance = start, end, line, tolerance
         along = end - start
         self.length = np.hypot(along[:, 0], along[:, 1])
         self.unit = along / self.length[:, None]
+        self.low, self.high = np.minimum(start.T, end.T), np.maximum(start.T, end.T)
 
-    def overlaps(self, winner: Ints, loser: Ints) -> tuple[Bools, Floats, Floats]:
-        """Which pairs lie on each other, and from where to where (of each loser) they do."""
-        shorter = self.length[loser] <= self.length[winner]
+    def _common(self, axis: int, one: Ints, other: Ints) -> Floats:
+        """How much of an axis the boxes around pairs have in common; less than none where they are apart."""
+        low, high = self.low[axis], self.high[axis]
+        common: Floats = np.minimum(high.take(one), high.take(other)) - np.maximum(low.take(one), low.take(other))
+        return common
+
+    def overlaps(self, winner: Ints, loser: Ints) -> tuple[Ints, Floats, Floats]:
+        """Which pairs (k,) lie on each other, and from where to where (of each loser) they do."""
+        # Most have not even boxes that overlap.
+        some = np.flatnonzero((common := self._common(0, winner, loser)) >= -2.0 * self.tolerance)
+        common, winner, loser = common.take(some), winner.take(some), loser.take(some)
+        other = self._common(1, winner, loser)
+        touch = np.flatnonzero((other >= -2.0 * self.tolerance) & (np.maximum(common, other) > 0.5 * self.tolerance))
+        some, winner, loser = some.take(touch), winner.take(touch), loser.take(touch)
+        shorter = self.length.take(loser) <= self.length.take(winner)
         short, long = np.where(shorter, loser, winner), np.where(shorter, winner, loser)
-        close = np.minimum(self.tolerance, COLLINEAR_OF_LENGTH * self.length[short])
+        close = np.minimum(self.tolerance, COLLINEAR_OF_LENGTH * self.length.take(short))
         origin, unit = self.start.take(long, axis=0), self.unit.take(long, axis=0)
         collinear = np.ones(len(winner), dtype=np.bool_)
         for ends in (self.start, self.end):
             arm = ends.take(short, axis=0) - origin
             collinear &= np.abs(arm[:, 0] * unit[:, 1] - arm[:, 1] * unit[:, 0]) <= close
-        low, high = np.zeros(len(winner)), np.zeros(len(winner))
-        some = np.flatnonzero(collinear)
-        winner, loser = winner[some], loser[some]
-        origin, unit, size = self.start.take(loser, axis=0), self.unit.take(loser, axis=0), self.length[loser]
+        some, winner, loser = some[collinear], winner[collinear], loser[collinear]
+        origin, unit, size = self.start.take(loser, axis=0), self.unit.take(loser, axis=0), self.length.take(loser)
         places = []
         for ends in (self.start, self.end):
             arm = ends.take(winner, axis=0) - origin
             places.append((arm[:, 0] * unit[:, 0] + arm[:, 1] * unit[:, 1]) / size)
-        low[some], high[some] = np.clip(np.minimum(*places), 0.0, 1.0), np.clip(np.maximum(*places), 0.0, 1.0)
-        collinear[some] = (high[some] - low[some]) * size > self.tolerance
-        return collinear, low, high
+        low, high = np.clip(np.minimum(*places), 0.0, 1.0), np.clip(np.maximum(*places), 0.0, 1.0)
+        over = (high - low) * size > self.tolerance
+        return some[over], low[over], high[over]
 
 
 def _by_importance(start: Floats, end: Floats, length: Floats, rank: Ints) -> Ints:
@@ -154,19 +177,35 @@ def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tup
     return companions(np.concatenate(keys), np.concatenate(owners))
 
 
-def _overlapping(start: Floats, end: Floats, owner: Ints, starts: Ints, tolerance: float) -> tuple[Ints, Ints]:
-    """The crowds in which some strokes may overlap."""
+def _overlapping(
+    start: Floats, end: Floats, line: Ints, owner: Ints, starts: Ints, tolerance: float
+) -> tuple[Ints, Ints]:
+    """The crowds in which some strokes of different lines may overlap."""
+    owner, starts = _of_several(line, owner, starts)
     size = np.diff(starts)
     run = ragged.owner(size)
-    low = np.minimum(start, end)[owner].T.copy()
-    high = np.maximum(start, end)[owner].T.copy()
+    of = line.take(owner)
+    ends = start.take(owner, axis=0).T, end.take(owner, axis=0).T
+    low, high = np.minimum(*ends), np.maximum(*ends)
     calls = size > _SMALL
     for lag in range(1, min(_SMALL, int(size.max(initial=1)))):
         common = np.minimum(high[:, lag:], high[:, :-lag]) - np.maximum(low[:, lag:], low[:, :-lag])
         touch = np.maximum(common[0], common[1]) > 0.5 * tolerance
         touch &= np.minimum(common[0], common[1]) >= -2.0 * tolerance
-        calls[run[lag:][touch & (run[lag:] == run[:-lag])]] = True
+        touch &= (run[lag:] == run[:-lag]) & (of[lag:] != of[:-lag])
+        calls[run[lag:][touch]] = True
     return owner[calls[run]], ragged.offsets(size[calls])
+
+
+def _of_several(line: Ints, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
+    """The crowds whose strokes are of several lines: most are of one, one part of it after the other."""
+    size = np.diff(starts)
+    of = line.take(owner)
+    several = np.zeros(len(size), dtype=np.bool_)
+    changes = np.flatnonzero(of[1:] != of[:-1]) + 1
+    run = ragged.owner(size)
+    several[run[changes[run[changes] == run[changes - 1]]]] = True
+    return owner[several[run]], ragged.offsets(size[several])
 
 
 def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints, Floats, Floats]:
@@ -185,20 +224,21 @@ def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints
         winner = owner[np.repeat(first + np.minimum(turn, size - 1), size)]
         later = np.flatnonzero(place > turn)
         over, low, high = segments.overlaps(winner[later], owner[later])
-        gap = segments.tolerance / segments.length[owner[later]]
-        dropped[owner[later[over & (low <= gap) & (high >= 1.0 - gap)]]] = True
+        loser = owner[later[over]]
+        gap = segments.tolerance / segments.length[loser]
+        dropped[loser[(low <= gap) & (high >= 1.0 - gap)]] = True
         alive = ~dropped[owner]
         owner, run = owner[alive], run[alive]
     parts = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
-    for winner, loser in pairs_in_crowds(owner, run):
+    for winner, loser in pairs_in_crowds(owner, run, segments.line):
         over, low, high = segments.overlaps(winner, loser)
-        parts.append((loser[over], low[over], high[over]))
+        parts.append((loser[over], low, high))
     loser, low, high = (np.concatenate(column) for column in zip(*parts, strict=True))
     return np.flatnonzero(dropped), loser, low, high
 
 
-def pairs_in_crowds(owner: Ints, run: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Blocks of all pairs of different strokes of a crowd, the more important first."""
+def pairs_in_crowds(owner: Ints, run: Ints, line: Ints) -> Iterator[tuple[Ints, Ints]]:
+    """Blocks of all pairs of strokes of a crowd that are of different lines (n,), the more important first."""
     if not len(run):
         return
     last = np.flatnonzero(np.concatenate((run[1:] != run[:-1], [True])))
@@ -209,5 +249,6 @@ def pairs_in_crowds(owner: Ints, run: Ints) -> Iterator[tuple[Ints, Ints]]:
     for low, high in pairwise(edges):
         winner = np.repeat(np.arange(low, high), following[low:high])
         loser = ragged.ranges(np.arange(low + 1, high + 1), following[low:high])
-        different = owner[winner] != owner[loser]
-        yield owner[winner[different]], owner[loser[different]]
+        one, other = owner.take(winner), owner.take(loser)
+        different = np.flatnonzero(line.take(one) != line.take(other))
+        yield one.take(different), other.take(different)

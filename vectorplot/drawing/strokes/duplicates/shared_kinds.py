@@ -36,7 +36,8 @@ def with_shared_kinds(view: View, lines: Lines) -> Lines:
     contour = lines.kind[which] == LineKind.CONTOUR
     if contour.all() or not contour.any():
         return lines
-    owner, starts = nearly_collinear(start, end, ONE_LINE_OF_EXTENT)
+    number = np.arange(len(which))
+    owner, starts = nearly_collinear(start, end, ONE_LINE_OF_EXTENT, number)
     run = ragged.owner(np.diff(starts))
     mixed = np.zeros((2, len(starts)), dtype=np.bool_)
     mixed[contour[owner].astype(np.intp), run] = True
@@ -44,7 +45,7 @@ def with_shared_kinds(view: View, lines: Lines) -> Lines:
     owner, run = owner[kept], run[kept]
     order = np.lexsort((~contour[owner], run))
     found = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
-    for one, other in pairs_in_crowds(owner[order], run):
+    for one, other in pairs_in_crowds(owner[order], run, number):
         apart = contour[one] & ~contour[other] & (lines.item[which[one]] != lines.item[which[other]])
         outline, crease = which[one[apart]], which[other[apart]]
         on, low, high = _common(lines, outline, crease)
