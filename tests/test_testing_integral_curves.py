@@ -9,7 +9,7 @@ import pytest
 from vectorplot import features
 from vectorplot.features import Tracing, integral_curves
 from vectorplot.surfaces import Sphere, Torus
-from vectorplot.testing import assert_integral_curve
+from vectorplot.testing import assert_geodesic, assert_integral_curve
 
 BALL, FIELD = Sphere(2.0), features.loxodromes(1.1)
 CHORDS = "chords are not on a curve of the field"
@@ -62,3 +62,16 @@ def test_curves_with_inflections_pass():
     light = features.IsophoteDirections((2.0, -3.0, 4.0))
     curves = integral_curves(ring, light, (0.3, 0.7), length=3.0, tracing=Tracing(tolerance=0.05))
     assert_integral_curve(curves, ring, light, 1e-6)
+
+
+def test_geodesics_are_held_to_the_directions_that_they_know():
+    """Chords alone tell a hundredth of the curvature of this one."""
+    found = features.geodesics(Torus(3, 1), (1.0, 2.0), 1.1, length=5)
+    assert_geodesic(found, Torus(3, 1), 1e-4)
+    assert_geodesic(features.geodesics(Sphere(radius=2), (0.0, 0.0), 1.0, length=8), Sphere(radius=2), 1e-8)
+    with pytest.raises(AssertionError, match="points are not on a geodesic"):
+        assert_geodesic(replace(found, directions=found.directions * (1.0, 1.001)), Torus(3, 1), 1e-4)
+    blind = replace(found, directions=np.full_like(found.directions, np.nan))
+    with pytest.raises(AssertionError, match="at u, v = "):
+        assert_geodesic(blind, Torus(3, 1), 1e-4)
+    assert_geodesic(blind, Torus(3, 1), 0.05)

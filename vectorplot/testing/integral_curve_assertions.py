@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.features.integral.sites import Sites
+from vectorplot.features.integral.sites import Sites, unit
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import Surface, is_parametrised
 from vectorplot.testing.chord_assertions import assert_chords
@@ -136,12 +138,12 @@ def _check_directions(said: KnownDirections, surface: Surface, field: TangentFie
     )
 
 
-def assert_geodesic(points: Curves, surface: Surface | Mesh, tolerance: float) -> None:
+def assert_geodesic(points: Curves | SurfaceCurves, surface: Surface | Mesh, tolerance: float) -> None:
     """Nothing, where curves are geodesics of a surface: seen along its normals they are straight; or of a mesh.
 
     Parameters
     ----------
-    points : array_like, list of them, Strokes, Paths or Drawing
+    points : array_like, list of them, Strokes, Paths, Drawing or SurfaceCurves
         Polylines (n, 3); of a drawing those in the world.
     surface : Surface or Mesh
         On which they run.
@@ -159,7 +161,9 @@ def assert_geodesic(points: Curves, surface: Surface | Mesh, tolerance: float) -
     Notes
     -----
     The curvature is that of the circle through three points, in the tangent plane of the middle one: off by how far
-    neighbouring chords differ in length, and by the square of their length. On a mesh a curve is straight where the
+    neighbouring chords differ in length, and by the square of their length. Curves on surfaces that know their
+    directions are held to these: the curvature is what they turn by along a chord, in the tangent planes at its ends;
+    it is off by the square of its length only. On a mesh a curve is straight where the
     faces on both sides of an edge are unfolded; at a vertex there is as much angle on either side, or on neither less
     than half a turn, so that it is shortest there.
 
@@ -172,17 +176,38 @@ def assert_geodesic(points: Curves, surface: Surface | Mesh, tolerance: float) -
     >>> assert_geodesic(np.column_stack([np.cos(t), 0.0 * t, np.sin(t)]), Sphere(), tolerance=1e-9)
     """
     if isinstance(surface, Mesh):
+        assert not isinstance(points, SurfaceCurves), "curves of a surface are on no mesh"
         assert_mesh_geodesic(points, surface, tolerance)
         return
-    own = _middles(points, surface, tolerance)
+    lines = [points[k] for k in range(len(points))] if isinstance(points, SurfaceCurves) else points
+    own = _middles(lines, surface, tolerance)
     a, b = own.before, own.behind
     area = dot(own.normals, cross(a, b))
     error = own.extent * np.abs(2.0 * area / np.maximum(norm(a) * norm(b) * norm(a + b), LEAST_DIVISOR))
+    where = partial(_name, own)
+    if isinstance(points, SurfaceCurves) and np.isfinite(points.directions).any():
+        start, turn = _turns(points, surface)
+        error, where = own.extent * np.abs(turn), lambda k: f"behind {_at(points.points[start[k]])}"
     k = int(np.argmax(error))
     assert error[k] <= tolerance, (
         f"{int((error > tolerance).sum())} of {len(error)} points are not on a geodesic: the geodesic curvature by the "
-        f"extent is {error[k]:.4g} at the worst, {_name(own, k)}, tolerance {tolerance:.4g}"
+        f"extent is {error[k]:.4g} at the worst, {where(k)}, tolerance {tolerance:.4g}"
     )
+
+
+def _turns(curves: SurfaceCurves, surface: Surface) -> tuple[Ints, Floats]:
+    """The points (k,) behind which chords with known directions begin, and by how much (k,) these turn along them, by
+    their length, in the tangent planes at their ends."""
+    start, end = segments(curves).T
+    chord = curves.points[end] - curves.points[start]
+    along_u, along_v = surface.partials(curves.u, curves.v)
+    tangents = unit(curves.directions[:, :1] * along_u + curves.directions[:, 1:] * along_v)
+    normals = unit(cross(along_u, along_v))
+    length = norm(chord)
+    sines = dot(normals[start], cross(tangents[start], chord)) + dot(normals[end], cross(chord, tangents[end]))
+    turn = sines / np.maximum(length * length, LEAST_DIVISOR)
+    known = np.isfinite(turn) & (length > 0.0)
+    return start[known], turn[known]
 
 
 def _middles(points: Curves, surface: Surface, tolerance: float) -> _Middles:
@@ -211,5 +236,8 @@ def _middles(points: Curves, surface: Surface, tolerance: float) -> _Middles:
 
 def _name(own: _Middles, k: int) -> str:
     """A point in words."""
-    place, where = (", ".join(f"{x:.10g}" for x in values[k]) for values in (own.points, own.places))
-    return f"({place}) at u, v = {where}"
+    return f"{_at(own.points[k])} at u, v = {_at(own.places[k])[1:-1]}"
+
+
+def _at(values: Floats) -> str:
+    return f"({', '.join(f'{x:.10g}' for x in values)})"

@@ -39,7 +39,7 @@ def test_that_of_a_cone_is_straight_where_it_is_unrolled():
     exact = np.sqrt(far**2 + farther**2 - 2.0 * far * farther * np.cos(turn))
     found = geodesics_between(surface, one, two, tracing=FINE)
     assert len(found) == 1 and abs(found.levels[0] - exact) < 1e-8
-    assert_geodesic(found[0], surface, 2e-2)
+    assert_geodesic(found, surface, 1e-3)
     assert np.abs(found[0][[0, -1]] - (p, q)).max() < 1e-9
 
 
