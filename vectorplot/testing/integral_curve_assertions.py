@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -184,14 +183,16 @@ def assert_geodesic(points: Curves | SurfaceCurves, surface: Surface | Mesh, tol
     a, b = own.before, own.behind
     area = dot(own.normals, cross(a, b))
     error = own.extent * np.abs(2.0 * area / np.maximum(norm(a) * norm(b) * norm(a + b), LEAST_DIVISOR))
-    where = partial(_name, own)
+    k = int(np.argmax(error))
+    where = _name(own, k)
     if isinstance(points, SurfaceCurves) and np.isfinite(points.directions).any():
         start, turn = _turns(points, surface)
-        error, where = own.extent * np.abs(turn), lambda k: f"behind {_at(points.points[start[k]])}"
-    k = int(np.argmax(error))
+        error = own.extent * np.abs(turn)
+        k = int(np.argmax(error))
+        where = f"behind {_at(points.points[start[k]])}"
     assert error[k] <= tolerance, (
         f"{int((error > tolerance).sum())} of {len(error)} points are not on a geodesic: the geodesic curvature by the "
-        f"extent is {error[k]:.4g} at the worst, {where(k)}, tolerance {tolerance:.4g}"
+        f"extent is {error[k]:.4g} at the worst, {where}, tolerance {tolerance:.4g}"
     )
 
 

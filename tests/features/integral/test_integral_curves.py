@@ -18,6 +18,7 @@ from vectorplot.surfaces import (
     Domain,
     Ellipsoid,
     HyperbolicParaboloid,
+    ImplicitTorus,
     PlacedSurface,
     Sphere,
     Torus,
@@ -369,3 +370,15 @@ def test_evenly_spaced_curves_keep_to_what_a_cut_leaves():
     bowl = CutSurface(Torus(2.0, 0.7), (HalfSpaces(((0.6, 0.8, 0.0),), (0.3,)),))
     found = features.evenly_spaced_curves(bowl, features.SteepestSlope(), 0.4)
     assert len(found) > 10 and (found.points @ (0.6, 0.8, 0.0)).max() <= 0.3
+
+
+def test_shapes_without_parameters_are_told():
+    ring, slope = ImplicitTorus(3, 1), features.SteepestSlope()
+    for work in (
+        lambda: features.integral_curves(ring, slope, (0.0, 0.0)),
+        lambda: features.geodesics(ring, (0.0, 0.0), 0.3),
+        lambda: features.geodesics_between(ring, (0.0, 0.0), (1.0, 0.0)),
+        lambda: features.evenly_spaced_curves(ring, slope, 0.5),
+    ):
+        with pytest.raises(InputError, match="ImplicitTorus is no surface with parameters u and v"):
+            work()

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.errors import InputError
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.vectors import from_components
-from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.surfaces.surface import Domain, Surface, is_parametrised
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.tolerances.of_parameters import AT_POLE
 
@@ -19,6 +20,12 @@ NEAR, FAR = 0.08, 0.12
 
 MAIN = -1
 """The chart of the parameters themselves."""
+
+
+def check_parametrised(surface: object) -> None:
+    """Errors: InputError for what has no parameters u and v; meshes have functions of their own."""
+    if not is_parametrised(surface):
+        raise InputError(f"integral curves: {type(surface).__name__} is no surface with parameters u and v")
 
 
 @dataclass(frozen=True, eq=False)

@@ -132,13 +132,13 @@ def geodesics_between(
     """
     if most is not None and most < 1:
         raise InputError(f"geodesics between two places: {most} of them, expected 1 or more")
-    size, large = extent(surface)
     places = np.concatenate(
         [
             starts_of(surface, at, f"geodesics between two places: {what}")
             for at, what in ((start, "start"), (end, "end"))
         ]
     )
+    size, large = extent(surface)
     if len(places) != 2:
         raise InputError("geodesics between two places: expected one start and one end")
     limit = LONGEST * size if longest is None else positive("geodesics between two places: length", longest)

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
-from vectorplot.features.integral.charts import charts
+from vectorplot.features.integral.charts import charts, check_parametrised
 from vectorplot.features.integral.courses import Courses
 from vectorplot.features.integral.flows import FieldFlow, Flow, GeodesicFlow
 from vectorplot.features.integral.integration import NOTHING_NEAR, USUAL, Accuracy, Until, courses
@@ -72,7 +72,8 @@ def integral_curves(
     Raises
     ------
     InputError
-        For starts that are not finite pairs within the domain, a length that is not positive.
+        For a shape without parameters, starts that are not finite pairs within the domain, a length that is not
+        positive.
 
     Notes
     -----
@@ -204,6 +205,7 @@ def courses_from(
 
 def starts_of(surface: Surface, starts: ArrayLike, what: str = "integral curves: start") -> Floats:
     """(k,2) the parameters that curves are to begin with. Errors: InputError as of `integral_curves`."""
+    check_parametrised(surface)
     at = np.atleast_2d(np.asarray(starts, dtype=np.float64))
     d = surface.domain
     if at.size == 0:

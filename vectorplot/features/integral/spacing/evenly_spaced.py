@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
-from vectorplot.features.integral.charts import charts
+from vectorplot.features.integral.charts import charts, check_parametrised
 from vectorplot.features.integral.courses import Courses
 from vectorplot.features.integral.flows import FieldFlow
 from vectorplot.features.integral.integral_curves import DEFAULT, USUAL_LENGTH, courses_from, drawn
@@ -80,7 +80,8 @@ def evenly_spaced_curves(
     Raises
     ------
     InputError
-        For a distance that is not positive, or less than a five-hundredth of the extent of the surface.
+        For a shape without parameters, a distance that is not positive, or less than a five-hundredth of the extent of
+        the surface.
 
     Notes
     -----
@@ -99,6 +100,7 @@ def evenly_spaced_curves(
     >>> len(curves) > 5
     True
     """
+    check_parametrised(surface)
     positive("evenly spaced curves: distance", apart)
     size = extent(surface)
     if size[0] == 0.0:
