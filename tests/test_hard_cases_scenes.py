@@ -248,6 +248,7 @@ MILLION = """
 import sys
 import numpy as np
 import vectorplot as vp
+from vectorplot.geometry.components import greatest_component, least_component
 from vectorplot.stages.walk import peak_mb
 from vectorplot.testing import visible_by_rays
 from vectorplot.testing.curved_meshes import grid_graph
@@ -267,7 +268,7 @@ at = random.random(60)[:, None]
 points = lines.world[which, 0] * (1 - at) + lines.world[which, 1] * at
 # Only the triangles near a sample on the page are asked: a million rays' worth of brute force would take minutes.
 place = on_page(drawing, mesh.vertices)[mesh.corners].reshape(-1, 3, 2)
-low, high = place.min(axis=1) - 0.5, place.max(axis=1) + 0.5
+low, high = least_component(place.swapaxes(1, 2)) - 0.5, greatest_component(place.swapaxes(1, 2)) + 0.5
 near = np.zeros(len(low), dtype=bool)
 for x, y in on_page(drawing, points):
     near |= (low[:, 0] < x) & (x < high[:, 0]) & (low[:, 1] < y) & (y < high[:, 1])

@@ -80,7 +80,7 @@ def centre_strokes(drawing):
     "body", ["", "CAN red surface rod 2 points 5 5 5 5 5 9\n", "EGG red surface sphere 3 translation 5 5 5\n"]
 )
 def test_nothing_hides_a_centre_line_and_it_is_dashed_with_dots(verb, body):
-    found = verb(parse_scene(SOLID + body), CAMERA)
+    found = verb(parse_scene(SOLID + body), CAMERA, tolerance_mm=1.0)
     places = centre_strokes(found)
     assert np.isclose(places[:, 2].min(), -4.0) and np.isclose(places[:, 2].max(), 14.0)
     (paths,) = [paths for layer in found.layers if layer.name == "centre" for paths in layer.strokes]
