@@ -76,12 +76,17 @@ def _linked(paths: Paths, open_: Ints, node: Ints, tolerance_mm: float) -> Ints:
 
 def _parted(node: Ints, ends: Floats, reach: float) -> Ints:
     """(2m,) the nodes, those parted whose ends (2m,3) are further apart in the world than reach."""
-    order = np.argsort(node, kind="stable")
-    begin = np.flatnonzero(np.concatenate(([True], np.diff(node[order]) > 0)))
-    wide = np.zeros(len(begin), dtype=np.bool_)
+    wide = np.zeros(int(node.max(initial=-1)) + 1, dtype=np.bool_)
+    # Most ends are alone at their nodes.
+    shared = np.flatnonzero(np.bincount(node).take(node) > 1)
+    order = shared[np.argsort(node.take(shared), kind="stable")]
+    begin = np.flatnonzero(np.diff(node.take(order), prepend=-1))
+    if not len(begin):
+        return node
+    of = node.take(order.take(begin))
     for axis in range(3):
         along = ends[order, axis]
-        wide |= np.maximum.reduceat(along, begin) - np.minimum.reduceat(along, begin) > reach
+        wide[of] |= np.maximum.reduceat(along, begin) - np.minimum.reduceat(along, begin) > reach
     if not wide.any():
         return node
     some = np.flatnonzero(wide[node])
