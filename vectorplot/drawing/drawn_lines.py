@@ -24,7 +24,7 @@ MOST_DIVISIONS = 8
 """A line is cut into so many parts at most in one go, to be Bézier curves; all together into so many times
 their number."""
 
-MOST_ROUNDS = 4
+MOST_ROUNDS = 6
 """So often what is still no Bézier curve is cut again: where weights change fast the fourth power comes late."""
 
 
