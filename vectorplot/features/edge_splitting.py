@@ -134,6 +134,10 @@ class Demand(Protocol):
         """(k,n) by how many times sides are too coarse at the vertices over them; up to 1 is fine enough."""
         ...
 
+    def too_coarse(self, edges: Edges) -> Floats:
+        """(k,n) the same where it is more than 1; elsewhere any numbers up to 1."""
+        ...
+
     def border_excess(self, edges: Edges) -> Floats:
         """(k,n) the same for sides along borders and outlines."""
         ...
@@ -263,7 +267,7 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
         fold[:-1][found_on[own]] = own
     fold[-1] = number
     edges = Edges(start, end, at, t, fold)
-    excess = np.nan_to_num(demand.excess(edges), nan=0.0)
+    excess = np.nan_to_num(demand.too_coarse(edges), nan=0.0)
     as_border = np.nan_to_num(demand.border_excess(edges), nan=0.0).max(axis=0)
     part = np.full(count, 0.5)
     at_fold = np.flatnonzero((excess[-1] > 1.0) & (number != NONE))
@@ -275,13 +279,13 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
     hole = np.flatnonzero(~at.known.all(axis=0))
     if len(hole):
         part[hole] = t[np.argmin(at.known[:, hole], axis=0), hole]
-        worst[hole] = np.nan_to_num(demand.excess(_bulging(edges, hole)), nan=0.0).max(axis=0)
+        worst[hole] = np.nan_to_num(demand.too_coarse(_bulging(edges, hole)), nan=0.0).max(axis=0)
     # Where a surface is steep above its domain what is over a side is far from it, and yet the side near the surface.
     steep = np.flatnonzero((worst > 1.0) & (number == NONE) & ~border & at.known.all(axis=0))
     if len(steep):
         some = edges.some(steep)
         some = replace(some, at=between.nearer(some))
-        worst[steep] = np.minimum(worst[steep], np.nan_to_num(demand.excess(some), nan=0.0).max(axis=0))
+        worst[steep] = np.minimum(worst[steep], np.nan_to_num(demand.too_coarse(some), nan=0.0).max(axis=0))
     return np.stack((worst, as_border, part))
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -25,7 +26,7 @@ INSIDE = 0.75
 """In the middle of a triangle the surface may be farther off than over its sides, by a third."""
 
 
-class AllSidesAlike:
+class AllSidesAlike(ABC):
     """What a Demand has that treats all sides of triangles alike, outlines and borders among them."""
 
     def folds(self, points: Floats, normals: Floats) -> Floats:
@@ -36,6 +37,14 @@ class AllSidesAlike:
     def outlines(self) -> int:
         """None."""
         return 0
+
+    @abstractmethod
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+
+    def too_coarse(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+        return self.excess(edges)
 
     def border_excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand: borders are as all sides."""

@@ -17,7 +17,7 @@ from vectorplot.features.tessellation import UNEVEN, grid_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface
 from vectorplot.geometry.components import all_components, all_finite
 from vectorplot.geometry.vectors import cross, dot, norm
-from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.normals import points_and_normals, unit_normals
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_parameters import ASIDE_OF_CREASE, ON_BORDER_OF_DOMAIN, TURNED_OVER
@@ -161,9 +161,8 @@ class Patch:
     def at(self, places: Floats) -> Vertices:
         """The vertices at some places (n,3)."""
         with np.errstate(all="ignore"):
-            points = np.array(self.surface.points(places[:, 0], places[:, 1]), dtype=np.float64)
-            normals = unit_normals(self.surface, places[:, 0], places[:, 1])
-        return Vertices(places, points, normals)
+            points, normals = points_and_normals(self.surface, places[:, 0], places[:, 1])
+        return Vertices(places, np.array(points, dtype=np.float64), normals)
 
     def _without_poles(self, start: Floats, end: Floats) -> tuple[Floats, Floats]:
         """Places of the ends of sides: all of the line that is a pole is one point, and a side goes straight to it."""
@@ -245,7 +244,9 @@ def _enough(lines: Callable[[int], Edges], closed: bool, demand: Demand) -> int:
         inside = sides.start.known | sides.end.known
         if not inside.any():
             return USUAL
-        excess = np.nan_to_num(demand.excess(sides.some(inside)), nan=2.0).max(axis=0)
+        # Of few parts nothing matters but whether they are enough.
+        told = demand.too_coarse if count < USUAL else demand.excess
+        excess = np.nan_to_num(told(sides.some(inside)), nan=2.0).max(axis=0)
         if count < USUAL:
             if excess.max() <= 1.0:
                 return count

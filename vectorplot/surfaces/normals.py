@@ -7,10 +7,14 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import cross, largest_component, norm
+from vectorplot.surfaces.jets import FirstJets, first_jets, second_jets
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_parameters import ASIDE_OF_POLE
 from vectorplot.tolerances.of_values import SINGULAR_PRODUCT, SUSPECT_PRODUCT
+
+Partials = tuple[Floats, Floats]
+SecondPartials = tuple[Floats, Floats, Floats]
 
 
 def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
@@ -47,17 +51,25 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
     True
     """
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
-    return _unit(surface, u, v, surface.partials(u, v))
+    return unit_normals_of(surface, u, v, surface.partials(u, v))
 
 
-def tangent_planes(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
-    """Derivatives by u and by v, and unit normals as of `unit_normals`, each (k,3), at parameters u, v (k,)."""
-    partials = surface.partials(u, v)
-    return *partials, _unit(surface, u, v, partials)
+def tangent_planes(surface: Surface, u: Floats, v: Floats) -> tuple[FirstJets, Floats]:
+    """Points and derivatives by u and by v, and unit normals as of `unit_normals`, each (..., 3), at parameters u, v
+    (...)."""
+    points, along_u, along_v = first_jets(surface, u, v)
+    return (points, along_u, along_v), unit_normals_of(surface, u, v, (along_u, along_v))
 
 
-def _unit(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats]) -> Floats:
-    """(..., 3) the unit normals where the surface has these partials."""
+def points_and_normals(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+    """Points, and unit normals as of `unit_normals`, each (..., 3)."""
+    u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
+    (points, _, _), normals = tangent_planes(surface, u, v)
+    return points, normals
+
+
+def unit_normals_of(surface: Surface, u: Floats, v: Floats, partials: Partials) -> Floats:
+    """(..., 3) the unit normals at parameters u, v (...), where the surface has these partials."""
     product = cross(*partials)
     suspect = _small(product, *partials, surface.domain)
     if suspect.any():
@@ -77,28 +89,41 @@ def normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Flo
     Degenerate: NaN in holes, and where the normals are NaN. Error: as good as the second partials.
     """
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
-    partials = surface.partials(u, v)
-    unit = _unit(surface, u, v, partials)
-    by_u, by_v, vanished = _turning(surface, u, v, partials, unit)
+    return _normal_partials(surface, u, v, surface.partials(u, v), surface.second_partials(u, v))
+
+
+def points_and_normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, tuple[Floats, Floats, Floats]]:
+    """Points (..., 3), and what `normal_partials` says there."""
+    u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
+    points, along_u, along_v, *second = second_jets(surface, u, v)
+    uu, uv, vv = second
+    return points, _normal_partials(surface, u, v, (along_u, along_v), (uu, uv, vv))
+
+
+def _normal_partials(
+    surface: Surface, u: Floats, v: Floats, partials: Partials, second: SecondPartials
+) -> tuple[Floats, Floats, Floats]:
+    """As `normal_partials`, where the surface has these partials and second partials."""
+    unit = unit_normals_of(surface, u, v, partials)
+    by_u, by_v, vanished = _turning(surface.domain, partials, second, unit)
     if vanished.any():
         own = of_some(surface, vanished)
         domain, u, v = own.domain, u[vanished], v[vanished]
         inner_u = u + _inwards(u, domain.u_start, domain.u_end) * ASIDE_OF_POLE * domain.size[0]
         inner_v = v + _inwards(v, domain.v_start, domain.v_end) * ASIDE_OF_POLE * domain.size[1]
         inner = own.partials(inner_u, inner_v)
-        inside = _unit(own, inner_u, inner_v, inner)
-        by_u[vanished], by_v[vanished], _ = _turning(own, inner_u, inner_v, inner, inside)
+        inside = unit_normals_of(own, inner_u, inner_v, inner)
+        bent = own.second_partials(inner_u, inner_v)
+        by_u[vanished], by_v[vanished], _ = _turning(own.domain, inner, bent, inside)
     return unit, by_u, by_v
 
 
-def _turning(
-    surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats], unit: Floats
-) -> tuple[Floats, Floats, Bools]:
+def _turning(domain: Domain, partials: Partials, second: SecondPartials, unit: Floats) -> tuple[Floats, Floats, Bools]:
     """Derivatives (..., 3) of the unit normals by u and by v, and (...,) where they are lost at a pole."""
     along_u, along_v = partials
-    uu, uv, vv = surface.second_partials(u, v)
+    uu, uv, vv = second
     product = cross(along_u, along_v)
-    vanished = norm(product) <= SINGULAR_PRODUCT * _bound(surface.domain, (along_u, along_v), (uu, uv, vv))
+    vanished = norm(product) <= SINGULAR_PRODUCT * _bound(domain, partials, second)
     size = largest_component(product)[..., None]
     with np.errstate(divide="ignore", invalid="ignore"):
         inverse = 1.0 / (norm(product / size)[..., None] * size)
@@ -132,7 +157,7 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats,
     return np.where(gone[:, None], np.nan, np.where(vanished[:, None], limit, product))
 
 
-def _bound(domain: Domain, first: tuple[Floats, Floats], second: tuple[Floats, Floats, Floats]) -> Floats:
+def _bound(domain: Domain, first: Partials, second: SecondPartials) -> Floats:
     """(...,) how large the cross product can be on a domain with these partials."""
     (width, height), (uu, uv, vv) = domain.size, second
     return np.asarray(

@@ -14,6 +14,7 @@ from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.placed_curve import Placed, PlacedCurve, rows_and_shift
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
+from vectorplot.surfaces.jets import FirstJets, SecondJets, first_jets, second_jets
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, hessians, is_implicit, is_parametrised
 
 
@@ -88,6 +89,17 @@ class PlacedSurface(Placed, MovableSurface):
         """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
         uu, uv, vv = self.surface.second_partials(u, v)
         return self.placed_vectors(uu), self.placed_vectors(uv), self.placed_vectors(vv)
+
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(..., 3) points and derivatives by u and by v, at once."""
+        points, a, b = first_jets(self.surface, u, v)
+        return self.placed_points(points), self.placed_vectors(a), self.placed_vectors(b)
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(..., 3) these and the second derivatives, at once."""
+        points, a, b, uu, uv, vv = second_jets(self.surface, u, v)
+        turned = self.placed_vectors
+        return self.placed_points(points), turned(a), turned(b), turned(uu), turned(uv), turned(vv)
 
 
 @runtime_checkable

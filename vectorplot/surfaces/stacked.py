@@ -15,6 +15,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.vectors import from_components
+from vectorplot.surfaces.jets import FirstJets, SecondJets, first_jets, second_jets
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain, Surface
 
@@ -151,23 +152,39 @@ class SurfaceRows:
 
     def points(self, u: Floats, v: Floats) -> Floats:
         """(...,k,3) points."""
-        (at_home,) = self._asked(lambda surface, u, v: (surface.points(u, v),), 1, u, v)
-        return self._turned(at_home) + self.stack.shifts[self.row]
+        (points,) = self._turned(self._asked(lambda surface, u, v: (surface.points(u, v),), 1, u, v))
+        return points + self._shifts
 
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """(...,k,3) derivatives by u and by v."""
-        by_u, by_v = self._asked(lambda surface, u, v: surface.partials(u, v), 2, u, v)
-        return self._turned(by_u), self._turned(by_v)
+        by_u, by_v = self._turned(self._asked(lambda surface, u, v: surface.partials(u, v), 2, u, v))
+        return by_u, by_v
 
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(...,k,3) second derivatives: by u twice, by u and v, by v twice."""
-        uu, uv, vv = self._asked(lambda surface, u, v: surface.second_partials(u, v), 3, u, v)
-        return self._turned(uu), self._turned(uv), self._turned(vv)
+        uu, uv, vv = self._turned(self._asked(lambda surface, u, v: surface.second_partials(u, v), 3, u, v))
+        return uu, uv, vv
 
-    def _turned(self, vectors: Floats) -> Floats:
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(...,k,3) points and derivatives by u and by v, at once."""
+        points, by_u, by_v = self._turned(self._asked(first_jets, 3, u, v))
+        return points + self._shifts, by_u, by_v
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(...,k,3) these and the second derivatives, at once."""
+        points, by_u, by_v, uu, uv, vv = self._turned(self._asked(second_jets, 6, u, v))
+        return points + self._shifts, by_u, by_v, uu, uv, vv
+
+    def _turned(self, vectors: Sequence[Floats]) -> Floats:
+        """(n,...,k,3) some vectors (...,k,3) as they are placed."""
         # Component by component: einsum takes twice as long for matrices that are small.
-        x, y, z = (vectors[..., axis] for axis in range(3))
+        x, y, z = (np.array([each[..., axis] for each in vectors]) for axis in range(3))
         return from_components(*(x * a + y * b + z * c for a, b, c in self._columns))
+
+    @cached_property
+    def _shifts(self) -> Floats:
+        """(k,3) of the placements."""
+        return self.stack.shifts.take(self.row, axis=0)
 
     @cached_property
     def _columns(self) -> Floats:

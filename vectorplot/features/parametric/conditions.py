@@ -16,7 +16,12 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import dot, normalize
-from vectorplot.surfaces.normals import normal_partials, unit_normals
+from vectorplot.surfaces.normals import (
+    normal_partials,
+    points_and_normal_partials,
+    points_and_normals,
+    unit_normals,
+)
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 
 Slopes = tuple[Floats, Floats]
@@ -118,7 +123,8 @@ class CentralContour(_Alike):
 
     def values(self, u: Floats, v: Floats) -> Floats:
         """(...,) distances of the eye from the tangent planes, negative on the side of the normal."""
-        return dot(self.surface.points(u, v) - np.asarray(self.eye), unit_normals(self.surface, u, v))
+        points, unit = points_and_normals(self.surface, u, v)
+        return dot(points - np.asarray(self.eye), unit)
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
@@ -126,8 +132,8 @@ class CentralContour(_Alike):
 
     def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
         """Both at once."""
-        way = self.surface.points(u, v) - np.asarray(self.eye)
-        unit, by_u, by_v = normal_partials(self.surface, u, v)
+        points, (unit, by_u, by_v) = points_and_normal_partials(self.surface, u, v)
+        way = points - np.asarray(self.eye)
         return dot(way, unit), (dot(way, by_u), dot(way, by_v))
 
     def sights(self, u: Floats, v: Floats) -> Floats:

@@ -16,7 +16,7 @@ from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.polylines import joined
 from vectorplot.geometry.vectors import dot, length
-from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.normals import unit_normals_of
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_lengths import BESIDE_POLE, BEYOND_END
 from vectorplot.tolerances.of_parameters import CURVATURE_DIFFERENCE, CUSP_FOUND, CUSP_SETTLED, ROUNDING_OF_DOMAIN
@@ -70,7 +70,7 @@ def sight_curvatures(contour: Contour, u: Floats, v: Floats) -> Floats:
     surface = contour.surface
     along_u, along_v = surface.partials(u, v)
     uu, uv, vv = surface.second_partials(u, v)
-    normal = unit_normals(surface, u, v)
+    normal = unit_normals_of(surface, u, v, (along_u, along_v))
     sight = contour.sights(u, v)
     with np.errstate(invalid="ignore", divide="ignore"):
         sight = sight / length(sight)[..., None]

@@ -182,7 +182,10 @@ def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
 
 def domain_borders(surface: Surface, tracing: Tracing) -> SurfaceCurves:
     """The borders at the ends of the domain alone."""
-    domain, single = surface.domain, {(pole.axis, pole.place) for pole in poles(surface)}
+    domain = surface.domain
+    if domain.closed_u and domain.closed_v:
+        return no_curves()
+    single = {(pole.axis, pole.place) for pole in poles(surface)}
     u = [] if domain.closed_u else [t for t in (domain.u_start, domain.u_end) if (0, t) not in single]
     v = [] if domain.closed_v else [t for t in (domain.v_start, domain.v_end) if (1, t) not in single]
     return together([u_lines(surface, u, tracing=tracing), v_lines(surface, v, tracing=tracing)])
@@ -193,8 +196,8 @@ def _lines(surface: Surface, axis: int, values: Floats, tracing: Tracing) -> Sur
     domain = surface.domain
     if not np.isfinite(values).all():
         raise InputError("parameter lines: values must be finite numbers")
-    size = extent(surface)[0]
-    if not len(values) or size == 0.0:
+    size = extent(surface)[0] if len(values) else 0.0
+    if size == 0.0:
         return no_curves()
     t = domain.grid(24, 24)[1 - axis]
     breaks = line_pieces(surface).breaks[1 - axis]

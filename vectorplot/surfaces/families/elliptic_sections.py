@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.vectors import from_components
+from vectorplot.surfaces.jets import FirstJets, SecondJets
 from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 
@@ -79,6 +80,28 @@ class EllipticSections(MovableSurface):
         return (
             self._at(-p * cosine, -p * sine, 0.0 * q),
             self._at(-dp * sine, dp * cosine, 0.0 * q),
+            self._at(ddp * cosine, ddp * sine, ddq),
+        )
+
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(..., 3) points and derivatives by u and by v, at once."""
+        (p, q), (dp, dq), _ = self._profile(np.asarray(v, dtype=np.float64))
+        cosine, sine = np.cos(u), np.sin(u)
+        x, y = p * cosine, p * sine
+        points = np.asarray(self._middle() + self._at(x, y, q))
+        return points, self._at(-y, x, 0.0 * q), self._at(dp * cosine, dp * sine, dq)
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(..., 3) these and the second derivatives, at once."""
+        (p, q), (dp, dq), (ddp, ddq) = self._profile(np.asarray(v, dtype=np.float64))
+        cosine, sine, level = np.cos(u), np.sin(u), 0.0 * q
+        x, y, dx, dy = p * cosine, p * sine, dp * cosine, dp * sine
+        return (
+            np.asarray(self._middle() + self._at(x, y, q)),
+            self._at(-y, x, level),
+            self._at(dx, dy, dq),
+            self._at(-x, -y, level),
+            self._at(-dy, dx, level),
             self._at(ddp * cosine, ddp * sine, ddq),
         )
 

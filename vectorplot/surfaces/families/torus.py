@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
 from vectorplot.surfaces.placed_surface import MovableImplicit
 from vectorplot.surfaces.surface import Domain
@@ -77,6 +78,10 @@ class Torus(EllipticSections):
 
     def _middle(self) -> Floats:
         return np.asarray(self.centre)
+
+    def _at(self, x: Floats, y: Floats, z: Floats) -> Floats:
+        # Its sections are circles: there is nothing to multiply.
+        return from_components(x, y, z)
 
     def _profile(self, v: Floats) -> Profile:
         cosine, sine = self.minor * np.cos(v), self.minor * np.sin(v)

@@ -169,17 +169,26 @@ def _meetings(
     points, ways = samples.points[sample], way[sample]
     off = np.full(len(sample), np.inf)
     active = np.arange(len(sample))
-    for _ in range(ROUNDS):
+    for begun in range(ROUNDS):
         if not len(active):
             break
-        of = number[active]
-        t[active], places[active] = sheets.missed(of, points[active], ways[active], places[active])
-        away = points[active] + t[active, None] * ways[active] - sheets.points(of, places[active])
-        off[active] = np.sqrt(dot(away, away))
-        active = active[(off[active] > SETTLED_OF_EXTENT) & np.isfinite(off[active])]
+        step, led_to, here = sheets.missed(number[active], points[active], ways[active], places[active])
+        if begun:
+            # How far the last step missed is known where the next one is.
+            off[active] = _apart(points[active], ways[active], t[active], here)
+            on = np.flatnonzero((off[active] > SETTLED_OF_EXTENT) & np.isfinite(off[active]))
+            active, step, led_to = active[on], step[on], led_to[on]
+        t[active], places[active] = step, led_to
+    off[active] = _apart(points[active], ways[active], t[active], sheets.points(number[active], places[active]))
     met = (off <= max(MET_OF_EXTENT, ULPS * sight_lines.rounding(view))) & sheets.on_sheet(number, places)
     sample, number, t, places = sample[met], number[met], t[met], places[met]
     return _different(sheets, sample, number, t * np.linalg.norm(ways[met], axis=1), t, places)
+
+
+def _apart(points: Floats, ways: Floats, t: Floats, others: Floats) -> Floats:
+    """(k,) how far points + t ways are from other points."""
+    away = points + t[:, None] * ways - others
+    return np.sqrt(dot(away, away))
 
 
 def _different(

@@ -74,7 +74,7 @@ def test_newton_finds_where_lines_meet_a_sphere() -> None:
     height = np.sqrt(radius**2 - (aside**2).sum(axis=1))
     places = points + np.stack([0.0 * height, 0.0 * height, 3.0 + 1.04 * height], axis=1)
     for _ in range(6):
-        t, places = sheet.missed(points, ways, places)
+        t, places, _ = sheet.missed(points, ways, places)
     assert np.allclose(t, 0.5 * (3.0 + height), atol=1e-10)
     assert np.allclose(places[:, 2], height, atol=1e-10)
 

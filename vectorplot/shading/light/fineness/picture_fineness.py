@@ -88,8 +88,25 @@ class PictureFineness:
         seen = (edges.fold != NONE) & (edges.fold < self.outlines)
         deep = np.where(seen, allowed, self._apart_from_others(edges, allowed, self.deep * allowed))
         far = off_chords(edges) / (INSIDE * deep)
-        found = np.maximum(np.maximum(far, self._shade_errors(edges) / self.shade_error), turning(edges) / TURN)
+        found = np.maximum(far, self._unlike_surface(edges))
         return np.where(self._long(edges, allowed), found, 0.0)
+
+    def too_coarse(self, edges: Edges) -> Floats:
+        """(k,n) as Demand. Other items are far to seek: they are looked for where that tells, as far as it does."""
+        allowed = self.allowed(edges.at.points)
+        seen = (edges.fold != NONE) & (edges.fold < self.outlines)
+        long, off, unlike = self._long(edges, allowed), off_chords(edges) / INSIDE, self._unlike_surface(edges)
+        needed = off / np.maximum(unlike, 1.0)
+        open_ = np.flatnonzero((long & ~seen & (needed > allowed)).any(axis=0))
+        deep, least = allowed.copy(), allowed[:, open_]
+        most = np.clip(2.0 * needed[:, open_].max(axis=0, initial=0.0), least, self.deep * least)
+        apart = self._apart_from_others(edges.some(open_), least, most)
+        deep[:, open_] = np.where(seen[:, open_], least, apart)
+        return np.where(long, np.maximum(off / deep, unlike), 0.0)
+
+    def _unlike_surface(self, edges: Edges) -> Floats:
+        """(k,n) by how many times shades and normals differ too much from those of the surface."""
+        return np.maximum(self._shade_errors(edges) / self.shade_error, turning(edges) / TURN)
 
     def border_excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand."""

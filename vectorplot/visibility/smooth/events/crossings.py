@@ -22,7 +22,7 @@ from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves, at_once
 from vectorplot.words import LineKind
 
 if TYPE_CHECKING:
@@ -228,7 +228,7 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
     """The pairs at parts where cubic arcs close to the curves meet; those that do not, or only touch, are left out."""
     chord, of_curve = np.unique(pairs.chord, return_inverse=True)
     edge, of_edge = np.unique(pairs.edge, return_inverse=True)
-    one, two = cubics(view, curves, chord), cubics(view, edges, edge)
+    one, two = cubics(view, [(curves, chord), (edges, edge)])
     part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
     off = gap = np.full(len(part), np.inf)
     for _ in range(ROUNDS):
@@ -260,7 +260,8 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
     for _ in range(ROUNDS):
         if not len(active):
             break
-        one, two = curves.at(pairs.chord[active], part[active]), edges.at(pairs.edge[active], edge_part[active])
+        of = pairs.some(active)
+        one, two = at_once([(curves, of.chord, part[active]), (edges, of.edge, edge_part[active])])
         gap = sight_lines.image(view, two.points) - sight_lines.image(view, one.points)
         off[active] = np.sqrt(dot(gap, gap))
         a, b = (sight_lines.image_slopes(view, x.points, x.slopes) for x in (one, two))
@@ -278,7 +279,7 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
 
 def _events(view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: Bools, pairs: Pairs) -> Events:
     """The crossings of the pairs that really are behind an edge."""
-    one, two = curves.at(pairs.chord, pairs.part), edges.at(pairs.edge, pairs.edge_part)
+    one, two = at_once([(curves, pairs.chord, pairs.part), (edges, pairs.edge, pairs.edge_part)])
     away = sight_lines.image(view, two.points) - sight_lines.image(view, one.points)
     residual = np.sqrt(dot(away, away))
     gap = sight_lines.depth(view, one.points) - sight_lines.depth(view, two.points)

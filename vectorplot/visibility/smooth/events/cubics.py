@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,10 +10,14 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets import sight_lines
-from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.visibility.smooth.tracing.traced_curves import Curves, at_once
 
 STEEPEST = 3.0
 """A slope longer than so many chords is none of a curve near its chord."""
+
+
+Ends = tuple[list[Floats], list[Floats]]
+"""Points (k,3) at both ends of chords, and the slopes (k,3) of the curves there."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -36,9 +41,14 @@ class Cubics:
         return p + t * (a + t * (two + t * three)), a + t * (2.0 * two + 3.0 * t * three)
 
 
-def cubics(view: View, curves: Curves, chord: Ints) -> Cubics:
-    """The cubic arcs of chords, given by the points at which they begin, in the image and in depth."""
-    points, along = _ends(curves, chord)
+def cubics(view: View, asked: Sequence[tuple[Curves, Ints]]) -> list[Cubics]:
+    """The cubic arcs of chords of each of several curves, given by the points at which they begin, in the image and in
+    depth."""
+    return [_in_image(view, *ends) for ends in _ends_of_each(asked)]
+
+
+def _in_image(view: View, points: list[Floats], along: list[Floats]) -> Cubics:
+    """The arcs with these ends and slopes in space, in the image and in depth."""
     images = [np.column_stack([sight_lines.image(view, x), sight_lines.depth(view, x)]) for x in points]
     slopes = [
         np.column_stack([sight_lines.image_slopes(view, x, way), -way[:, 2]])
@@ -52,11 +62,19 @@ def cubics_in_space(curves: Curves, chord: Ints) -> Cubics:
     return _arcs(*_ends(curves, chord))
 
 
-def _ends(curves: Curves, chord: Ints) -> tuple[list[Floats], list[Floats]]:
+def _ends(curves: Curves, chord: Ints) -> Ends:
     """The points (k,3) at both ends of chords, and the slopes (k,3) of the curves there."""
-    zero = np.zeros(len(chord))
-    return [curves.points[chord], curves.points[chord + 1]], [
-        curves.at(chord, part).slopes for part in (zero, zero + 1)
+    (ends,) = _ends_of_each([(curves, chord)])
+    return ends
+
+
+def _ends_of_each(asked: Sequence[tuple[Curves, Ints]]) -> list[Ends]:
+    """The same of chords of each of several curves."""
+    parts = [(curves, chord, np.full(len(chord), part)) for curves, chord in asked for part in (0.0, 1.0)]
+    slopes = [found.slopes for found in at_once(parts)]
+    return [
+        ([curves.points[chord], curves.points[chord + 1]], slopes[2 * k : 2 * k + 2])
+        for k, (curves, chord) in enumerate(asked)
     ]
 
 

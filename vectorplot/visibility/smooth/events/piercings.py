@@ -229,9 +229,9 @@ def _roughly_met(sheets: Sheets, curves: Curves, near: _Close) -> _Close:
             break
         of, before = near.number[active], part[active]
         points, slopes = arcs.at(of_curve[active], before)
-        away = points - sheets.points(of, places[active])
+        step, places[active], here = sheets.missed(of, points, slopes, places[active])
+        away = points - here
         off[active] = np.sqrt(dot(away, away))
-        step, places[active] = sheets.missed(of, points, slopes, places[active])
         step = np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7)
         part[active] = np.clip(before + step, -0.5, 1.5)
         # A place that is led away from its chord twice is none of it.
@@ -260,9 +260,9 @@ def _met(view: View, sheets: Sheets, curves: Curves, near: _Close) -> tuple[Ints
                 break
             at = curves.at(chord[active], part[active])
             of = number[active]
-            away = at.points - sheets.points(of, places[active])
+            step, places[active], here = sheets.missed(of, at.points, at.slopes, places[active])
+            away = at.points - here
             off[active] = np.sqrt(dot(away, away))
-            step, places[active] = sheets.missed(of, at.points, at.slopes, places[active])
             step = np.clip(np.where(np.isfinite(step), step, 0.0), -0.7, 0.7)
             part[active] = np.clip(part[active] + step, -1.5, 2.5)
             active = active[off[active] > SETTLED_OF_EXTENT]

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.vectors import dot, from_components
+from vectorplot.surfaces.jets import first_jets
 from vectorplot.visibility.smooth.sheets.family import Along, Chords
 from vectorplot.visibility.smooth.sheets.parametric_places import OnParametrised, inside
 
@@ -47,7 +48,7 @@ class DirectedCurves:
         at = start + np.concatenate([t * (leaving + t * (bent + t * turned)) * size, 0.0 * t], axis=1)
         moved = (leaving + t * (2.0 * bent + 3.0 * t * turned)) * size
         u, v = inside(surface.domain, at)
-        along_u, along_v = surface.partials(u, v)
+        points, along_u, along_v = first_jets(surface, u, v)
         with np.errstate(all="ignore"):
             directions = np.where(known[:, None], np.insert(moved / long[:, None], 2, 0.0, axis=1), np.nan)
-        return Along(at, surface.points(u, v), moved[:, :1] * along_u + moved[:, 1:] * along_v, directions)
+        return Along(at, points, moved[:, :1] * along_u + moved[:, 1:] * along_v, directions)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -15,6 +16,7 @@ from vectorplot.features.parametric.holes.holes import beside_rim_chords
 from vectorplot.geometry import records
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import cross, dot, from_components
+from vectorplot.surfaces.jets import first_jets
 from vectorplot.surfaces.splines.spline_surface import SplineSurface
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.tolerances.of_lengths import FAMILY_SETTLED
@@ -49,6 +51,17 @@ class Chords:
             (start[which], end[which]) for start, end in (self.places, self.points, self.second_places)
         )
         return Chords(places, points, second, self.level[which])
+
+
+def joined_chords(parts: Sequence[Chords]) -> Chords:
+    """The chords of all parts, one part after the other."""
+    if len(parts) == 1:
+        return parts[0]
+    places, points, second = (
+        (np.concatenate([start for start, _ in ends]), np.concatenate([end for _, end in ends]))
+        for ends in ([p.places for p in parts], [p.points for p in parts], [p.second_places for p in parts])
+    )
+    return Chords(places, points, second, np.concatenate([p.level for p in parts]))
 
 
 @dataclass(frozen=True, eq=False)
@@ -156,10 +169,12 @@ class ParameterCurves:
         at = start + part[:, None] * way
         surface = self.surface.surface_at(start)
         u, v = inside(surface.domain, at)
-        # At a break derivatives may jump: those of the piece that the chord belongs to.
-        piece = start + inner_part(part)[:, None] * way if any(self.degrees_along) else at
-        along_u, along_v = surface.partials(*inside(surface.domain, piece))
-        return Along(at, surface.points(u, v), way[:, :1] * along_u + way[:, 1:2] * along_v)
+        points, along_u, along_v = first_jets(surface, u, v)
+        if any(self.degrees_along):
+            # At a break derivatives may jump: those of the piece that the chord belongs to.
+            piece = start + inner_part(part)[:, None] * way
+            along_u, along_v = surface.partials(*inside(surface.domain, piece))
+        return Along(at, points, way[:, :1] * along_u + way[:, 1:2] * along_v)
 
 
 @dataclass(frozen=True, eq=False)
@@ -232,9 +247,8 @@ class ConditionCurves:
         tangent = np.where(all_finite(tangent)[..., None], tangent, way)
         places_at = np.concatenate([at * size, start[:, 2:]], axis=1)
         u, v = inside(domain, places_at)
-        along_u, along_v = surface.partials(u, v)
+        points, along_u, along_v = first_jets(surface, u, v)
         moved = tangent * size
-        points = surface.points(u, v)
         second = points[: len(points) if self.second >= 0 else 0]
         return Along(places_at, points, moved[:, :1] * along_u + moved[:, 1:] * along_v, second)
 

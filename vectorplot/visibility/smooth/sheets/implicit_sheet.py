@@ -117,8 +117,9 @@ class ImplicitSheet:
         """(k,3) into both wings of cuspidal edges."""
         return CuspidalEdges(self.surface, 1.0).turnings(places)
 
-    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
-        """(k,) and (k,3) one Newton step along lines, from the points of them that are nearest to places."""
+    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
+        """(k,) and (k,3) one Newton step along lines, from the points of them that are nearest to places; and the
+        points (k,3) of the sheet at these."""
         square = dot(ways, ways)
         with np.errstate(all="ignore"):
             t = dot(places - points, ways) / square
@@ -126,7 +127,7 @@ class ImplicitSheet:
             step = self.surface.values(at) / dot(self.surface.gradients(at), ways)
             longest = LONGEST_STEP / np.sqrt(square)
         t = t - np.clip(step, -longest, longest)
-        return t, points + t[:, None] * ways
+        return t, points + t[:, None] * ways, self.points(places)
 
     def apart(self, one: Floats, two: Floats) -> Floats:
         """(k,) distances in space."""

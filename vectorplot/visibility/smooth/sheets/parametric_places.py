@@ -11,7 +11,8 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.holes.holes import into_surface, is_known
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.vectors import cross, dot, from_components
-from vectorplot.surfaces.normals import tangent_planes, unit_normals
+from vectorplot.surfaces.jets import first_jets
+from vectorplot.surfaces.normals import tangent_planes, unit_normals, unit_normals_of
 from vectorplot.surfaces.stacked import StackedSurfaces, of_some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -69,7 +70,8 @@ class OnParametrised(ABC):
         """The tangent planes."""
         surface = self.surface_at(places)
         u, v = inside(surface.domain, places)
-        return TangentPlanes(places, surface.points(u, v), *tangent_planes(surface, u, v))
+        jets, normals = tangent_planes(surface, u, v)
+        return TangentPlanes(places, *jets, normals)
 
     def bends(self, places: Floats, directions: Floats) -> Floats:
         """(k,) normal parts of the accelerations along tangential directions; 0 at singular points; at rims of holes
@@ -80,7 +82,7 @@ class OnParametrised(ABC):
         u, v = inside(surface.domain, places)
         along_u, along_v = surface.partials(u, v)
         uu, uv, vv = surface.second_partials(u, v)
-        n = unit_normals(surface, u, v)
+        n = unit_normals_of(surface, u, v, (along_u, along_v))
         with np.errstate(invalid="ignore", divide="ignore"):
             a, b, _ = solved(along_u, along_v, n, directions).T
             bend = dot(n, uu) * a * a + 2.0 * dot(n, uv) * a * b + dot(n, vv) * b * b
@@ -133,19 +135,19 @@ class OnParametrised(ABC):
         a, b = (a * width)[:, None], (b * height)[:, None]
         return np.asarray(uu * a * a + 2.0 * uv * a * b + vv * b * b)
 
-    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
-        """(k,) and (k,3) one Newton step for where lines meet the sheet."""
+    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
+        """(k,) and (k,3) one Newton step for where lines meet the sheet; and the points (k,3) at the places."""
         surface = self.surface_at(places)
         u, v = inside(surface.domain, places)
-        along_u, along_v = surface.partials(u, v)
-        step = solved(along_u, along_v, -ways, points - surface.points(u, v))
+        here, along_u, along_v = first_jets(surface, u, v)
+        step = solved(along_u, along_v, -ways, points - here)
         t = np.where(np.isfinite(step[:, 2]), step[:, 2], np.nan)
         step[:, 2] = 0.0
         width, height = surface.domain.size
         with np.errstate(invalid="ignore"):
             long = np.maximum(np.abs(step[:, 0]) / width, np.abs(step[:, 1]) / height)
             step *= np.minimum(1.0, LONGEST_STEP / np.maximum(long, LEAST_DIVISOR))[:, None]
-        return t, from_components(u, v, places[:, 2]) + step
+        return t, from_components(u, v, places[:, 2]) + step, here
 
     def apart(self, one: Floats, two: Floats) -> Floats:
         """(k,) the larger of the distances in u and v, as parts of the domain."""

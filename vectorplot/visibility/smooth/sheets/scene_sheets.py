@@ -124,12 +124,17 @@ class Sheets:
         """(k,3) the direction to which both wings of cuspidal edges turn, at places on them."""
         return self._vectors(number, places, lambda sheet, which, at: sheet.turnings(at))
 
-    def missed(self, number: Ints, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
-        """(k,) and (k,3): one Newton step for where lines points + t ways meet the sheets: t, and the places there."""
-        t, met = np.full(len(number), np.nan), np.full((len(number), 3), np.nan)
+    def missed(self, number: Ints, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
+        """(k,) and (k,3): one Newton step for where lines points + t ways meet the sheets: t, and the places there; and
+        the points (k,3) of the sheets at the places from which the step is taken."""
+        t, met, here = (
+            np.full(len(number), np.nan),
+            np.full((len(number), 3), np.nan),
+            np.full((len(number), 3), np.nan),
+        )
         for sheet, which, at in self._each(number, places):
-            t[which], met[which] = sheet.missed(points[which], ways[which], at)
-        return t, met
+            t[which], met[which], here[which] = sheet.missed(points[which], ways[which], at)
+        return t, met, here
 
     def apart(self, number: Ints, one: Floats, two: Floats) -> Floats:
         """(k,) how far places are from each other as parts of the domains."""

@@ -42,8 +42,9 @@ class OnSheet(Protocol):
         """(k,3) the direction to which both wings of a cuspidal edge turn, at places on it."""
         ...
 
-    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats]:
-        """(k,) and (k,3): one Newton step for where lines points + t ways meet the sheet: t, and the places there."""
+    def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
+        """(k,) and (k,3): one Newton step for where lines points + t ways meet the sheet: t, and the places there; and
+        the points (k,3) of the sheet at the places from which the step is taken."""
         ...
 
     def apart(self, one: Floats, two: Floats) -> Floats:

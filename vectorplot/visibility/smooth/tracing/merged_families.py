@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -19,13 +20,20 @@ ON_ONE = (ParameterCurves, DirectedCurves, RimCurves, ConditionCurves, FaceCurve
 """Families of curves that lie on one sheet."""
 
 
-def with_merged_families(curves: Curves, sheets: Sheets) -> Curves:
-    """The same curves, those of one sort on the sheets of a group in one family: so they are asked at once.
+def with_merged_families(parts: Sequence[Curves], sheets: Sheets) -> list[Curves]:
+    """The same curves, those of one sort on the sheets of a group in one family, the same in all parts: so they are
+    asked at once.
 
     Their places say on which sheet of the group they are.
     """
     if not any(group.stacked for group in sheets.groups):
-        return curves
+        return list(parts)
+    known: dict[object, Family] = {}
+    return [_with_merged(curves, sheets, known) for curves in parts]
+
+
+def _with_merged(curves: Curves, sheets: Sheets, known: dict[object, Family]) -> Curves:
+    """As with_merged_families; known: the families there are already, those that are new among them afterwards."""
     number: dict[object, int] = {}
     families: list[Family] = []
     new = np.zeros(len(curves.families), dtype=np.intp)
@@ -35,7 +43,7 @@ def with_merged_families(curves: Curves, sheets: Sheets) -> Curves:
         key = old if found is None else found.key
         if key not in number:
             number[key] = len(families)
-            families.append(family if found is None else found.family)
+            families.append(family if found is None else known.setdefault(key, found.family))
         new[old] = number[key]
         first[old], second[old] = (False, False) if found is None else (True, found.on_second)
     places, second_places = curves.places.copy(), curves.second_places.copy()

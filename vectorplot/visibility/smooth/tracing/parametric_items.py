@@ -113,7 +113,7 @@ def curves_of_parametrised(
     if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
         # At an apex or a cuspidal edge the normal jumps: that is known, and no doubt.
         doubts = tuple(text for text in doubts if not text.startswith(JUMPS))
-    return [as_curves(curves, kind, sheet.item, family) for kind, family, curves in found], doubts
+    return [as_curves(curves, kind, sheet.item, family) for kind, family, curves in found if len(curves)], doubts
 
 
 def _lines_of_parameters(view: View, sheet: ParametricSheet, number: int) -> ParameterCurves:

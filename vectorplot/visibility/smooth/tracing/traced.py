@@ -107,9 +107,8 @@ def traced_scene(
         if is_curve(item.shape) and wanted:
             drawn.append(space_curve(view, item.shape, number, sheets, tracing, min(wanted)))
     all_sheets = Sheets(sheets)
-    curves, hiding = (
-        with_merged_families(_with_images(view, together(parts)), all_sheets) for parts in ([*drawn, met.curves], edges)
-    )
+    seen = [_with_images(view, together(parts)) for parts in ([*drawn, met.curves], edges)]
+    curves, hiding = with_merged_families(seen, all_sheets)
     return TracedScene(all_sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 
@@ -12,7 +13,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
-from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family, FamilyOfPolynomials
+from vectorplot.visibility.smooth.sheets.family import Along, Chords, Family, FamilyOfPolynomials, joined_chords
 
 
 def _none() -> Ints:
@@ -78,7 +79,8 @@ class Curves:
         A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord. Degenerate: over a hole
         of its surface, which may reach between two points of a curve, it is its chord.
         """
-        return self._between(self._chords(chord), self.family[self.owner[chord]], part)
+        (found,) = at_once([(self, chord, part)])
+        return found
 
     def with_exact_slopes(self, chord: Ints, part: Floats) -> Along:
         """The same for parts from 0 to 1, the directions of slopes those of the curves there.
@@ -90,7 +92,7 @@ class Curves:
         inner = np.flatnonzero((part > 0.0) & (part < 1.0))
         if len(inner):
             late = part[inner] > 0.5
-            whole, to = self._chords(chord[inner]), found.some(inner)
+            whole, to = self.chords_from(chord[inner]), found.some(inner)
             second = np.where(np.isfinite(to.second_places), to.second_places, whole.second_places[0])
             shorter = Chords(
                 _with_end(whole.places, to.places, late),
@@ -98,7 +100,8 @@ class Curves:
                 _with_end(whole.second_places, second, late),
                 whole.level,
             )
-            again = self._between(shorter, self.family[self.owner[chord[inner]]], np.where(late, 1.0, 0.0))
+            of = self.family[self.owner[chord[inner]]]
+            again = _between(self.families, shorter, of, np.where(late, 1.0, 0.0))
             found.slopes[inner] = again.slopes / np.where(late, part[inner], 1.0 - part[inner])[:, None]
         return found
 
@@ -111,7 +114,7 @@ class Curves:
             curves = self.families[number]
             if isinstance(curves, FamilyOfPolynomials):
                 which = np.flatnonzero(family == number)
-                degree[which], rational[which] = curves.degrees(self._chords(chord[which])), curves.rational
+                degree[which], rational[which] = curves.degrees(self.chords_from(chord[which])), curves.rational
         return degree, rational
 
     def weights(self, chord: Ints, part: Floats) -> Floats:
@@ -121,26 +124,10 @@ class Curves:
             curves = self.families[number]
             if isinstance(curves, FamilyOfPolynomials) and curves.rational:
                 which = np.flatnonzero(family == number)
-                result[which] = curves.weights(self._chords(chord[which]), part[which])
+                result[which] = curves.weights(self.chords_from(chord[which]), part[which])
         return result
 
-    def _between(self, chords: Chords, family: Ints, part: Floats) -> Along:
-        """The curves of families (k,) at a part (k,) of their chords."""
-        places, points, slopes = (np.empty((len(part), 3)) for _ in range(3))
-        second = np.full((len(part), 3), np.nan)
-        for number in np.unique(family).tolist():
-            which = np.flatnonzero(family == number)
-            found = self.families[number].between(chords.some(which), part[which])
-            places[which], points[which], slopes[which] = found.places, found.points, found.slopes
-            if len(found.second_places):
-                second[which] = found.second_places
-        lost = np.flatnonzero(~all_finite(points + slopes))
-        if len(lost):
-            start, end = (ends[lost] for ends in chords.points)
-            points[lost], slopes[lost] = start + part[lost, None] * (end - start), end - start
-        return Along(places, points, slopes, second)
-
-    def _chords(self, begin: Ints) -> Chords:
+    def chords_from(self, begin: Ints) -> Chords:
         """The chords that begin at these points."""
         places, points, second = ((x[begin], x[begin + 1]) for x in (self.places, self.points, self.second_places))
         return Chords(places, points, second, self.level[self.owner[begin]])
@@ -148,6 +135,41 @@ class Curves:
     def some(self, which: Ints) -> Curves:
         """Some of the curves."""
         return some(self, which)
+
+
+def at_once(asked: Sequence[tuple[Curves, Ints, Floats]]) -> list[Along]:
+    """What `Curves.at` says of several curves, each with its chords and parts: asked as one, for a few places take as
+    long as many."""
+    families: list[Family] = []
+    number: dict[int, int] = {}
+    of: list[Ints] = []
+    for curves, chord, _ in asked:
+        for family in curves.families:
+            if number.setdefault(id(family), len(families)) == len(families):
+                families.append(family)
+        own = np.array([number[id(family)] for family in curves.families], dtype=np.intp)
+        of.append(own[curves.family[curves.owner[chord]]])
+    chords = joined_chords([curves.chords_from(chord) for curves, chord, _ in asked])
+    found = _between(families, chords, np.concatenate(of), np.concatenate([part for _, _, part in asked]))
+    ends = np.cumsum([0, *(len(chord) for _, chord, _ in asked)]).tolist()
+    return [found.some(np.arange(first, end)) for first, end in pairwise(ends)]
+
+
+def _between(families: Sequence[Family], chords: Chords, family: Ints, part: Floats) -> Along:
+    """The curves of families (k,) at a part (k,) of their chords."""
+    places, points, slopes = (np.empty((len(part), 3)) for _ in range(3))
+    second = np.full((len(part), 3), np.nan)
+    for number in np.unique(family).tolist():
+        which = np.flatnonzero(family == number)
+        found = families[number].between(chords.some(which), part[which])
+        places[which], points[which], slopes[which] = found.places, found.points, found.slopes
+        if len(found.second_places):
+            second[which] = found.second_places
+    lost = np.flatnonzero(~all_finite(points + slopes))
+    if len(lost):
+        start, end = (ends[lost] for ends in chords.points)
+        points[lost], slopes[lost] = start + part[lost, None] * (end - start), end - start
+    return Along(places, points, slopes, second)
 
 
 def _with_end(ends: tuple[Floats, Floats], new: Floats, last: Bools) -> tuple[Floats, Floats]:
