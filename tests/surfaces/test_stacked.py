@@ -11,6 +11,7 @@ from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParabol
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.jets import first_jets, second_jets
 from vectorplot.surfaces.normals import normal_partials, unit_normals
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
@@ -57,6 +58,33 @@ def test_all_surfaces_on_grids_say_what_each_says_alone(shapes: tuple[Surface, .
     for surface, found in zip(placed, stack.points_of_all(u, v), strict=True):
         own = np.meshgrid(*surface.domain.grid(4, 3), indexing="ij")
         assert np.allclose(found, surface.points(*own).reshape(-1, 3), rtol=1e-12, atol=1e-12)
+
+
+@pytest.mark.parametrize("shapes", [ROUND, RINGS, OPEN], ids=["round", "rings", "open"])
+def test_points_and_derivatives_at_once_are_those_asked_for_each(shapes: tuple[Surface, ...]) -> None:
+    """To the last bit, of surfaces that know them at once and of users' functions, placed and stacked."""
+    rng = np.random.default_rng(6)
+    placed = tuple(PlacedSurface(shape, rng.normal(size=(3, 3)), rng.normal(size=3)) for shape in shapes)
+    many = StackedSurfaces(placed).at(rng.integers(0, len(shapes), 50))
+    for surface in (*shapes, *placed, many):
+        (width, height), domain = surface.domain.size, surface.domain
+        u = domain.u_start + rng.uniform(0.0, 1.0, 50) * width
+        v = domain.v_start + rng.uniform(0.0, 1.0, 50) * height
+        each = (surface.points(u, v), *surface.partials(u, v), *surface.second_partials(u, v))
+        for asked, found in zip(each, second_jets(surface, u, v), strict=True):
+            assert np.array_equal(asked, found)
+        for asked, found in zip(each[:3], first_jets(surface, u, v), strict=True):
+            assert np.array_equal(asked, found)
+
+
+def test_sines_of_a_torus_are_taken_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = []
+    profile = Torus._profile
+    monkeypatch.setattr(Torus, "_profile", lambda self, v: asked.append(len(v)) or profile(self, v))
+    t = np.linspace(0.0, 6.0, 7)
+    second_jets(StackedSurfaces.of(RINGS).at(np.arange(7) % 4), t, t)
+    unit_normals(Torus(), t, t)
+    assert asked == [7, 7]
 
 
 def test_one_surface_is_asked_itself() -> None:

@@ -106,6 +106,8 @@ def refined(
     limit = np.broadcast_to(np.asarray(tolerance, dtype=np.float64), count)
     # A chord belongs to the point it starts at; open ones are still to be looked at.
     open_, unsure = ~last, np.zeros(count, dtype=np.intp)
+    # Images are made once: the probes of one round are ends of chords in the next.
+    images = _seen(image, points) if len(points) else points
     for _ in range(ROUNDS):
         first = np.flatnonzero(open_)
         line = _line(last)
@@ -118,15 +120,18 @@ def refined(
         starts, ends = (np.concatenate([x] * len(PROBES)) for x in (a, b))
         places, on = between(starts, ends, np.repeat(PROBES, len(first)))
         probes, found = places.reshape(len(PROBES), *a.shape), on.reshape(len(PROBES), -1).all(axis=0)
-        far, long = deviation(image, a, b, probes)
+        seen = _seen(image, places).reshape(len(PROBES), len(first), -1)
+        far, long = deviation(images[first], images[first + 1], seen)
         unsure += np.bincount(of[~found & (long > limit[of])], minlength=count)
         bad = found & (far > MISSED * limit[of])
         split = first[bad]
         open_[first] = False
         open_[split] = True
         at = np.repeat(split + 1, len(PROBES))
-        new = probes[:, bad].transpose(1, 0, 2).reshape(-1, a.shape[1])
-        points = np.insert(points, at, new, axis=0)
+        points, images = (
+            np.insert(whole, at, new[:, bad].transpose(1, 0, 2).reshape(-1, whole.shape[1]), axis=0)
+            for whole, new in ((points, probes), (images, seen))
+        )
         last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
     enough = np.bincount(_line(last)[open_], minlength=count) == 0
     return Refined(Traces(points, last), unsure, np.asarray(enough))
@@ -164,16 +169,16 @@ def with_standstills(lines: Traces, slopes: Callable[[Floats], Floats]) -> Trace
     return Traces(np.insert(points, at, there[stands], axis=0), np.insert(lines.last, at, False))
 
 
-def deviation(image: Image, start: Floats, end: Floats, probes: Floats) -> tuple[Floats, Floats]:
-    """(k,) largest distances of points probes (j,k,c) from the chords between start and end (k,c), and the lengths of
-    these, all in the image; what has none is at no distance."""
-    a = _seen(image, start)
-    chord = _seen(image, end) - a
+def deviation(start: Floats, end: Floats, probes: Floats) -> tuple[Floats, Floats]:
+    """(k,) largest distances of images probes (j,k,c) from the chords between start and end (k,c), and the lengths of
+    these; what has no finite image is at no distance."""
+    with np.errstate(invalid="ignore"):
+        chord = end - start
     square = component_sum(chord * chord)
     most = np.zeros(len(start))
     for probe in probes:
-        arm = _seen(image, probe) - a
         with np.errstate(invalid="ignore"):
+            arm = probe - start
             t = np.clip(component_sum(arm * chord) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
             away = arm - t[:, None] * chord
             most = np.fmax(most, np.sqrt(component_sum(away * away)))

@@ -241,6 +241,8 @@ def _on_surface(surface: Surface, axis: int, ways: Floats) -> Bools:
     there = np.isfinite(_at(surface, axis, ways)).all(axis=1)
     beside = np.zeros(len(ways), dtype=np.bool_)
     for step in (AROUND_RIM, -AROUND_RIM):
+        if beside.all():
+            break
         moved = ways + np.array([step * surface.domain.size[axis], 0.0])
         beside |= is_known(surface, moved if axis == 0 else moved[:, ::-1])
     return np.asarray(there & beside, dtype=np.bool_)

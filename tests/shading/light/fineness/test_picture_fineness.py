@@ -11,9 +11,11 @@ from support.line_distances import distances
 
 from vectorplot.accuracy.of_surfaces.painted_facets import outlines
 from vectorplot.accuracy.truth import on_page
+from vectorplot.features.edge_splitting import LOOKS, NONE, Edges, Vertices
 from vectorplot.features.facets import facets
 from vectorplot.features.parametric.contour import contour
 from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.features.patch_nets import Patch
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.paint import paint
@@ -24,6 +26,7 @@ from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.fineness.picture_fineness import picture_fineness
 from vectorplot.shading.light.fineness.refinement import SHADE_ERROR
+from vectorplot.shading.light.nearness import Nearby
 from vectorplot.surfaces.families.cyclide import dupin_cyclide
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere
@@ -171,3 +174,30 @@ def test_boxes_of_other_items_count_where_they_meet_and_once():
         scene, projection, False, allowed_in_space(scene, projection, Page(200, 150), True, 0.02), 0.02
     )
     assert [len(demand(number).others) for number in (0, 49, 60)] == [1, 1, 0]
+
+
+def test_what_is_near_is_looked_for_only_where_it_tells(monkeypatch):
+    """Sides that are too coarse are so by as much as if all were compared with all other items; and few are."""
+    rings = [Item("A", Torus(1.0, 0.3)), Item("B", Torus(1.0, 0.31)), Item("C", Sphere(0.5))]
+    scene = Scene(tuple(rings))
+    projection = projection_of(default_camera(scene), scene.bounds)
+    allowed = allowed_in_space(scene, projection, Page(), True, 0.02)
+    demand = picture_fineness(scene, projection, False, allowed, 0.02)(0)
+    sought = []
+    distances = Nearby.distances
+    monkeypatch.setattr(Nearby, "distances", lambda *of: sought.append(len(of[1])) or distances(*of))
+    torus, rng = Patch(rings[0].shape, ()), np.random.default_rng(3)
+    for length in (0.03, 0.1, 0.4):
+        start = np.column_stack([rng.uniform(0.0, 5.0, (300, 2)), np.zeros(300)])
+        way = np.column_stack([rng.uniform(-length, length, (300, 2)), np.zeros(300)])
+        t = np.repeat(np.array([*LOOKS, 0.4])[:, None], 300, axis=1)
+        looks = torus.at((start + t[..., None] * way).reshape(-1, 3))
+        at = Vertices(*(some.reshape(4, 300, -1) for some in (looks.places, looks.points, looks.normals)))
+        fold = np.where(rng.uniform(size=t.shape) < 0.1, 0, NONE)
+        edges = Edges(torus.at(start), torus.at(start + way), at, t, fold)
+        all_, before = demand.excess(edges), sum(sought)
+        some, after = demand.too_coarse(edges), sum(sought)
+        assert np.array_equal(np.maximum(some, 1.0), np.maximum(all_, 1.0))
+        assert (all_ > 1.0).any() or length < 0.1
+        if length < 0.1:
+            assert after - before < 0.5 * before

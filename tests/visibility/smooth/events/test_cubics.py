@@ -20,5 +20,6 @@ def test_hermites_arc_is_the_cubic_with_these_ends() -> None:
 def test_arcs_of_straight_chords_are_these_with_their_depth() -> None:
     view, _, _ = ball_from_above()
     lines = polylines([(-1.0, 0.2, 0.3), (1.0, 0.4, 0.1)])
-    points, slopes = cubics(view, lines, lines.chords).at(np.array([0]), np.array([0.25]))
+    (arcs,) = cubics(view, [(lines, lines.chords)])
+    points, slopes = arcs.at(np.array([0]), np.array([0.25]))
     assert np.allclose(points[0, :2], (-0.5, 0.25)) and np.allclose(slopes[0], (2.0, 0.2, 0.2))

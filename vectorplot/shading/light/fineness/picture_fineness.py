@@ -95,14 +95,15 @@ class PictureFineness:
         """(k,n) as Demand. Other items are far to seek: they are looked for where that tells, as far as it does."""
         allowed = self.allowed(edges.at.points)
         seen = (edges.fold != NONE) & (edges.fold < self.outlines)
-        long, off, unlike = self._long(edges, allowed), off_chords(edges) / INSIDE, self._unlike_surface(edges)
-        needed = off / np.maximum(unlike, 1.0)
-        open_ = np.flatnonzero((long & ~seen & (needed > allowed)).any(axis=0))
-        deep, least = allowed.copy(), allowed[:, open_]
-        most = np.clip(2.0 * needed[:, open_].max(axis=0, initial=0.0), least, self.deep * least)
-        apart = self._apart_from_others(edges.some(open_), least, most)
-        deep[:, open_] = np.where(seen[:, open_], least, apart)
-        return np.where(long, np.maximum(off / deep, unlike), 0.0)
+        long, off, unlike = self._long(edges, allowed), off_chords(edges), self._unlike_surface(edges)
+        needed = off / (INSIDE * np.maximum(unlike, 1.0))
+        unsure = np.flatnonzero((long & ~seen & (needed > allowed)).any(axis=0))
+        deep, least = allowed.copy(), allowed[:, unsure]
+        # Twice as far as would do: rounding must not make a side too coarse.
+        most = np.clip(2.0 * needed[:, unsure].max(axis=0, initial=0.0), least, self.deep * least)
+        apart = self._apart_from_others(edges.some(unsure), least, most)
+        deep[:, unsure] = np.where(seen[:, unsure], least, apart)
+        return np.where(long, np.maximum(off / (INSIDE * deep), unlike), 0.0)
 
     def _unlike_surface(self, edges: Edges) -> Floats:
         """(k,n) by how many times shades and normals differ too much from those of the surface."""

@@ -127,11 +127,8 @@ class Sheets:
     def missed(self, number: Ints, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
         """(k,) and (k,3): one Newton step for where lines points + t ways meet the sheets: t, and the places there; and
         the points (k,3) of the sheets at the places from which the step is taken."""
-        t, met, here = (
-            np.full(len(number), np.nan),
-            np.full((len(number), 3), np.nan),
-            np.full((len(number), 3), np.nan),
-        )
+        t = np.full(len(number), np.nan)
+        met, here = (np.full((len(number), 3), np.nan) for _ in range(2))
         for sheet, which, at in self._each(number, places):
             t[which], met[which], here[which] = sheet.missed(points[which], ways[which], at)
         return t, met, here
