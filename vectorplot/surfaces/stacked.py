@@ -153,7 +153,7 @@ class SurfaceRows:
     def points(self, u: Floats, v: Floats) -> Floats:
         """(...,k,3) points."""
         (points,) = self._turned(self._asked(lambda surface, u, v: (surface.points(u, v),), 1, u, v))
-        return points + self._shifts
+        return np.asarray(points + self._shifts)
 
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """(...,k,3) derivatives by u and by v."""

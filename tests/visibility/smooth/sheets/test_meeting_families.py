@@ -88,7 +88,7 @@ def test_curves_in_faces_lie_in_these(ball: object) -> None:
 def test_where_sheets_do_not_meet_near_a_chord_points_stay_on_the_first() -> None:
     view, curves = met(Sphere(1.0), Sphere(1.0, (1.0, 0.0, 0.0)))
     family, number = curves.families[curves.family[0]], curves.chords[:5]
-    chords = curves._chords(number)
+    chords = curves.chords_from(number)
     # Places that lead away from the curve: no meeting is near.
     turned = type(chords)(
         (chords.places[0], chords.places[0] + (0.1, 0.1, 0.0)), chords.points, chords.second_places, chords.level
@@ -101,7 +101,7 @@ def test_where_sheets_do_not_meet_near_a_chord_points_stay_on_the_first() -> Non
 def test_chords_whose_ends_lie_in_different_parts_of_the_domain_stay_chords() -> None:
     _, curves = met(Sphere(1.0), Sphere(1.0, (1.0, 0.0, 0.0)))
     family, number = curves.families[curves.family[0]], curves.chords[:5]
-    chords = curves._chords(number)
+    chords = curves.chords_from(number)
     # As where two ends of curves are joined over a seam that the domain does not know of.
     other = (
         (chords.places[0], chords.places[1] + (2.0, 0.0, 0.0)),

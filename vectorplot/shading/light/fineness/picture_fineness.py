@@ -107,7 +107,7 @@ class PictureFineness:
 
     def _unlike_surface(self, edges: Edges) -> Floats:
         """(k,n) by how many times shades and normals differ too much from those of the surface."""
-        return np.maximum(self._shade_errors(edges) / self.shade_error, turning(edges) / TURN)
+        return np.asarray(np.maximum(self._shade_errors(edges) / self.shade_error, turning(edges) / TURN))
 
     def border_excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand."""
