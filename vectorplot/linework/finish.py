@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Literal
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.hatching.hatch_layers import hatch_layers
 from vectorplot.drawing.layers import FRAME_PEN, letter_pen
-from vectorplot.drawing.pens.pen_rules import PenRule, frame_pen, pen_of, scaled_pen
+from vectorplot.drawing.pens.pen_rules import PenRule, frame_pen, pen_of, rules_by_target, scaled_pen
 from vectorplot.drawing.pens.sheet_layer import pen_scale, sheet_layer
 from vectorplot.drawing.pens.sorted_layers import layer_words, not_plotted, sorted_layers
 from vectorplot.drawing.strokes.finishing import inked
@@ -101,7 +101,7 @@ class Finish:
 
     def letters(self, layers: Sequence[Layer]) -> Pen:
         """The pen of letters on a drawing with such layers."""
-        return pen_of(self._pen_rules, letter_pen(layers), int(LineKind.LABEL), False, "")
+        return pen_of(rules_by_target(self._pen_rules), letter_pen(layers), int(LineKind.LABEL), False, "")
 
     def labelled(
         self, layers: tuple[Layer, ...], placement: Placement, labels: SceneLabels, letters: Pen, sheet: Page

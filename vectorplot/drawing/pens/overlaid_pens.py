@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import FRAME_PEN, layers_by_kind
-from vectorplot.drawing.pens.pen_rules import PenRule, Pens, frame_pen, pen_of, pen_rules, scaled_pen
+from vectorplot.drawing.pens.pen_rules import PenRule, Pens, frame_pen, pen_of, pen_rules, rules_by_target, scaled_pen
 from vectorplot.drawing.pens.scene_inks import style_of_scene
 from vectorplot.drawing.pens.sorted_layers import with_pens
 from vectorplot.drawing.pens.styles import Style
@@ -34,12 +34,13 @@ class OverlaidPens:
         if width is not None:
             found = [replace(layer, pen=replace(layer.pen, width_mm=width / mm)) for layer in found]
         if self.rules:
-            found = [part for layer in found for part in with_pens(layer, items, self.rules)]
+            said = rules_by_target(self.rules)
+            found = [part for layer in found for part in with_pens(layer, items, said)]
         return [replace(layer, pen=scaled_pen(layer.pen, mm)) for layer in found]
 
     def letters(self, pen: Pen) -> Pen:
         """The pen of letters, where rules say nothing the one given."""
-        return pen_of(self.rules, pen, int(LineKind.LABEL), False, "")
+        return pen_of(rules_by_target(self.rules), pen, int(LineKind.LABEL), False, "")
 
     def border(self, letters: Pen) -> Pen:
         """The pen of a frame and a title, where that of letters is known."""

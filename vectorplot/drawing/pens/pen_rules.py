@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.layers import ink
 from vectorplot.errors import InputError
-from vectorplot.scene.pages.inks import FINEST_MM, FRAME, HIDDEN, WIDEST_MM, check_item, target_of
+from vectorplot.scene.pages.inks import FINEST_MM, FRAME, HIDDEN, WIDEST_MM, target_of, unknown_item
 from vectorplot.scene.pages.paper import LENGTH, length_mm
 from vectorplot.words import COLOURS, LineKind, is_colour, nearest
 
@@ -43,6 +43,9 @@ def scaled_pen(pen: Pen, factor: float) -> Pen:
     dash = None if pen.dash_mm is None else (factor * pen.dash_mm[0], factor * pen.dash_mm[1])
     return Pen(factor * pen.width_mm, pen.colour, dash)
 
+
+RulesByTarget = Mapping[tuple[str | None, str | None], Sequence[PenRule]]
+"""What is said of each kind and item."""
 
 Pens = str | Pen | Mapping[str, "str | float | Pen"] | Iterable[str]
 """What pens may be said in: one text or several such as ``contour=0.5:black,house=red``, a mapping, or a single pen."""
@@ -138,9 +141,10 @@ def pen_colour(word: str, owner: str = "") -> str:
 
 def check_targets(rules: Sequence[PenRule], items: Sequence[str]) -> None:
     """An InputError for a rule for an item that is not there, with the word that may be meant."""
+    known = set(items)
     for rule in rules:
-        if rule.item is not None:
-            check_item(rule.item, items)
+        if rule.item is not None and rule.item not in known:
+            raise unknown_item(rule.item, items)
 
 
 def frame_pen(rules: Sequence[PenRule], pen: Pen) -> Pen:
@@ -151,7 +155,15 @@ def frame_pen(rules: Sequence[PenRule], pen: Pen) -> Pen:
     return pen
 
 
-def pen_of(rules: Sequence[PenRule], pen: Pen, kind: int, hidden: bool, item: str) -> Pen:
+def rules_by_target(rules: Sequence[PenRule]) -> RulesByTarget:
+    """The rules for each kind and item, in their order."""
+    found: dict[tuple[str | None, str | None], list[PenRule]] = {}
+    for rule in rules:
+        found.setdefault((rule.kind, rule.item), []).append(rule)
+    return found
+
+
+def pen_of(rules: RulesByTarget, pen: Pen, kind: int, hidden: bool, item: str) -> Pen:
     """The pen of lines of one kind and item, that of their layer with what the rules say: those for all lines first,
     then those for the kind, for the item, and for both, the later ones before the earlier ones.
 
@@ -159,11 +171,9 @@ def pen_of(rules: Sequence[PenRule], pen: Pen, kind: int, hidden: bool, item: st
     """
     word = HIDDEN if hidden else LineKind(kind).word
     hatching = kind == LineKind.HATCH
-    wanted = [(None, None), (word, None), *(() if hidden else ((None, item),)), (word, item)]
-    for target in wanted:
-        for rule in rules:
-            if (rule.kind, rule.item) == target:
-                # The spacing of hatchings goes by the width of their own pen.
-                said = replace(rule, width_mm=None, dash_mm=None) if hatching and rule.kind is None else rule
-                pen = said.applied(pen)
+    for target in [(None, None), (word, None), *(() if hidden else ((None, item),)), (word, item)]:
+        for rule in rules.get(target, ()):
+            # The spacing of hatchings goes by the width of their own pen.
+            said = replace(rule, width_mm=None, dash_mm=None) if hatching and rule.kind is None else rule
+            pen = said.applied(pen)
     return pen

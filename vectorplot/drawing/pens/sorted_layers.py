@@ -18,8 +18,8 @@ from vectorplot.drawing.layers import (
     layers_by_object,
     layers_of,
 )
-from vectorplot.drawing.pens.pen_rules import PenRule, check_targets, pen_of
-from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.drawing.pens.pen_rules import PenRule, RulesByTarget, check_targets, pen_of, rules_by_target
+from vectorplot.drawing.strokes.stroke_paths import concatenated
 from vectorplot.words import LineKind, check_word, unknown
 
 _HATCH = KIND_LAYER[LineKind.HATCH]
@@ -81,7 +81,8 @@ def sorted_layers(
         found = _by_several(paths, items, colours, words)
     found = (*found, *hatches)
     if rules:
-        found = tuple(part for layer in found for part in with_pens(layer, items, rules))
+        said = rules_by_target(rules)
+        found = tuple(part for layer in found for part in with_pens(layer, items, said))
     return tuple(found)
 
 
@@ -126,7 +127,7 @@ def _by_several(paths: Paths, items: Sequence[str], colours: Sequence[str], word
     return layers_of(paths, layer, [*layers, ("hidden", PENS["hidden"], True)])
 
 
-def with_pens(layer: Layer, items: Sequence[str], rules: Sequence[PenRule]) -> list[Layer]:
+def with_pens(layer: Layer, items: Sequence[str], rules: RulesByTarget) -> list[Layer]:
     """The layer, or several in its place, with the pens that rules give its strokes, in the order of their pens' first
     strokes."""
     (paths,) = layer.strokes
@@ -142,12 +143,9 @@ def with_pens(layer: Layer, items: Sequence[str], rules: Sequence[PenRule]) -> l
         number[k] = pens.setdefault(pen, len(pens))
     if len(pens) < 2:
         return [replace(layer, pen=next(iter(pens), layer.pen))]
-    of_stroke = number[which.ravel()]
     main = pens.get(layer.pen, 0)
-    return [
-        Layer(layer.name if k == main else f"{layer.name} {_told(pen)}", pen, (chosen(paths, of_stroke == k),))
-        for pen, k in pens.items()
-    ]
+    named = [(layer.name if k == main else f"{layer.name} {_told(pen)}", pen, True) for pen, k in pens.items()]
+    return list(layers_of(paths, number[which.ravel()], named))
 
 
 def _told(pen: Pen) -> str:

@@ -38,7 +38,7 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.naming.label_anchors import label_anchors
 from vectorplot.scene.naming.labels import Label
-from vectorplot.scene.pages.inks import check_item, target_of
+from vectorplot.scene.pages.inks import target_of, unknown_item
 from vectorplot.scene.scene import Scene
 from vectorplot.words import WIRE_STYLES, unknown
 
@@ -212,12 +212,11 @@ class _Reader(ItemReader):
             self.source.fail(said[0] - 1, f"{cause}, which shows all lines, in colours of its own")
         for index, target in self.pens:
             item = target_of(target)[1]
+            if item is None or item in names:
+                continue
             # Cuts and explosions make items of their own.
-            if item is not None and not any(item == name or item.startswith(f"{name} ") for name in names):
-                try:
-                    check_item(item, tuple(names))
-                except InputError as error:
-                    self.source.fail(index, error.cause)
+            if not any(item.startswith(f"{name} ") for name in names):
+                self.source.fail(index, unknown_item(item, tuple(names)).cause)
 
     def check_cuts(self) -> None:
         """An InputError for cuts of items that are not there; items may come behind them."""

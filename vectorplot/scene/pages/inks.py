@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 
 from vectorplot.errors import InputError
@@ -93,14 +93,12 @@ def target_of(text: str) -> tuple[str | None, str | None]:
     return None, text
 
 
-def check_item(item: str, items: Sequence[str]) -> None:
-    """An InputError for an item that is not among those of a scene, with the word that may be meant."""
-    if item in items:
-        return
+def unknown_item(item: str, items: Iterable[str]) -> InputError:
+    """The error for an item that is not among those of a scene, with the word that may be meant."""
     word, known = item.lower(), {name.lower(): name for name in items}
     near = nearest(word, PEN_KINDS) or known.get(word, known.get(nearest(word, known) or "", ""))
     hint = f" (did you mean {near!r}?)" if near else ""
-    raise InputError(f"pen {item!r}: no kind of line, and no item{hint}")
+    return InputError(f"pen {item!r}: no kind of line, and no item{hint}")
 
 
 def _renamed(target: str, names: Mapping[str, str]) -> tuple[str | None, str | None]:
