@@ -29,6 +29,7 @@ from vectorplot.painting.erased import erased
 from vectorplot.painting.ordered_faces import ordered_faces, seen_on_page
 from vectorplot.painting.painted_paper import background as background_of
 from vectorplot.painting.painted_paper import paper
+from vectorplot.painting.stepped import border_tolerance_mm
 from vectorplot.plan import accuracy_of_paint, plan_paint, with_accuracy
 from vectorplot.scene.coincidence.twins import without_twins
 from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
@@ -209,13 +210,16 @@ def paint(
     # Lines belong to each item, polygons to what is seen.
     shown = scene if kinds or fills == "erasing" else without_twins(scene)
 
+    steps = palette if fills == "visible" else None
+    fine_mm = tolerance_mm if steps is None else border_tolerance_mm(tolerance_mm, steps)
+
     def demand() -> Callable[[int], Demand]:
-        allowed = allowed_in_space(scene, projection, sheet, fit, tolerance_mm)
+        allowed = allowed_in_space(scene, projection, sheet, fit, fine_mm)
         # Where each triangle has one shade they have to be so small that nobody sees it.
         if not smooth or fills == "erasing":
             return lambda _: Within(allowed)
         casts = shadows != "none" and bool(scene.lights)
-        return picture_fineness(shown, projection, casts, allowed, tolerance_mm)
+        return picture_fineness(shown, projection, casts, allowed, fine_mm)
 
     ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
     placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, annotation_points(scene))
@@ -233,7 +237,6 @@ def paint(
     elif smooth and fills == "visible":
         # Pens have no gradients: smooth surfaces have steps, meshes and planes one shade for each of their faces.
         normals = painted_normals(view, scene.items, (), true, plane, 0.0)
-    steps = palette if fills == "visible" else None
     lighting = Lighting(scene.items, here, normals, plane, palette, smooth_size=steps)
     ruler = Ruler(scene, view, seen.projected, seen.placement, crease_angle_deg, tolerance_mm, budget)
     if walk.calls_for("erasing"):

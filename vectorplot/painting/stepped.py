@@ -18,6 +18,15 @@ SPACE = 3
 """Coordinates of a point; shades come behind them."""
 
 
+PLAIN_STEPS, LEAST_PART = 64, 0.2
+"""Of fewer shades than so many the borders are seen as lines: they are made finer in proportion, to such a part."""
+
+
+def border_tolerance_mm(tolerance_mm: float, shades: int) -> float:
+    """How far polygons may be off on the page so that borders between so many shades look smooth."""
+    return tolerance_mm * min(max(shades / PLAIN_STEPS, LEAST_PART), 1.0)
+
+
 def stepped(seen: Seen, lighting: Lighting, shade: Floats) -> tuple[Seen, Floats, Ints]:
     """What is seen with polygons of smooth surfaces cut where the palette goes from one shade to the next, and the
     shades (n,) or (3,n) of the corners then: of each of these polygons one, that of its entry of the palette; and (m,)
