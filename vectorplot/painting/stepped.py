@@ -18,13 +18,13 @@ SPACE = 3
 """Coordinates of a point; shades come behind them."""
 
 
-PLAIN_STEPS, LEAST_PART = 64, 0.2
+PLAIN_STEPS, FINEST_BORDERS = 64, 0.2
 """Of fewer shades than so many the borders are seen as lines: they are made finer in proportion, to such a part."""
 
 
 def border_tolerance_mm(tolerance_mm: float, shades: int) -> float:
     """How far polygons may be off on the page so that borders between so many shades look smooth."""
-    return tolerance_mm * min(max(shades / PLAIN_STEPS, LEAST_PART), 1.0)
+    return tolerance_mm * min(max(shades / PLAIN_STEPS, FINEST_BORDERS), 1.0)
 
 
 def stepped(seen: Seen, lighting: Lighting, shade: Floats) -> tuple[Seen, Floats, Ints]:
