@@ -248,7 +248,7 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
     """As _splits, for sides both ends of which are known."""
     start, end = between.ends(start, end)
     count = len(start.points)
-    looks = [between(start, end, np.full(count, t), border) for t in LOOKS]
+    looks = _looks(start, end, border, between)
     values = np.stack([demand.folds(some.points, some.normals) for some in (start, *looks, end)], axis=1)
     root, number = _roots(start, end, values, border, between, demand)
     t = np.stack([*(np.full(count, t) for t in LOOKS), root])
@@ -287,6 +287,15 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
         some = replace(some, at=between.nearer(some))
         worst[steep] = np.minimum(worst[steep], np.nan_to_num(demand.too_coarse(some), nan=0.0).max(axis=0))
     return np.stack((worst, as_border, part))
+
+
+def _looks(start: Vertices, end: Vertices, border: Bools, between: Between) -> list[Vertices]:
+    """The vertices at each of LOOKS, asked for as one: a few take as long as many."""
+    count = len(start.points)
+    every = np.tile(np.arange(count), len(LOOKS))
+    found = between(start.some(every), end.some(every), np.repeat(LOOKS, count), border[every])
+    rows = (some.reshape(len(LOOKS), count, -1) for some in (found.places, found.points, found.normals))
+    return [Vertices(*look) for look in zip(*rows, strict=True)]
 
 
 def _bulging(edges: Edges, hole: Ints) -> Edges:

@@ -11,13 +11,14 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices
 from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
-from vectorplot.features.parametric.holes.holes import beside_rim_chords, is_known, ways_between
+from vectorplot.features.parametric.holes.holes import beside_rim_chords, in_domain, is_known, ways_between
 from vectorplot.features.parametric.poles import Pole
 from vectorplot.features.tessellation import UNEVEN, grid_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface
-from vectorplot.geometry.components import all_components, all_finite
+from vectorplot.geometry.components import all_components, all_finite, any_component
 from vectorplot.geometry.vectors import cross, dot, norm
-from vectorplot.surfaces.normals import points_and_normals, unit_normals
+from vectorplot.surfaces.jets import FirstJets, first_jets
+from vectorplot.surfaces.normals import points_and_normals, unit_normals, unit_normals_of
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_parameters import ASIDE_OF_CREASE, ON_BORDER_OF_DOMAIN, TURNED_OVER
@@ -92,29 +93,36 @@ class Patch:
         way = ways_between(self.surface.domain, first[:, :2], last[:, :2]) / size
         reach = CLOSE_BY * np.tile(np.hypot(*way.T), shape[0])
         from_start, scale = np.zeros((len(points), 2)), np.ones(len(points))
+        places, here, normals = found.places, found.points, found.normals
+        _, along_u, along_v = self._jets(places)
         for _ in range(STEPS):
-            step = scale[:, None] * _toward(self.surface, found, points)
+            step = scale[:, None] * _toward(here, along_u, along_v, points)
             # Along the axes, so that the place stays close by.
             moved = from_start + step
             close = np.hypot(*(moved / size).T) <= reach
-            tried = self.at(
-                _wrapped(self.surface.domain, np.column_stack([found.places[:, :2] + step, found.places[:, 2]]))
-            )
-            better = norm(tried.points - points) < norm(found.points - points)
-            better &= close & is_known(self.surface, found.places[:, :2] + step)
+            next_places = _wrapped(self.surface.domain, np.column_stack([places[:, :2] + step, places[:, 2]]))
+            tried, *tried_slopes = self._jets(next_places)
+            better = norm(tried - points) < norm(here - points)
+            better &= close & all_finite(tried) & in_domain(self.surface.domain, places[:, :2] + step)
             scale = np.where(better, 1.0, 0.5 * scale)
-            from_start = np.where(better[:, None], moved, from_start)
-            found = Vertices(
-                *(
-                    np.where(better[:, None], new, old)
-                    for new, old in (
-                        (tried.places, found.places),
-                        (tried.points, found.points),
-                        (tried.normals, found.normals),
-                    )
-                )
+            new = better[:, None]
+            from_start, places, here = (
+                np.where(new, ours, old) for ours, old in ((moved, from_start), (next_places, places), (tried, here))
             )
-        return Vertices(*(some.reshape(*shape, 3) for some in (found.places, found.points, found.normals)))
+            along_u, along_v = (
+                np.where(new, ours, old) for ours, old in zip(tried_slopes, (along_u, along_v), strict=True)
+            )
+        led = np.flatnonzero(any_component(from_start != 0.0))
+        if len(led):
+            normals, partials = normals.copy(), (along_u[led], along_v[led])
+            with np.errstate(all="ignore"):
+                normals[led] = unit_normals_of(self.surface, places[led, 0], places[led, 1], partials)
+        return Vertices(*(some.reshape(*shape, 3) for some in (places, here, normals)))
+
+    def _jets(self, places: Floats) -> FirstJets:
+        """Points and derivatives at some places (n,3)."""
+        with np.errstate(all="ignore"):
+            return first_jets(self.surface, places[:, 0], places[:, 1])
 
     def turned(self, corners: Vertices) -> Bools:
         """(t,) as Between."""
@@ -174,11 +182,11 @@ class Patch:
         return first, last
 
 
-def _toward(surface: Surface, vertices: Vertices, points: Floats) -> Floats:
-    """(n,2) steps in the domain from vertices (n,) of a surface that lead nearest to points (n,3), were it flat."""
+def _toward(here: Floats, along_u: Floats, along_v: Floats, points: Floats) -> Floats:
+    """(n,2) steps in the domain from points (n,3) of a surface with derivatives by u and by v that lead nearest to
+    other points (n,3), were it flat."""
     with np.errstate(all="ignore"):
-        along_u, along_v = surface.partials(*vertices.places[:, :2].T)
-        off = points - vertices.points
+        off = points - here
         uu, uv, vv = dot(along_u, along_u), dot(along_u, along_v), dot(along_v, along_v)
         u, v = dot(along_u, off), dot(along_v, off)
         steps = np.stack([vv * u - uv * v, uu * v - uv * u], axis=1) / (uu * vv - uv * uv)[:, None]

@@ -40,12 +40,17 @@ def is_known(surface: Surface, places: Floats) -> Bools:
     u, v = wrapped(surface.domain, places[..., 0], places[..., 1])
     with np.errstate(all="ignore"):
         known = all_finite(surface.points(u, v))
-    closed = (surface.domain.closed_u, surface.domain.closed_v)
-    starts = (surface.domain.u_start, surface.domain.v_start)
-    for axis, (round_, start, size) in enumerate(zip(closed, starts, surface.domain.size, strict=True)):
+    return known & in_domain(surface.domain, places)
+
+
+def in_domain(domain: Domain, places: Floats) -> Bools:
+    """(...,k) whether places (...,k,2) are in a domain, or in one of its further rounds."""
+    closed, starts = (domain.closed_u, domain.closed_v), (domain.u_start, domain.v_start)
+    found = np.ones(places.shape[:-1], dtype=np.bool_)
+    for axis, (round_, start, size) in enumerate(zip(closed, starts, domain.size, strict=True)):
         part = (places[..., axis] - start) / size
-        known &= round_ | ((part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN))
-    return np.asarray(known, dtype=np.bool_)
+        found &= round_ | ((part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN))
+    return found
 
 
 def last_alike(surface: Surface, base: Floats, ways: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
