@@ -262,6 +262,7 @@ def test_what_is_not_said_about_the_scene_is_left_open():
 def test_parallel_cameras_and_main_views():
     assert parse_scene("camera eye 1 2 3 parallel height 5").camera == Camera((1, 2, 3), parallel=True, height=5)
     front = parse_scene("camera view front target 1 2 3 height 7").camera
+    assert parse_scene("camera front target 1 2 3 height 7").camera == front
     assert front.parallel and front.height == 7 and front.target == (1, 2, 3)
     assert np.allclose(front.direction, [0, -1, 0])
 

@@ -88,6 +88,7 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("camera eye 0 0 5 up 0 0 1", "camera: the up vector lies along the view"),
         ("camera eye 0 0 5 field_of_vision 180", "camera: field of vision 180 must lie between"),
         ("camera view sideways", "camera: expected a view"),
+        ("camera iso view front", "camera: a second view"),
         ("camera eye 0 0 5\ncamera eye 0 0 6", "<text>:2: a second 'camera'"),
         ("page A4 margin 200", "<text>:1: a margin of 200 mm leaves nothing of the page"),
         ("page huge", "page 'huge': expected WIDTHxHEIGHT in mm or one of"),

@@ -39,6 +39,8 @@ def read_camera(words: Words, at: int) -> tuple[Camera, int]:
     at += 1
     given: dict[str, Any] = {}
     view: str | None = None
+    if words.words[at] in VIEWS:
+        view, at = words.words[at], at + 1
     while (word := words.words[at]) in _CAMERA_WORDS:
         if word in _CAMERA_POINTS:
             point, at = words.numbers(at + 1, 3, "camera: ", word)
@@ -49,6 +51,8 @@ def read_camera(words: Words, at: int) -> tuple[Camera, int]:
         elif word == "parallel":
             given["parallel"] = True
             at += 1
+        elif view is not None:
+            words.fail(at, "camera: a second view")
         else:
             view = words.words[at + 1]
             if view not in VIEWS:
