@@ -78,9 +78,9 @@ def drawn(
 
 @pytest.mark.slow
 def test_graphs_with_poles_are_cut_off_and_right() -> None:
-    scene, camera, drawing, said = drawn(graph_of("0.3/hypot(x,y)"))
+    scene, camera, drawing, said = drawn(graph_of("0.3/hypot(x,y)"), lines=3, budget=0.125)
     assert any(line.startswith("S: runs to infinity: shown is z from ") for line in said)
-    assert assert_drawing_is_right(drawing, scene, camera, samples=300) > 50
+    assert assert_drawing_is_right(drawing, scene, camera, samples=200) > 40
 
 
 @pytest.mark.slow

@@ -31,6 +31,7 @@ CUBE blue box 2 2 2 translation -1 -1 0 patterns face 6 polygon SPOT red 0 0, 0.
 GLASS transparent refraction 1.4 box 1 1 1 translation 1.2 -2 0
 MIRROR mirror box 0.1 3 3 translation -2.5 -1 0
 """
+PLAIN = SCENE.split("GLASS")[0]
 BALL = "BALL red surface sphere 0.6 translation 0 0 2.7\n"
 
 COMMANDS = [
@@ -191,7 +192,7 @@ def limited(code: str, arguments: list[str], **more) -> subprocess.CompletedProc
 @pytest.mark.slow
 @pytest.mark.parametrize("words", [COMMANDS[0], COMMANDS[2]], ids=" ".join)
 def test_a_disk_that_fills_up_leaves_the_old_file(words, place):
-    place.write_text(SCENE.split("GLASS")[0], encoding="utf-8")
+    place.write_text(PLAIN, encoding="utf-8")
     arguments, out = command(place, words)
     result = limited("resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))", arguments)
     assert result.returncode == 1
@@ -235,6 +236,7 @@ def test_outside_the_main_thread_there_are_no_signals():
 @pytest.mark.slow
 @pytest.mark.parametrize("stream", ["stdout", "stderr"])
 def test_nobody_reads_what_is_said(stream, place):
+    place.write_text(PLAIN, encoding="utf-8")
     reading, writing = os.pipe()
     os.close(reading)
     arguments = ["draw", str(place), "-o", "-", "--format", "svg", "--explain"]

@@ -168,7 +168,7 @@ def test_options_of_light_shadow_and_shade(scene: Path) -> None:
 def test_options_of_smooth_surfaces(tmp_path: Path) -> None:
     scene = tmp_path / "ball.scene"
     scene.write_text("BALL green surface sphere 0.6\npage 50x50 margin 5\n", encoding="utf-8")
-    rough, fine = fills(scene, "--tolerance", "1"), fills(scene, "--tolerance", "0.005")
+    rough, fine = fills(scene, "--tolerance", "1"), fills(scene, "--tolerance", "0.05")
     assert 10 < len(rough) < len(fine)
     flat = fills(scene, "--tolerance", "1", "--flat")
     assert len(flat) > 10 and flat != rough
