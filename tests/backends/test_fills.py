@@ -146,7 +146,7 @@ def test_neighbours_of_one_colour_are_one_path_and_look_the_same(tmp_path):
     together = page_of(flat(list(corners), [DARK] * 60))
     apart = page_of(flat(list(corners), [(16 + k % 2, 20, 24) for k in range(60)]))
     assert svg_text(together).count("<path") == 1 and svg_text(apart).count("<path") == 60
-    for one, other in zip(*(pictures(d, tmp_path).values() for d in (together, apart)), strict=True):
+    for one, other in zip(*(pictures(d, tmp_path, dpi=150).values() for d in (together, apart)), strict=True):
         assert np.abs(one - other).mean() < 0.5
         assert ((one > 128) != (other > 128)).mean() < 1e-3
 
