@@ -20,6 +20,9 @@ PARTNERS_AT_ONCE = 1 << 23
 PAIRS_AT_MOST = 1 << 25
 """So many pairs may be found at once, half a gigabyte, and no more."""
 
+LOT = 1 << 18
+"""Pairs that are few are handed on together, up to about so many: each lot asks anew what its faces are like."""
+
 
 def box_pairs(box: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of boxes, smallest and largest x and y (4 or more, n), that overlap by more than a tolerance; each pair
@@ -34,6 +37,11 @@ def pairs_across(box: Floats, field: Ints, tolerance: float) -> Iterator[tuple[I
 
     field (n,): a number for each box, -1 for those that make pairs with all.
     """
+    yield from _together(_pairs_across(box, field, tolerance))
+
+
+def _pairs_across(box: Floats, field: Ints, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
+    """As pairs_across, field by field."""
     loose = np.flatnonzero(field < 0)
     for first, second in box_pairs(box[:, loose], tolerance):
         yield loose[first], loose[second]
@@ -45,6 +53,22 @@ def pairs_across(box: Floats, field: Ints, tolerance: float) -> Iterator[tuple[I
         for first, second in boxes_over(box[:, others], box[:, own], tolerance):
             one, two = others[first], own[second]
             yield np.minimum(one, two), np.maximum(one, two)
+
+
+def _together(lots: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:
+    """The pairs of lots, in fewer of them."""
+    held: list[tuple[Ints, Ints]] = []
+    for lot in lots:
+        held.append(lot)
+        if sum(len(first) for first, _ in held) >= LOT:
+            yield _joined(held)
+            held = []
+    if held:
+        yield _joined(held)
+
+
+def _joined(lots: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
+    return np.concatenate([first for first, _ in lots]), np.concatenate([second for _, second in lots])
 
 
 def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
