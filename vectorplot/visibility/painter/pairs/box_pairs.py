@@ -58,11 +58,13 @@ def _pairs_across(box: Floats, field: Ints, tolerance: float) -> Iterator[tuple[
 def _together(lots: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:
     """The pairs of lots, in fewer of them."""
     held: list[tuple[Ints, Ints]] = []
+    count = 0
     for lot in lots:
         held.append(lot)
-        if sum(len(first) for first, _ in held) >= LOT:
+        count += len(lot[0])
+        if count >= LOT:
             yield _joined(held)
-            held = []
+            held, count = [], 0
     if held:
         yield _joined(held)
 
