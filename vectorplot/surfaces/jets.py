@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Protocol, runtime_checkable
+from typing import Protocol, TypeGuard
 
 from vectorplot.arrays import Floats
 from vectorplot.surfaces.surface import Surface
@@ -14,7 +14,6 @@ SecondJets = tuple[Floats, Floats, Floats, Floats, Floats, Floats]
 """These, and the second derivatives: by u twice, by u and v, by v twice."""
 
 
-@runtime_checkable
 class WithJets(Protocol):
     """A surface that tells its points and derivatives at once; to the last bit what it says when asked for each."""
 
@@ -27,16 +26,24 @@ class WithJets(Protocol):
         ...
 
 
+def tells_jets(surface: Surface) -> TypeGuard[WithJets]:
+    """Whether a surface tells its points and derivatives at once.
+
+    isinstance, which looks through all members of the protocol, takes as long as evaluating a few points.
+    """
+    return hasattr(surface, "first_jets") and hasattr(surface, "second_jets")
+
+
 def first_jets(surface: Surface, u: Floats, v: Floats) -> FirstJets:
     """(..., 3) points of any surface and derivatives by u and by v, asked for one after the other where it does not
     tell them at once."""
-    if isinstance(surface, WithJets):
+    if tells_jets(surface):
         return surface.first_jets(u, v)
     return surface.points(u, v), *surface.partials(u, v)
 
 
 def second_jets(surface: Surface, u: Floats, v: Floats) -> SecondJets:
     """(..., 3) these, and the second derivatives: by u twice, by u and v, by v twice."""
-    if isinstance(surface, WithJets):
+    if tells_jets(surface):
         return surface.second_jets(u, v)
     return surface.points(u, v), *surface.partials(u, v), *surface.second_partials(u, v)
