@@ -178,7 +178,7 @@ class NumericFunction:
         if any(a.shape != arrays[0].shape for a in arrays):
             arrays = list(np.broadcast_arrays(*arrays))
         # Infinite parameters are as good as none, and no arithmetic warns of them.
-        flat = [np.where(np.isfinite(a), a, np.nan).ravel() for a in arrays]
+        flat = [_or_nan(a.ravel()) for a in arrays]
         return evaluate(flat).reshape(*arrays[0].shape, count * self.function.components)
 
     def _asked(self, parameters: Sequence[Numbers]) -> Numbers:
@@ -202,7 +202,7 @@ class NumericFunction:
         if self.limits is not None:
             with np.errstate(invalid="ignore"):
                 known &= (result >= self.limits[0]) & (result <= self.limits[1])
-        return np.where(all_components(known)[..., None], result, np.nan)
+        return result if known.all() else np.where(all_components(known)[..., None], result, np.nan)
 
     def _slopes(self, axis: int, parameters: list[Floats]) -> Floats:
         of = self._complex(axis) if self.by_complex_step else self._by_differences(axis, self.steps[axis])
@@ -234,8 +234,8 @@ class NumericFunction:
         each = _split(answers, [parameters for _, parameters in asked])
         found: list[Floats] = []
         for (_, parameters), height, answer in zip(asked, heights, each, strict=True):
-            real = known[id(parameters)] & np.isfinite(answer)
-            found.append(np.where(all_components(real)[..., None], answer.imag / height, np.nan))
+            real, slopes = known[id(parameters)] & np.isfinite(answer), answer.imag / height
+            found.append(slopes if real.all() else np.where(all_components(real)[..., None], slopes, np.nan))
         return found
 
     def _by_differences(self, axis: int, step: float) -> Callable[[list[Floats]], Floats]:
@@ -306,6 +306,12 @@ class NumericFunction:
             return False
         error = np.abs(exact - difference)[known]
         return bool((error <= DERIVATIVES_AGREE * np.abs(difference[known]).max()).all())
+
+
+def _or_nan(values: Floats) -> Floats:
+    """The values, NaN where they are infinite."""
+    finite = np.isfinite(values)
+    return values if finite.all() else np.where(finite, values, np.nan)
 
 
 def _split(values: Numbers, parameters: Sequence[list[Floats]]) -> list[Numbers]:

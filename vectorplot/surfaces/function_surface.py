@@ -78,7 +78,8 @@ class FunctionSurface(MovableSurface):
             return uu.values(u, v), uv.values(u, v), vv.values(u, v)
         if self.first:
             by_u, by_v = self.first
-            return by_u.derivatives(0, u, v), by_u.derivatives(1, u, v), by_v.derivatives(1, u, v)
+            by_uu, by_uv = by_u.gradient(u, v)
+            return by_uu, by_uv, by_v.derivatives(1, u, v)
         by_uu, by_uv, by_vv = self.function.hessian(u, v)
         return by_uu, by_uv, by_vv
 

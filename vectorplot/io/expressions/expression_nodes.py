@@ -31,6 +31,18 @@ def _abs(x: Values) -> Values:
     return np.where(np.real(x) < 0, -x, x) if np.iscomplexobj(x) else np.abs(x)
 
 
+def _sign(x: Values) -> Values:
+    return np.asarray(np.sign(np.real(x)))
+
+
+def _floor(x: Values) -> Values:
+    return np.asarray(np.floor(np.real(x)))
+
+
+def _ceil(x: Values) -> Values:
+    return np.asarray(np.ceil(np.real(x)))
+
+
 def _cbrt(x: Values) -> Values:
     if not np.iscomplexobj(x):
         return np.asarray(np.cbrt(x))
@@ -101,9 +113,9 @@ OPERATIONS: Mapping[str, Callable[..., Values]] = {
     "sqrt": np.sqrt,
     "cbrt": _cbrt,
     "abs": _abs,
-    "sign": lambda x: np.sign(np.real(x)),
-    "floor": lambda x: np.floor(np.real(x)),
-    "ceil": lambda x: np.ceil(np.real(x)),
+    "sign": _sign,
+    "floor": _floor,
+    "ceil": _ceil,
     "min": _min,
     "max": _max,
     "hypot": _hypot,
@@ -149,6 +161,14 @@ class Nodes:
                 return self.number(value)
         return self._place(Node(operation, operands))
 
+    def joined(self, nodes: Sequence[Node]) -> int:
+        """The place of the last one of nodes from elsewhere, all of which are added."""
+        places: list[int] = []
+        for node in nodes:
+            operands = tuple(places[k] for k in node.operands)
+            places.append(self._place(Node(node.operation, operands, node.number, node.name)))
+        return places[-1]
+
     def needed_for(self, place: int) -> tuple[Node, ...]:
         """The nodes that one depends on, in order, that one last."""
         needed = [False] * (place + 1)
@@ -168,22 +188,46 @@ def _key(node: Node) -> tuple[object, ...]:
     return node.operation, node.operands, repr(node.number), node.name
 
 
-def evaluated(nodes: Sequence[Node], arrays: Mapping[str, Values]) -> Values:
-    """The values of the last node, for arrays of one shape or scalars; an array is let go after its last use."""
-    last_use = list(range(len(nodes)))
-    for place, node in enumerate(nodes):
-        for operand in node.operands:
-            last_use[operand] = place
-    values: list[Any] = [None] * len(nodes)
-    with np.errstate(all="ignore"):
-        for place, node in enumerate(nodes):
-            if node.operation == "number":
-                values[place] = np.float64(node.number)
-            elif node.operation == "variable":
-                values[place] = arrays[node.name]
-            else:
-                values[place] = OPERATIONS[node.operation](*(values[k] for k in node.operands))
-                for operand in node.operands:
-                    if last_use[operand] == place:
-                        values[operand] = None
-    return np.asarray(values[-1])
+@dataclass(frozen=True, eq=False)
+class Program:
+    """Nodes made ready to be evaluated again and again: for few numbers nothing takes longer than to look at them.
+
+    leaves: the numbers at the places of numbers, None elsewhere; variables: places and names; steps: the place of a
+    result, what computes it, the places of its operands, and those that are not needed any more; results: places.
+    """
+
+    leaves: tuple[Any, ...]
+    variables: tuple[tuple[int, str], ...]
+    steps: tuple[tuple[int, Callable[..., Values], tuple[int, ...], tuple[int, ...]], ...]
+    results: tuple[int, ...]
+
+    @classmethod
+    def of(cls, nodes: Sequence[Node], results: Sequence[int]) -> Program:
+        """The program of nodes for the values at some of their places."""
+        last_use = {operand: place for place, node in enumerate(nodes) for operand in node.operands}
+        steps = tuple(
+            (
+                place,
+                OPERATIONS[node.operation],
+                node.operands,
+                tuple(k for k in set(node.operands) if last_use[k] == place and k not in results),
+            )
+            for place, node in enumerate(nodes)
+            if node.operation in OPERATIONS
+        )
+        numbers = tuple(np.float64(node.number) if node.operation == "number" else None for node in nodes)
+        names = tuple((place, node.name) for place, node in enumerate(nodes) if node.operation == "variable")
+        return cls(numbers, names, steps, tuple(results))
+
+    def __call__(self, arrays: Mapping[str, Values]) -> list[Values]:
+        """The values at the places asked for, for arrays of one shape or scalars; an array is let go after its last
+        use."""
+        values = list(self.leaves)
+        for place, name in self.variables:
+            values[place] = arrays[name]
+        with np.errstate(all="ignore"):
+            for place, operation, operands, done in self.steps:
+                values[place] = operation(*[values[k] for k in operands])
+                for k in done:
+                    values[k] = None
+        return [values[place] for place in self.results]

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Any
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.function_curve import FunctionCurve, curve_of_function
-from vectorplot.io.expressions.expression import Expression
+from vectorplot.io.expressions.expression import Expression, values_of
+from vectorplot.io.expressions.expression_nodes import Nodes, Program
 from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
 from vectorplot.surfaces.graphs.graph import Graph, PolarGraph, graph, graph_over_disc
 from vectorplot.surfaces.graphs.graph_regions import Disc
@@ -24,8 +26,15 @@ class Formulas:
     def __call__(self, *parameters: Any) -> Any:
         """The values at arrays of parameters, in the order of the variables."""
         values = dict(zip(self.expressions[0].variables, parameters, strict=True))
-        results = tuple(expression(**values) for expression in self.expressions)
-        return results if len(results) > 1 else results[0]
+        results = values_of(self._program, values, self.expressions[0].text)
+        return tuple(results) if len(results) > 1 else results[0]
+
+    @cached_property
+    def _program(self) -> Program:
+        # What the components have in common is computed a single time.
+        nodes = Nodes()
+        results = [nodes.joined(expression.nodes) for expression in self.expressions]
+        return Program.of(nodes.nodes, results)
 
     def derivative(self, variable: str) -> Formulas:
         """The derivatives of all components."""

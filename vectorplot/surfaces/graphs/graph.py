@@ -70,7 +70,7 @@ class Graph(MovableSurface):
     def _bends(self, u: Floats, v: Floats) -> tuple[Floats, ...]:
         if self.slopes:
             by_u, by_v = self.slopes
-            found = (by_u.derivatives(0, u, v), by_u.derivatives(1, u, v), by_v.derivatives(1, u, v))
+            found = (*by_u.gradient(u, v), by_v.derivatives(1, u, v))
             return tuple(np.asarray(bend[..., 0]) for bend in found)
         return tuple(np.asarray(bend[..., 0]) for bend in self.heights.hessian(u, v))
 
@@ -283,5 +283,7 @@ def vertical(shape: object) -> Floats | None:
 def _with_holes(x: Any, y: Any, z: Any) -> Floats:
     """(..., 3) vectors, NaN as a whole where z is."""
     vectors = from_components(x, y, z)
-    vectors[np.isnan(vectors[..., 2])] = np.nan
+    holes = np.isnan(vectors[..., 2])
+    if holes.any():
+        vectors[holes] = np.nan
     return vectors
