@@ -81,8 +81,15 @@ class Expression:
         """
         if not self.used <= arrays.keys() or not arrays.keys() <= set(self.variables):
             raise self._misnamed(arrays)
-        (result,) = values_of(self._program, arrays, self._shown)
-        return result
+        values = {name: np.asarray(array) for name, array in arrays.items()}
+        kind = np.complex128 if any(np.iscomplexobj(array) for array in values.values()) else np.float64
+        try:
+            shape = np.broadcast_shapes(*(array.shape for array in values.values()))
+        except ValueError:
+            shapes = ", ".join(f"{name} {array.shape}" for name, array in values.items())
+            raise InputError(f"the formula '{self._shown}' got arrays of shapes that do not fit: {shapes}") from None
+        (result,) = self._program({name: array.astype(kind, copy=False) for name, array in values.items()})
+        return np.array(np.broadcast_to(result, shape), dtype=kind)
 
     @cached_property
     def _program(self) -> Program:
@@ -130,32 +137,6 @@ class Expression:
         if variable not in self.variables:
             raise InputError(f"the formula '{self._shown}' has no variable {variable}")
         return Expression(f"d({self.text})/d{variable}", self.variables, derivative_nodes(self.nodes, variable))
-
-
-def values_of(program: Program, arrays: Mapping[str, ArrayLike], shown: str) -> list[NDArray[Any]]:
-    """The values of formulas in the same variables, each of the common shape of all arrays; complex if one of these is.
-
-    shown: what messages call the formulas. Errors: InputError for shapes that do not broadcast.
-    """
-    values = {name: np.asarray(array) for name, array in arrays.items()}
-    kind = np.dtype(np.complex128 if any(array.dtype.kind == "c" for array in values.values()) else np.float64)
-    shapes = {array.shape for array in values.values()}
-    try:
-        shape = shapes.pop() if len(shapes) == 1 else np.broadcast_shapes(*shapes)
-    except ValueError:
-        told = ", ".join(f"{name} {array.shape}" for name, array in values.items())
-        raise InputError(f"the formula '{shown}' got arrays of shapes that do not fit: {told}") from None
-    results = program({name: array.astype(kind, copy=False) for name, array in values.items()})
-    return [_own(result, shape, kind, arrays) for result in results]
-
-
-def _own(
-    result: NDArray[Any], shape: tuple[int, ...], kind: np.dtype[Any], arrays: Mapping[str, ArrayLike]
-) -> NDArray[Any]:
-    """The result as an array that is none of those given."""
-    if type(result) is np.ndarray and result.shape == shape and result.dtype == kind:
-        return result.copy() if any(result is array for array in arrays.values()) else result
-    return np.array(np.broadcast_to(result, shape), dtype=kind)
 
 
 def parse_expression(

@@ -188,6 +188,28 @@ def _key(node: Node) -> tuple[object, ...]:
     return node.operation, node.operands, repr(node.number), node.name
 
 
+def _cube(x: Values) -> Values:
+    return np.asarray(x * x * x)
+
+
+def _fourth(x: Values) -> Values:
+    square = np.square(x)
+    return np.asarray(square * square)
+
+
+_POWERS: Mapping[float, Callable[[Values], Values]] = {2.0: np.square, 3.0: _cube, 4.0: _fourth}
+"""What computes powers with these exponents; numpy's own takes six times as long."""
+
+
+def _computed(nodes: Sequence[Node], node: Node) -> tuple[Callable[..., Values], tuple[int, ...]]:
+    """What computes a node, and the places of what it is computed from."""
+    if node.operation == "power" and nodes[node.operands[1]].operation == "number":
+        exponent = nodes[node.operands[1]].number
+        if exponent in _POWERS:
+            return _POWERS[exponent], node.operands[:1]
+    return OPERATIONS[node.operation], node.operands
+
+
 @dataclass(frozen=True, eq=False)
 class Program:
     """Nodes made ready to be evaluated again and again: for few numbers nothing takes longer than to look at them.
@@ -208,8 +230,7 @@ class Program:
         steps = tuple(
             (
                 place,
-                OPERATIONS[node.operation],
-                node.operands,
+                *_computed(nodes, node),
                 tuple(k for k in set(node.operands) if last_use[k] == place and k not in results),
             )
             for place, node in enumerate(nodes)

@@ -8,7 +8,7 @@ from typing import Any
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.function_curve import FunctionCurve, curve_of_function
-from vectorplot.io.expressions.expression import Expression, values_of
+from vectorplot.io.expressions.expression import Expression
 from vectorplot.io.expressions.expression_nodes import Nodes, Program
 from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
 from vectorplot.surfaces.graphs.graph import Graph, PolarGraph, graph, graph_over_disc
@@ -24,9 +24,9 @@ class Formulas:
     expressions: tuple[Expression, ...]
 
     def __call__(self, *parameters: Any) -> Any:
-        """The values at arrays of parameters, in the order of the variables."""
-        values = dict(zip(self.expressions[0].variables, parameters, strict=True))
-        results = values_of(self._program, values, self.expressions[0].text)
+        """The values at arrays of parameters, in the order of the variables; a single one where none of these counts.
+        Real parameters stay real beside complex ones."""
+        results = self._program(dict(zip(self.expressions[0].variables, parameters, strict=True)))
         return tuple(results) if len(results) > 1 else results[0]
 
     @cached_property
