@@ -68,7 +68,8 @@ class NumericFunction:
 
     inside: where the function is asked at all, elsewhere it is NaN. limits: smallest and largest values (k,); where one
     is beyond them the function counts as not finite. A function that is not finite is NaN there, and so are its
-    derivatives; beside a hole they are taken from the other side.
+    derivatives; beside a hole they are taken from the other side. vectors: how many vectors the k components make up,
+    each of which is finite or NaN by itself.
     Error: first derivatives by complex step to rounding, if the function takes complex numbers and is analytic in them
     (tried out at probes); else by differences of fourth order, about 1e-12 of the largest for functions that turn a
     few times over the range. Second derivatives: differences of first ones, about 1e-12 and 1e-9.
@@ -78,6 +79,7 @@ class NumericFunction:
     ranges: tuple[Range, ...]
     inside: Callable[..., Bools] | None = None
     limits: Limits | None = None
+    vectors: int = 1
 
     def values(self, *parameters: Floats) -> Floats:
         """(..., k) values, NaN in holes."""
@@ -200,7 +202,12 @@ class NumericFunction:
         if self.limits is not None:
             with np.errstate(invalid="ignore"):
                 known &= (result >= self.limits[0]) & (result <= self.limits[1])
-        return result if _all(known) else np.where(all_components(known)[..., None], result, np.nan)
+        if _all(known):
+            return result
+        each = (len(result), self.vectors, -1)
+        return np.where(all_components(known.reshape(each))[..., None], result.reshape(each), np.nan).reshape(
+            result.shape
+        )
 
     def _slopes(self, axis: int, parameters: list[Floats]) -> Floats:
         of = self._complex(axis) if self.by_complex_step else self._by_differences(axis, self.steps[axis])
@@ -376,6 +383,13 @@ def numeric_function(
     if inside is not None:
         probes = _probes_inside(ranges, inside)
     return NumericFunction(user_function(function, components, probes, name=name), tuple(ranges), inside)
+
+
+def at_once(function: NumericFunction, whole: Callable[..., Any], vectors: int) -> NumericFunction:
+    """A function that gives so many vectors, each of as many components as those of another: asked where that is, and
+    as sure to take arrays. It is not tried out."""
+    user = replace(function.function, function=whole, components=vectors * function.function.components)
+    return replace(function, function=user, vectors=vectors)
 
 
 def cut_off(function: NumericFunction) -> NumericFunction:

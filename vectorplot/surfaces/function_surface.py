@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numeric_function
 from vectorplot.errors import InputError
+from vectorplot.surfaces.jets import FirstJets, SecondJets
 from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_extent import GAP_OF_EXTENT
@@ -41,6 +42,8 @@ class FunctionSurface(MovableSurface):
         The derivatives by u and by v, or empty: they are found from the points.
     second : tuple of NumericFunction
         The second derivatives by uu, uv and vv, or empty.
+    jets : tuple of NumericFunction
+        Points and first derivatives at once, and these with the second derivatives; or empty.
 
     Notes
     -----
@@ -59,6 +62,7 @@ class FunctionSurface(MovableSurface):
     function: NumericFunction
     first: tuple[NumericFunction, ...] = ()
     second: tuple[NumericFunction, ...] = ()
+    jets: tuple[NumericFunction, ...] = ()
 
     def points(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) points, NaN where the function is."""
@@ -82,6 +86,25 @@ class FunctionSurface(MovableSurface):
             return by_uu, by_uv, by_v.derivatives(1, u, v)
         by_uu, by_uv, by_vv = self.function.hessian(u, v)
         return by_uu, by_uv, by_vv
+
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(..., 3) points and derivatives by u and by v, at once where they are known at once."""
+        if not self.jets:
+            return self.points(u, v), *self.partials(u, v)
+        points, by_u, by_v = _vectors(self.jets[0].values(u, v))
+        return points, by_u, by_v
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(..., 3) these and the second derivatives, at once where they are known at once."""
+        if not self.jets:
+            return self.points(u, v), *self.partials(u, v), *self.second_partials(u, v)
+        points, by_u, by_v, uu, uv, vv = _vectors(self.jets[1].values(u, v))
+        return points, by_u, by_v, uu, uv, vv
+
+
+def _vectors(values: Floats) -> list[Floats]:
+    """The vectors (..., 3) that stand side by side in values (..., 3k)."""
+    return [np.ascontiguousarray(values[..., k : k + 3]) for k in range(0, values.shape[-1], 3)]
 
 
 def surface_of_function(

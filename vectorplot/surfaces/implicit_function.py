@@ -14,6 +14,9 @@ from vectorplot.curves.derivatives import NumericFunction, Range, numeric_functi
 from vectorplot.surfaces.families.quadric import checked_box
 from vectorplot.surfaces.placed_surface import MovableImplicit
 
+# The places of xx, xy, xz, yy, yz and zz in a matrix.
+_SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+
 
 @dataclass(frozen=True, eq=False)
 class ImplicitFunction(MovableImplicit):
@@ -29,6 +32,8 @@ class ImplicitFunction(MovableImplicit):
         Its gradient; without it, it is found from F.
     degree : int, optional
         That of an algebraic surface, if known.
+    bends : NumericFunction, optional
+        The second derivatives by xx, xy, xz, yy, yz and zz; without it, they are found from the first ones.
 
     Notes
     -----
@@ -47,6 +52,7 @@ class ImplicitFunction(MovableImplicit):
     function: NumericFunction
     gradient: NumericFunction | None = None
     degree: int | None = None
+    bends: NumericFunction | None = None
 
     def values(self, points: Floats) -> Floats:
         """(...,) F, NaN where the function is not finite."""
@@ -62,11 +68,12 @@ class ImplicitFunction(MovableImplicit):
     def hessians(self, points: Floats) -> Floats:
         """(..., 3, 3) second derivatives."""
         xyz = _coordinates(points)
+        if self.bends is not None:
+            return np.asarray(self.bends.values(*xyz)[..., _SYMMETRIC])
         if self.gradient is not None:
             rows = np.stack(self.gradient.gradient(*xyz), axis=-2)
             return np.asarray(0.5 * (rows + np.swapaxes(rows, -1, -2)))
-        xx, xy, xz, yy, yz, zz = (part[..., 0] for part in self.function.hessian(*xyz))
-        return np.stack([np.stack(row, -1) for row in ((xx, xy, xz), (xy, yy, yz), (xz, yz, zz))], -2)
+        return np.concatenate(self.function.hessian(*xyz), axis=-1)[..., _SYMMETRIC]
 
 
 def _coordinates(points: Floats) -> tuple[Floats, Floats, Floats]:

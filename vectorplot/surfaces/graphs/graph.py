@@ -14,6 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.function_surface import ranges_of
 from vectorplot.surfaces.graphs.graph_regions import Disc, Region
+from vectorplot.surfaces.jets import FirstJets, SecondJets
 from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_parameters import ROUNDING_OF_DOMAIN
@@ -31,6 +32,8 @@ class Graph(MovableSurface):
         f; NaN outside the region.
     slopes : tuple of NumericFunction
         The derivatives by u and by v, or empty: they are found from the heights.
+    jets : tuple of NumericFunction
+        f, f_u, f_v at once, and these with f_uu, f_uv, f_vv, each with its own holes; or empty.
 
     Notes
     -----
@@ -48,6 +51,7 @@ class Graph(MovableSurface):
     domain: Domain
     heights: NumericFunction
     slopes: tuple[NumericFunction, ...] = ()
+    jets: tuple[NumericFunction, ...] = ()
 
     def points(self, u: Floats, v: Floats) -> Floats:
         """(..., 3) points, NaN where the function is, and outside the region."""
@@ -55,19 +59,35 @@ class Graph(MovableSurface):
 
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """(..., 3) derivatives by u and by v."""
-        first = self._slopes(u, v)
-        return _with_holes(1.0, 0.0, first[0]), _with_holes(0.0, 1.0, first[1])
+        return _first(*self._slopes(u, v))
 
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
-        uu, uv, vv = self._bends(u, v)
-        return _with_holes(0.0, 0.0, uu), _with_holes(0.0, 0.0, uv), _with_holes(0.0, 0.0, vv)
+        return _second(*self._bends(u, v))
+
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(..., 3) points and derivatives by u and by v, at once where they are known at once."""
+        if not self.jets:
+            return self.points(u, v), *self.partials(u, v)
+        height, *slopes = _columns(self.jets[0].values(u, v))
+        return _with_holes(u, v, height), *_first(*slopes)
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(..., 3) these and the second derivatives, at once where they are known at once."""
+        if not self.jets:
+            return self.points(u, v), *self.partials(u, v), *self.second_partials(u, v)
+        height, by_u, by_v, *bends = _columns(self.jets[1].values(u, v))
+        return _with_holes(u, v, height), *_first(by_u, by_v), *_second(*bends)
 
     def _slopes(self, u: Floats, v: Floats) -> tuple[Floats, ...]:
+        if self.jets:
+            return _columns(self.jets[0].values(u, v))[1:]
         given = [slope.values(u, v) for slope in self.slopes] if self.slopes else self.heights.gradient(u, v)
         return tuple(np.asarray(slope[..., 0]) for slope in given)
 
     def _bends(self, u: Floats, v: Floats) -> tuple[Floats, ...]:
+        if self.jets:
+            return _columns(self.jets[1].values(u, v))[3:]
         if self.slopes:
             by_u, by_v = self.slopes
             found = (*by_u.gradient(u, v), by_v.derivatives(1, u, v))
@@ -176,23 +196,42 @@ class PolarGraph(MovableSurface):
 
     def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
         """(..., 3) derivatives by u and by v."""
-        fx, fy = (d[..., 2] for d in self.plane.partials(*self._plane(u, v)))
-        c, s = np.cos(v), np.sin(v)
-        return _with_holes(c, s, fx * c + fy * s), _with_holes(-u * s, u * c, u * (fy * c - fx * s))
+        return self._first(u, v, self.plane.partials(*self._plane(u, v)))
 
     def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
         x, y = self._plane(u, v)
-        fx, fy = (d[..., 2] for d in self.plane.partials(x, y))
-        xx, xy, yy = (d[..., 2] for d in self.plane.second_partials(x, y))
+        return self._second(u, v, self.plane.partials(x, y), self.plane.second_partials(x, y))
+
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(..., 3) points and derivatives by u and by v, at once."""
+        points, *first = self.plane.first_jets(*self._plane(u, v))
+        return points, *self._first(u, v, first)
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(..., 3) these and the second derivatives, at once."""
+        points, by_x, by_y, *second = self.plane.second_jets(*self._plane(u, v))
+        first = (by_x, by_y)
+        return points, *self._first(u, v, first), *self._second(u, v, first, second)
+
+    def _plane(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        return self.centre[0] + u * np.cos(v), self.centre[1] + u * np.sin(v)
+
+    def _first(self, u: Floats, v: Floats, first: Sequence[Floats]) -> tuple[Floats, Floats]:
+        fx, fy = (d[..., 2] for d in first)
+        c, s = np.cos(v), np.sin(v)
+        return _with_holes(c, s, fx * c + fy * s), _with_holes(-u * s, u * c, u * (fy * c - fx * s))
+
+    def _second(
+        self, u: Floats, v: Floats, first: Sequence[Floats], second: Sequence[Floats]
+    ) -> tuple[Floats, Floats, Floats]:
+        fx, fy = (d[..., 2] for d in first)
+        xx, xy, yy = (d[..., 2] for d in second)
         c, s = np.cos(v), np.sin(v)
         uu = xx * c * c + 2.0 * xy * c * s + yy * s * s
         uv = fy * c - fx * s + u * ((yy - xx) * c * s + xy * (c * c - s * s))
         vv = u * u * (xx * s * s - 2.0 * xy * c * s + yy * c * c) - u * (fx * c + fy * s)
         return _with_holes(0.0, 0.0, uu), _with_holes(-s, c, uv), _with_holes(-u * c, -u * s, vv)
-
-    def _plane(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        return self.centre[0] + u * np.cos(v), self.centre[1] + u * np.sin(v)
 
 
 def graph_over_disc(
@@ -278,6 +317,21 @@ def vertical(shape: object) -> Floats | None:
     if along is not None and hasattr(shape, "matrix"):
         along = along @ np.asarray(shape.matrix)
     return along
+
+
+def _columns(values: Floats) -> tuple[Floats, ...]:
+    """The components (...) of values (..., k)."""
+    return tuple(np.moveaxis(values, -1, 0))
+
+
+def _first(by_u: Floats, by_v: Floats) -> tuple[Floats, Floats]:
+    """(..., 3) the derivatives of the points of a graph, from those of its heights."""
+    return _with_holes(1.0, 0.0, by_u), _with_holes(0.0, 1.0, by_v)
+
+
+def _second(uu: Floats, uv: Floats, vv: Floats) -> tuple[Floats, Floats, Floats]:
+    """(..., 3) the second derivatives of the points of a graph, from those of its heights."""
+    return _with_holes(0.0, 0.0, uu), _with_holes(0.0, 0.0, uv), _with_holes(0.0, 0.0, vv)
 
 
 def _with_holes(x: Any, y: Any, z: Any) -> Floats:
