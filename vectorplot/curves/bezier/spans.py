@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property, reduce
 
 import numpy as np
 
@@ -69,6 +70,16 @@ def measured_spans(
     return problem.measured(spans.handles, t, room)
 
 
+def _dot(a: Floats, b: Floats) -> Floats:
+    """(n,) the scalar products of vectors (d,n)."""
+    return np.asarray(reduce(np.add, a * b))
+
+
+def _within(values: Floats, least: Floats | float, most: Floats | float) -> Floats:
+    """np.clip, which on a few values takes longer than all that is done to them."""
+    return np.asarray(np.minimum(np.maximum(values, least), most))
+
+
 class _Problem:
     """The points of spans in coordinates from the spans' first points, one span after the other."""
 
@@ -86,6 +97,16 @@ class _Problem:
 
     def _spread(self, values: Floats) -> Floats:
         return np.repeat(values, self.counts, axis=-1)
+
+    @cached_property
+    def sides(self) -> tuple[Floats, Floats]:
+        """(d,n) the tangents with which the span of each point leaves and arrives."""
+        return self._spread(self.leaving), self._spread(self.arriving)
+
+    @cached_property
+    def cosine(self) -> Floats:
+        """(n,) of the angle between these."""
+        return _dot(*self.sides)
 
     def guess(self) -> tuple[Floats, Floats]:
         """Handles (2,k) of circular arcs, and parameters (n,) by chord length."""
@@ -128,54 +149,54 @@ class _Problem:
         apart = ((c3 * t + c2) * t + c1) * t - self.points
         speed = (3.0 * c3 * t + 2.0 * c2) * t + c1
         turn = 6.0 * c3 * t + 2.0 * c2
-        square = (speed * speed).sum(axis=0)
-        slope = square + (apart * turn).sum(axis=0)
+        square = _dot(speed, speed)
+        slope = square + _dot(apart, turn)
         slope = np.where(slope > 0.1 * square, slope, square)
         with np.errstate(all="ignore"):
-            step = (apart * speed).sum(axis=0) / slope
-        return np.asarray(np.clip(t - np.nan_to_num(step, posinf=0.0, neginf=0.0), 0.0, 1.0))
+            step = _dot(apart, speed) / slope
+        return _within(t - np.where(np.isfinite(step), step, 0.0), 0.0, 1.0)
 
     def step(self, handles: Floats, t: Floats) -> Floats:
         """(2,k) better handles for feet t."""
         c1, c2, c3 = (self._spread(c) for c in self.polynomial(handles))
         apart = self.points - ((c3 * t + c2) * t + c1) * t
         speed = (3.0 * c3 * t + 2.0 * c2) * t + c1
-        square = (speed * speed).sum(axis=0)
+        square = _dot(speed, speed)
         speed /= np.sqrt(np.where(square > 0.0, square, 1.0))
-        one, two = self._spread(self.leaving), self._spread(self.arriving)
-        along_one, along_two = (speed * one).sum(axis=0), (speed * two).sum(axis=0)
-        along = (apart * speed).sum(axis=0)
+        one, two = self.sides
+        along_one, along_two = _dot(speed, one), _dot(speed, two)
+        along = _dot(apart, speed)
         b1, b2 = 3.0 * t * (1.0 - t) ** 2, -3.0 * t * t * (1.0 - t)
         terms = (
             b1 * b1 * (1.0 - along_one**2),
-            b1 * b2 * ((one * two).sum(axis=0) - along_one * along_two),
+            b1 * b2 * (self.cosine - along_one * along_two),
             b2 * b2 * (1.0 - along_two**2),
-            b1 * ((apart * one).sum(axis=0) - along * along_one),
-            b2 * ((apart * two).sum(axis=0) - along * along_two),
+            b1 * (_dot(apart, one) - along * along_one),
+            b2 * (_dot(apart, two) - along * along_two),
             b1 * b1,
             b2 * b2,
         )
-        a, b, c, x, y, weight_one, weight_two = (np.add.reduceat(term, self.starts) for term in terms)
+        a, b, c, x, y, weight_one, weight_two = np.add.reduceat(np.array(terms), self.starts, axis=1)
         a, c = a + RIDGE * weight_one, c + RIDGE * weight_two
         det = a * c - b * b
         good = (det > 0.0) & (self.counts > 3)
         det = np.where(good, det, 1.0)
         change = np.where(good, np.stack((c * x - b * y, a * y - b * x)) / det, 0.0)
-        change = np.clip(change, -self.size / 4.0, self.size / 4.0)
-        return np.asarray(np.clip(handles + change, self.size / 50.0, self.size))
+        change = _within(change, -self.size / 4.0, self.size / 4.0)
+        return _within(handles + change, self.size / 50.0, self.size)
 
     def measured(self, handles: Floats, t: Floats, room: Floats) -> Spans:
         """The spans with their errors at feet t."""
         c1, c2, c3 = (self._spread(c) for c in self.polynomial(handles))
         apart = ((c3 * t + c2) * t + c1) * t - self.points
-        distance = np.sqrt((apart * apart).sum(axis=0))
+        distance = np.sqrt(_dot(apart, apart))
         t = (t[:-1] + t[1:]) / 2.0
         between = ((c3[:, :-1] * t + c2[:, :-1]) * t + c1[:, :-1]) * t - self.points[:, :-1]
         chord = np.diff(self.points, axis=1)
         with np.errstate(all="ignore"):
-            place = (between * chord).sum(axis=0) / (chord * chord).sum(axis=0)
+            place = _dot(between, chord) / _dot(chord, chord)
         between -= np.clip(np.nan_to_num(place), 0.0, 1.0) * chord
-        beside = np.sqrt((between * between).sum(axis=0)) - room[self.index[:-1]]
+        beside = np.sqrt(_dot(between, between)) - room[self.index[:-1]]
         # Between the last point of a span and the first of the next one there is no chord.
         beside[self.starts[1:] - 1] = 0.0
         error = np.maximum.reduceat(distance, self.starts)

@@ -26,8 +26,11 @@ def mesh_feature_lines(
     mesh: Mesh, sight: Sight, kinds: Collection[LineKind], detail: Detail
 ) -> dict[LineKind, MeshCurves]:
     """The feature lines of a mesh of each of these kinds: they run across its faces."""
-    faces = face_triangles(mesh)
     found = {kind: all_mesh_curves([]) for kind in kinds}
+    if mesh.face_count < 2:
+        # Nothing bends. Scenes may have hundreds of such items: panes, signs, shadows.
+        return found
+    faces = face_triangles(mesh)
     extent = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
     if not (len(faces.triangles) and extent > 0.0):
         return found
