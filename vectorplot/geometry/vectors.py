@@ -39,10 +39,9 @@ def cross(a: ArrayLike, b: ArrayLike) -> Floats:
 
 def from_components(*components: ArrayLike) -> Floats:
     """The vectors (..., k) with these k components, arrays or numbers of shapes that broadcast."""
-    arrays = [np.asarray(c, dtype=np.float64) for c in components]
     # Of small arrays np.stack spends most of its time on checks.
-    result = np.empty((*np.broadcast(*arrays).shape, len(arrays)))
-    for axis, values in enumerate(arrays):
+    result = np.empty((*np.broadcast(*components).shape, len(components)))
+    for axis, values in enumerate(components):
         result[..., axis] = values
     return result
 

@@ -13,7 +13,6 @@ from vectorplot.features.implicit.implicit_conditions import SpatialCondition
 from vectorplot.features.implicit.singular.singular_equations import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.parametric.conditions import SurfaceCondition
 from vectorplot.features.parametric.holes.holes import beside_rim_chords
-from vectorplot.geometry import records
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import cross, dot, from_components
 from vectorplot.surfaces.jets import first_jets
@@ -45,7 +44,7 @@ class Chords:
     second_places: tuple[Floats, Floats]
     level: Floats
 
-    def some(self, which: Ints) -> Chords:
+    def some(self, which: Ints | slice) -> Chords:
         """Some of the chords."""
         places, points, second = (
             (start[which], end[which]) for start, end in (self.places, self.points, self.second_places)
@@ -74,9 +73,9 @@ class Along:
     slopes: Floats
     second_places: Floats = field(default_factory=lambda: np.zeros((0, 3)))
 
-    def some(self, which: Ints) -> Along:
+    def some(self, which: Ints | slice) -> Along:
         """Some of the points, of those that have second places."""
-        return records.some(self, which)
+        return Along(self.places[which], self.points[which], self.slopes[which], self.second_places[which])
 
 
 class Family(Protocol):

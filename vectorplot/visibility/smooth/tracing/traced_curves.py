@@ -79,8 +79,7 @@ class Curves:
         A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord. Degenerate: over a hole
         of its surface, which may reach between two points of a curve, it is its chord.
         """
-        (found,) = at_once([(self, chord, part)])
-        return found
+        return _between(self.families, self.chords_from(chord), self.family[self.owner[chord]], part)
 
     def with_exact_slopes(self, chord: Ints, part: Floats) -> Along:
         """The same for parts from 0 to 1, the directions of slopes those of the curves there.
@@ -152,15 +151,16 @@ def at_once(asked: Sequence[tuple[Curves, Ints, Floats]]) -> list[Along]:
     chords = joined_chords([curves.chords_from(chord) for curves, chord, _ in asked])
     found = _between(families, chords, np.concatenate(of), np.concatenate([part for _, _, part in asked]))
     ends = np.cumsum([0, *(len(chord) for _, chord, _ in asked)]).tolist()
-    return [found.some(np.arange(first, end)) for first, end in pairwise(ends)]
+    return [found.some(slice(first, end)) for first, end in pairwise(ends)]
 
 
 def _between(families: Sequence[Family], chords: Chords, family: Ints, part: Floats) -> Along:
     """The curves of families (k,) at a part (k,) of their chords."""
     places, points, slopes = (np.empty((len(part), 3)) for _ in range(3))
     second = np.full((len(part), 3), np.nan)
-    for number in np.unique(family).tolist():
-        which = np.flatnonzero(family == number)
+    numbers = np.flatnonzero(np.bincount(family)).tolist()
+    for number in numbers:
+        which = np.flatnonzero(family == number) if len(numbers) > 1 else slice(None)
         found = families[number].between(chords.some(which), part[which])
         places[which], points[which], slopes[which] = found.places, found.points, found.slopes
         if len(found.second_places):
