@@ -35,6 +35,10 @@ MANY_PARTS = 32
 at once, in a little more travel: a call costs as much as hundreds of strokes."""
 
 
+FEW_STROKES = 1000
+"""The strokes of few layers are joined at once too where they are no more than so many in all."""
+
+
 def inked(
     layers: tuple[Layer, ...],
     hidden: str,
@@ -102,7 +106,8 @@ def _group(paths: Paths) -> Ints:
 def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world: Floats, thinned: bool) -> list[Paths]:
     """The strokes of each part, joined and in the order of the pen."""
     alike = len({pen.dash_mm for pen in pens}) == 1 and not thinned
-    if len(parts) <= MANY_PARTS or not alike:
+    many = len(parts) > MANY_PARTS
+    if not alike or (not many and sum(map(len, parts)) > FEW_STROKES):
         # The longest part begins first, so that the others are done beside it.
         first = sorted(range(len(parts)), key=lambda k: -len(parts[k]))
         done = mapped(lambda k: pen_ordered(_drawn(parts[k], pens[k], hidden, world, thinned)), first)
@@ -114,8 +119,9 @@ def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world
     long = _drawn(replace(every, item=part * (high - low) + every.item - low), pens[0], hidden, world, thinned)
     part, item = np.divmod(long.item, high - low)
     order = np.argsort(part, kind="stable")
-    ordered = pen_ordered(chosen(replace(long, item=item + low), order), part[order])
-    return split(ordered, np.searchsorted(part[order], np.arange(len(parts) + 1)))
+    long, part = chosen(replace(long, item=item + low), order), part[order]
+    own = split(pen_ordered(long, part) if many else long, np.searchsorted(part, np.arange(len(parts) + 1)))
+    return own if many else [pen_ordered(paths) for paths in own]
 
 
 def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) -> Paths:
