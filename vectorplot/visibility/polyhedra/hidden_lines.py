@@ -26,9 +26,10 @@ from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
 PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""
 
-MOST_SLABS, IN_SLAB = 24, 4000
+MOST_SLABS, IN_SLAB, ONE_SLAB = 24, 4000, 250
 """Occluders are tried front to back in slabs of equal number: hidden lines drop out early, near lines are not tried
-against what is far. Each slab costs a little: there are at most so many, for so many occluders and pieces each."""
+against what is far. Each slab costs a little: there are at most so many, for so many occluders and pieces each; and one
+for so few of either."""
 
 FEWEST_CELLS, SEGMENTS_IN_CELL = 16.0, 64.0
 """The finest grid has at least so many cells along the longer side of the picture, however large the things in it; or
@@ -148,7 +149,8 @@ def visible_parts(
     ]
     pieces = pieces.some(~covered)
     alive = np.ones(len(pieces), dtype=np.bool_)
-    slabs = min(max(min(len(occluders), len(pieces)) // IN_SLAB, 4), MOST_SLABS)
+    fewer = min(len(occluders), len(pieces))
+    slabs = min(max(fewer // IN_SLAB, 4), MOST_SLABS) if fewer > ONE_SLAB else 1
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
         of = piece[hits.pair]
         zones.append((pieces.segment[of], hits.low, hits.high, hits.side))
