@@ -35,8 +35,8 @@ def test_blocks_hold_few_partners_and_end_with_the_budget() -> None:
         sizes.append(len(some))
         return Block(some, 1000 * len(some), len(some))
 
-    found, done = in_blocks(rows, 1 << 20, look)
+    found, done = in_blocks(rows, 1 << 20, 1000, look)
     assert done == len(rows) and (np.concatenate(found) == rows).all()
     assert max(sizes) <= 262
-    assert 300 < in_blocks(rows, 300, look)[1] < 600
-    assert in_blocks(rows[:0], 300, look) == ([], 0)
+    assert 300 < in_blocks(rows, 300, 1000, look)[1] < 600
+    assert in_blocks(rows[:0], 300, 1000, look) == ([], 0)

@@ -35,8 +35,8 @@ MANY_PARTS = 32
 at once, in a little more travel: a call costs as much as hundreds of strokes."""
 
 
-FEW_STROKES = 1000
-"""The strokes of few layers are joined at once too where they are no more than so many in all."""
+FEW_POINTS = 2048
+"""The strokes of few layers are joined at once too where they have no more points than so many in all."""
 
 
 def inked(
@@ -107,7 +107,7 @@ def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world
     """The strokes of each part, joined and in the order of the pen."""
     alike = len({pen.dash_mm for pen in pens}) == 1 and not thinned
     many = len(parts) > MANY_PARTS
-    if not alike or (not many and sum(map(len, parts)) > FEW_STROKES):
+    if not alike or (not many and sum(len(paths.points) for paths in parts) > FEW_POINTS):
         # The longest part begins first, so that the others are done beside it.
         first = sorted(range(len(parts)), key=lambda k: -len(parts[k]))
         done = mapped(lambda k: pen_ordered(_drawn(parts[k], pens[k], hidden, world, thinned)), first)

@@ -11,7 +11,7 @@ from vectorplot.arrays import Ints
 T = TypeVar("T")
 
 FIRST, FASTER = 32, 8
-"""Rows of the first block: how many partners rows have is not known yet; and so many times as many rows as in a block
+"""Rows of the first block, at least: how many partners rows have is not known yet; and so many times as many rows as in a block
 there may be in the next one."""
 
 AT_ONCE = 1 << 18
@@ -31,11 +31,11 @@ class Block(Generic[T]):
     close: int
 
 
-def in_blocks(rows: Ints, pairs: int, look: Callable[[Ints], Block[T]]) -> tuple[list[T], int]:
+def in_blocks(rows: Ints, pairs: int, partners: int, look: Callable[[Ints], Block[T]]) -> tuple[list[T], int]:
     """What look finds for one block of rows (k,) after the other, and how many of the rows were looked at before more
-    than the budget's pairs had called for close work."""
+    than the budget's pairs had called for close work. partners: no row has more."""
     found: list[T] = []
-    done, size, close = 0, FIRST, 0
+    done, size, close = 0, max(FIRST, min(AT_ONCE, pairs) // max(partners, 1)), 0
     most = max(pairs, len(rows) * (pairs // EACH))
     while done < len(rows) and close <= most:
         block = look(rows[done : done + size])

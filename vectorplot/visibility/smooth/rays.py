@@ -79,7 +79,7 @@ def counts_in_front(view: View, sheets: Sheets, targets: Targets, samples: Sampl
             found = _in_front(view, sheets, targets, samples.some(rows), (sample, triangle))
             return Block((rows[found[0]], found[1], close), len(sample), int(close.max(initial=0)))
 
-        found, done = in_blocks(rows, pairs, look)
+        found, done = in_blocks(rows, pairs, len(targets), look)
         for sample, sheet, close in found:
             counts.append(Tally(sample, sheets.item[sheet], np.ones_like(sample)))
             spent += close

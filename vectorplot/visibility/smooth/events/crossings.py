@@ -116,7 +116,7 @@ def _close_pairs(
         begun = Pairs(one.chord[near[which]], part, two.chord[far[which]], edge_part)
         return Block(_roughly_met(view, curves, edges, begun), looked, len(near))
 
-    found, done = in_blocks(np.arange(len(one.chord)), pairs, look)
+    found, done = in_blocks(np.arange(len(one.chord)), pairs, len(two.chord), look)
     short = tuple(np.unique(curves.item[curves.owner[one.chord[done:]]]).tolist())
     none = np.zeros(0, dtype=np.intp)
     met = records.joined((Pairs(none, np.zeros(0), none, np.zeros(0)), *found))

@@ -108,7 +108,7 @@ def _close(
             kept = _elsewhere(sheets, found.number, curves, chord, part, places, APART_AT_FIRST)
             return Block(records.some(found, kept), looked, int(kept.sum()))
 
-        found, done = in_blocks(chord, pairs, look)
+        found, done = in_blocks(chord, pairs, len(target), look)
         if done < len(chord):
             short.append(int(sheets.item[number]))
         parts += found
