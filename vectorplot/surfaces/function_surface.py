@@ -89,15 +89,18 @@ class FunctionSurface(MovableSurface):
 
     def first_jets(self, u: Floats, v: Floats) -> FirstJets:
         """(..., 3) points and derivatives by u and by v, at once where they are known at once."""
-        if not self.jets:
+        if self.jets:
+            points, by_u, by_v = _vectors(self.jets[0].values(u, v))
+        elif self.first:
             return self.points(u, v), *self.partials(u, v)
-        points, by_u, by_v = _vectors(self.jets[0].values(u, v))
+        else:
+            points, by_u, by_v = self.function.values_and_gradient(u, v)
         return points, by_u, by_v
 
     def second_jets(self, u: Floats, v: Floats) -> SecondJets:
         """(..., 3) these and the second derivatives, at once where they are known at once."""
         if not self.jets:
-            return self.points(u, v), *self.partials(u, v), *self.second_partials(u, v)
+            return *self.first_jets(u, v), *self.second_partials(u, v)
         points, by_u, by_v, uu, uv, vv = _vectors(self.jets[1].values(u, v))
         return points, by_u, by_v, uu, uv, vv
 

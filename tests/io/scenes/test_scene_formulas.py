@@ -1,4 +1,4 @@
-"""Surfaces of formulas: all that is asked of them at once, and their exact derivatives."""
+"""Surfaces of formulas and of functions: all that is asked of them at once, and their exact derivatives."""
 
 import numpy as np
 import pytest
@@ -11,6 +11,8 @@ from vectorplot.io.scenes.scene_formulas import (
     formula_implicit,
     formula_surface,
 )
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.graphs.graph_regions import Disc
 from vectorplot.surfaces.jets import first_jets, second_jets
 from vectorplot.surfaces.surface import Domain
@@ -27,6 +29,9 @@ SURFACES = {
     "infinite slopes": formula_graph(formulas("xy", "sqrt(x) + y^2"), SQUARE),
     "cut off": formula_graph(formulas("xy", "1/(x - 0.1)"), SQUARE),
     "disc": formula_graph_over_disc(formulas("xy", "x^2*y"), Disc(1.0), hole=0.2),
+    "of Python": graph(lambda x, y: np.sqrt(x) * np.cos(y), SQUARE),
+    "not analytic": graph(lambda x, y: np.abs(np.asarray(x)) * y.real, SQUARE),
+    "points of Python": surface_of_function(lambda u, v: (u, v, u * np.exp(v)), SQUARE),
     "three": formula_surface(formulas("uv", "u", "v", "u^2*exp(v) + sqrt(u)"), SQUARE),
 }
 

@@ -67,15 +67,18 @@ class Graph(MovableSurface):
 
     def first_jets(self, u: Floats, v: Floats) -> FirstJets:
         """(..., 3) points and derivatives by u and by v, at once where they are known at once."""
-        if not self.jets:
+        if self.jets:
+            height, *slopes = _columns(self.jets[0].values(u, v))
+        elif self.slopes:
             return self.points(u, v), *self.partials(u, v)
-        height, *slopes = _columns(self.jets[0].values(u, v))
+        else:
+            height, *slopes = (each[..., 0] for each in self.heights.values_and_gradient(u, v))
         return _with_holes(u, v, height), *_first(*slopes)
 
     def second_jets(self, u: Floats, v: Floats) -> SecondJets:
         """(..., 3) these and the second derivatives, at once where they are known at once."""
         if not self.jets:
-            return self.points(u, v), *self.partials(u, v), *self.second_partials(u, v)
+            return *self.first_jets(u, v), *self.second_partials(u, v)
         height, by_u, by_v, *bends = _columns(self.jets[1].values(u, v))
         return _with_holes(u, v, height), *_first(by_u, by_v), *_second(*bends)
 

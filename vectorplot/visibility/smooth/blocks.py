@@ -11,8 +11,8 @@ from vectorplot.arrays import Ints
 T = TypeVar("T")
 
 FIRST, FASTER = 32, 8
-"""Rows of the first block, at least: how many partners rows have is not known yet; and so many times as many rows as in a block
-there may be in the next one."""
+"""Rows of the first block, at least: how many partners rows have is not known yet; and so many times as many rows as in
+a block there may be in the next one."""
 
 AT_ONCE = 1 << 18
 """Partners of a block, about."""
