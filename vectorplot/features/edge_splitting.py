@@ -51,6 +51,9 @@ FIRST = 0.3
 NONE = -1
 """No fold."""
 
+SURFACE = 3
+"""Which of the numbers of a place tells on which surface it is, if that can be one of several."""
+
 
 @dataclass(frozen=True, eq=False)
 class Vertices:
@@ -75,6 +78,14 @@ class Vertices:
         return all_finite(self.points)
 
 
+def surface_numbers(places: Floats) -> Ints:
+    """(...,) the numbers of the surfaces that places (..., d) are on: the fourth one of those on one of several, after
+    two parameters and what tells whether they are on a rim; 0 of others."""
+    if places.shape[-1] <= SURFACE:
+        return np.zeros(places.shape[:-1], dtype=np.intp)
+    return np.asarray(places[..., SURFACE], dtype=np.intp)
+
+
 class Between(Protocol):
     """A surface between vertices of its triangles."""
 
@@ -91,12 +102,14 @@ class Between(Protocol):
         """(k,n) vertices of the surface instead of those over sides, nearer to these where there are such close by."""
         ...
 
-    def turned(self, corners: Vertices) -> Bools:
-        """(t,) which triangles with corners (t,3) were turned over by corners that were moved to the rim of a hole."""
+    def turned(self, places: Floats) -> Bools:
+        """(t,) which triangles with corners at places (t,3,d) were turned over by corners that were moved to the rim
+        of a hole."""
         ...
 
-    def inside(self, corners: Vertices) -> Bools:
-        """(t,) which triangles with corners (t,3) are on the surface, and not in a hole with corners on its rim."""
+    def inside(self, places: Floats) -> Bools:
+        """(t,) which triangles with corners at places (t,3,d) are on the surface, and not in a hole with corners on its
+        rim."""
         ...
 
 
@@ -145,11 +158,11 @@ class Demand(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Net:
-    """Triangles (t,3) of vertices (v,); complete: whether there are as many as were called for."""
+    """Triangles (t,3) of vertices (v,); stopped: the numbers of surfaces that have fewer than were called for."""
 
     vertices: Vertices
     triangles: Ints
-    complete: bool = True
+    stopped: tuple[int, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -160,63 +173,99 @@ class _Found:
     key: Ints
     rows: Floats
 
-    def joined(self, key: Ints, rows: Floats) -> _Found:
-        """This, and what was found of others."""
-        every = np.concatenate((self.key, key))
-        order = np.argsort(every)
-        return _Found(every[order], np.concatenate((self.rows, rows), axis=1)[:, order])
+    def of(self, key: Ints) -> tuple[_Found, Ints]:
+        """What was found of other sides, by their keys, ascending; and those of which nothing was."""
+        rows = np.empty((len(self.rows), len(key)))
+        place = np.searchsorted(self.key, key)
+        known = np.zeros(len(key), dtype=np.bool_)
+        inside = place < len(self.key)
+        known[inside] = self.key[place[inside]] == key[inside]
+        rows[:, known] = self.rows[:, place[known]]
+        return _Found(key, rows), np.flatnonzero(~known)
 
 
 def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
-    """The triangles divided until all of their sides are fine enough, or there are so many that the next division would
-    make more than most. They keep the sense in which they turn.
+    """The triangles divided until all of their sides are fine enough, or there are so many of a surface that the next
+    division would make more than most. They keep the sense in which they turn.
 
-    Of a triangle the worst side is split first, so that it has a better shape for the others.
+    Of a triangle the worst side is split first, so that it has a better shape for the others. Several surfaces may be
+    divided at once: of each there come out the triangles, in the order, that come out of it alone.
     Degenerate: sides that lead into a hole are cut at its rim; triangles in holes stay, with vertices that are NaN;
     sides across a jump stay when their places are one.
     """
     found = _Found(np.zeros(0, dtype=np.intp), np.zeros((3, 0)))
+    front = _front(net.vertices, net.triangles, demand)
     for _ in range(ROUNDS):
         count = len(net.vertices.points)
         edges, sides, uses = edges_of(net.triangles, count)
-        key = edges[:, 0] << 32 | edges[:, 1]
-        new = np.flatnonzero(~np.isin(key, found.key))
-        found = found.joined(key[new], _splits(net, edges[new], uses[new] == 1, between, demand))
-        excess, as_border, part = found.rows[:, np.searchsorted(found.key, key)]
-        border = (uses == 1) | _outlines(net, sides, len(edges), demand)
+        found, new = found.of(edges[:, 0] << 32 | edges[:, 1])
+        found.rows[:, new] = _splits(net, edges[new], uses[new] == 1, between, demand)
+        excess, as_border, part = found.rows
+        border = (uses == 1) | _outlines(front, sides, uses)
         excess = np.where(border, np.maximum(excess, as_border), excess)
         of_sides = excess[sides]
         first = (of_sides > 1.0) & (of_sides >= FIRST * greatest_component(of_sides)[..., None])
-        which = np.unique(sides[first])
-        middle = np.full(len(edges), -1, dtype=np.intp)
-        middle[which] = count + np.arange(len(which))
+        split = np.zeros(len(edges), dtype=np.bool_)
+        split[sides[first]] = True
+        net, split = _within_budget(net, sides, edges, split, most)
+        which = np.flatnonzero(split)
         if not len(which):
             break
-        if len(net.triangles) + int((middle[sides] >= 0).sum()) > most:
-            return replace(net, complete=False)
+        middle = np.full(len(edges), -1, dtype=np.intp)
+        middle[which] = count + np.arange(len(which))
         ends = net.vertices.some(edges[which, 0]), net.vertices.some(edges[which, 1])
         vertices = net.vertices.joined(between(*ends, part[which], uses[which] == 1))
         triangles, of = divided(net.triangles, middle[sides], vertices.points)
-        while (turned := between.turned(vertices.some(triangles)) & any_component(middle[sides[of]] >= 0)).any():
+        places = vertices.places[triangles]
+        while (turned := between.turned(places) & any_component(middle[sides[of]] >= 0)).any():
             # The rim beside these sides has left their triangles.
             whole = np.unique(sides[of[turned]])
             middle[whole] = -1
-            found.rows[:2, np.searchsorted(found.key, key[whole])] = 0.0
+            found.rows[:2, whole] = 0.0
             triangles, of = divided(net.triangles, middle[sides], vertices.points)
-        net = Net(vertices, triangles[between.inside(vertices.some(triangles))])
+            places = vertices.places[triangles]
+        kept = between.inside(places)
+        triangles, of = triangles[kept], of[kept]
+        front = front[:, of]
+        made = any_component(middle[sides] >= 0)[of]
+        front[:, made] = _front(vertices, triangles[made], demand)
+        net = replace(net, vertices=vertices, triangles=triangles)
     return net
 
 
-def _outlines(net: Net, sides: Ints, count: int, demand: Demand) -> Bools:
+def _within_budget(net: Net, sides: Ints, edges: Ints, split: Bools, most: int) -> tuple[Net, Bools]:
+    """The net, and (e,) which sides are to be split, none of the surfaces that would have more than most triangles."""
+    more = split[sides].sum(axis=1)
+    net = replace(net, stopped=())
+    if len(more) + int(more.sum()) <= most:
+        return net, split
+    full = _full(surface_numbers(net.vertices.places[net.triangles[:, 0]]), more, most)
+    split = split & ~np.isin(surface_numbers(net.vertices.places[edges[:, 0]]), full)
+    return replace(net, stopped=tuple(full.tolist())), split
+
+
+def _full(surface: Ints, more: Ints, most: int) -> Ints:
+    """The surfaces that would have more than most triangles: those of each (t,), and how many more (t,) it becomes."""
+    wanted = np.bincount(surface, more)
+    return np.flatnonzero((np.bincount(surface) + wanted > most) & (wanted > 0))
+
+
+def _front(vertices: Vertices, triangles: Ints, demand: Demand) -> Bools:
+    """(s,t) which triangles (t,3) show their front to each place from where folds are outlines."""
+    if not demand.outlines:
+        return np.zeros((0, len(triangles)), dtype=np.bool_)
+    corners = vertices.points[triangles]
+    normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return np.asarray(demand.folds(corners.mean(axis=1), normals)[: demand.outlines] > 0.0)
+
+
+def _outlines(front: Bools, sides: Ints, uses: Ints) -> Bools:
     """(e,) the sides one triangle of which shows its front and the other its back to a place from where they are
     seen."""
-    corners = net.vertices.points[net.triangles]
-    normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    front = demand.folds(corners.mean(axis=1), normals)[: demand.outlines] > 0.0
-    found = np.zeros(count, dtype=np.bool_)
+    found = np.zeros(len(uses), dtype=np.bool_)
     for own in front:
-        fronts = np.bincount(sides[own].ravel(), minlength=count)
-        found |= (fronts > 0) & (fronts < np.bincount(sides.ravel(), minlength=count))
+        fronts = np.bincount(sides[own].ravel(), minlength=len(uses))
+        found |= (fronts > 0) & (fronts < uses)
     return found
 
 

@@ -19,7 +19,6 @@ from vectorplot.geometry.components import any_component
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.jumps import jumps
-from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 
 
@@ -48,14 +47,18 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_B
     """
     if is_parametrised(shape):
         patch = Patch(shape, tuple(poles(shape)))
-        net = _without_jumps(shape, refined(first_net(shape, demand), patch, demand, most))
-        net, turned = cut_where_normals_jump(net, patch)
-        return _facets(net, turned | np.isin(net.vertices.places[:, 1], creases(shape)))
+        return finished(patch, refined(first_net(shape, demand), patch, demand, most))
     if is_implicit(shape):
         level = level_net(shape)
         net = refined(level.net, level, demand, most)
         return _facets(net, np.zeros(len(net.vertices.points), dtype=np.bool_))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
+
+
+def finished(patch: Patch, net: Net) -> Facets:
+    """What comes of a net on a parametrised surface that is fine enough."""
+    net, turned = cut_where_normals_jump(_without_jumps(patch.surface, net), patch)
+    return _facets(net, turned | np.isin(net.vertices.places[:, 1], patch.creases))
 
 
 def _without_jumps(surface: Surface, net: Net) -> Net:
@@ -81,5 +84,5 @@ def _facets(net: Net, sharp: Bools) -> Facets:
     used, corners = np.unique(triangles, return_inverse=True)
     vertices = net.vertices.some(used)
     return Facets(
-        Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), vertices.normals, net.complete, sharp[used]
+        Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), vertices.normals, not net.stopped, sharp[used]
     )

@@ -68,17 +68,17 @@ class Level:
         """The ends of sides as they are."""
         return start, end
 
-    def turned(self, corners: Vertices) -> Bools:
+    def turned(self, places: Floats) -> Bools:
         """None: there are no rims."""
-        return np.zeros(len(corners.places), dtype=np.bool_)
+        return np.zeros(len(places), dtype=np.bool_)
 
     def nearer(self, edges: Edges) -> Vertices:
         """Those over the sides: they were looked for near these."""
         return edges.at
 
-    def inside(self, corners: Vertices) -> Bools:
+    def inside(self, places: Floats) -> Bools:
         """All of them."""
-        return np.ones(len(corners.places), dtype=np.bool_)
+        return np.ones(len(places), dtype=np.bool_)
 
     def at(self, points: Floats) -> Vertices:
         """The vertices at some points (n,3) of the surface."""

@@ -32,7 +32,7 @@ def cut_where_normals_jump(net: Net, between: Between) -> tuple[Net, Bools]:
     middle[which] = count + np.arange(len(which))
     vertices = net.vertices.joined(found)
     triangles, _ = divided(net.triangles, middle[sides], vertices.points)
-    return Net(vertices, triangles, net.complete), np.arange(len(vertices.points)) >= count
+    return Net(vertices, triangles, net.stopped), np.arange(len(vertices.points)) >= count
 
 
 def _turns(start: Vertices, end: Vertices, border: Bools, between: Between) -> Vertices:

@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices
 from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
 from vectorplot.features.parametric.holes.holes import beside_rim_chords, in_domain, is_known, ways_between
@@ -58,19 +58,28 @@ class Patch:
         """The v of sharp edges."""
         return creases(self.surface)
 
+    def surface_at(self, places: Floats) -> Surface:
+        """What is asked for places (n,d)."""
+        return self.surface
+
+    def on(self, places: Floats, numbers: Ints) -> Floats:
+        """(s*n,d) places (n,3) on each of some surfaces (s,), by their numbers; there is but one."""
+        return places
+
     def __call__(self, start: Vertices, end: Vertices, t: Floats, border: Bools) -> Vertices:
         """The vertices over parts t of sides, on the surface; border: of sides at its borders."""
         domain = self.surface.domain
         first, last = self._without_poles(start.places, end.places)
         way = ways_between(domain, first[:, :2], last[:, :2])
-        places = np.column_stack([first[:, :2] + t[:, None] * way, np.zeros(len(t))])
+        places = np.column_stack([first[:, :2] + t[:, None] * way, np.zeros(len(t)), first[:, 3:]])
         found = self.at(_wrapped(domain, places.copy()))
         # A border between two places on a rim lies along it; what leads over a hole goes round it.
         rim = border & (first[:, 2] == ON_RIM) & (last[:, 2] == ON_RIM)
         rim = np.flatnonzero(rim | (~found.known & start.known & end.known))
         if not len(rim):
             return found
-        places[rim, :2], on = beside_rim_chords(self.surface, first[rim, :2], first[rim, :2] + way[rim], t[rim])
+        surface = self.surface_at(first[rim])
+        places[rim, :2], on = beside_rim_chords(surface, first[rim, :2], first[rim, :2] + way[rim], t[rim])
         places[rim, 2] = np.where(on, ON_RIM, 0.0)
         moved = self.at(_wrapped(domain, places[rim]))
         for own, new in ((found.places, moved.places), (found.points, moved.points), (found.normals, moved.normals)):
@@ -87,7 +96,7 @@ class Patch:
         shape = edges.t.shape
         chord = edges.start.points + edges.t[..., None] * (edges.end.points - edges.start.points)
         points = chord.reshape(-1, 3)
-        found = Vertices(*(some.reshape(-1, 3) for some in (edges.at.places, edges.at.points, edges.at.normals)))
+        found = Vertices(*(x.reshape(-1, x.shape[-1]) for x in (edges.at.places, edges.at.points, edges.at.normals)))
         size = np.array(self.surface.domain.size)
         first, last = self._without_poles(edges.start.places, edges.end.places)
         way = ways_between(self.surface.domain, first[:, :2], last[:, :2]) / size
@@ -100,7 +109,7 @@ class Patch:
             # Along the axes, so that the place stays close by.
             moved = from_start + step
             close = np.hypot(*(moved / size).T) <= reach
-            next_places = _wrapped(self.surface.domain, np.column_stack([places[:, :2] + step, places[:, 2]]))
+            next_places = _wrapped(self.surface.domain, np.column_stack([places[:, :2] + step, places[:, 2:]]))
             tried, *tried_slopes = self._jets(next_places)
             better = norm(tried - points) < norm(here - points)
             better &= close & all_finite(tried) & in_domain(self.surface.domain, places[:, :2] + step)
@@ -116,17 +125,16 @@ class Patch:
         if len(led):
             normals, partials = normals.copy(), (along_u[led], along_v[led])
             with np.errstate(all="ignore"):
-                normals[led] = unit_normals_of(self.surface, places[led, 0], places[led, 1], partials)
-        return Vertices(*(some.reshape(*shape, 3) for some in (places, here, normals)))
+                normals[led] = unit_normals_of(self.surface_at(places[led]), places[led, 0], places[led, 1], partials)
+        return Vertices(*(some.reshape(*shape, -1) for some in (places, here, normals)))
 
     def _jets(self, places: Floats) -> FirstJets:
         """Points and derivatives at some places (n,3)."""
         with np.errstate(all="ignore"):
-            return first_jets(self.surface, places[:, 0], places[:, 1])
+            return first_jets(self.surface_at(places), places[:, 0], places[:, 1])
 
-    def turned(self, corners: Vertices) -> Bools:
+    def turned(self, places: Floats) -> Bools:
         """(t,) as Between."""
-        places = corners.places
         found = np.zeros(len(places), dtype=np.bool_)
         if not (places[:, :, 2] == ON_RIM).any():
             return found
@@ -141,13 +149,13 @@ class Patch:
         found[whole] = area < TURNED_OVER * longest
         return found
 
-    def inside(self, corners: Vertices) -> Bools:
+    def inside(self, places: Floats) -> Bools:
         """(t,) as Between: of triangles between three places on a rim those with the surface in their middle."""
-        found = np.ones(len(corners.places), dtype=np.bool_)
-        on_rim = np.flatnonzero(all_components(corners.places[:, :, 2] == ON_RIM))
+        found = np.ones(len(places), dtype=np.bool_)
+        on_rim = np.flatnonzero(all_components(places[:, :, 2] == ON_RIM))
         if len(on_rim):
-            first, one, two = self._ways(corners.places[on_rim])
-            found[on_rim] = is_known(self.surface, first + (one + two) / 3.0)
+            first, one, two = self._ways(places[on_rim])
+            found[on_rim] = is_known(self.surface_at(places[on_rim, 0]), first + (one + two) / 3.0)
         return found
 
     def _ways(self, places: Floats) -> tuple[Floats, Floats, Floats]:
@@ -163,13 +171,14 @@ class Patch:
         u, v = own.places[which, :2].T
         normals = own.normals.copy()
         with np.errstate(all="ignore"):
-            normals[which] = unit_normals(self.surface, u, v + ASIDE_OF_CREASE * (other.places[which, 1] - v))
+            beside = v + ASIDE_OF_CREASE * (other.places[which, 1] - v)
+            normals[which] = unit_normals(self.surface_at(own.places[which]), u, beside)
         return replace(own, normals=normals)
 
     def at(self, places: Floats) -> Vertices:
         """The vertices at some places (n,3)."""
         with np.errstate(all="ignore"):
-            points, normals = points_and_normals(self.surface, places[:, 0], places[:, 1])
+            points, normals = points_and_normals(self.surface_at(places), places[:, 0], places[:, 1])
         return Vertices(places, np.array(points, dtype=np.float64), normals)
 
     def _without_poles(self, start: Floats, end: Floats) -> tuple[Floats, Floats]:
@@ -205,9 +214,21 @@ def _wrapped(domain: Domain, places: Floats) -> Floats:
 
 def first_net(surface: Surface, demand: Demand) -> Net:
     """A grid that has as few columns and rows as it may, but not so few that something between its lines is missed."""
+    ((columns, rows),) = first_counts(Patch(surface, ()), 1, demand)
+    return grid_net(surface, columns, rows)
+
+
+def first_counts(patch: Patch, surfaces: int, demand: Demand) -> list[tuple[int, int]]:
+    """The columns and rows of the first nets of so many surfaces."""
+    domain = patch.surface.domain
+    columns = _enough(lambda count, own: _lines(patch, count, own, True), domain.closed_u, surfaces, demand)
+    rows = _enough(lambda count, own: _lines(patch, count, own, False), domain.closed_v, surfaces, demand)
+    return list(zip(columns.tolist(), rows.tolist(), strict=True))
+
+
+def grid_net(surface: Surface, columns: int, rows: int) -> Net:
+    """The triangles of a grid of so many columns and rows, cut at holes and along sharp edges."""
     domain, patch = surface.domain, Patch(surface, ())
-    columns = _enough(lambda count: _lines(patch, count, across=True), domain.closed_u, demand)
-    rows = _enough(lambda count: _lines(patch, count, across=False), domain.closed_v, demand)
     u, v = domain.grid(columns, rows)
     if not patch.at(_on_grid(u, v).reshape(-1, 3)).known.all():
         # Beside a line of the grid along a rim nobody knew on which side the surface is.
@@ -243,38 +264,52 @@ def _on_grid(u: Floats, v: Floats) -> Floats:
     return np.stack([*np.meshgrid(u, v, indexing="ij"), np.zeros((len(u), len(v)))], axis=-1)
 
 
-def _enough(lines: Callable[[int], Edges], closed: bool, demand: Demand) -> int:
-    """How many parts of lines of a grid are enough to begin with."""
-    count = FEWEST[int(closed)]
-    while True:
-        sides = lines(count)
-        # What lies in a hole is not cut at all.
-        inside = sides.start.known | sides.end.known
-        if not inside.any():
-            return USUAL
-        # Of few parts nothing matters but whether they are enough.
-        told = demand.too_coarse if count < USUAL else demand.excess
-        excess = np.nan_to_num(told(sides.some(inside)), nan=2.0).max(axis=0)
-        if count < USUAL:
-            if excess.max() <= 1.0:
-                return count
-            count *= 2
-            continue
-        most = float(np.quantile(excess, 1.0 - MOST))
-        if most <= 1.2 * HALF or count == FINEST:
-            return count
-        # Distances fall with the square of the length, what turns along rulings with the length itself.
-        count = min(int(np.ceil(count * np.sqrt(most / HALF))), FINEST)
+def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, demand: Demand) -> Ints:
+    """(s,) how many parts of lines of the grids of so many surfaces are enough to begin with.
+
+    lines: of so many parts, of some of the surfaces, of one after the other.
+    """
+    counts = np.full(surfaces, FEWEST[int(closed)])
+    going = np.arange(surfaces)
+    while len(going):
+        left = []
+        for count in np.unique(counts[going]).tolist():
+            own = going[counts[going] == count]
+            sides = lines(count, own)
+            # What lies in a hole is not cut at all.
+            inside = sides.start.known | sides.end.known
+            # Of few parts nothing matters but whether they are enough.
+            told = demand.too_coarse if count < USUAL else demand.excess
+            excess = np.nan_to_num(told(sides.some(inside)), nan=2.0).max(axis=0) if inside.any() else np.zeros(0)
+            of = np.repeat(np.arange(len(own)), len(inside) // len(own))[inside]
+            counts[own] = [_next_count(count, excess[of == k]) for k in range(len(own))]
+            left.append(own[(counts[own] > count) & (np.bincount(of, minlength=len(own)) > 0)])
+        going = np.sort(np.concatenate(left))
+    return counts
 
 
-def _lines(patch: Patch, count: int, across: bool) -> Edges:
-    """Some lines of a grid in so many parts each, along u (across) or along v."""
+def _next_count(count: int, excess: Floats) -> int:
+    """Of how many parts lines are to be seen next, whose sides are too coarse by so many times (n,); the same again
+    where so many are enough."""
+    if not len(excess):
+        return USUAL
+    if count < USUAL:
+        return count if excess.max() <= 1.0 else 2 * count
+    most = float(np.quantile(excess, 1.0 - MOST))
+    if most <= 1.2 * HALF or count == FINEST:
+        return count
+    # Distances fall with the square of the length, what turns along rulings with the length itself.
+    return max(count, min(int(np.ceil(count * np.sqrt(most / HALF))), FINEST))
+
+
+def _lines(patch: Patch, count: int, numbers: Ints, across: bool) -> Edges:
+    """Some lines of the grids of some surfaces in so many parts each, along u (across) or along v."""
     domain = patch.surface.domain
     u, v = domain.grid(*((count, USUAL) if across else (USUAL, count)))
     places = _on_grid(u, v)
     places = places if across else places.swapaxes(0, 1)
-    first, last = places[:-1].reshape(-1, 3), places[1:].reshape(-1, 3)
+    first, last = (patch.on(some.reshape(-1, 3), numbers) for some in (places[:-1], places[1:]))
     t = np.repeat(np.array(LOOKS)[:, None], len(first), axis=1)
-    at = patch.at((first + t[..., None] * (last - first)).reshape(-1, 3))
+    at = patch.at((first + t[..., None] * (last - first)).reshape(-1, first.shape[1]))
     looks = Vertices(*(some.reshape(*t.shape, -1) for some in (at.places, at.points, at.normals)))
     return Edges(patch.at(first), patch.at(last), looks, t, np.full(t.shape, NONE))

@@ -7,7 +7,7 @@ and again.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from functools import cached_property
 from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 
@@ -139,7 +139,7 @@ class SurfaceRows:
 
     def some(self, which: Ints | Bools) -> SurfaceRows:
         """Those of some of the pairs of parameters."""
-        return SurfaceRows(self.stack, self.row[which])
+        return replace(self, row=self.row[which])
 
     @cached_property
     def domain(self) -> Domain:
@@ -206,6 +206,16 @@ class SurfaceRows:
             for whole, part in zip(result, found, strict=True):
                 whole[..., own, :] = part
         return result
+
+
+@dataclass(frozen=True, eq=False)
+class ExactRows(SurfaceRows):
+    """As SurfaceRows; to the last bit what every placed surface says alone."""
+
+    def _turned(self, vectors: Sequence[Floats]) -> Floats:
+        """(n,...,k,3) some vectors (...,k,3) as they are placed, each by a product of its own."""
+        matrices = self.stack.matrices.take(self.row, axis=0)
+        return np.asarray((np.array(vectors)[..., None, :] @ matrices)[..., 0, :])
 
 
 def of_some(surface: Surface, which: Ints | Bools) -> Surface:

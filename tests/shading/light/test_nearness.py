@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.geometry.bodies.solids import box
 from vectorplot.scene.item import Item
-from vectorplot.shading.light.nearness import nearby, triangles_of_item
+from vectorplot.shading.light.nearness import nearby, triangles_of_items
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.quadric import implicit_sphere
 
@@ -15,7 +15,7 @@ PLACES = np.random.default_rng(3).uniform(-1.5, 1.5, (2000, 3))
 
 
 def distances(shape, bounds, places=PLACES):
-    found = nearby(*triangles_of_item(Item("THING", shape), np.array(bounds)), np.array(bounds))
+    found = nearby(*triangles_of_items([Item("THING", shape)], [np.array(bounds)])[0], np.array(bounds))
     return found.distances(places, np.full(len(places), 9.0)), found.gap
 
 
@@ -35,7 +35,8 @@ def test_beside_the_box_nothing_is_near():
 
 def test_large_faces_are_looked_at_where_they_are_in_the_box_only():
     floor = box((2000.0, 2000.0, 1.0))
-    triangles, off = triangles_of_item(Item("FLOOR", floor), np.array(((0.0, 0.0, 0.0), (2000.0, 2000.0, 1.0))))
+    bounds = np.array(((0.0, 0.0, 0.0), (2000.0, 2000.0, 1.0)))
+    ((triangles, off),) = triangles_of_items([Item("FLOOR", floor)], [bounds])
     found = nearby(triangles, off, np.array(((700.0, 700.0, 0.5), (701.0, 701.0, 2.0))))
     assert 0 < len(found.points) < 50_000 and found.gap < 0.1
     far = found.distances(np.array(((700.5, 700.5, 1.5), (700.5, 700.5, 1.05))), np.full(2, 9.0))

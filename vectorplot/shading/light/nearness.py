@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
+from itertools import chain
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
-from vectorplot.features.edge_splitting import Edges
+from vectorplot.features.edge_splitting import Edges, surface_numbers
 from vectorplot.features.facet_demands import INSIDE, AllSidesAlike, off_chords
 from vectorplot.geometry import ragged
 from vectorplot.scene.item import Item
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
+
+if TYPE_CHECKING:
+    from vectorplot.features.facets import Facets
 
 CLOSENESS = 1.0 / 80.0
 """Points are no farther apart than this part of the diagonal of the box in which they are looked for."""
@@ -34,14 +39,25 @@ BETWEEN = 2.0 / 3.0
 
 @dataclass(frozen=True)
 class Coarse(AllSidesAlike):
-    """Triangles that are no farther than a distance from their surface, whatever is seen of them, as
-    features.edge_splitting.Demand."""
+    """Triangles that are no farther than a distance from their surface, each of one or several, whatever is seen of
+    them, as features.edge_splitting.Demand."""
 
-    distance: float
+    distances: tuple[float, ...]
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal for what can be asked at once: all of them."""
+        return None
+
+    @classmethod
+    def joined(cls, asked: Sequence[Coarse]) -> Coarse:
+        """All of these distances, of surfaces one after the other."""
+        return cls(tuple(chain(*(some.distances for some in asked))))
 
     def excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand."""
-        return np.asarray(off_chords(edges) / (INSIDE * self.distance))
+        distance = np.array(self.distances)[surface_numbers(edges.start.places)]
+        return np.asarray(off_chords(edges) / (INSIDE * distance))
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,20 +88,30 @@ class Nearby:
         return found
 
 
-def triangles_of_item(item: Item, box: Floats) -> tuple[Floats, float]:
-    """(t,3,3) triangles that are near all that there is of an item with this box (2,3), and how near; an infinite
-    distance where they are not. Those of curves are sides, with one corner twice."""
-    extent = float(np.linalg.norm(box[1] - box[0]))
+def triangles_of_items(items: Sequence[Item], boxes: Sequence[Floats]) -> list[tuple[Floats, float]]:
+    """Of each of some items with these boxes (2,3) triangles (t,3,3) that are near all that there is of it, and how
+    near; an infinite distance where they are not. Those of curves are sides, with one corner twice."""
+    extents = [float(np.linalg.norm(box[1] - box[0])) for box in boxes]
+    smooth = [k for k, item in enumerate(items) if is_parametrised(item.shape) or is_implicit(item.shape)]
+    found: dict[int, Facets] = {}
+    if smooth:
+        from vectorplot.features.stacked_facets import facets_of_all
+
+        demands = [Coarse((COARSENESS * extents[k],)) for k in smooth]
+        made = facets_of_all([items[k].shape for k in smooth], demands.__getitem__, MOST_COARSE)
+        found = dict(zip(smooth, made, strict=True))
+    return [_triangles(item, extents[k], found.get(k)) for k, item in enumerate(items)]
+
+
+def _triangles(item: Item, extent: float, found: Facets | None) -> tuple[Floats, float]:
+    """As triangles_of_items, of an item with a box of this diagonal, and with these facets if it is smooth."""
     if is_curve(item.shape):
         with np.errstate(invalid="ignore", over="ignore"):
             points = item.shape.points(np.linspace(item.shape.start, item.shape.end, 1 << 12))
         sides = np.stack((points[:-1], points[1:], points[1:]), axis=1)
         return sides[np.isfinite(sides).all(axis=(1, 2))], COARSENESS * extent
     mesh, off = item.mesh, 0.0
-    if is_parametrised(item.shape) or is_implicit(item.shape):
-        from vectorplot.features.facets import facets
-
-        found = facets(item.shape, Coarse(COARSENESS * extent), MOST_COARSE)
+    if found is not None:
         mesh, off = found.mesh, COARSENESS * extent if found.complete else np.inf
     corners, _ = ragged.fans(mesh.offsets)
     return mesh.vertices[mesh.corners[corners]], off

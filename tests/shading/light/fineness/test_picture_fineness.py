@@ -173,7 +173,7 @@ def test_boxes_of_other_items_count_where_they_meet_and_once():
     demand = picture_fineness(
         scene, projection, False, allowed_in_space(scene, projection, Page(200, 150), True, 0.02), 0.02
     )
-    assert [len(demand(number).others) for number in (0, 49, 60)] == [1, 1, 0]
+    assert [len(demand(number).others[0]) for number in (0, 49, 60)] == [1, 1, 0]
 
 
 def test_what_is_near_is_looked_for_only_where_it_tells(monkeypatch):

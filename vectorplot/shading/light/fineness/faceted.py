@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.corner_normals import TrueNormals, unit
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
+
+if TYPE_CHECKING:
+    from vectorplot.features.facets import Facets
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,28 +43,34 @@ def faceted(scene: Scene, demand: Callable[[int], Demand], budget: Budget = USUA
     Errors: as of features.facets. Degenerate: a curve has no faces.
     Source: Glaeser, section 8.4 (polygonised surfaces and their normals).
     """
-    made = [_faceted_item(item, demand, number, budget) for number, item in enumerate(scene.items)]
+    smooth = [number for number, item in enumerate(scene.items) if _is_smooth(item)]
+    found: dict[int, Facets] = {}
+    if smooth:
+        # Of polyhedra nothing is asked that takes surfaces to be loaded.
+        from vectorplot.features.stacked_facets import facets_of_all
+
+        shapes = [scene.items[number].shape for number in smooth]
+        made_of = facets_of_all(shapes, lambda k: demand(smooth[k]), budget.facets)
+        found = dict(zip(smooth, made_of, strict=True))
+    made = [_faceted_item(item, found.get(number)) for number, item in enumerate(scene.items)]
     return FacetedScene(replace(scene, items=tuple(item for item, _ in made)), tuple(normals for _, normals in made))
 
 
 def without_curved_mirror(item: Item) -> Item:
     """The item, but shiny if it is a mirror that is curved: it shows something else at every point, and its triangles
     are no mirrors."""
-    if not item.material.is_mirror or not (is_parametrised(item.shape) or is_implicit(item.shape)):
+    if not item.material.is_mirror or not _is_smooth(item):
         return item
     return replace(item, material=replace(item.material, word="shiny"))
 
 
-def _faceted_item(
-    item: Item, demand: Callable[[int], Demand], number: int, budget: Budget
-) -> tuple[Item, TrueNormals | None]:
-    shape = item.shape
-    if not (is_parametrised(shape) or is_implicit(shape)):
-        return replace(item, shape=item.mesh), _normals_of(item)
-    # Of polyhedra nothing is asked that takes surfaces to be loaded.
-    from vectorplot.features.facets import facets
+def _is_smooth(item: Item) -> bool:
+    return is_parametrised(item.shape) or is_implicit(item.shape)
 
-    found = facets(shape, demand(number), budget.facets)
+
+def _faceted_item(item: Item, found: Facets | None) -> tuple[Item, TrueNormals | None]:
+    if found is None:
+        return replace(item, shape=item.mesh), _normals_of(item)
     if not found.complete:
         text = unresolved("the surface is shown by triangles that are coarser than the tolerance")
         warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=5)

@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Callable, Hashable
-from dataclasses import dataclass
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, replace
 from functools import cache
+from itertools import chain
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.edge_splitting import LOOKS, NONE, Edges
+from vectorplot.features.edge_splitting import LOOKS, NONE, Edges, surface_numbers
 from vectorplot.features.facet_demands import INSIDE, JUMP, Allowed, off_chords, turning
 from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.geometry.mesh import Mesh
@@ -26,7 +27,8 @@ from vectorplot.shading.light.face_shades import point_shades, view_eye, view_li
 from vectorplot.shading.light.fineness.faceted import without_curved_mirror
 from vectorplot.shading.light.fineness.refinement import shade_error
 from vectorplot.shading.light.illumination import homogeneous_light, towards
-from vectorplot.shading.light.nearness import Nearby, nearby, triangles_of_item
+from vectorplot.shading.light.nearness import Nearby, nearby, triangles_of_items
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
 DEEP, DEEP_IN_LIGHT = 40.0, 3.0
 """By how many times the tolerance triangles may be off the surface where that can be seen from the eye only, along the
@@ -50,7 +52,8 @@ SHORTEST = 4.0
 
 @dataclass(frozen=True, eq=False)
 class PictureFineness:
-    """What a picture asks of the triangles of one item, as features.edge_splitting.Demand.
+    """What a picture asks of the triangles of one item, or of several of one finish, whose numbers here are those of
+    the surfaces that places are on, as features.edge_splitting.Demand.
 
     Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance;
     shades along sides within shade_error, a part of their palette. Surfaces fold over where sight rays and light rays
@@ -58,18 +61,29 @@ class PictureFineness:
     only: outlines may be off by up to 1.4 tolerances.
 
     view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
-    they throw shadows; deep: by how many times the tolerance triangles may be off elsewhere; others: what the other
-    items have in the box of the item.
+    they throw shadows; deep (s,): by how many times the tolerance triangles may be off elsewhere; others: what the
+    other items have in the box of each item.
     """
 
     view: View
-    item: Item
+    items: tuple[Item, ...]
     lights: tuple[Light, ...]
     casts: bool
-    deep: float
-    others: tuple[Nearby, ...]
+    deep: Floats
+    others: tuple[tuple[Nearby, ...], ...]
     allowed: Allowed
     shade_error: float
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal for what can be asked at once."""
+        return self.items[0].material.word
+
+    @classmethod
+    def joined(cls, asked: Sequence[PictureFineness]) -> PictureFineness:
+        """What the same picture asks of all of these items."""
+        items, others = (tuple(chain(*some)) for some in ([a.items for a in asked], [a.others for a in asked]))
+        return replace(asked[0], items=items, deep=np.concatenate([a.deep for a in asked]), others=others)
 
     @property
     def outlines(self) -> int:
@@ -86,7 +100,7 @@ class PictureFineness:
         """(k,n) as Demand."""
         allowed = self.allowed(edges.at.points)
         seen = (edges.fold != NONE) & (edges.fold < self.outlines)
-        deep = np.where(seen, allowed, self._apart_from_others(edges, allowed, self.deep * allowed))
+        deep = np.where(seen, allowed, self._apart_from_others(edges, allowed, self._deep(edges) * allowed))
         far = off_chords(edges) / (INSIDE * deep)
         found = np.maximum(far, self._unlike_surface(edges))
         return np.where(self._long(edges, allowed), found, 0.0)
@@ -100,8 +114,9 @@ class PictureFineness:
         unsure = np.flatnonzero((long & ~seen & (needed > allowed)).any(axis=0))
         deep, least = allowed.copy(), allowed[:, unsure]
         # Twice as far as would do: rounding must not make a side too coarse.
-        most = np.clip(2.0 * needed[:, unsure].max(axis=0, initial=0.0), least, self.deep * least)
-        apart = self._apart_from_others(edges.some(unsure), least, most)
+        some = edges.some(unsure)
+        most = np.clip(2.0 * needed[:, unsure].max(axis=0, initial=0.0), least, self._deep(some) * least)
+        apart = self._apart_from_others(some, least, most)
         deep[:, unsure] = np.where(seen[:, unsure], least, apart)
         return np.where(long, np.maximum(off / (INSIDE * deep), unlike), 0.0)
 
@@ -114,6 +129,10 @@ class PictureFineness:
         allowed = self.allowed(edges.at.points)
         return np.where(self._long(edges, allowed), off_chords(edges) / (INSIDE * allowed), 0.0)
 
+    def _deep(self, edges: Edges) -> Floats:
+        """(n,) those of the items of sides."""
+        return np.asarray(self.deep[surface_numbers(edges.start.places)])
+
     def _long(self, edges: Edges, allowed: Floats) -> Bools:
         length = norm(edges.end.points - edges.start.points)
         return np.asarray(length > SHORTEST * allowed, dtype=np.bool_)
@@ -124,8 +143,12 @@ class PictureFineness:
         middle = len(LOOKS) // 2
         around = AROUND * np.linalg.norm(edges.end.points - edges.start.points, axis=-1)
         far = most[middle] / SHARE + around
-        for other in self.others:
-            far = other.distances(edges.at.points[middle], far)
+        of = surface_numbers(edges.start.places)
+        for number in np.unique(of).tolist():
+            own = np.flatnonzero(of == number)
+            points = edges.at.points[middle][own]
+            for other in self.others[number]:
+                far[own] = other.distances(points, far[own])
         return np.asarray(np.clip(SHARE * (far - around), least, most))
 
     def _shade_errors(self, edges: Edges) -> Floats:
@@ -142,8 +165,8 @@ class PictureFineness:
         away = np.einsum("ij,ij->i", ways, towards(places, view_eye(self.view))) < 0.0
         normals = np.where(away[:, None], -normals, normals)
         places, ways = self._in_view(nodes.reshape(-1, 3), normals.reshape(-1, 3))
-        item = np.zeros(len(places), dtype=np.intp)
-        found = point_shades(self.view, (self.item,), self.lights, places, np.nan_to_num(ways), item).total
+        item = np.tile(surface_numbers(edges.start.places), len(nodes))
+        found = point_shades(self.view, self.items, self.lights, places, np.nan_to_num(ways), item).total
         shade = found.reshape(-1, *nodes.shape[:2])
         between = (1.0 - edges.t) * shade[:, :1] + edges.t * shade[:, -1:]
         return np.asarray(np.abs(shade[:, 1:-1] - between).max(axis=0))
@@ -171,17 +194,23 @@ def picture_fineness(
     boxes = [_box(item) for item in scene.items]
     first = _first_in_place(scene, boxes)
 
+    smooth = [k for k, item in enumerate(scene.items) if is_parametrised(item.shape) or is_implicit(item.shape)]
+    meeting = {number: _meeting(boxes, first, number) for number in smooth}
+
     @cache
-    def triangles(number: int) -> tuple[Floats, float]:
-        return triangles_of_item(scene.items[number], boxes[number])
+    def triangles() -> dict[int, tuple[Floats, float]]:
+        asked = sorted({other for those in meeting.values() for other, _ in those})
+        found = triangles_of_items([scene.items[k] for k in asked], [boxes[k] for k in asked])
+        return dict(zip(asked, found, strict=True))
 
     def demand(number: int) -> PictureFineness:
-        near = [nearby(*triangles(other), box) for other, box in _meeting(boxes, first, number)]
+        near = tuple(nearby(*triangles()[other], box) for other, box in meeting[number])
         item = without_curved_mirror(scene.items[number])
         # Light goes through what is transparent: shadows fall on patterns only.
         dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))
         deep = 1.0 if elsewhere else min(DEEP_IN_LIGHT if dark else DEEP, most)
-        return PictureFineness(view, item, lights, casts, deep, tuple(near), allowed, shade_error(tolerance_mm))
+        error = shade_error(tolerance_mm)
+        return PictureFineness(view, (item,), lights, casts, np.array([deep]), (near,), allowed, error)
 
     return demand
 

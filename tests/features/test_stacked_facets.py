@@ -1,0 +1,67 @@
+"""Facets of many surfaces at once."""
+
+import numpy as np
+import pytest
+
+from vectorplot.features.facet_demands import Within
+from vectorplot.features.facets import facets
+from vectorplot.features.stacked_facets import LOT, facets_of_all
+from vectorplot.geometry.budget import USUAL
+from vectorplot.shading.light.nearness import Coarse
+from vectorplot.surfaces.families.capped import Capped
+from vectorplot.surfaces.families.cylinder import Cylinder
+from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.surface import Domain
+
+
+def placed(surface, number):
+    rng = np.random.default_rng(number)
+    return PlacedSurface(surface, np.linalg.qr(rng.normal(size=(3, 3)))[0], rng.uniform(-2.0, 2.0, 3))
+
+
+def same(one, other):
+    pairs = ((one.mesh.vertices, other.mesh.vertices), (one.mesh.corners, other.mesh.corners))
+    pairs += ((one.normals, other.normals), (one.sharp, other.sharp))
+    return one.complete == other.complete and all(np.array_equal(a, b, equal_nan=True) for a, b in pairs)
+
+
+def mixed():
+    """Families, one of them with poles, and what is of none."""
+    rings = [placed(Torus(1.0, 0.2 + 0.05 * k), k) for k in range(4)]
+    balls = [placed(Sphere(0.5 + 0.1 * k), k) for k in range(3)]
+    wave = surface_of_function(lambda u, v: (u, v, np.sin(u) * v), Domain(-1.0, 1.0, -1.0, 1.0))
+    others = [Capped(Cylinder(0.3, 0.0, 1.0)), wave, implicit_sphere(0.5), Torus(1.0, 0.3), Sphere(0.4)]
+    return [shape for some in zip(rings, balls, others[:3], strict=False) for shape in some] + rings[3:] + others[3:]
+
+
+def test_each_is_to_the_last_bit_what_it_is_alone():
+    shapes = mixed()
+    demands = [Coarse((0.004 + 0.003 * k,)) for k in range(len(shapes))]
+    found = facets_of_all(shapes, demands.__getitem__, USUAL.facets)
+    assert all(same(f, facets(s, d)) for f, s, d in zip(found, shapes, demands, strict=True))
+
+
+def test_the_budget_is_that_of_each():
+    shapes = [placed(Torus(1.0, 0.3), k) for k in range(3)]
+    demands = [Coarse((d,)) for d in (0.05, 0.0005, 0.02)]
+    found = facets_of_all(shapes, demands.__getitem__, 2000)
+    assert [f.complete for f in found] == [True, False, True]
+    assert all(same(f, facets(s, d, 2000)) for f, s, d in zip(found, shapes, demands, strict=True))
+
+
+@pytest.mark.parametrize("count", [0, 1, LOT + 1])
+def test_lots_come_back_in_order(count):
+    found = facets_of_all([Sphere(1.0 + k) for k in range(count)], lambda k: Coarse((0.1 * (1.0 + k),)), USUAL.facets)
+    sizes = [np.ptp(f.mesh.vertices[:, 2]) for f in found]
+    assert np.allclose(sizes, 2.0 * (1.0 + np.arange(count)))
+
+
+def test_demands_that_cannot_be_joined_are_asked_one_by_one():
+    demand = Within(lambda points: np.full(points.shape[:-1], 0.02))
+    shapes = [placed(Torus(1.0, 0.3), k) for k in range(2)]
+    found = facets_of_all(shapes, lambda _: demand, USUAL.facets)
+    assert all(same(f, facets(s, demand)) for f, s in zip(found, shapes, strict=True))
