@@ -122,8 +122,8 @@ def _at_singular_points(nodes: Nodes, triangles: Ints) -> Bools:
     g = nodes.gradients[triangles]
     beside = nodes.on_line[triangles].any(axis=1)
     g[beside] /= np.maximum(np.linalg.norm(g[beside], axis=2, keepdims=True), LEAST_DIVISOR)
-    least = (g * g).sum(axis=2).min(axis=1)
-    apart = g - np.roll(g, 1, axis=1)
+    least = least_component(component_sum(g * g))
+    apart = g - g[:, [2, 0, 1]]
     return np.asarray(least < greatest_component(component_sum(apart * apart)), dtype=np.bool_)
 
 
@@ -131,7 +131,7 @@ def _reached(nodes: Nodes, triangles: Ints, slopes: Floats, factor: float) -> Bo
     """(t,) triangles in which the values could vanish, by their slopes at the corners; not where they are zero at all
     corners: that is an area."""
     w = nodes.values[triangles]
-    steepest = np.sqrt(np.nanmax(np.nan_to_num(component_sum(slopes * slopes)), axis=1))
+    steepest = np.sqrt(greatest_component(np.nan_to_num(component_sum(slopes * slopes))))
     near = least_component(np.abs(w)) <= factor * steepest * _widths(nodes, triangles)
     changes = any_component(w < 0.0) & ~all_components(w < 0.0)
     return np.asarray((near | changes) & ~any_component(np.isnan(w)) & any_component(w != 0.0))
@@ -139,10 +139,10 @@ def _reached(nodes: Nodes, triangles: Ints, slopes: Floats, factor: float) -> Bo
 
 def _aligned(slopes: Floats) -> Bools:
     """(t,) triangles at whose corners the slopes (t,3,3) point much the same way; those without slopes too."""
-    total = slopes.sum(axis=1)
+    total = slopes[:, 0] + slopes[:, 1] + slopes[:, 2]
     along = np.einsum("tij,tj->ti", slopes, total)
     sizes = np.sqrt(component_sum(slopes * slopes) * component_sum(total * total)[:, None])
-    return np.asarray(((along > ALIGNED * sizes) | np.isnan(along)).all(axis=1))
+    return all_components((along > ALIGNED * sizes) | np.isnan(along))
 
 
 def _grazes_border(nodes: Nodes, triangles: Ints, slopes: Floats) -> Bools:

@@ -17,6 +17,7 @@ from vectorplot.geometry.cuts.divided_meshes import divided_mesh
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.geometry.repair.winding import components, edge_uses
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.surfaces.trims.cut_implicit import CutImplicit
 from vectorplot.tolerances.of_extent import RESIDUAL_OF_EXTENT
@@ -63,12 +64,13 @@ class _Lattice:
 
     def values(self, surface: ImplicitSurface) -> Floats:
         """F (cx+1, cy+1, cz+1) at all points; NaN where it is not finite."""
-        x, y, z = (np.arange(count + 1, dtype=np.float64) for count in self.counts)
+        sides = [np.arange(count + 1, dtype=np.float64)[:, None] for count in self.counts]
+        x, y, z = (self.points(side)[:, axis] for axis, side in enumerate(sides))
         result = np.empty((len(x), len(y), len(z)))
         step = max(1, SLAB // (len(y) * len(z)))
         for first in range(0, len(x), step):
-            places = np.stack(np.meshgrid(x[first : first + step], y, z, indexing="ij"), axis=-1)
-            result[first : first + step] = checked_values(surface, self.points(places))
+            points = from_components(x[first : first + step, None, None], y[:, None], z)
+            result[first : first + step] = checked_values(surface, points)
         result[~np.isfinite(result)] = np.nan
         return result
 
