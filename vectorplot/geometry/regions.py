@@ -56,7 +56,9 @@ def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
 
     order = np.argsort(group, kind="stable")
     several = shapely.geometrycollections(insides_of(polygons[order]), indices=group[order])
-    return shapely.union_all(several[:, None], axis=1, grid_size=grid)
+    united = shapely.union_all(several[:, None], axis=1)
+    # A grid makes each side dear: those between polygons are gone by now.
+    return united if grid is None else shapely.set_precision(united, grid)
 
 
 def mosaics(polygons: Any, group: Ints) -> Any:

@@ -45,11 +45,14 @@ def world_polygons(view: View, decals) -> list[Floats]:
 
 
 def canonical(polygons: list[Floats]) -> Floats:
-    """Polygons as rows that do not depend on their order or first corners: means and areas."""
+    """Polygons as rows that do not depend on their order, first corners, or corners where nothing turns: centroids and
+    areas."""
     rows = []
     for p in polygons:
-        normal = np.cross(p - p[0], np.roll(p, -1, axis=0) - p[0]).sum(axis=0)
-        rows.append([*p.mean(axis=0), *normal, len(p)])
+        doubled = np.cross(p[1:-1] - p[0], p[2:] - p[0])
+        normal = doubled.sum(axis=0)
+        parts = doubled @ normal / (normal @ normal)
+        rows.append([*(parts @ (p[0] + p[1:-1] + p[2:]) / 3.0), *normal])
     return np.array(sorted(np.round(rows, 7).tolist()))
 
 

@@ -20,6 +20,7 @@ from vectorplot.effects.decals.face_frames import FaceFrames
 from vectorplot.effects.shadows.shadow_shades import LEVELS
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped
 from vectorplot.geometry.convex.plane_cuts import Parts
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 from vectorplot.geometry.records import IN_COLUMNS
@@ -106,9 +107,7 @@ def graded(view: View, shadows: Shadows) -> Shadows:
     found.append(_lacking(shadows.some(alone), shadows.lacking[alone] | dark[number[alone]]))
     crowd = part[several]
     count = 0
-    for lot in _lots(number[crowd]):
-        here = crowd[lot]
-        cells = _arranged(view, shadows.some(here))
+    for cells in mapped(lambda lot: _arranged(view, shadows.some(crowd[lot])), _lots(number[crowd])):
         count += len(cells)
         if count > MOST_CELLS:
             raise InputError(f"shadows overlap in more than {MOST_CELLS} parts: fewer lights, or the verb render")
