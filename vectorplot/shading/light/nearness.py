@@ -73,7 +73,8 @@ class Nearby:
     def _tree(self) -> Any:
         from scipy.spatial import cKDTree
 
-        return cKDTree(self.points)
+        # It is asked for few points beside its own: a tree that is soon made does.
+        return cKDTree(self.points, balanced_tree=False, compact_nodes=False)
 
     def distances(self, points: Floats, most: Floats) -> Floats:
         """(...,) how far points (..., 3) are from the item at least, up to most (...); most of all beside the box."""
@@ -127,16 +128,22 @@ def nearby(triangles: Floats, off: float, box: Floats) -> Nearby:
     low, high = box[0, :, None] - off - longest, box[1, :, None] + off + longest
     for _ in range(ROUNDS):
         inside = ((np.minimum.reduce(left) <= high) & (np.maximum.reduce(left) >= low)).all(axis=0)
-        left = left[..., inside]
+        # take moves columns several times as fast as an index between brackets does.
+        left = left.take(np.flatnonzero(inside), axis=2)
         way = np.roll(left, -1, axis=0) - left
         sides = np.sqrt(way[:, 0] ** 2 + way[:, 1] ** 2 + way[:, 2] ** 2)
         small = np.maximum.reduce(sides) <= longest
         done.append((left[0] + left[1] + left[2])[:, small] / 3.0)
-        left, side = left[..., ~small], sides[:, ~small].argmax(axis=0)
-        if not left.size:
+        large = np.flatnonzero(~small)
+        if not len(large):
             break
-        every = np.arange(left.shape[2])
-        a, b, c = (left[(side + k) % 3, :, every].T for k in range(3))
+        one, two, three = sides.take(large, axis=1)
+        first, second = (one >= two) & (one >= three), two >= three
+        corners = left.take(large, axis=2)
+        # By the longest side, the first one of several.
+        a, b, c = (
+            np.where(first, corners[k], np.where(second, corners[(k + 1) % 3], corners[(k + 2) % 3])) for k in range(3)
+        )
         middle = (a + b) / 2.0
         left = np.concatenate((np.stack((a, middle, c)), np.stack((middle, b, c))), axis=2)
     else:
