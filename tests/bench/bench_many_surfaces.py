@@ -11,7 +11,9 @@ import numpy as np
 import pytest
 
 from vectorplot.draw import draw
+from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
@@ -77,10 +79,10 @@ def seconds(scene: Scene, camera: Camera) -> float:
     return min(times)
 
 
-def calls(scene: Scene, camera: Camera) -> int:
+def calls(scene: Scene, camera: Camera, verb: Callable[[Scene, Camera], Drawing] = draw) -> int:
     """How many functions are called."""
     profile = cProfile.Profile()
-    profile.runcall(draw, scene, camera)
+    profile.runcall(verb, scene, camera)
     return int(pstats.Stats(profile).total_calls)  # type: ignore[attr-defined]
 
 
@@ -128,3 +130,11 @@ def test_surfaces_that_meet_are_intersected_as_one() -> None:
     few, many = (calls(*heap(count, ring)) for count in (10, 60))
     print(f"\ntori in a heap\n  {(many - few) / 50:,.0f} calls for one more")
     assert (many - few) / 50 < 20_000
+
+
+def test_surfaces_are_faceted_as_one() -> None:
+    """Each more of a painted heap costs few calls: the triangles of all of them are divided together."""
+    # What is loaded once does not count.
+    few, many = [calls(*heap(count, ring), paint) for count in (8, 8, 24)][1:]
+    print(f"\npainted tori in a heap\n  {(many - few) / 16:,.0f} calls for one more")
+    assert (many - few) / 16 < 30_000
