@@ -30,10 +30,11 @@ class Record(Protocol):
 R = TypeVar("R", bound=Record)
 
 
-def some(record: R, which: Ints | Bools) -> R:
-    """Some of the elements, with all that is said of them: those with these indices, in this order; or those where a
-    mask is true."""
-    chosen = which.nonzero()[0] if which.dtype == np.bool_ else which
+def some(record: R, which: Ints | Bools | slice) -> R:
+    """Some of the elements, with all that is said of them: those with these indices, in this order; those where a mask
+    is true; or those of a slice, as views."""
+    mask = not isinstance(which, slice) and which.dtype == np.bool_
+    chosen = np.flatnonzero(which) if mask else which
     values = {f: getattr(record, f.name) for f in fields(record)}
     return replace(record, **{f.name: entries(f, v, chosen) for f, v in values.items() if v is not None})
 

@@ -14,7 +14,6 @@ from typing import Any, Protocol, TypeVar, cast, runtime_checkable
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.jets import FirstJets, SecondJets, first_jets, second_jets
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain, Surface
@@ -179,7 +178,13 @@ class SurfaceRows:
         """(n,...,k,3) some vectors (...,k,3) as they are placed."""
         # Component by component: einsum takes twice as long for matrices that are small.
         x, y, z = (np.array([each[..., axis] for each in vectors]) for axis in range(3))
-        return from_components(*(x * a + y * b + z * c for a, b, c in self._columns))
+        result = np.empty((*x.shape, 3))
+        for axis, (a, b, c) in enumerate(self._columns):
+            own = x * a
+            own += y * b
+            own += z * c
+            result[..., axis] = own
+        return result
 
     @cached_property
     def _shifts(self) -> Floats:

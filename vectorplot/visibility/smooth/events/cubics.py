@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import records
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, at_once
@@ -22,23 +23,31 @@ Ends = tuple[list[Floats], list[Floats]]
 
 @dataclass(frozen=True, eq=False)
 class Cubics:
-    """The cubic arcs with the ends and the directions (k,3) of some chords: in space, or in the image and in depth."""
+    """Cubic arcs (k,3) by powers of the part of the arc, the constant first: in space, or in the image and in depth."""
 
-    start: Floats
-    end: Floats
-    leaving: Floats
-    arriving: Floats
+    constant: Floats
+    linear: Floats
+    quadratic: Floats
+    cubic: Floats
 
-    def at(self, index: Ints, part: Floats) -> tuple[Floats, Floats]:
-        """(k,3) points of arcs, and their derivatives.
+    @classmethod
+    def between(cls, start: Floats, end: Floats, leaving: Floats, arriving: Floats) -> Cubics:
+        """Those with these ends and directions (k,3).
 
         Source: Hermite's interpolation; Glaeser, section 9.1, equations 1 to 3.
         """
+        way = end - start
+        return cls(start, leaving, 3.0 * way - 2.0 * leaving - arriving, leaving + arriving - 2.0 * way)
+
+    def some(self, which: Ints) -> Cubics:
+        """Some of the arcs."""
+        return records.some(self, which)
+
+    def at(self, part: Floats) -> tuple[Floats, Floats]:
+        """(k,3) a point of each arc, and the derivatives there."""
         t = part[:, None]
-        p, q, a, b = self.start[index], self.end[index], self.leaving[index], self.arriving[index]
-        way = q - p
-        two, three = 3.0 * way - 2.0 * a - b, a + b - 2.0 * way
-        return p + t * (a + t * (two + t * three)), a + t * (2.0 * two + 3.0 * t * three)
+        a, two, three = self.linear, self.quadratic, self.cubic
+        return self.constant + t * (a + t * (two + t * three)), a + t * (2.0 * two + 3.0 * t * three)
 
 
 def cubics(view: View, asked: Sequence[tuple[Curves, Ints]]) -> list[Cubics]:
@@ -84,4 +93,4 @@ def _arcs(ends: list[Floats], slopes: list[Floats]) -> Cubics:
     longest = STEEPEST * np.abs(way).max(axis=1, keepdims=True)
     with np.errstate(invalid="ignore"):
         leaving, arriving = (np.where((np.abs(s) <= longest).all(axis=1)[:, None], s, way) for s in slopes)
-    return Cubics(ends[0], ends[1], leaving, arriving)
+    return Cubics.between(ends[0], ends[1], leaving, arriving)

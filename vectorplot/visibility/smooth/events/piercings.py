@@ -228,7 +228,7 @@ def _roughly_met(sheets: Sheets, curves: Curves, near: _Close) -> _Close:
         if not len(active):
             break
         of, before = near.number[active], part[active]
-        points, slopes = arcs.at(of_curve[active], before)
+        points, slopes = arcs.some(of_curve[active]).at(before)
         step, places[active], here = sheets.missed(of, points, slopes, places[active])
         away = points - here
         off[active] = np.sqrt(dot(away, away))
@@ -239,7 +239,7 @@ def _roughly_met(sheets: Sheets, curves: Curves, near: _Close) -> _Close:
         active = active[(off[active] > SETTLED_OF_EXTENT) & np.isfinite(places[active]).all(axis=1) & ~led_away]
     met = np.flatnonzero((off <= MODEL_RESIDUAL) & np.isfinite(places).all(axis=1))
     found = _Close(near.chord[met], near.number[met], part[met], places[met], near.reach[met])
-    slopes = arcs.at(of_curve[met], found.part)[1]
+    slopes = arcs.some(of_curve[met]).at(found.part)[1]
     through = dot(slopes, sheets.normals(found.number, found.places)) / np.linalg.norm(slopes, axis=1).clip(
         LEAST_DIVISOR
     )
