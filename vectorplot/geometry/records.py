@@ -33,8 +33,7 @@ R = TypeVar("R", bound=Record)
 def some(record: R, which: Ints | Bools | slice) -> R:
     """Some of the elements, with all that is said of them: those with these indices, in this order; those where a mask
     is true; or those of a slice, as views."""
-    mask = not isinstance(which, slice) and which.dtype == np.bool_
-    chosen = np.flatnonzero(which) if mask else which
+    chosen = which if isinstance(which, slice) or which.dtype != np.bool_ else which.nonzero()[0]
     values = {f: getattr(record, f.name) for f in fields(record)}
     return replace(record, **{f.name: entries(f, v, chosen) for f, v in values.items() if v is not None})
 

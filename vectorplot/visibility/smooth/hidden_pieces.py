@@ -23,6 +23,9 @@ from vectorplot.words import LineKind
 CANDIDATES = (0.5, 0.3, 0.7, 0.12, 0.88)
 """Parts of a piece at which its safest point is looked for."""
 
+ENOUGH = 2.0
+"""So many times as far from edges as is safe, a point is as good as one farther away."""
+
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
@@ -198,21 +201,38 @@ def _safest(
 ) -> tuple[Samples, Floats]:
     """The point of each piece whose image is farthest from those of edges, and how far that is."""
     begin, end = pieces.begin_chord + pieces.begin_part, pieces.end_chord + pieces.end_part
-    count = len(pieces)
-    at = np.concatenate([begin + share * (end - begin) for share in CANDIDATES])
-    chord = np.minimum(at.astype(np.intp), np.tile(pieces.end_chord, len(CANDIDATES)))
-    part = at - chord
-    points = _on_chords(curves, chord, part)
+    at = begin + np.array(CANDIDATES)[:, None] * (end - begin)
+    clear, all_pieces = np.full(at.shape, -np.inf), np.arange(len(pieces))
+    clear[0] = _clear(view, curves, edges, edge_on, pieces, at[:1], tolerance)[0]
+    # The others are looked at only where the first one is not good enough.
+    others = np.flatnonzero(edge_on[pieces.curve] | ~(clear[0] > ENOUGH * SAFE_IN_IMAGE))
+    clear[1:, others] = _clear(view, curves, edges, edge_on, pieces.some(others), at[1:, others], tolerance)
+    best = np.argmax(clear, axis=0)
+    place = at[best, all_pieces]
+    chord = _chords_at(pieces, place)
+    return samples_at(curves, edge_on, chord, place - chord), clear[best, all_pieces]
+
+
+def _clear(
+    view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces, at: Floats, tolerance: float
+) -> Floats:
+    """(c,k) how far the images of places (c,k) of pieces (k,) are from those of edges."""
+    chord = _chords_at(pieces, at)
+    points = _on_chords(curves, chord.ravel(), (at - chord).ravel())
     image = sight_lines.image(view, points)
-    contour = np.tile(edge_on[pieces.curve], len(CANDIDATES))
-    clear = np.empty(len(at))
+    contour = np.tile(edge_on[pieces.curve], len(at))
+    clear = np.empty(at.size)
     clear[~contour] = clearances(view, edges, points[~contour], tolerance)
     # A contour is an edge itself: what counts is the way to the ends of the piece.
     ends = [sight_lines.image(view, _on_chords(curves, c, p)) for c, p in _ends(pieces)]
-    away = [np.linalg.norm(image - np.tile(e, (len(CANDIDATES), 1)), axis=1) for e in ends]
+    away = [np.linalg.norm(image - np.tile(e, (len(at), 1)), axis=1) for e in ends]
     clear[contour] = np.minimum(*away)[contour]
-    best = np.argmax(clear.reshape(len(CANDIDATES), count), axis=0) * count + np.arange(count)
-    return samples_at(curves, edge_on, chord[best], part[best]), clear[best]
+    return clear.reshape(at.shape)
+
+
+def _chords_at(pieces: Pieces, at: Floats) -> Ints:
+    """(..., k) the chords that places (..., k) of pieces (k,) lie on."""
+    return np.asarray(np.minimum(at.astype(np.intp), pieces.end_chord))
 
 
 def samples_at(curves: Curves, edge_on: Bools, chord: Ints, part: Floats) -> Samples:
