@@ -30,10 +30,10 @@ class Record(Protocol):
 R = TypeVar("R", bound=Record)
 
 
-def some(record: R, which: Ints | Bools | slice) -> R:
-    """Some of the elements, with all that is said of them: those with these indices, in this order; those where a mask
-    is true; or those of a slice, as views."""
-    chosen = which if isinstance(which, slice) or which.dtype != np.bool_ else which.nonzero()[0]
+def some(record: R, which: Ints | Bools) -> R:
+    """Some of the elements, with all that is said of them: those with these indices, in this order; or those where a
+    mask is true."""
+    chosen = which.nonzero()[0] if which.dtype == np.bool_ else which
     values = {f: getattr(record, f.name) for f in fields(record)}
     return replace(record, **{f.name: entries(f, v, chosen) for f, v in values.items() if v is not None})
 
