@@ -58,7 +58,7 @@ def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
     several = shapely.geometrycollections(insides_of(polygons[order]), indices=group[order])
     united = shapely.union_all(several[:, None], axis=1)
     # A grid makes each side dear: those between polygons are gone by now.
-    return united if grid is None else shapely.set_precision(united, grid)
+    return united if grid is None else shapely.union_all(united[:, None], axis=1, grid_size=grid)
 
 
 def mosaics(polygons: Any, group: Ints) -> Any:
