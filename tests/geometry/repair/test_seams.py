@@ -149,3 +149,16 @@ def test_a_sheet_with_two_faces_at_every_place_shows_no_triangulation(separate: 
     offsets = np.concatenate([sheet.offsets, back.offsets[1:] + sheet.offsets[-1]])
     found = drawn(vp.draw(scene(Mesh(vertices, corners, offsets)), CAMERA))
     assert np.isclose(found.length, 14.0, rtol=1e-12), "its outline, and that once"
+
+
+@pytest.mark.parametrize("name", ["box", "hollow box", "torus"])
+def test_many_copies_are_joined_as_each_alone(name: str) -> None:
+    """One closed body stands for its copies; an open one does not, and equal corners need not lie in equal places."""
+    closed, apart = SHAPES[name], soup(SHAPES[name])
+    spread = Mesh(apart.vertices + np.arange(len(apart.vertices))[:, None], apart.corners, apart.offsets)
+    meshes = [Mesh(m.vertices + k, m.corners, m.offsets) for k in range(20) for m in (closed, apart, spread)]
+    together = joined_seams(meshes)
+    for mesh, joined in zip(meshes, together, strict=True):
+        (alone,) = joined_seams([mesh])
+        assert np.array_equal(joined.corners, alone.corners) and np.array_equal(joined.offsets, alone.offsets)
+    assert is_closed_oriented(together[1]) == is_closed_oriented(closed) and not is_closed_oriented(together[2])

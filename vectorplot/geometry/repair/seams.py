@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from itertools import chain
 
 import numpy as np
 
@@ -21,6 +22,9 @@ MANY_FACES = 1 << 12
 """A mesh of so many faces is asked by itself whether it is closed, and knows it from then on; for smaller ones it costs
 less to look at all together."""
 
+FEW_COPIES = 8
+"""Meshes that stand for so many others, on the average, are asked by themselves too."""
+
 
 def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     """The meshes with the boundary edges of each that coincide exactly made one edge, and boundary edges without length
@@ -30,11 +34,26 @@ def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
     with fewer than three corners is no longer present. Meshes without seams are returned themselves.
     Degenerate: vertices in one place that no common edge joins stay apart; so do closed meshes that touch.
     """
-    asked = [k for k, mesh in enumerate(meshes) if len(mesh.offsets) <= MANY_FACES or not mesh.is_closed]
+    asked = _perhaps_open(meshes)
     result = list(meshes)
     for k, mesh in zip(asked, _joined_seams([meshes[k] for k in asked]), strict=True):
         result[k] = mesh
     return tuple(result)
+
+
+def _perhaps_open(meshes: Sequence[Mesh]) -> list[int]:
+    """The meshes that are not known to be closed and oriented. Where no edge is open is a matter of the corners alone:
+    of small meshes with equal ones, as copies of one body have, the first is asked for all."""
+    equal: dict[tuple[bytes, bytes], list[int]] = {}
+    asked = []
+    for k, mesh in enumerate(meshes):
+        if len(mesh.offsets) <= MANY_FACES:
+            equal.setdefault((mesh.corners.tobytes(), mesh.offsets.tobytes()), []).append(k)
+        elif not mesh.is_closed:
+            asked.append(k)
+    if len(equal) <= len(meshes) // FEW_COPIES:
+        return sorted(chain(asked, *(alike for alike in equal.values() if not meshes[alike[0]].is_closed)))
+    return sorted(chain(asked, *equal.values()))
 
 
 def _joined_seams(meshes: Sequence[Mesh]) -> Sequence[Mesh]:
