@@ -77,8 +77,9 @@ def test_of_turned_tori_the_last_one_is_painted_and_rendered() -> None:
     for first, last in ((one, other), (other, one)):
         both, alone = scene_of(first, last), scene_of(last)
         fills = [vp.paint(scene, CAMERA, tolerance_mm=0.5).layers[0].fills[0] for scene in (both, alone)]
-        # The boxes of both scenes differ in the last digits.
-        assert len(fills[0]) == len(fills[1]) and np.ptp([some.colours.astype(int) for some in fills], axis=0).max() < 2
+        # The boxes of both scenes differ in the last digits: a triangle may be divided in one of them only.
+        assert abs(len(fills[0]) - len(fills[1])) <= 0.01 * len(fills[1])
+        assert np.ptp([some.colours.mean(axis=0) for some in fills], axis=0).max() < 1.0
         pixels = [vp.render(scene, CAMERA, size=(40, 30), samples=1).pixels for scene in (both, alone)]
         assert np.ptp(np.array(pixels, dtype=int), axis=0).max() < 3
 
