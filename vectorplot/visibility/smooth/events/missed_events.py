@@ -19,8 +19,8 @@ from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 LOOKS = 16
 """Parts of a suspicious piece at whose ends sight lines are taken."""
 
-ROUNDS, PARTS = 8, 32
-"""How often, and into how many parts, what is left is cut: as fine as by forty halvings, in a fifth of the calls."""
+ROUNDS, PARTS = 10, 16
+"""How often, and into how many parts, what is left is cut: as fine as by forty halvings, in a quarter of the calls."""
 
 SHARE = 8
 """The first sight lines and those that follow get one in so many of the budget's pairs each: missed events are few."""
