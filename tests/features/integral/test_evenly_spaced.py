@@ -169,6 +169,12 @@ def test_what_is_near_is_so_on_the_same_sheet_and_for_a_line_not_a_little_before
     assert first > 3000 and abs(along[first] - along[2999] - 1.4) < 0.7 and not beside[:3000].any()
     crowd = Crowd(ground).with_places(places[:10], where[:10]).with_places(places[10:20], where[10:20])
     assert crowd.near(places[3000:], where[3000:], 0.5).sum() > 0 and len(crowd.groups) == 1
+    # What is in a hole is no place for a line, whatever is taken.
+    lost = np.where(np.arange(6000)[:, None] % 7 == 3, np.nan, where)
+    near = crowd.near(places, lost, 0.5)
+    assert near[3::7].all()
+    assert np.array_equal(*(np.delete(some, np.s_[3::7]) for some in (near, crowd.near(places, where, 0.5))))
+    assert not crowd.away(lost)[3::7].any() and Crowd(ground).near(places[3:4], lost[3:4], 0.5).all()
     chosen = thinned(ground, places, 0.5)
     assert cKDTree(where[chosen]).query(where[chosen], 2)[0][:, 1].min() > 0.5
     assert cKDTree(where[chosen]).query(where)[0].max() <= 0.5

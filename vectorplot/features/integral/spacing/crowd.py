@@ -12,6 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.integral.charts import Charts
 from vectorplot.features.integral.sites import Sites
 from vectorplot.features.integral.spacing.places_along import PlacesAlong
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.surface import Surface
 
@@ -106,15 +107,17 @@ class Crowd:
 
     def away(self, where: Floats) -> Floats:
         """(k,) distances in space, and of normals, from what is nearest, larger by a part, ROUGHLY, at most; not finite
-        where nothing is taken."""
-        result = np.full(len(where), np.inf)
+        where nothing is taken; 0 in holes."""
+        known = all_finite(where)
+        result = np.where(known, np.inf, 0.0)
         for group in self.groups:
-            result = np.minimum(result, group.tree.query(where, eps=ROUGHLY)[0])
+            result[known] = np.minimum(result[known], group.tree.query(where[known], eps=ROUGHLY)[0])
         return result
 
     def near(self, places: Floats, where: Floats, reach: float) -> Bools:
-        """(k,) which of the places, u and v (k,2), where (k,6), are within reach of what is taken on their sheet."""
-        result = np.zeros(len(places), dtype=np.bool_)
+        """(k,) which of the places, u and v (k,2), where (k,6), are within reach of what is taken on their sheet;
+        and those in holes, which a line may run through for a step."""
+        result = ~all_finite(where)
         for group in self.groups:
             at = np.flatnonzero(~result)
             away, nearest = group.tree.query(where[at], distance_upper_bound=reach)
