@@ -139,7 +139,7 @@ def _curves(surface: Surface, field: TangentField, starts: ArrayLike, length: fl
         def rates(places: Floats, chart: Ints = chart, last: Floats = last, way: Floats = way) -> Floats:
             return flow.rates(chart, places, last, way)[0]
 
-        first, tangents = flow.rates(chart, at, last, way)
+        first, tangents, _ = flow.rates(chart, at, last, way)
         at = at + move(rates, at, first, step)
     return found
 

@@ -88,7 +88,7 @@ class Courses:
         last = nearly[:, :1] * along_u + nearly[:, 1:] * along_v
         with np.errstate(all="ignore"):
             long = norm(last)[:, None]
-            rates, tangents = self.flow.rates(chart, states, last / long, np.ones(len(step)))
+            rates, tangents, _ = self.flow.rates(chart, states, last / long, np.ones(len(step)))
             found = charts.steps(chart, places, rates[:, :2])
             # Fields with a direction lead the way that they were followed.
             found = np.where(dot(tangents, last)[:, None] < 0.0, -found, found)

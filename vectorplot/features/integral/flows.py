@@ -15,6 +15,9 @@ from vectorplot.geometry.vectors import dot, from_components
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_values import NEIGHBOURS_COUNT
 
+Rates = tuple[Floats, Floats, Sites]
+"""Derivatives (k,d) of states, unit tangents (k,3), and where that is."""
+
 
 class Flow(Protocol):
     """What leads points over a surface. The first two numbers of a state are coordinates in a chart."""
@@ -33,9 +36,9 @@ class Flow(Protocol):
         """(k,d) the states of points at coordinates (k,2) that run along unit tangents (k,3)."""
         ...
 
-    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
-        """Derivatives (k,d) of states by the length of the curve, and the unit tangents (k,3) there; last (k,3): the
-        tangents a little before; way (k,): -1 where it leads against the field, else 1."""
+    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> Rates:
+        """Derivatives (k,d) of states by the length of the curve, the unit tangents (k,3) there, and the places; last
+        (k,3): the tangents a little before; way (k,): -1 where it leads against the field, else 1."""
         ...
 
 
@@ -51,8 +54,8 @@ class FieldFlow:
         """The coordinates are all of it."""
         return at
 
-    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
-        """Derivatives and tangents."""
+    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> Rates:
+        """Derivatives, tangents and places."""
         places = self.charts.inside(self.charts.parameters(chart, states))
         sites = Sites(self.surface, *places.T)
         found = self.field.tangents(sites)
@@ -63,7 +66,7 @@ class FieldFlow:
         if len(found) > 1:
             lost = ~np.isfinite(tangents).all(axis=1) & np.isfinite(last).all(axis=1) & np.isfinite(sites.normals[:, 0])
             tangents[lost] = unit(sites.tangential(last))[lost]
-        return self.charts.rates(chart, places, from_components(*sites.steps(tangents))), tangents
+        return self.charts.rates(chart, places, from_components(*sites.steps(tangents))), tangents, sites
 
 
 @dataclass(frozen=True, eq=False)
@@ -77,9 +80,10 @@ class GeodesicFlow:
         """(k,5) coordinates and tangents."""
         return np.concatenate([at, tangents], axis=1)
 
-    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
-        """Derivatives and tangents: x'' is along the normal."""
-        return self.rates_at(chart, states, self.sites(chart, states)), states[:, 2:]
+    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> Rates:
+        """Derivatives, tangents and places: x'' is along the normal."""
+        sites = self.sites(chart, states)
+        return self.rates_at(chart, states, sites), states[:, 2:], sites
 
     def sites(self, chart: Ints, states: Floats) -> Sites:
         """Where points of states (k,d) in charts (k,) are."""
@@ -110,15 +114,15 @@ class JacobiFlow:
         aside = np.broadcast_to((0.0, NEIGHBOURS_COUNT), (len(at), 2))
         return np.concatenate([at, tangents, aside], axis=1)
 
-    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> tuple[Floats, Floats]:
-        """Derivatives and tangents."""
+    def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> Rates:
+        """Derivatives, tangents and places."""
         straight = GeodesicFlow(self.surface, self.charts)
         sites = straight.sites(chart, states)
         (e, f, g), (p, m, q) = sites.first_form, sites.second_form
         with np.errstate(all="ignore"):
             curvature = (p * q - m * m) / (e * g - f * f)
         aside = from_components(states[:, 6] / self.size, -curvature * self.size * states[:, 5])
-        return np.concatenate([straight.rates_at(chart, states[:, :5], sites), aside], axis=1), states[:, 2:5]
+        return np.concatenate([straight.rates_at(chart, states[:, :5], sites), aside], axis=1), states[:, 2:5], sites
 
 
 def aligned(candidates: Floats, last: Floats) -> Floats:

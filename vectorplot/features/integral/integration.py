@@ -8,12 +8,14 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.features.integral.charts import Charts
 from vectorplot.features.integral.courses import Courses, Leaps, running_on
 from vectorplot.features.integral.dormand_prince import ORDER, Steps, steps
 from vectorplot.features.integral.flows import Flow
+from vectorplot.features.integral.sites import Sites
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.vectors import dot, norm
+from vectorplot.geometry.vectors import dot, from_components, norm
 from vectorplot.tolerances.of_extent import (
     CLOSED_OF_EXTENT,
     INTEGRATED_OF_EXTENT,
@@ -156,19 +158,18 @@ def courses(
         last, own_way = now.tangents, way[now.which]
         step = np.minimum(now.step, now.left)
 
-        new = last
+        new, there = last, Sites(flow.surface, now.places[:0, 0], now.places[:0, 1])
 
         def rates(states: Floats, now: _Points = now, last: Floats = last, own_way: Floats = own_way) -> Floats:
-            nonlocal new
-            found, new = flow.rates(now.chart, states, last, own_way)
+            nonlocal new, there
+            found, new, there = flow.rates(now.chart, states, last, own_way)
             return found
 
         with np.errstate(all="ignore"):
-            # The last stage is the end of the step: its derivatives and tangents are those to go on with.
+            # The last stage is the end of the step: its derivatives, tangents and places are those to go on with.
             tried = steps(rates, now.states, now.rates, step)
             end, ahead = tried.start + tried.move, tried.last / step[:, None]
-            places = charts.parameters(now.chart, end[:, :2])
-            off = _length_of(flow, now.chart, places, tried.error, size)
+            off = _length_of(charts, now.chart, there, tried.error, size)
             allowed = accuracy.error * step + ROUNDING_OF_POINTS * large
             good = np.isfinite(ahead).all(axis=1) & (off <= allowed) & (dot(new, last) > TURN)
             factor = np.clip(CAUTION * (allowed / np.maximum(off, LEAST_DIVISOR)) ** (1 / ORDER), SHRINK, GROW)
@@ -178,7 +179,7 @@ def courses(
         stalled[now.which[ends]] = True
         with np.errstate(all="ignore"):
             places = running_on(charts, now.chart, tried, np.ones(len(step)), now.places)
-        points = flow.surface.points(*charts.within(places).T)
+        points = there.points
 
         at = np.flatnonzero(good)
         done = tried.some(at)
@@ -186,8 +187,8 @@ def courses(
         out = charts.beyond(places[at]) > 0.0
         if out.any():
             part[out] = _crossing(flow, now.chart[at[out]], done.some(np.flatnonzero(out)))
-        back, there = _back(flow, now, at, done, part, points[at], home, tangents, size, accuracy.error)
-        part[back] = there
+        back, share = _back(flow, now, at, done, part, points[at], home, tangents, size, accuracy.error)
+        part[back] = share
         closed[now.which[at[back]]] = True
         length = step[at] * part
         leaps.append(Leaps(now.which[at], now.chart[at], part, length, now.places[at]))
@@ -240,11 +241,10 @@ def courses(
     return Courses(flow, records.some(every, order), records.joined(found).some(order), offsets, closed, stalled, spent)
 
 
-def _length_of(flow: Flow, chart: Ints, places: Floats, error: Floats, size: float) -> Floats:
-    """(k,) how long errors (k,d) of states are in space; what tangents are off counts over the extent."""
-    inside = flow.charts.inside(places)
-    moved = flow.charts.steps(chart, inside, error[:, :2])
-    along_u, along_v = flow.surface.partials(*inside.T)
+def _length_of(charts: Charts, chart: Ints, sites: Sites, error: Floats, size: float) -> Floats:
+    """(k,) how long errors (k,d) of states at places are in space; what tangents are off counts over the extent."""
+    moved = charts.steps(chart, from_components(sites.u, sites.v), error[:, :2])
+    along_u, along_v, _ = sites.planes
     away = moved[:, :1] * along_u + moved[:, 1:] * along_v
     return np.asarray(np.sqrt(dot(away, away) + size * size * (error[:, 2:] ** 2).sum(axis=1)))
 

@@ -12,7 +12,7 @@ from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.features.integral.sites import TangentPlanes, on_surface, unit
 from vectorplot.features.integral.tangent_fields import Vector
-from vectorplot.features.parametric.conditions import Isophote, PointIsophote
+from vectorplot.geometry.vectors import dot, norm, normalize
 from vectorplot.tolerances.of_angles import FLAT_SLOPE
 
 
@@ -60,11 +60,24 @@ class IsophoteDirections:
     def tangents(self, sites: TangentPlanes) -> Floats:
         """(1,k,3) unit tangent vectors."""
         own = on_surface(sites, "isophotes")
-        condition = (Isophote if self.parallel else PointIsophote)(own.surface, self.light, 0.0)
-        along_u, along_v, _ = own.planes
+        along_u, along_v, normals = own.planes
+        p, m, q = own.second_form
+        size = own.surface.domain.size
         with np.errstate(all="ignore"):
-            by_u, by_v = condition.slopes(own.u, own.v)
-            size = own.surface.domain.size
+            way = self._way(own.points)
+            distance = np.inf if self.parallel else norm(way)
+            light = unit(way)
+            # The normals turn against the light's part in the tangent plane, as the second form says; that of a point
+            # moves besides.
+            a, b = own.steps(light)
+            moves = dot(normals, light) / distance
+            by_u = moves * dot(along_u, light) - (p * a + m * b)
+            by_v = moves * dot(along_v, light) - (m * a + q * b)
             known = np.abs(by_u) * size[0] + np.abs(by_v) * size[1] > FLAT_SLOPE
             found = unit(by_v[:, None] * along_u - by_u[:, None] * along_v)
         return np.where(known[:, None], found, np.nan)[None]
+
+    def _way(self, points: Floats) -> Floats:
+        """(k,3) from points (k,3) to the light."""
+        light = np.asarray(self.light)
+        return np.broadcast_to(normalize(light), points.shape) if self.parallel else light - points

@@ -12,6 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import cross, dot
+from vectorplot.surfaces.jets import FirstJets, first_jets
 from vectorplot.surfaces.surface import Surface
 
 
@@ -69,16 +70,20 @@ class Sites(TangentPlanes):
     v: Floats
 
     @cached_property
+    def _jets(self) -> FirstJets:
+        return first_jets(self.surface, self.u, self.v)
+
+    @property
     def points(self) -> Floats:
         """(k,3) in world coordinates."""
-        return self.surface.points(self.u, self.v)
+        return self._jets[0]
 
     @cached_property
     def planes(self) -> tuple[Floats, Floats, Floats]:
         """Derivatives by u and by v, and unit normals, (k,3) each; no normals at poles and singular points, and none in
         holes, where formulas of derivatives may go on."""
-        along_u, along_v = self.surface.partials(self.u, self.v)
-        there = np.where(all_finite(self.points)[:, None], 1.0, np.nan)
+        points, along_u, along_v = self._jets
+        there = np.where(all_finite(points)[:, None], 1.0, np.nan)
         return along_u, along_v, unit(cross(along_u, along_v) * there)
 
     @property
