@@ -9,6 +9,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.facet_demands import Within
 from vectorplot.features.facets import facets
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.surfaces.families.capped import rod
 from vectorplot.surfaces.families.cylinder import Cone
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.hyperboloid import Hyperboloid
@@ -73,6 +74,14 @@ def test_poles_and_apices_are_one_vertex_with_a_normal() -> None:
 
 
 @pytest.mark.slow
+def test_the_rim_of_a_cap_is_as_fine_as_the_mantle_asks_and_ends_there() -> None:
+    found = facets(rod((0.0, 0.0, 0.0), (1.0, 2.0, 2.0), 1.0), Within(lambda points: np.full(points.shape[:-1], 0.1)))
+    on_rim = np.flatnonzero(found.sharp)
+    # Its normals turn by 8.5 degrees at most from vertex to vertex, which is more than 42 on each circle.
+    assert 2 * 42 < len(on_rim) <= 2 * 64
+    assert found.complete and found.mesh.face_count < 1000
+
+
 def test_holes_stay_open() -> None:
     roof = graph(lambda x, y: np.sqrt(1.0 - x * x - y * y), Domain(-1.5, 1.5, -1.5, 1.5))
     found = facets(roof, within(0.01))

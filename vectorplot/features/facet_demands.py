@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -57,6 +57,16 @@ class Within(AllSidesAlike):
     or nearly so: along rulings they turn though sides lie on the surface."""
 
     allowed: Allowed
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal where the same is allowed at the same points."""
+        return self.allowed
+
+    @classmethod
+    def joined(cls, asked: Sequence[Within]) -> Within:
+        """What is asked for is the same for all of these."""
+        return asked[0]
 
     def excess(self, edges: Edges) -> Floats:
         """(k,n) as Demand: the larger one of the distances and the turning of the normals, as parts of their limits."""

@@ -92,7 +92,8 @@ class Patch:
         return self._sided(start, end, sharp[0] & ~sharp[1]), self._sided(end, start, sharp[1] & ~sharp[0])
 
     def nearer(self, edges: Edges) -> Vertices:
-        """(k,n) as Between, found by the method of Gauss and Newton with steps halved where they lead astray."""
+        """(k,n) as Between, found by the method of Gauss and Newton with steps halved where they lead astray. What is
+        over a sharp edge stays: a chord of the rim of a cap is nearest to the cap, in which it lies."""
         shape = edges.t.shape
         chord = edges.start.points + edges.t[..., None] * (edges.end.points - edges.start.points)
         points = chord.reshape(-1, 3)
@@ -100,7 +101,8 @@ class Patch:
         size = np.array(self.surface.domain.size)
         first, last = self._without_poles(edges.start.places, edges.end.places)
         way = ways_between(self.surface.domain, first[:, :2], last[:, :2]) / size
-        reach = CLOSE_BY * np.tile(np.hypot(*way.T), shape[0])
+        on_crease = np.isin(first[:, 1], self.creases) & (first[:, 1] == last[:, 1])
+        reach = CLOSE_BY * np.tile(np.where(on_crease, 0.0, np.hypot(*way.T)), shape[0])
         from_start, scale = np.zeros((len(points), 2)), np.ones(len(points))
         places, here, normals = found.places, found.points, found.normals
         _, along_u, along_v = self._jets(places)

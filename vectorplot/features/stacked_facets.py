@@ -22,6 +22,10 @@ from vectorplot.surfaces.surface import Surface, is_parametrised
 LOT = 16
 """So many surfaces are divided at once at most: with more of them caches no longer hold their arrays."""
 
+MANY = 1000
+"""Triangles of the first nets in the mean from which on surfaces are divided one after the other: each has enough to
+do by itself."""
+
 
 @runtime_checkable
 class Joinable(Demand, Protocol):
@@ -105,6 +109,9 @@ def _together(shapes: Sequence[Any], asked: Sequence[Any], most: int) -> list[Fa
     patches = Patches(shapes[0], single[0].poles, StackedSurfaces.of(shapes))
     counts = first_counts(patches, len(shapes), demand)
     first = [grid_net(shape, *count) for shape, count in zip(shapes, counts, strict=True)]
+    if sum(len(net.triangles) for net in first) > MANY * len(shapes):
+        nets = [refined(*each, most) for each in zip(first, single, asked, strict=True)]
+        return [finished(patch, net) for patch, net in zip(single, nets, strict=True)]
     nets = _apart(refined(_as_one(first), patches, demand, most), len(shapes))
     return [finished(patch, net) for patch, net in zip(single, nets, strict=True)]
 

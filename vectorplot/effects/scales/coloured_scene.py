@@ -14,9 +14,11 @@ from vectorplot.effects.scales.colour_maps import map_colours
 from vectorplot.effects.scales.value_refinement import linear_triangles, reached
 from vectorplot.errors import InputError
 from vectorplot.features.facet_demands import Within
-from vectorplot.features.facets import facets
+from vectorplot.features.facets import Facets
 from vectorplot.features.feature_lines.mesh_bending import mesh_bending, smooth_normals
 from vectorplot.features.meshes.mesh_curves import face_triangles
+from vectorplot.features.stacked_facets import facets_of_all
+from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.cuts.level_bands import level_bands
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.geometry.repair.mesh_repair import welded
@@ -95,7 +97,11 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     )
     if not field:
         _check_word(colouring.by, scene)
-    given = [None if left else _valued(item, colouring, size) for item, left in zip(scene.items, plain, strict=True)]
+    numbered = [k for k, left in enumerate(plain) if not left]
+    smooth = _faceted(scene, numbered, COLOURED_OF_EXTENT * size)
+    given: list[_Valued | None] = [None] * len(scene.items)
+    for k in numbered:
+        given[k] = _valued(scene.items[k], colouring, smooth.get(k))
     values = np.concatenate([np.zeros(0), *(one.values for one in given if one is not None)])
     values = values[np.isfinite(values)]
     if not len(values):
@@ -137,17 +143,21 @@ def _kept_lines(lines: SurfaceLines) -> SurfaceLines:
     return replace(lines, columns=0, rows=0, paths=(), integral=(), terrain=(), smooth_contours=False)
 
 
-def _valued(item: Item, colouring: Colouring, size: float) -> _Valued:
-    """The triangles of an item and the numbers at their corners; what has none has the lowest there is."""
-    shape, normals, of_surface = item.shape, None, None
-    if isinstance(shape, Mesh):
-        mesh = shape
-    elif is_parametrised(shape) or is_implicit(shape):
-        found = facets(shape, Within(lambda points: np.full(points.shape[:-1], COLOURED_OF_EXTENT * size)))
+def _faceted(scene: Scene, numbers: Sequence[int], allowed: float) -> dict[int, Facets]:
+    """The facets of those of some items that are smooth surfaces, off these by no more than is allowed."""
+    smooth = [k for k in numbers if is_parametrised(scene.items[k].shape) or is_implicit(scene.items[k].shape)]
+    within = Within(lambda points: np.full(points.shape[:-1], allowed))
+    found = facets_of_all([scene.items[k].shape for k in smooth], lambda _: within, USUAL_BUDGET.facets)
+    return dict(zip(smooth, found, strict=True))
+
+
+def _valued(item: Item, colouring: Colouring, found: Facets | None) -> _Valued:
+    """The triangles of an item and the numbers at their corners; what has none has the lowest there is. found: the
+    facets of a smooth surface."""
+    mesh, normals, of_surface = item.mesh, None, None
+    if found is not None:
         mesh, normals = found.mesh, found.normals
         of_surface = SurfaceNormals(mesh, np.nan_to_num(normals), found.sharp)
-    else:
-        mesh = item.mesh
     if not mesh.face_count:
         return _Valued(mesh.vertices, np.zeros(len(mesh.vertices)), np.zeros((0, TRIANGLE), dtype=np.intp))
     if isinstance(colouring.by, str) and _has_field(item, colouring.by):
