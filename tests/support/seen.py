@@ -40,9 +40,10 @@ def seen(scene: Scene, camera: Camera, kinds: tuple[str, ...] = DRAWN, fit: bool
     view = look(scene, camera)
     faces = project_faces(view)
     solid = solid_items(view, faces)
-    found = [edge_lines(scene, view, faces, wanted, 25.0, np.ones(len(solid), dtype=np.bool_))]
+    backs = np.ones(len(solid), dtype=np.bool_)
+    found = [edge_lines(scene, view, faces, wanted, 25.0, backs)]
     if LineKind.INTERSECTION in wanted:
-        found.append(intersection_lines(scene, view, faces, wanted, solid))
+        found.append(intersection_lines(scene, view, faces, wanted, solid, backs))
     every = joined_lines(found)
     lines = in_frame(view, every, frame_of(view, every, Page(), fit))
     segments = Segments(lines.start, lines.end)

@@ -35,11 +35,11 @@ def straight_lines(
 ) -> Lines:
     """The lines of polyhedra."""
     found = []
+    backs = ~solid if walk.calls_for("visible lines") else np.ones(len(solid), dtype=np.bool_)
     if walk.calls_for("edges"):
-        backs = ~solid if walk.calls_for("visible lines") else np.ones(len(solid), dtype=np.bool_)
         found.append(walk.run("edges", edge_lines, scene, view, faces, kinds, crease_angle_deg, backs))
     if walk.calls_for("intersections"):
-        found.append(walk.run("intersections", intersection_lines, scene, view, faces, kinds, solid))
+        found.append(walk.run("intersections", intersection_lines, scene, view, faces, kinds, solid, backs))
     if walk.calls_for("patterns"):
         found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
     if walk.calls_for("lines on meshes"):

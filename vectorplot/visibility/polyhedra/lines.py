@@ -275,16 +275,19 @@ def _some_faces(faces: Faces, which: Ints) -> Faces:
 
 
 def intersection_lines(
-    scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], solid: Bools
+    scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], solid: Bools, backs: Bools
 ) -> Lines:
     """The segments in which different items, or parts of an item that do not hang together, pierce each other.
 
-    A segment belongs to the item, of those that want intersections, that comes first in the scene.
+    A segment belongs to the item, of those that want intersections, that comes first in the scene. backs (i,): items
+    whose faces that turn away are met too; what lies in those of a closed solid is hidden, but for its outline.
     """
     wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
     part = _parts(scene, view, solid)
     faced = np.array([item.is_cut_face for item in scene.items], dtype=np.bool_)
-    asked, which = _faces(view, faces), np.flatnonzero(~(_beyond_two(first_twins(view)) | faced)[view.face_item])
+    left_out = (_beyond_two(first_twins(view)) | faced)[view.face_item]
+    left_out |= (faces.facing < 0) & (~backs & _outlined(scene, kinds))[view.face_item]
+    asked, which = _faces(view, faces), np.flatnonzero(~left_out)
     if len(which) < view.face_count:
         asked = _some_faces(asked, which)
     met = face_intersections(asked, part[which], view.tolerance)
@@ -296,6 +299,12 @@ def intersection_lines(
     return straight_lines(
         met.start.compress(kept, axis=1), met.end.compress(kept, axis=1), kind, owner, np.zeros_like(kind)
     )
+
+
+def _outlined(scene: Scene, kinds: frozenset[LineKind]) -> Bools:
+    """(i,) the items of which all edges of the outline are drawn: what else lies on these adds nothing."""
+    outlined = (LineKind.CONTOUR in kinds_of(item, kinds) and not item.curves.smooth_contours for item in scene.items)
+    return np.fromiter(outlined, dtype=np.bool_, count=len(scene.items))
 
 
 def _parts(scene: Scene, view: View, solid: Bools) -> Ints:
