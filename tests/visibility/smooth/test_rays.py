@@ -1,14 +1,21 @@
-"""Sight lines against a sphere."""
+"""Sight lines against a sphere and a torus."""
 
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from support.smooth_parts import ball_from_above
 
 from vectorplot.geometry.budget import USUAL
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import look
+from vectorplot.surfaces.families.torus import Torus
 from vectorplot.visibility.smooth.rays import Samples, counts_in_front
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import targets_of
+from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
 
 
 def test_points_behind_inside_in_front_and_beside() -> None:
@@ -39,3 +46,42 @@ def test_a_sphere_hides_its_own_lower_half() -> None:
         :, 0
     ]
     assert np.array_equal(found > 0, points[:, 2] < 0.0)
+
+
+@pytest.mark.parametrize("seed", range(4))
+def test_sight_lines_close_to_outlines_meet_a_torus_as_often_as_in_closed_form(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    way = rng.normal(size=3)
+    way /= np.linalg.norm(way)
+    torus = Torus(2.0, 0.7)
+    camera = Camera(tuple(9.0 * way), (0.0, 0.0, 0.0), up=(0.3, 1.0, 0.2), parallel=True)
+    view = look(Scene((Item("T", torus),)), camera)
+    sheets = Sheets(tuple(sheets_of_parametrised(view, torus, 0, True)))
+    points = _beside_outlines(rng, way, 2.0, 0.7)
+    behind = (points - 9.0 * way - view.centre) @ view.axes.T / view.scale
+    none, nowhere, no = np.full(len(points), -1), np.full((len(points), 3), np.nan), np.zeros(len(points), np.bool_)
+    samples = Samples(behind, none, nowhere, none, nowhere, no, no)
+    found = counts_in_front(view, sheets, targets_of(view, sheets), samples, USUAL.pairs)[0].table(len(samples), 1)
+    assert np.flatnonzero(found[:, 0] != _meetings_in_closed_form(points, way, 2.0, 0.7)).tolist() == []
+
+
+def _beside_outlines(rng: np.random.Generator, way: np.ndarray, ring: float, tube: float) -> np.ndarray:
+    """Points in both directions off the contour of a torus, by a hundredth to a millionth."""
+    along = rng.uniform(0.0, 2.0 * np.pi, 650)
+    out = np.stack([np.cos(along), np.sin(along), np.zeros_like(along)], axis=1)
+    across = np.arctan2(-out @ way, way[2])
+    normal = np.cos(across)[:, None] * out + np.sin(across)[:, None] * np.array([0.0, 0.0, 1.0])
+    off = 10.0 ** rng.uniform(-6.0, -2.0, len(along))[:, None] * normal
+    return np.concatenate([ring * out + side * tube * normal + sign * off for side in (-1, 1) for sign in (-1, 1)])
+
+
+def _meetings_in_closed_form(points: np.ndarray, way: np.ndarray, ring: float, tube: float) -> np.ndarray:
+    """(k,) how many real roots the quartic of a line has that meets a torus about the z axis."""
+    start = points - (points @ way)[:, None] * way
+    # |p + t w|^2 + R^2 - r^2 is t^2 + c with w of length one at right angles to p; its square is 4 R^2 (x^2 + y^2).
+    c = (start * start).sum(axis=1) + ring**2 - tube**2
+    flat = [(way[:2] ** 2).sum(), 2.0 * start[:, :2] @ way[:2], (start[:, :2] ** 2).sum(axis=1)]
+    zero = np.zeros_like(c)
+    quartics = np.stack([zero + 1.0, zero, 2.0 * c, zero, c * c], axis=1)
+    quartics[:, 2:] -= 4.0 * ring**2 * np.stack([zero + flat[0], flat[1], flat[2]], axis=1)
+    return np.array([(np.abs(np.roots(q).imag) < 1e-7).sum() for q in quartics])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from support.smooth_parts import ball_from_above
 
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
@@ -16,7 +17,21 @@ def test_barycentric_coordinates_and_distances() -> None:
     three = np.repeat(TRIANGLE, 3, axis=0)
     found = weights(three, points)
     assert np.allclose(found, [[0.5, 0.25, 0.25], [0.0, 1.0, 0.0], [2.0, -0.5, -0.5]])
-    assert np.allclose(distance_to(three, found, points), [0.0, 0.0, np.sqrt(2.0)])
+    assert np.allclose(distance_to(three, points), [0.0, 0.0, np.sqrt(2.0)])
+
+
+def test_the_distance_to_a_sliver_is_that_to_its_nearest_side() -> None:
+    # The nearest point of a triangle seen nearly edge-on is far from what its barycentric coordinates suggest.
+    sliver = np.array([[[0.0, 0.0], [2.0, 0.0], [1.0, 1e-6]]])
+    points = np.array([[0.3, 0.1], [1.7, -0.1], [2.5, 0.0], [1.0, 5e-7]])
+    assert np.allclose(distance_to(np.repeat(sliver, 4, axis=0), points), [0.1, 0.1, 0.5, 0.0], atol=1e-6)
+
+
+@pytest.mark.parametrize("point", [[3.0, 0.0], [0.0, 4.0], [1.0, 0.0]])
+def test_the_distance_to_a_triangle_seen_edge_on_is_that_to_its_line(point: list[float]) -> None:
+    flat = np.array([[[0.0, 0.0], [1.0, 0.0], [2.0, 0.0]], [[1.0, 0.0]] * 3])
+    away = [np.hypot(max(point[0] - 2.0, 0.0), point[1]), np.hypot(point[0] - 1.0, point[1])]
+    assert distance_to(flat, np.array([point, point])).tolist() == pytest.approx(away)
 
 
 def test_a_triangle_seen_edge_on_has_its_middle() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
-from vectorplot.geometry.components import greatest_component, least_component
+from vectorplot.geometry.components import all_finite, greatest_component, least_component
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import GRAZING_ANGLE
@@ -32,8 +32,36 @@ ROUNDS = 12
 ULPS = 16.0
 """Below the one there is nothing to gain; so many times the rounding of points is met too."""
 
+SLANTING = 0.3
+"""A sheet met at a lesser sine than this is met again near by, as its curvature says."""
+
+FAR = 0.5
+"""Farther away than this part of the extent curvature tells nothing of where a sheet is met again."""
+
+FOUND = 3.0
+"""A meeting up to so many times as far as curvature says is the one that was looked for."""
+
 _Found = tuple[Ints, Ints, Ints]
 """Samples, and the sheets in front of them; and how many pairs with triangles of each sheet were looked at."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Starts:
+    """Where meetings are looked for: sample, sheet, place."""
+
+    sample: Ints
+    number: Ints
+    places: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class _Met:
+    """Meetings: sample, sheet, part of the sight line, place."""
+
+    sample: Ints
+    number: Ints
+    t: Floats
+    places: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,7 +128,8 @@ def _in_front(
     triangle that its sight line may meet."""
     way = sight_lines.sight(view, samples.points)
     long = np.linalg.norm(way, axis=1)
-    sample, number, meeting, places = _meetings(view, sheets, targets, samples, way, pairs)
+    met = _meetings(view, sheets, targets, samples, way, pairs)
+    sample, number, meeting, places = met.sample, met.number, met.t, met.places
     distance = meeting * long[sample]
     grazing = np.abs(dot(sheets.normals(number, places), way[sample])) <= GRAZING_ANGLE * long[sample]
     front = (distance > TOUCHING_OF_EXTENT) & ~grazing
@@ -136,9 +165,8 @@ def _second_meeting(sheets: Sheets, number: Ints, way: Floats, places: Floats) -
 
 def _meetings(
     view: View, sheets: Sheets, targets: Targets, samples: Samples, way: Floats, pairs: tuple[Ints, Ints]
-) -> tuple[Ints, Ints, Floats, Floats]:
-    """All meetings of the sight lines with sheets in front of the points, each once, and some of those behind them: the
-    sample, the sheet, the part of the sight line, the place."""
+) -> _Met:
+    """All meetings of the sight lines with sheets in front of the points, each once, and some of those behind them."""
     image = sight_lines.image(view, samples.points)
     sample, triangle = pairs
     # What lies behind a point hides nothing of it.
@@ -150,23 +178,34 @@ def _meetings(
     columns = corners.swapaxes(1, 2)
     size = greatest_component(greatest_component(columns) - least_component(columns))
     reach = targets.triangles.margin[triangle] + 0.02 * size
-    near = distance_to(corners, weight, image[sample]) <= reach
+    near = distance_to(corners, image[sample]) <= reach
     sample, triangle, weight = sample[near], triangle[near], inside(weight[near])
     places, number = np.einsum("ij,ijk->ik", weight, targets.places(triangle)), targets.sheet[triangle]
     # Other starts where curvature says that the point's own sheets are met again.
     looked_at = np.append(np.bincount(targets.sheet, minlength=len(sheets)) > 0, False)
-    starts = [(sample, number, places)]
+    starts = [_Starts(sample, number, places)]
     for sheet, at, contour in samples.own:
         mine = np.flatnonzero(looked_at[sheet] & ~contour)
         again = _second_meeting(sheets, sheet[mine], way[mine], at[mine])
-        close = np.isfinite(again) & (np.abs(again) * np.linalg.norm(way[mine], axis=1) < 0.5)
+        close = np.isfinite(again) & (np.abs(again) * np.linalg.norm(way[mine], axis=1) < FAR)
         mine, again = mine[close], again[close]
         there = sheets.moved(sheet[mine], at[mine], again[:, None] * way[mine])
         good = np.isfinite(there).all(axis=1)
-        starts.append((mine[good], sheet[mine[good]], there[good]))
-    sample, number, places = (np.concatenate(column) for column in zip(*starts, strict=True))
+        starts.append(_Starts(mine[good], sheet[mine[good]], there[good]))
+    met = _solved(view, sheets, samples.points, way, records.joined(starts))
+    met = _different(sheets, way, met)
+    beside = _second_ones(sheets, way, met)
+    if len(beside.sample):
+        others = _solved(view, sheets, samples.points, way, beside)
+        met = _different(sheets, way, records.joined((met, others)))
+    return met
+
+
+def _solved(view: View, sheets: Sheets, points: Floats, way: Floats, starts: _Starts) -> _Met:
+    """What Newton's method finds from the starts, some of it more than once."""
+    sample, number, places = starts.sample, starts.number, starts.places.copy()
     t = np.zeros(len(sample))
-    points, ways = samples.points[sample], way[sample]
+    points, ways = points[sample], way[sample]
     off = np.full(len(sample), np.inf)
     active = np.arange(len(sample))
     for begun in range(ROUNDS):
@@ -181,8 +220,30 @@ def _meetings(
         t[active], places[active] = step, led_to
     off[active] = _apart(points[active], ways[active], t[active], sheets.points(number[active], places[active]))
     met = (off <= max(MET_OF_EXTENT, ULPS * sight_lines.rounding(view))) & sheets.on_sheet(number, places)
-    sample, number, t, places = sample[met], number[met], t[met], places[met]
-    return _different(sheets, sample, number, t * np.linalg.norm(ways[met], axis=1), t, places)
+    return _Met(sample[met], number[met], t[met], places[met])
+
+
+def _second_ones(sheets: Sheets, way: Floats, met: _Met) -> _Starts:
+    """Where to look for the partners of meetings at a slant that none was found near.
+
+    A sight line close to an outline meets the sheet twice close to each other, and the triangle of only one of the two
+    meetings may be near it.
+    """
+    sample, number, t, places = met.sample, met.number, met.t, met.places
+    long = np.linalg.norm(way, axis=1)[sample]
+    slanting = np.abs(dot(sheets.normals(number, places), way[sample])) < SLANTING * long
+    again = np.full(len(sample), np.inf)
+    rows = np.flatnonzero(slanting)
+    again[rows] = _second_meeting(sheets, number[rows], way[sample[rows]], places[rows])
+    # Meetings stand sample after sample, sheet after sheet, in the order of their distances.
+    one = (sample[1:] == sample[:-1]) & (number[1:] == number[:-1])
+    gap = np.where(one, np.diff(t), np.inf)
+    nearest = np.minimum(np.append(gap, np.inf), np.insert(gap, 0, np.inf))
+    alone = np.flatnonzero((np.abs(again) * long < FAR) & (nearest > FOUND * np.abs(again)))
+    sample, number, places = sample[alone], number[alone], places[alone]
+    there = sheets.moved(number, places, again[alone, None] * way[sample])
+    good = all_finite(there)
+    return _Starts(sample[good], number[good], there[good])
 
 
 def _apart(points: Floats, ways: Floats, t: Floats, others: Floats) -> Floats:
@@ -191,17 +252,16 @@ def _apart(points: Floats, ways: Floats, t: Floats, others: Floats) -> Floats:
     return np.sqrt(dot(away, away))
 
 
-def _different(
-    sheets: Sheets, sample: Ints, number: Ints, distance: Floats, t: Floats, places: Floats
-) -> tuple[Ints, Ints, Floats, Floats]:
-    """The meetings without repetitions."""
-    order = np.lexsort((distance, number, sample))
+def _different(sheets: Sheets, way: Floats, met: _Met) -> _Met:
+    """The meetings without repetitions, sorted by sample, sheet and distance."""
+    distance = met.t * np.linalg.norm(way, axis=1)[met.sample]
+    order = np.lexsort((distance, met.number, met.sample))
     for _ in range(3):
-        s, n, d, at = sample[order], number[order], distance[order], places[order]
+        s, n, d, at = met.sample[order], met.number[order], distance[order], met.places[order]
         if len(order) < 2:
             break
         same = (s[1:] == s[:-1]) & (n[1:] == n[:-1]) & (d[1:] - d[:-1] < ONE_MEETING)
         pair = np.flatnonzero(same)
         same[pair] = sheets.apart(n[pair], at[pair + 1], at[pair]) < ONE_MEETING_PLACES
         order = order[np.concatenate([[True], ~same])]
-    return sample[order], number[order], t[order], places[order]
+    return records.some(met, order)

@@ -10,8 +10,10 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.components import greatest_component, least_component
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 
@@ -179,8 +181,16 @@ def inside(weight: Floats) -> Floats:
     return np.asarray(clipped / clipped.sum(axis=1, keepdims=True))
 
 
-def distance_to(triangle: Floats, weight: Floats, points: Floats) -> Floats:
-    """(k,) how far points (k,2) are, about, from triangles (k,3,2) in which they have these barycentric coordinates."""
-    nearest = np.einsum("ij,ijk->ik", inside(weight), triangle)
-    away = points - nearest
-    return np.sqrt(dot(away, away))
+def distance_to(triangle: Floats, points: Floats) -> Floats:
+    """(k,) how far points (k,2) are from triangles (k,3,2), those seen edge-on as well; 0 in their insides."""
+    corners = triangle.swapaxes(0, 1)
+    away, turns = [], []
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        side, to = b - a, points - a
+        along = np.clip(dot(side, to) / np.maximum(dot(side, side), LEAST_DIVISOR), 0.0, 1.0)
+        off = to - along[:, None] * side
+        away.append(dot(off, off))
+        turns.append(side[:, 0] * to[:, 1] - side[:, 1] * to[:, 0])
+    around = np.stack(turns, axis=1)
+    within = (least_component(around) > 0.0) | (greatest_component(around) < 0.0)
+    return np.where(within, 0.0, np.sqrt(least_component(np.stack(away, axis=1))))
