@@ -16,7 +16,7 @@ from vectorplot.features.patch_nets import Patch, first_counts, grid_net
 from vectorplot.geometry import ragged
 from vectorplot.surfaces.parts import creases
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.stacked import ExactRows, StackedSurfaces, WithDimensions
+from vectorplot.surfaces.stacked import ExactRows, StackedSurfaces, dimensions_of
 from vectorplot.surfaces.surface import Surface, is_parametrised
 
 LOT = 16
@@ -83,11 +83,10 @@ def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Demand], most: 
 def _family(shape: Any) -> Hashable:
     """Equal for surfaces that can be divided as one, None for others."""
     inner = shape.surface if isinstance(shape, PlacedSurface) else shape
-    if not (is_parametrised(inner) and isinstance(inner, WithDimensions) and inner.dimensions):
+    names = dimensions_of(inner)
+    if not names or not is_parametrised(inner) or len(creases(shape)):
         return None
-    if len(creases(shape)):
-        return None
-    known = tuple(getattr(inner, name) is None for name in inner.dimensions)
+    known = tuple(getattr(inner, name) is None for name in names)
     return type(inner), known, inner.domain, tuple((pole.axis, pole.place) for pole in poles(shape))
 
 

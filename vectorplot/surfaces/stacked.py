@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, fields, replace
 from functools import cached_property
-from typing import Any, Protocol, TypeVar, cast, runtime_checkable
+from typing import Any, TypeVar, cast
 
 import numpy as np
 
@@ -21,15 +21,12 @@ from vectorplot.surfaces.surface import Domain, Surface
 T = TypeVar("T")
 
 
-@runtime_checkable
-class WithDimensions(Protocol):
-    """A surface, a dataclass, that can be asked for many of its family at once: its dimensions, numbers or vectors, may
-    be columns with one value or row for each pair of parameters."""
-
-    @property
-    def dimensions(self) -> tuple[str, ...]:
-        """The names of the fields on which points depend."""
-        ...
+def dimensions_of(surface: Surface) -> tuple[str, ...]:
+    """The names of the fields of a surface on which its points depend, if it can be asked for many of its family at
+    once: then it is a dataclass whose dimensions, numbers or vectors, may be columns with one value or row for each
+    pair of parameters."""
+    names: tuple[str, ...] = getattr(surface, "dimensions", ())
+    return names
 
 
 @dataclass(frozen=True, eq=False)
@@ -241,7 +238,7 @@ class _Kind:
     def of(cls, surfaces: Sequence[Surface], rows: Ints) -> _Kind:
         """These surfaces, in these rows."""
         columns: dict[str, Floats] = {}
-        for name in surfaces[0].dimensions if isinstance(surfaces[0], WithDimensions) else ():
+        for name in dimensions_of(surfaces[0]):
             values = [getattr(surface, name) for surface in surfaces]
             if values[0] is None or all(np.array_equal(value, values[0]) for value in values):
                 continue
@@ -259,9 +256,10 @@ class _Kind:
 
 def _key(surface: Surface) -> object:
     """Equal for surfaces that can be asked together."""
-    if not isinstance(surface, WithDimensions) or not surface.dimensions:
+    names = dimensions_of(surface)
+    if not names:
         return id(surface)
-    known = tuple(getattr(surface, name) is None for name in surface.dimensions)
+    known = tuple(getattr(surface, name) is None for name in names)
     # What is no dimension is the same in all of them, or does not matter for points.
     return type(surface), known
 

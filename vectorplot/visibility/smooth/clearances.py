@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
@@ -13,6 +14,9 @@ from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
+
+TOGETHER = 8
+"""So many chords that follow each other are searched as one line."""
 
 BEYOND = 4.0
 """A point on a border is as safe as one so many times what is safe away from it, and no safer."""
@@ -24,7 +28,7 @@ def clearances(view: View, edges: Curves, points: Floats, tolerance: float) -> F
     """
     image, chord = sight_lines.image(view, points), edges.chords
     border = edges.kind[edges.owner[chord]] == LineKind.BOUNDARY
-    _, distance = _nearest_chords(view, edges, chord[~border], image)
+    distance = _distances(view, edges, chord[~border], image)
     nearest, from_border = _nearest_chords(view, edges, chord[border], image)
     on = np.flatnonzero(nearest >= 0)
     on = on[_lies_on(view, edges, nearest[on], points[on], tolerance)]
@@ -36,6 +40,27 @@ def clearances(view: View, edges: Curves, points: Floats, tolerance: float) -> F
         from_border[on] = reach
         np.minimum.at(from_border, which, _from_chords(view, edges, other, image[which]))
     return np.minimum(distance, from_border)
+
+
+def _distances(view: View, edges: Curves, chord: Ints, image: Floats) -> Floats:
+    """(k,) distances of points (k,2) of the image from the nearest of some chords, infinite without any."""
+    import shapely
+
+    distance = np.full(len(image), np.inf)
+    if len(chord):
+        # Chords that follow each other are few geometries, which are made and searched in less time than many.
+        follows = np.append(False, np.diff(chord) == 1)
+        first = np.flatnonzero(~follows)
+        sizes = np.diff(np.append(first, len(chord)))
+        first = np.flatnonzero(~follows | (ragged.place(sizes) % TOGETHER == 0))
+        sizes = np.diff(np.append(first, len(chord)))
+        points = sight_lines.image(view, edges.points[ragged.ranges(chord[first], sizes + 1)])
+        lines = shapely.linestrings(points, indices=ragged.owner(sizes + 1))
+        (which, _), found = shapely.STRtree(lines).query_nearest(
+            shapely.points(image), return_distance=True, all_matches=False
+        )
+        distance[which] = found
+    return distance
 
 
 def _nearest_chords(view: View, edges: Curves, chord: Ints, image: Floats) -> tuple[Ints, Floats]:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -16,13 +15,10 @@ from vectorplot.scene.view import View
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-
-if TYPE_CHECKING:
-    import shapely
-
+from vectorplot.visibility.smooth.strips import Strips
 
 STRIP = 16
-"""Triangles, one beside the other, of which the tree has one box: it is small, and built in no time."""
+"""Triangles, one beside the other, of which the tree has one box."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,27 +94,17 @@ class Targets:
     @cached_property
     def box(self) -> Floats:
         """(2,2) the box around the image, enlarged by the margins; empty without triangles."""
-        low, high = self._boxes
+        low, high = self._boxes.low, self._boxes.high
         return np.stack([low.min(axis=1, initial=np.inf), high.max(axis=1, initial=-np.inf)])
 
     @cached_property
-    def _boxes(self) -> tuple[Floats, Floats]:
-        """(2,t) and (2,t) smallest and largest coordinates of the images of triangles, enlarged by their margins."""
+    def _boxes(self) -> Strips:
+        """(t,) boxes around the images of triangles, enlarged by their margins."""
         x, y = self.vertices.image.T
         margin = self.triangles.margin
         corners = [np.stack([x.take(column), y.take(column)]) for column in self.triangles.vertices.T]
         low, high = np.minimum(corners[0], corners[1]), np.maximum(corners[0], corners[1])
-        return np.minimum(low, corners[2]) - margin, np.maximum(high, corners[2]) + margin
-
-    @cached_property
-    def _strips(self) -> shapely.STRtree:
-        """A tree over the boxes of every STRIP triangles that follow each other."""
-        import shapely
-
-        low, high = self._boxes
-        first = np.arange(0, len(self), STRIP)
-        low, high = np.minimum.reduceat(low, first, axis=1), np.maximum.reduceat(high, first, axis=1)
-        return shapely.STRtree(shapely.box(*low, *high))
+        return Strips(np.minimum(low, corners[2]) - margin, np.maximum(high, corners[2]) + margin, STRIP)
 
     def may_reach(self, low: Floats, high: Floats) -> Bools:
         """(k,) which boxes (k,2), from low to high, overlap the one around all of them."""
@@ -126,20 +112,11 @@ class Targets:
 
     def near_boxes(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
         """Pairs of a box (k,2), from low to high, and a triangle whose box, enlarged by its margin, overlaps it."""
-        import shapely
-
         close = np.flatnonzero(self.may_reach(low, high))
         if not len(close):
             return close, close
-        low, high = low[close].T, high[close].T
-        box, strip = self._strips.query(shapely.box(*low, *high))
-        sizes = np.minimum(STRIP, len(self) - STRIP * strip)
-        box, triangle = np.repeat(box, sizes), ragged.ranges(STRIP * strip, sizes)
-        near = np.ones(len(box), dtype=np.bool_)
-        for axis in (0, 1):
-            start, end = (side[axis] for side in self._boxes)
-            near &= (start.take(triangle) <= high[axis].take(box)) & (end.take(triangle) >= low[axis].take(box))
-        return close[box[near]], triangle[near]
+        box, triangle = self._boxes.overlapping(low[close].T, high[close].T)
+        return close[box], triangle
 
 
 def targets_of(view: View, sheets: Sheets) -> Targets:

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -22,11 +20,9 @@ from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
+from vectorplot.visibility.smooth.strips import Strips
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, at_once
 from vectorplot.words import LineKind
-
-if TYPE_CHECKING:
-    import shapely
 
 ROUNDS, HOPS = 8, 3
 """Steps of Newton on one pair of chords; how often the pair may go over to neighbouring chords."""
@@ -39,6 +35,9 @@ NEAR_CUSPS = 0.1
 
 STARTS = ((0.2, 0.2), (0.2, 0.8), (0.8, 0.2), (0.8, 0.8))
 """Parts of both chords at which the search for those begins."""
+
+STRIP = 4
+"""Chords, one after the other, of which the tree has one box."""
 
 NEAR_MISSES = 2.0
 """Chords that pass at so many of their tolerances are tried too."""
@@ -99,12 +98,14 @@ def _close_pairs(
 ) -> tuple[Pairs, tuple[int, ...]]:
     """The pairs of chords that come close to each other in the image, the edge not behind, where cubic arcs close to
     the curves meet; and the items of chords for which the budget's pairs did not do."""
-    one, two = _Boxes.of(view, curves), _Boxes.of(view, edges)
+    one, two = _Chords.of(view, curves), _Chords.of(view, edges)
     margin = NEAR_MISSES * tolerance
     cusps = _near_cusps(view, sheets, edges)
 
+    edge_boxes = two.strips(0.0)
+
     def look(rows: Ints) -> Block[Pairs]:
-        near, far, part, edge_part, looked = _close(one, two, rows, margin)
+        near, far, part, edge_part, looked = _close(one, two, edge_boxes, rows, margin)
         apart = np.flatnonzero(~_one_way(view, curves, edges, one.chord[near], two.chord[far]))
         near, far, part, edge_part = near[apart], far[apart], part[apart], edge_part[apart]
         # Near a cusp of an edge a curve may cross it twice close together: the search begins at several places.
@@ -123,10 +124,12 @@ def _close_pairs(
     return met.some(once(curves, met.chord, met.part, met.edge + met.edge_part)), short
 
 
-def _close(one: _Boxes, two: _Boxes, rows: Ints, margin: float) -> tuple[Ints, Ints, Floats, Floats, int]:
+def _close(
+    one: _Chords, two: _Chords, edge_boxes: Strips, rows: Ints, margin: float
+) -> tuple[Ints, Ints, Floats, Floats, int]:
     """Chords among rows (k,) and edges that come within a margin of each other, the edge not behind; the parts of both
     at which they do; and how many pairs were looked at."""
-    near, far = one.some(rows).overlapping(two, margin)
+    near, far = one.some(rows).strips(margin).overlapping_strips(edge_boxes)
     looked, near = len(near), rows[near]
     # A chord that runs away from the eye may be off its curve in depth by some part of its length.
     not_behind = two.nearest[far] - (two.farthest - two.nearest)[far] <= (2.0 * one.farthest - one.nearest)[near]
@@ -167,7 +170,7 @@ def _near_cusps(view: View, sheets: Sheets, edges: Curves) -> Bools:
 
 
 @dataclass(frozen=True, eq=False)
-class _Boxes:
+class _Chords:
     """Chords in front of the eye: their numbers (c,), ends (c,2) in the image and depths."""
 
     chord: Ints
@@ -177,7 +180,7 @@ class _Boxes:
     farthest: Floats
 
     @classmethod
-    def of(cls, view: View, curves: Curves) -> _Boxes:
+    def of(cls, view: View, curves: Curves) -> _Chords:
         image, depth = sight_lines.image(view, curves.points), sight_lines.depth(view, curves.points)
         chord = curves.chords
         way, seen = (x[chord + 1] - x[chord] for x in (curves.points, image))
@@ -187,27 +190,14 @@ class _Boxes:
         a, b = depth[chord], depth[chord + 1]
         return cls(chord, image[chord], image[chord + 1], np.minimum(a, b), np.maximum(a, b))
 
-    def some(self, which: Ints) -> _Boxes:
+    def some(self, which: Ints) -> _Chords:
         """Some of the chords."""
         return records.some(self, which)
 
-    @cached_property
-    def tree(self) -> shapely.STRtree:
-        """A tree over their boxes."""
-        import shapely
-
-        return shapely.STRtree(shapely.linestrings(np.stack([self.start, self.end], axis=1)))
-
-    def overlapping(self, other: _Boxes, margin: float) -> tuple[Ints, Ints]:
-        """The pairs of chords whose boxes, enlarged by a margin, overlap."""
-        import shapely
-
-        if not len(self.chord) or not len(other.chord):
-            return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
-        low, high = np.minimum(self.start, self.end) - margin, np.maximum(self.start, self.end) + margin
-        # Diagonals have the boxes of their rectangles, and are made in less time.
-        near, far = other.tree.query(shapely.linestrings(np.stack([low, high], axis=1)))
-        return np.asarray(near), np.asarray(far)
+    def strips(self, margin: float) -> Strips:
+        """Their boxes, enlarged by a margin."""
+        low, high = np.minimum(self.start, self.end), np.maximum(self.start, self.end)
+        return Strips(low.T - margin, high.T + margin, STRIP)
 
 
 def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats, Floats]:

@@ -1,0 +1,71 @@
+"""Which boxes in the image overlap, of things that lie one beside the other."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+
+if TYPE_CHECKING:
+    import shapely
+
+
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Boxes, low and high (2,t), of which so many that follow each other lie side by side: a strip of them has one box
+    in the tree, which is small, and built in no time."""
+
+    low: Floats
+    high: Floats
+    length: int
+
+    def overlapping(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
+        """Pairs of a box, from low to high (2,k), and one of these, that overlap; borders count."""
+        import shapely
+
+        box, strip = self._tree.query(shapely.box(*low, *high))
+        sizes = self._sizes[strip]
+        box, own = np.repeat(box, sizes), ragged.ranges(self.length * strip, sizes)
+        near = _overlap(low, high, box, self.low, self.high, own)
+        return box[near], own[near]
+
+    def overlapping_strips(self, other: Strips) -> tuple[Ints, Ints]:
+        """Pairs of one of these boxes and one of others that overlap; borders count."""
+        strip, far = other.overlapping(*self._ends)
+        sizes = self._sizes[strip]
+        own, far = ragged.ranges(self.length * strip, sizes), np.repeat(far, sizes)
+        near = _overlap(self.low, self.high, own, other.low, other.high, far)
+        return own[near], far[near]
+
+    @cached_property
+    def _ends(self) -> tuple[Floats, Floats]:
+        """(2,s) and (2,s) low and high ends of strips."""
+        first = np.arange(0, self.low.shape[1], self.length)
+        return np.minimum.reduceat(self.low, first, axis=1), np.maximum.reduceat(self.high, first, axis=1)
+
+    @cached_property
+    def _sizes(self) -> Ints:
+        """(s,) how many boxes each strip has."""
+        count = self.low.shape[1]
+        return np.asarray(np.minimum(self.length, count - np.arange(0, count, self.length)))
+
+    @cached_property
+    def _tree(self) -> shapely.STRtree:
+        import shapely
+
+        low, high = self._ends
+        return shapely.STRtree(shapely.box(*low, *high))
+
+
+def _overlap(low: Floats, high: Floats, one: Ints, other_low: Floats, other_high: Floats, other: Ints) -> Ints:
+    """(p,) which pairs of boxes overlap."""
+    near = np.ones(len(one), dtype=np.bool_)
+    for axis in (0, 1):
+        near &= other_low[axis].take(other) <= high[axis].take(one)
+        near &= other_high[axis].take(other) >= low[axis].take(one)
+    return np.flatnonzero(near)
