@@ -13,9 +13,9 @@ from vectorplot.geometry.components import greatest_component, least_component
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.visibility.smooth.box_strips import BoxStrips
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.strips import Strips
 
 STRIP = 16
 """Triangles, one beside the other, of which the tree has one box."""
@@ -98,13 +98,13 @@ class Targets:
         return np.stack([low.min(axis=1, initial=np.inf), high.max(axis=1, initial=-np.inf)])
 
     @cached_property
-    def _boxes(self) -> Strips:
+    def _boxes(self) -> BoxStrips:
         """(t,) boxes around the images of triangles, enlarged by their margins."""
         x, y = self.vertices.image.T
         margin = self.triangles.margin
         corners = [np.stack([x.take(column), y.take(column)]) for column in self.triangles.vertices.T]
         low, high = np.minimum(corners[0], corners[1]), np.maximum(corners[0], corners[1])
-        return Strips(np.minimum(low, corners[2]) - margin, np.maximum(high, corners[2]) + margin, STRIP)
+        return BoxStrips(np.minimum(low, corners[2]) - margin, np.maximum(high, corners[2]) + margin, STRIP)
 
     def may_reach(self, low: Floats, high: Floats) -> Bools:
         """(k,) which boxes (k,2), from low to high, overlap the one around all of them."""

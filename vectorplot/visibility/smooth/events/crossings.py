@@ -15,12 +15,12 @@ from vectorplot.tolerances.of_extent import CROSSING_RESIDUAL, FOLDS_GAP, GAP_IN
 from vectorplot.tolerances.of_lengths import CROSSING_SETTLED, MODEL_RESIDUAL_OF_GAP, RESIDUAL_OF_GAP
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 from vectorplot.visibility.smooth.blocks import Block, in_blocks
+from vectorplot.visibility.smooth.box_strips import BoxStrips
 from vectorplot.visibility.smooth.events.cubics import cubics
 from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
 from vectorplot.visibility.smooth.events.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.strips import Strips
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, at_once
 from vectorplot.words import LineKind
 
@@ -125,7 +125,7 @@ def _close_pairs(
 
 
 def _close(
-    one: _Chords, two: _Chords, edge_boxes: Strips, rows: Ints, margin: float
+    one: _Chords, two: _Chords, edge_boxes: BoxStrips, rows: Ints, margin: float
 ) -> tuple[Ints, Ints, Floats, Floats, int]:
     """Chords among rows (k,) and edges that come within a margin of each other, the edge not behind; the parts of both
     at which they do; and how many pairs were looked at."""
@@ -194,10 +194,10 @@ class _Chords:
         """Some of the chords."""
         return records.some(self, which)
 
-    def strips(self, margin: float) -> Strips:
+    def strips(self, margin: float) -> BoxStrips:
         """Their boxes, enlarged by a margin."""
         low, high = np.minimum(self.start, self.end), np.maximum(self.start, self.end)
-        return Strips(low.T - margin, high.T + margin, STRIP)
+        return BoxStrips(low.T - margin, high.T + margin, STRIP)
 
 
 def _approach(a: Floats, b: Floats, c: Floats, d: Floats) -> tuple[Floats, Floats, Floats]:

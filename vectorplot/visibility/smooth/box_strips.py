@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Strips:
+class BoxStrips:
     """Boxes, low and high (2,t), of which so many that follow each other lie side by side: a strip of them has one box
     in the tree, which is small, and built in no time."""
 
@@ -34,7 +34,7 @@ class Strips:
         near = _overlap(low, high, box, self.low, self.high, own)
         return box[near], own[near]
 
-    def overlapping_strips(self, other: Strips) -> tuple[Ints, Ints]:
+    def overlapping_strips(self, other: BoxStrips) -> tuple[Ints, Ints]:
         """Pairs of one of these boxes and one of others that overlap; borders count."""
         strip, far = other.overlapping(*self._ends)
         sizes = self._sizes[strip]
