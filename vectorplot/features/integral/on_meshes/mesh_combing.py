@@ -16,8 +16,9 @@ from vectorplot.features.integral.on_meshes.placed_curves import (
     reached,
     some_places,
 )
+from vectorplot.features.integral.spacing.crowd import ROUGHLY
 from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, SAMPLES
-from vectorplot.features.integral.spacing.gaps import SEPARATE, WIDEST
+from vectorplot.features.integral.spacing.gaps import WIDEST, widest_first
 from vectorplot.features.integral.spacing.uncrowded_lines import NEAREST, SHORTEST
 from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
 from vectorplot.geometry import ragged
@@ -36,9 +37,6 @@ MOST_ROUNDS = 24
 
 MOST_AT_ONCE = 1000
 """And so many at a time."""
-
-BESIDE = 2.0
-"""Times as far as a gap is from all that is taken, within which no other one is filled at the same time."""
 
 GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
@@ -85,15 +83,7 @@ def _gaps(where: Floats, tree: cKDTree | None, apart: float) -> Ints:
     if tree is None:
         middle = np.median(where, axis=0)
         return np.array([np.argmin(norm(where[:, :3] - middle[:3]))])
-    away = tree.query(where)[0]
-    left = np.argsort(-away, kind="stable")
-    chosen: list[int] = []
-    while len(left) and len(chosen) < MOST_AT_ONCE:
-        chosen.append(int(left[0]))
-        # Where much is empty, what begins in one gap fills those about it too.
-        empty = max(SEPARATE * apart, BESIDE * float(away[left[0]]))
-        left = left[norm(where[left] - where[left[0]]) > empty]
-    return np.array(chosen, dtype=np.intp)
+    return widest_first(where, tree.query(where, eps=ROUGHLY)[0], apart, MOST_AT_ONCE)
 
 
 def _seeds(shape: CombedMesh, gaps: Floats, tree: cKDTree | None) -> tuple[Floats, Floats]:
