@@ -18,12 +18,13 @@ from vectorplot.features.integral.on_meshes.placed_curves import (
 )
 from vectorplot.features.integral.spacing.crowd import ROUGHLY
 from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, SAMPLES
-from vectorplot.features.integral.spacing.gaps import WIDEST, widest_first
+from vectorplot.features.integral.spacing.gaps import SEPARATE, WIDEST, widest_first
 from vectorplot.features.integral.spacing.uncrowded_lines import NEAREST, SHORTEST
 from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
 from vectorplot.geometry import ragged
 from vectorplot.geometry.bounds.boxes import overlapping_boxes
 from vectorplot.geometry.polylines import closed_round, joined, some
+from vectorplot.geometry.repair.weld import one_each
 from vectorplot.geometry.vectors import norm
 
 if TYPE_CHECKING:
@@ -37,6 +38,9 @@ MOST_ROUNDS = 24
 
 MOST_AT_ONCE = 1000
 """And so many at a time."""
+
+FARTHER = 4.0
+"""Times as far one looks for what is taken where nothing is near enough."""
 
 GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
@@ -83,7 +87,29 @@ def _gaps(where: Floats, tree: cKDTree | None, apart: float) -> Ints:
     if tree is None:
         middle = np.median(where, axis=0)
         return np.array([np.argmin(norm(where[:, :3] - middle[:3]))])
-    return widest_first(where, tree.query(where, eps=ROUGHLY)[0], apart, MOST_AT_ONCE)
+    return widest_first(where, _away(tree, where, SEPARATE * apart), apart, MOST_AT_ONCE)
+
+
+def _away(tree: cKDTree, where: Floats, near: float) -> Floats:
+    """(k,) how far places where (k,6) are from what a tree has: exact up to near, else larger by a part, ROUGHLY, at
+    most.
+
+    On shapes with flat sides much of what is far is equally far, and a tree must look at all of it: so the farther one
+    looks, the fewer stand for all.
+    """
+    from scipy.spatial import cKDTree
+
+    away = np.full(len(where), np.inf)
+    left = np.arange(len(where))
+    while True:
+        away[left] = tree.query(where[left], distance_upper_bound=near)[0]
+        left = left[~np.isfinite(away[left])]
+        if not len(left):
+            return away
+        taken = np.asarray(tree.data)
+        # The longest way within a cube is a part of the distance from which on it counts.
+        tree = cKDTree(taken[one_each(taken, ROUGHLY * near / np.sqrt(taken.shape[1]))])
+        near *= FARTHER
 
 
 def _seeds(shape: CombedMesh, gaps: Floats, tree: cKDTree | None) -> tuple[Floats, Floats]:
