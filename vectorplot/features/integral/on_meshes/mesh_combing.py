@@ -23,6 +23,7 @@ from vectorplot.features.integral.spacing.uncrowded_lines import NEAREST, SHORTE
 from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
 from vectorplot.geometry import ragged
 from vectorplot.geometry.bounds.boxes import overlapping_boxes
+from vectorplot.geometry.chunks import workers
 from vectorplot.geometry.polylines import closed_round, joined, some
 from vectorplot.geometry.repair.weld import one_each
 from vectorplot.geometry.vectors import norm
@@ -102,7 +103,7 @@ def _away(tree: cKDTree, where: Floats, near: float) -> Floats:
     away = np.full(len(where), np.inf)
     left = np.arange(len(where))
     while True:
-        away[left] = tree.query(where[left], distance_upper_bound=near)[0]
+        away[left] = tree.query(where[left], distance_upper_bound=near, workers=workers(len(left)))[0]
         left = left[~np.isfinite(away[left])]
         if not len(left):
             return away
