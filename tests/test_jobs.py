@@ -47,8 +47,8 @@ def test_renderings(shadows):
 
 @pytest.mark.slow
 def test_hatching_that_flows():
-    hatch = vp.Hatching("tone", along="slope", spacing_mm=1.5)
-    made = {write(vp.draw(scenes()["both"], jobs=jobs, hatch=hatch), "json") for jobs in MANY}
+    hatch = vp.Hatching("tone", along="slope")
+    made = {write(vp.draw(bumpy_icosphere(2), jobs=jobs, hatch=hatch, page="A6"), "json") for jobs in MANY}
     assert len(made) == 1
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.integral.on_meshes.combed_mesh import CombedMesh
+from vectorplot.features.integral.on_meshes.place_cells import PlaceCells
 from vectorplot.features.integral.on_meshes.placed_curves import (
     PlacedCurves,
     beside,
@@ -42,6 +43,9 @@ MOST_AT_ONCE = 1000
 
 FARTHER = 4.0
 """Times as far one looks for what is taken where nothing is near enough."""
+
+CELL = 2.0
+"""Times the distance of curves that the cells are large by which is told what is near what is taken."""
 
 GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
@@ -188,6 +192,8 @@ def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None
     spans = [np.zeros((0, 3), dtype=np.intp)]
     bounds = np.searchsorted(found.curve, np.arange(count + 1))
     low, high = _boxes(found.where, bounds[:-1])
+    cells = PlaceCells.over(found.where[:, :3], CELL * apart)
+    cell = cells.of(found.where[:, :3])
     left = np.flatnonzero(free[found.seed])
     while len(left):
         group, left = np.split(left, [max(1, int(np.searchsorted(np.cumsum(np.diff(bounds)[left]), GROUP)))])
@@ -202,7 +208,7 @@ def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None
         reach = NEAREST * apart
         near = left[np.unique(overlapping_boxes(low[:, left], high[:, left], about[0] - reach, about[1] + reach)[0])]
         at = ragged.ranges(bounds[near], bounds[near + 1] - bounds[near])
-        at = at[free[at]]
+        at = at[free[at] & cells.near(own[-1][:, :3], reach)[cell[at]]]
         free[at] = ~beside(last, found.where[at], reach)
     line, first, end = np.concatenate(spans).T
     if not len(line):
