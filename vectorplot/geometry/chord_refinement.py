@@ -91,11 +91,11 @@ def refined(
     between: Between,
     image: Image,
     tolerance: float | Floats,
-    most: float,
+    most: float | Floats,
     share: Ints | None = None,
 ) -> Refined:
     """The polylines with points of their curves put in until chords deviate from these by no more than the tolerance,
-    one for all or one for each (m,), measured in the image, or there are most points.
+    measured in the image, or there are most points; both one for all or one for each (m,).
 
     share (m,): polylines with the same number have most points together; where None all have.
     Where the curve is not found beside a chord, or has no finite image (behind an eye), refinement ends.
@@ -104,6 +104,7 @@ def refined(
     count = int(last.sum())
     share = np.zeros(count, dtype=np.intp) if share is None else share
     limit = np.broadcast_to(np.asarray(tolerance, dtype=np.float64), count)
+    allowed = np.broadcast_to(np.asarray(most, dtype=np.float64), count)
     # A chord belongs to the point it starts at; open ones are still to be looked at.
     open_, unsure = ~last, np.zeros(count, dtype=np.intp)
     # Images are made once: the probes of one round are ends of chords in the next.
@@ -112,7 +113,7 @@ def refined(
         first = np.flatnonzero(open_)
         line = _line(last)
         used = np.bincount(share, weights=np.bincount(line, minlength=count))
-        first = first[used[share[line[first]]] <= most]
+        first = first[(used[share] <= allowed)[line[first]]]
         if not len(first):
             break
         of = line[first]

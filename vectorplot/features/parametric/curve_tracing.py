@@ -11,12 +11,13 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.conditions import Condition
 from vectorplot.features.parametric.holes.holes import up_to_rims
 from vectorplot.features.parametric.poles import through_poles
-from vectorplot.features.parametric.stacked_conditions import C, StackedConditions, alone
+from vectorplot.features.parametric.stacked_conditions import C, StackedConditions, SurfacesAtOnce, alone
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.zero_manifold import ZeroManifold, zero_manifolds
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.surface import Domain, Surface
@@ -83,10 +84,11 @@ class Tracing:
 
 def extent(surface: Surface) -> tuple[float, float]:
     """The diagonal of the box around points of the surface, and their largest coordinate."""
-    return _extent(samples(surface)[2])
+    return extent_of(samples(surface)[2])
 
 
-def _extent(points: Floats) -> tuple[float, float]:
+def extent_of(points: Floats) -> tuple[float, float]:
+    """The diagonal of the box around points (k,3), and their largest coordinate; 0 without any."""
     if not len(points):
         return 0.0, 0.0
     return float(np.linalg.norm(np.ptp(points, axis=0))), float(np.abs(points).max())
@@ -100,11 +102,12 @@ def samples(surface: Surface) -> tuple[Floats, Floats, Floats]:
     return u[good], v[good], points[good]
 
 
-def samples_of_each(conditions: StackedConditions[C]) -> list[Floats]:
+def samples_of_each(asked: SurfacesAtOnce) -> list[Floats]:
     """For each of the surfaces the points (k,3) on a coarse grid; none in holes."""
-    u, v, of = conditions.on_grids(16, 16)
-    points = np.split(conditions.surface(of).points(u, v), len(conditions))
-    return [own[np.isfinite(own).all(axis=1)] for own in points]
+    u, v, of = asked.on_grids(16, 16)
+    points = asked.surface(of).points(u, v)
+    good = np.split(all_finite(points), len(asked))
+    return [own[known] for own, known in zip(np.split(points, len(asked)), good, strict=True)]
 
 
 def curves_where_zero(
@@ -156,7 +159,7 @@ def curves_on_each(
         return points if tracing.picture is None else tracing.picture(points)
 
     if tracing.tolerance is None:
-        tolerances = [CHORD_OF_EXTENT * _extent(points)[0] or np.inf for points in samples_of_each(conditions)]
+        tolerances = [CHORD_OF_EXTENT * extent_of(points)[0] or np.inf for points in samples_of_each(conditions)]
     else:
         tolerances = [tracing.tolerance or np.inf] * len(conditions)
     found = zero_manifolds(
