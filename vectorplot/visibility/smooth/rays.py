@@ -221,7 +221,8 @@ def _solved(view: View, sheets: Sheets, samples: Samples, way: Floats, starts: _
         active = np.delete(active, mine[back])
         if not len(active):
             break
-        step, led_to, here = sheets.missed(number[active], points[active], ways[active], places[active])
+        asked = (x.take(active, axis=0) for x in (number, points, ways, places))
+        step, led_to, here = sheets.missed(*asked)
         if begun:
             # How far the last step missed is known where the next one is.
             off[active] = _apart(points[active], ways[active], t[active], here)
@@ -268,10 +269,10 @@ def _different(sheets: Sheets, way: Floats, met: _Met) -> _Met:
     order = np.lexsort((distance, met.number, met.sample))
     for _ in range(3):
         s, n, d, at = met.sample[order], met.number[order], distance[order], met.places[order]
-        if len(order) < 2:
-            break
         same = (s[1:] == s[:-1]) & (n[1:] == n[:-1]) & (d[1:] - d[:-1] < ONE_MEETING)
         pair = np.flatnonzero(same)
         same[pair] = sheets.apart(n[pair], at[pair + 1], at[pair]) < ONE_MEETING_PLACES
+        if not same.any():
+            break
         order = order[np.concatenate([[True], ~same])]
     return records.some(met, order)
