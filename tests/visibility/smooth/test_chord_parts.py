@@ -18,6 +18,7 @@ from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.visibility.polyhedra.lines import joined_lines
 from vectorplot.visibility.smooth.chord_parts import ChordParts
 from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import FEATURE_KINDS, LineKind
@@ -98,7 +99,7 @@ def test_at_a_cusp_a_contour_arrives_and_turns_back(shape, parallel):
 
 def test_lines_of_no_curve_have_no_directions():
     view = look(Scene((Item("ball", Torus(3.0, 1.0)),)), Camera((0.0, 0.0, 9.0), parallel=True))
-    chords = ChordParts(polylines(around(8)), np.array([3, -1]), np.zeros(2), np.ones(2))
+    chords = ChordParts(Sheets(()), polylines(around(8)), np.array([3, -1]), np.zeros(2), np.ones(2))
     found = chords.directions(view)
     assert np.isfinite(found[0]).all() and np.isnan(found[1]).all()
     assert chords.curve.tolist() == [0, -1]

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
+from vectorplot.geometry.components import all_components
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ALONG_EDGE_SINE, SEEN_ALONG_SINE
@@ -144,7 +145,7 @@ def _one_way(view: View, curves: Curves, edges: Curves, chord: Ints, edge: Ints)
     image: on these no curve meets itself again."""
 
     def same(point: Ints, edge_point: Ints) -> Bools:
-        return np.asarray((curves.points[point] == edges.points[edge_point]).all(axis=1))
+        return all_components(curves.points.take(point, axis=0) == edges.points.take(edge_point, axis=0))
 
     on = (same(chord, edge) & same(chord + 1, edge + 1)) | same(chord + 1, edge) | same(chord, edge + 1)
     some = np.flatnonzero(on)
