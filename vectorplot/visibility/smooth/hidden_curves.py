@@ -15,7 +15,7 @@ from vectorplot.visibility.smooth.chord_parts import ChordParts
 from vectorplot.visibility.smooth.events.crossings import crossings
 from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.events.missed_events import missed_events
-from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events
+from vectorplot.visibility.smooth.events.own_events import edge_on_curves, facing_of, own_events
 from vectorplot.visibility.smooth.events.piercings import piercings
 from vectorplot.visibility.smooth.hidden_pieces import Counts, Pieces, carried, counted, cut, recounted
 from vectorplot.visibility.smooth.runs import without_short_runs
@@ -58,8 +58,9 @@ def hidden_curves(
     sheets = replace(traced.sheets, counted_as=np.searchsorted(hiding, traced.sheets.item))
     edges = replace(traced.edges, item=np.searchsorted(hiding, traced.edges.item))
     targets = targets_of(view, sheets)
-    edge_on = edge_on_curves(view, sheets, curves)
-    own = own_events(view, sheets, curves, edge_on)
+    facing = facing_of(view, sheets, curves)
+    edge_on = edge_on_curves(curves, facing)
+    own = own_events(view, sheets, curves, facing, edge_on)
     done(0.2)
     crossed, short_of_crossings = crossings(view, sheets, curves, edges, edge_on, tolerance, budget.pairs)
     done(0.4)

@@ -117,7 +117,9 @@ def traced_scene(
 
 def _of_kinds(parts: Sequence[Curves], kinds: Collection[LineKind]) -> list[Curves]:
     """What there is of some kinds in each of the parts that have any."""
-    chosen = [(part, np.isin(part.kind, list(kinds))) for part in parts if len(part)]
+    among = np.zeros(len(LineKind), dtype=np.bool_)
+    among[list(kinds)] = True
+    chosen = [(part, among[part.kind]) for part in parts if len(part)]
     return [part if wanted.all() else part.some(np.flatnonzero(wanted)) for part, wanted in chosen if wanted.any()]
 
 
