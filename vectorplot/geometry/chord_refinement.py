@@ -153,7 +153,8 @@ def _probed(
     places, on = between(starts, ends, np.repeat(PROBES, len(first)))
     seen = _seen(image, places).reshape(len(PROBES), len(first), images.shape[1])
     far, long = deviation(images[first], images[first + 1], seen)
-    return places.reshape(len(PROBES), *a.shape), on.reshape(len(PROBES), -1).all(axis=0), seen, far, long
+    found: Bools = np.asarray(on.reshape(len(PROBES), -1).all(axis=0))
+    return places.reshape(len(PROBES), *a.shape), found, seen, far, long
 
 
 def _line(last: Bools) -> Ints:

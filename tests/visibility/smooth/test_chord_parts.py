@@ -57,7 +57,7 @@ def test_directions_are_those_of_the_curves(name):
     for number, camera in enumerate(list(views(scene, 2, seed=len(name)))[turn :: several(2, long=1)]):
         view = look(scene, camera)
         traced = traced_scene(scene, view, scene_sheets(scene, view), KINDS, 1e-4)
-        chords = whole_lines_and_chords(view, traced, joined_lines([])).chords
+        chords = whole_lines_and_chords(traced, joined_lines([])).chords
         random = np.random.default_rng(number)
         begin, end = np.sort(random.uniform(0.0, 1.0, (2, len(chords.chord))), axis=0)
         some = random.permutation(len(begin))[:400]
@@ -103,3 +103,16 @@ def test_lines_of_no_curve_have_no_directions():
     found = chords.directions(view)
     assert np.isfinite(found[0]).all() and np.isnan(found[1]).all()
     assert chords.curve.tolist() == [0, -1]
+    assert chords.sides(view).tolist() == [0, 0]
+
+
+def test_a_ring_lies_inside_of_its_outer_outline_and_outside_of_its_inner_one():
+    scene = Scene((Item("ring", Torus(3.0, 1.0)),))
+    view = look(scene, Camera((0.0, 0.0, 9.0), up=(0.0, 1.0, 0.0), parallel=True))
+    traced = traced_scene(scene, view, scene_sheets(scene, view), frozenset((LineKind.CONTOUR,)), 1e-4)
+    lines, _ = cut_lines_and_chords(view, traced, joined_lines([]), 1e-4)
+    start, end = view.image_of(lines.start), view.image_of(lines.end)
+    turns_left = start[0] * end[1] - start[1] * end[0] > 0.0
+    far = np.linalg.norm(view.world_of(lines.start)[:, :2], axis=1) > 3.0
+    assert (lines.side == 0).all() and far.any() and not far.all()
+    assert np.array_equal(lines.sides(view), np.where(turns_left == far, 1, -1))

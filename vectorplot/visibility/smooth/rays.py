@@ -221,8 +221,8 @@ def _solved(view: View, sheets: Sheets, samples: Samples, way: Floats, starts: _
         active = np.delete(active, mine[back])
         if not len(active):
             break
-        asked = (x.take(active, axis=0) for x in (number, points, ways, places))
-        step, led_to, here = sheets.missed(*asked)
+        lines = (x.take(active, axis=0) for x in (points, ways, places))
+        step, led_to, here = sheets.missed(number[active], *lines)
         if begun:
             # How far the last step missed is known where the next one is.
             off[active] = _apart(points[active], ways[active], t[active], here)
