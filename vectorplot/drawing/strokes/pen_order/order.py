@@ -69,7 +69,7 @@ def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     bounds = np.append(np.flatnonzero(np.diff(layer[tour], prepend=layer[0] - 1)), many)
     if np.any(paths.closed[:many]):
         entry, start = _entered(paths, spots, start, rank, ends, tour, bounds)
-        ends, curves = entry, curves_through(entry, layer, curves)
+        ends, curves = entry, curves_through(entry, layer)
     tour = shortened(ends, tour, layer, curves)
     if np.any(paths.closed[:many]):
         ends, start = _entered(paths, spots, start, rank, ends, tour, bounds)

@@ -117,8 +117,8 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places, layer: Ints) -
     spots = np.append(spread[odd], complex(np.nan, np.nan))
     of = np.append(part[odd], -1)
     mate = np.append(np.where(link[odd] >= 0, number[link[odd]], -1), -1)
-    among = crowd(spots[:-1], layer[odd], curves_through(spots[:-1], layer[odd]))
-    one, other, apart = nearer_than(np.full(len(odd), np.inf), np.arange(len(odd)), among)
+    among = crowd(spots[:-1], np.arange(len(odd)), layer[odd], curves_through(spots[:-1], layer[odd]))
+    one, other, apart = nearer_than(np.full(len(odd), np.inf), among)
     some = np.flatnonzero((of[one] == of[other]) & (one < other))
     one, other, apart = one[some], other[some], apart[some]
     for _ in range(_EXCHANGES):

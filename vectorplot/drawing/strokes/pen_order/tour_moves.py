@@ -74,14 +74,14 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
     spots = np.append(ends, np.full(2 * len(borders) + 1, complex(np.nan, np.nan)))
     layers = np.append(layer, np.full(2 * len(borders), -1))
     mean //= len(borders) + 1
-    opposite, among = np.arange(count) ^ 1, crowd(ends, layer, curves)
+    among = crowd(ends, np.arange(count) ^ 1, layer, curves)
     everything = awake = np.ones(len(layers), dtype=np.bool_)
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
         partner = _partners(tour)
         # A gap of no length has nothing to gain, and only one as long as the way to a neighbour has.
         own = np.fmax(np.abs(ends - spots.take(partner[:count])), 0.0)
         reach = np.where(awake[:count], own, 0.0)
-        pairs = nearer_than(reach, opposite, among)
+        pairs = nearer_than(reach, among)
         moved, tried = _runs_moved(_row(spots, tour, layers, pairs), zero)
         turned, tried_too = _stretches_turned(_within_gaps(_row(spots, moved, layers, pairs)), zero)
         # Only where something changed, or a move was put off, is there something to gain in the next round.
