@@ -17,6 +17,7 @@ from vectorplot.arrays import Ints
 from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through, extent, mutual_nearest
 from vectorplot.geometry import ragged
+from vectorplot.geometry.radix import radix_order
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 # Rounds in which jumps exchange partners.
@@ -47,8 +48,10 @@ def trails(ends: Places, spread: Places, layer: Ints) -> Ints:
 def _nodes(ends: Places, layer: Ints) -> tuple[Ints, Ints]:
     """The ends sorted by node, and (n,) the node of each."""
     unit = (ends - complex(ends.real.min(), ends.imag.min())) / ((extent(ends) or 1.0) * ZERO_OF_EXTENT)
-    key = np.rint(unit.real).astype(np.int64) << 31 | np.rint(unit.imag).astype(np.int64)
-    order = np.lexsort((key, layer))
+    key = np.rint(unit.real).astype(np.uint64) << np.uint64(31) | np.rint(unit.imag).astype(np.uint64)
+    order = radix_order(key, 62)
+    if layer[0] != layer[-1]:
+        order = order.take(np.argsort(layer.take(order), kind="stable"))
     node = np.zeros(len(ends), dtype=np.intp)
     node[order[1:]] = np.cumsum((np.diff(key[order]) != 0) | (np.diff(layer[order]) != 0))
     return order, node
