@@ -46,15 +46,27 @@ def unrolled(paths: Paths, start: Ints, extra: Ints) -> Paths:
 
 def directed(directions: Floats, backwards: Bools) -> Floats:
     """(p,2) the directions at points, turned round at those that strokes run through backwards (p,) now."""
-    if not backwards.any():
+    turned = _known(directions, backwards)
+    if not len(turned):
         return directions
-    other_way = np.where(directions > 0.0, directions - np.pi, directions + np.pi)[:, ::-1]
-    return np.where(backwards[:, None], other_way, directions)
+    there, result = directions.take(turned, axis=0), directions.copy()
+    result[turned] = np.where(there > 0.0, there - np.pi, there + np.pi)[:, ::-1]
+    return result
 
 
 def swapped(handles: Floats, backwards: Bools) -> Floats:
     """(p,2) the lengths of handles at points, those back and ahead changed where strokes run backwards (p,) now."""
-    return np.where(backwards[:, None], handles[:, ::-1], handles) if backwards.any() else handles
+    turned = _known(handles, backwards)
+    if not len(turned):
+        return handles
+    result = handles.copy()
+    result[turned] = handles.take(turned, axis=0)[:, ::-1]
+    return result
+
+
+def _known(values: Floats, which: Bools) -> Ints:
+    """Those of some points (p,) of which one of two values (p,2) at least is known."""
+    return np.flatnonzero(which & ~(np.isnan(values[:, 0]) & np.isnan(values[:, 1])))
 
 
 def sections(

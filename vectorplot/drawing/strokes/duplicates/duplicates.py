@@ -7,12 +7,13 @@ from itertools import pairwise
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.neighbours import Keys, companions, overlapping_cells
 from vectorplot.drawing.strokes.stroke_paths import chosen, sections
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
+from vectorplot.geometry.radix import radix_order
 from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH
 
 PAIRS_AT_ONCE = 1 << 18
@@ -26,41 +27,45 @@ _ROUNDS = 3
 
 def without_duplicates(
     paths: Paths,
-    rank: Ints,
+    rank: Floats | Ints,
     tolerance_mm: float,
     page_from_world: Floats | None = None,
     line: Ints | None = None,
 ) -> Paths:
     """The same picture without the parts of strokes that lie on more important ones.
 
-    paths: straight strokes of two points; rank (m,): the smaller of two wins; of equal ones the longer, then the one
-    further left, so that the picture does not depend on the order of the strokes. Two strokes lie on each other where
-    they overlap and the shorter one's ends are within tolerance_mm (and a thousandth of its length) of the other's
-    line: lines that only run close together both stay. page_from_world (4,4) as in Drawing, by default a parallel
-    projection: points3d is divided where the page is. line (m,): equal for parts of one straight line, which do not lie
-    on each other; by default each is one of its own. Strokes keep their order; what is no longer than tolerance_mm
-    is left out.
+    paths: straight strokes of two points; rank (m,): the smaller of two wins, or (k,m), where the last row counts most;
+    of equal ones the longer, then the one further left, so that the picture does not depend on the order of the
+    strokes. Two strokes lie on each other where they overlap and the shorter one's ends are within tolerance_mm (and a
+    thousandth of its length) of the other's line: lines that only run close together both stay. page_from_world (4,4)
+    as in Drawing, by default a parallel projection: points3d is divided where the page is. line (m,): equal for parts
+    of one straight line, which do not lie on each other; by default each is one of its own. Strokes keep their order;
+    what is no longer than tolerance_mm is left out.
     """
-    start, end = paths.points[::2], paths.points[1::2]
-    length = np.hypot(*(end - start).T)
-    long = length > tolerance_mm
-    if not long.all():
-        line = None if line is None else line[long]
-        return without_duplicates(chosen(paths, long), rank[long], tolerance_mm, page_from_world, line)
-    line = np.arange(len(paths)) if line is None else line
+    long = np.flatnonzero(_lengths(paths.points[::2], paths.points[1::2]) > tolerance_mm)
+    kept = np.zeros(len(paths), dtype=np.bool_)
+    kept[long] = True
+    start, end = paths.points.take(2 * long, axis=0), paths.points.take(2 * long + 1, axis=0)
+    line = long if line is None else line.take(long)
     owner, starts = nearly_collinear(start, end, tolerance_mm, line)
     if not len(owner):
-        return paths
-    candidates, index = np.unique(owner, return_inverse=True)
-    ordered = candidates[_by_importance(start[candidates], end[candidates], length[candidates], rank[candidates])]
-    importance = np.zeros(len(candidates), dtype=np.intp)
-    importance[np.searchsorted(candidates, ordered)] = np.arange(len(ordered))
-    segments = _Segments(start[ordered], end[ordered], line[ordered], tolerance_mm)
-    dropped, loser, low, high = _covered(segments, importance[index], starts)
+        return chosen(paths, kept)
+    compared = np.zeros(len(long), dtype=np.bool_)
+    compared[owner] = True
+    some = np.flatnonzero(compared)
+    start, end = start.take(some, axis=0), end.take(some, axis=0)
+    order = _by_importance(start, end, np.atleast_2d(rank).take(long.take(some), axis=1))
+    some = some.take(order)
+    importance = np.empty(len(long), dtype=np.intp)
+    importance[some] = np.arange(len(some))
+    segments = _Segments(start.take(order, axis=0), end.take(order, axis=0), line.take(some), tolerance_mm)
+    dropped, loser, low, high = _covered(segments, importance.take(owner), starts)
+    some = long.take(some)
+    kept[some.take(dropped)] = False
     gap = np.zeros(len(paths))
-    gap[ordered] = tolerance_mm / segments.length
+    gap[some] = tolerance_mm / segments.length
     world = np.eye(4) if page_from_world is None else page_from_world
-    return _without(paths, ordered[dropped], ordered[loser], low, high, gap, world)
+    return _without(paths, kept, some.take(loser), low, high, gap, world)
 
 
 def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -> tuple[Ints, Ints]:
@@ -69,27 +74,32 @@ def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -
 
     line (n,): equal for strokes that are known not to lie on each other.
     """
-    length = np.hypot(*(end - start).T)
-    return _overlapping(start, end, line, *_crowds(start, end, length, tolerance), tolerance)
+    return _overlapping(start, end, line, *_crowds(start, end, _lengths(start, end), tolerance), tolerance)
+
+
+def _lengths(start: Floats, end: Floats) -> Floats:
+    x, y = (end[:, axis] - start[:, axis] for axis in (0, 1))
+    length: Floats = np.sqrt(x * x + y * y)
+    return length
 
 
 def _without(
-    paths: Paths, dropped: Ints, loser: Ints, low: Floats, high: Floats, gap: Floats, page_from_world: Floats
+    paths: Paths, kept: Bools, loser: Ints, low: Floats, high: Floats, gap: Floats, page_from_world: Floats
 ) -> Paths:
-    """The strokes without those that are dropped, and without the parts from low to high of losers."""
-    whole = np.ones(len(paths), dtype=np.bool_)
-    whole[dropped] = whole[loser] = False
-    if whole.all():
-        return paths
-    touched = np.unique(loser)
-    number, low, high = intervals.union(np.searchsorted(touched, loser), low, high, gap[touched])
+    """The strokes that are kept (m,), without the parts from low to high of losers."""
+    if not len(loser):
+        return chosen(paths, kept)
+    loses = np.zeros(len(paths), dtype=np.bool_)
+    loses[loser] = True
+    touched, number = np.flatnonzero(loses), np.cumsum(loses) - 1
+    number, low, high = intervals.union(number.take(loser), low, high, gap[touched])
     part, low, high = intervals.complement(len(touched), number, low, high, gap[touched])
-    kept = np.flatnonzero(whole)
-    stroke = np.concatenate((kept, touched[part]))
-    t_low, t_high = np.concatenate((np.zeros(len(kept)), low)), np.concatenate((np.ones(len(kept)), high))
-    order = np.lexsort((t_low, stroke))
-    first = 2 * stroke[order]
-    return sections(paths, stroke[order], first, t_low[order], first, t_high[order], page_from_world)
+    whole = np.flatnonzero(kept & ~loses)
+    stroke = np.concatenate((whole, touched[part]))
+    t_low, t_high = np.concatenate((np.zeros(len(whole)), low)), np.concatenate((np.ones(len(whole)), high))
+    order = np.argsort(stroke, kind="stable")
+    stroke = stroke.take(order)
+    return sections(paths, stroke, 2 * stroke, t_low.take(order), 2 * stroke, t_high.take(order), page_from_world)
 
 
 class _Segments:
@@ -98,7 +108,7 @@ class _Segments:
     def __init__(self, start: Floats, end: Floats, line: Ints, tolerance: float) -> None:
         self.start, self.end, self.line, self.tolerance = start, end, line, tolerance
         along = end - start
-        self.length = np.hypot(along[:, 0], along[:, 1])
+        self.length = _lengths(start, end)
         self.unit = along / self.length[:, None]
         self.low, self.high = np.minimum(start.T, end.T), np.maximum(start.T, end.T)
 
@@ -135,14 +145,16 @@ class _Segments:
         return some[over], low[over], high[over]
 
 
-def _by_importance(start: Floats, end: Floats, length: Floats, rank: Ints) -> Ints:
-    """The order of the strokes, the most important first; it depends on how they are given for equal ones only."""
-    order = np.argsort(rank, kind="stable")
-    if (rank[order][1:] != rank[order][:-1]).all():
+def _by_importance(start: Floats, end: Floats, rank: Floats | Ints) -> Ints:
+    """The order of the strokes by their ranks (k,n), the most important first; it depends on how they are given for
+    equal ones only."""
+    order = np.lexsort(rank)
+    ranked = rank.take(order, axis=1)
+    if (ranked[:, 1:] != ranked[:, :-1]).any(axis=0).all():
         return order
     swapped = (end[:, 0] < start[:, 0]) | ((end[:, 0] == start[:, 0]) & (end[:, 1] < start[:, 1]))
     one, two = np.where(swapped[:, None], end, start), np.where(swapped[:, None], start, end)
-    return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -length, rank))
+    return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -_lengths(start, end), *rank))
 
 
 def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tuple[Ints, Ints]:
@@ -153,7 +165,7 @@ def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tup
     """
     if len(length) < 2:
         return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
-    middle = (start.min(axis=0) + start.max(axis=0)) / 2.0
+    middle = [(float(column.min()) + float(column.max())) / 2.0 for column in start.T]
     width = max(2.0 * float(length.mean()), float(length.max()) / 64.0)
     # A stroke may be turned by this, and its line shifted by this in the middle of a strip it reaches.
     turn = 4.2 * min(COLLINEAR_OF_LENGTH, tolerance / float(length.min()))
@@ -214,8 +226,9 @@ def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints
     owner: the strokes of the crowds, by importance.
     """
     run = ragged.owner(np.diff(starts))
-    order = np.lexsort((owner, run))
-    owner = owner[order]
+    bits = len(segments.length).bit_length()
+    key = run.astype(np.uint64) << np.uint64(bits) | owner.astype(np.uint64)
+    owner = owner.take(radix_order(key, bits + len(starts).bit_length()))
     dropped = np.zeros(len(segments.length), dtype=np.bool_)
     for turn in range(_ROUNDS):
         first = np.flatnonzero(np.concatenate(([True], run[1:] != run[:-1])))
