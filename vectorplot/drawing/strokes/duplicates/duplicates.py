@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.neighbours import Keys, companions, overlapping_cells
+from vectorplot.drawing.strokes.neighbours import companions, overlapping_cells
 from vectorplot.drawing.strokes.stroke_paths import chosen, sections
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
@@ -19,7 +19,10 @@ from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH
 PAIRS_AT_ONCE = 1 << 18
 
 _SMALL = 6
-"""In crowds of up to this many, all pairs of boxes are compared first; most crowds are strokes one after the other."""
+"""Of groups of up to this many, all pairs are compared first; in most no stroke lies on another."""
+
+_PLACE_BITS = 40
+"""Places along strokes are compared in steps of 2^-40 of the extent when deciding which strokes overlap."""
 
 _ROUNDS = 3
 """How many of the best strokes of a crowd are tried on all the others before all pairs of it are looked at."""
@@ -48,6 +51,7 @@ def without_duplicates(
     start, end = paths.points.take(2 * long, axis=0), paths.points.take(2 * long + 1, axis=0)
     line = long if line is None else line.take(long)
     owner, starts = nearly_collinear(start, end, tolerance_mm, line)
+    owner, starts = _overlapping(_Segments(start, end, line, tolerance_mm), owner, starts)
     if not len(owner):
         return chosen(paths, kept)
     compared = np.zeros(len(long), dtype=np.bool_)
@@ -74,7 +78,27 @@ def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -
 
     line (n,): equal for strokes that are known not to lie on each other.
     """
-    return _overlapping(start, end, line, *_crowds(start, end, _lengths(start, end), tolerance), tolerance)
+    if len(line) < 2:
+        return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
+    found = []
+    for axis, crowds in enumerate(_crowds(start, end, _lengths(start, end), tolerance)):
+        owner, starts = _of_several(line, *crowds)
+        owner, starts = _touching(start[:, axis], end[:, axis], owner, starts, 0.5 * tolerance)
+        found.append(_of_several(line, owner, starts))
+    sizes = np.concatenate([np.diff(starts) for _, starts in found])
+    return np.concatenate([owner for owner, _ in found]), ragged.offsets(sizes)
+
+
+def _overlapping(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
+    """The groups in which some strokes of different lines may lie on each other, and those of many strokes."""
+    size = np.diff(starts)
+    run, of = ragged.owner(size), segments.line.take(owner)
+    stays = size > _SMALL
+    for lag in range(1, min(_SMALL, int(size.max(initial=1)))):
+        one = np.flatnonzero((run[lag:] == run[:-lag]) & (of[lag:] != of[:-lag]) & ~stays.take(run[lag:]))
+        near = one.take(segments.close(owner.take(one), owner.take(one + lag))[0])
+        stays[run.take(near)] = True
+    return owner.compress(stays.take(run)), ragged.offsets(size[stays])
 
 
 def _lengths(start: Floats, end: Floats) -> Floats:
@@ -118,23 +142,27 @@ class _Segments:
         common: Floats = np.minimum(high.take(one), high.take(other)) - np.maximum(low.take(one), low.take(other))
         return common
 
-    def overlaps(self, winner: Ints, loser: Ints) -> tuple[Ints, Floats, Floats]:
-        """Which pairs (k,) lie on each other, and from where to where (of each loser) they do."""
+    def close(self, one: Ints, other: Ints) -> tuple[Ints, Ints, Ints]:
+        """Which pairs (k,) have boxes that overlap and are nearly collinear; and both of each."""
         # Most have not even boxes that overlap.
-        some = np.flatnonzero((common := self._common(0, winner, loser)) >= -2.0 * self.tolerance)
-        common, winner, loser = common.take(some), winner.take(some), loser.take(some)
-        other = self._common(1, winner, loser)
-        touch = np.flatnonzero((other >= -2.0 * self.tolerance) & (np.maximum(common, other) > 0.5 * self.tolerance))
-        some, winner, loser = some.take(touch), winner.take(touch), loser.take(touch)
-        shorter = self.length.take(loser) <= self.length.take(winner)
-        short, long = np.where(shorter, loser, winner), np.where(shorter, winner, loser)
-        close = np.minimum(self.tolerance, COLLINEAR_OF_LENGTH * self.length.take(short))
+        some = np.flatnonzero((common := self._common(0, one, other)) >= -2.0 * self.tolerance)
+        common, one, other = common.take(some), one.take(some), other.take(some)
+        across = self._common(1, one, other)
+        touch = np.flatnonzero((across >= -2.0 * self.tolerance) & (np.maximum(common, across) > 0.5 * self.tolerance))
+        some, one, other = some.take(touch), one.take(touch), other.take(touch)
+        shorter = self.length.take(other) <= self.length.take(one)
+        short, long = np.where(shorter, other, one), np.where(shorter, one, other)
+        most = np.minimum(self.tolerance, COLLINEAR_OF_LENGTH * self.length.take(short))
         origin, unit = self.start.take(long, axis=0), self.unit.take(long, axis=0)
-        collinear = np.ones(len(winner), dtype=np.bool_)
+        collinear = np.ones(len(one), dtype=np.bool_)
         for ends in (self.start, self.end):
             arm = ends.take(short, axis=0) - origin
-            collinear &= np.abs(arm[:, 0] * unit[:, 1] - arm[:, 1] * unit[:, 0]) <= close
-        some, winner, loser = some[collinear], winner[collinear], loser[collinear]
+            collinear &= np.abs(arm[:, 0] * unit[:, 1] - arm[:, 1] * unit[:, 0]) <= most
+        return some[collinear], one[collinear], other[collinear]
+
+    def overlaps(self, winner: Ints, loser: Ints) -> tuple[Ints, Floats, Floats]:
+        """Which pairs (k,) lie on each other, and from where to where (of each loser) they do."""
+        some, winner, loser = self.close(winner, loser)
         origin, unit, size = self.start.take(loser, axis=0), self.unit.take(loser, axis=0), self.length.take(loser)
         places = []
         for ends in (self.start, self.end):
@@ -157,56 +185,53 @@ def _by_importance(start: Floats, end: Floats, rank: Floats | Ints) -> Ints:
     return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -_lengths(start, end), *rank))
 
 
-def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tuple[Ints, Ints]:
-    """(owner, starts): groups of strokes with nearly the same line at nearly the same place.
+def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> list[tuple[Ints, Ints]]:
+    """(owner, starts) for both axes: groups of strokes with nearly the same line at nearly the same place.
 
     All that overlap share a group. The page is cut into strips across the main direction of a stroke; in each strip it
     has a slope, and a height in the strip's middle. Strokes near 45 degrees have two main directions.
     """
-    if len(length) < 2:
-        return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
     middle = [(float(column.min()) + float(column.max())) / 2.0 for column in start.T]
     width = max(2.0 * float(length.mean()), float(length.max()) / 64.0)
     # A stroke may be turned by this, and its line shifted by this in the middle of a strip it reaches.
     turn = 4.2 * min(COLLINEAR_OF_LENGTH, tolerance / float(length.min()))
     shift = 2.0 * tolerance + turn * width
-    keys: list[Keys] = []
-    owners = []
     along = np.abs(end - start)
+    crowds = []
     for axis in (0, 1):
         which = np.flatnonzero(along[:, axis] >= (1.0 - 2.0 * turn) * along[:, 1 - axis])
-        main, cross = start[which, axis] - middle[axis], start[which, 1 - axis] - middle[1 - axis]
-        run = end[which, axis] - start[which, axis]
-        slope = (end[which, 1 - axis] - start[which, 1 - axis]) / run
+        main, cross = start[:, axis].take(which) - middle[axis], start[:, 1 - axis].take(which) - middle[1 - axis]
+        run = end[:, axis].take(which) - start[:, axis].take(which)
+        slope = (end[:, 1 - axis].take(which) - start[:, 1 - axis].take(which)) / run
         strip = np.floor(np.minimum(main, main + run) / width)
         count = (np.floor(np.maximum(main, main + run) / width) - strip).astype(np.intp) + 1
         piece = ragged.owner(count)
-        number = strip[piece].astype(np.intp) + ragged.place(count)
-        height = cross[piece] + slope[piece] * ((number + 0.5) * width - main[piece])
-        key, entry = overlapping_cells(slope[piece], height, 2 * number + axis, (turn, shift))
-        keys.append(key)
-        owners.append(which[piece[entry]])
-    return companions(np.concatenate(keys), np.concatenate(owners))
+        number = strip.take(piece).astype(np.intp) + ragged.place(count)
+        slopes = slope.take(piece)
+        height = cross.take(piece) + slopes * ((number + 0.5) * width - main.take(piece))
+        key, entry = overlapping_cells(slopes, height, number, (turn, shift))
+        crowds.append(companions(key, which.take(piece.take(entry))))
+    return crowds
 
 
-def _overlapping(
-    start: Floats, end: Floats, line: Ints, owner: Ints, starts: Ints, tolerance: float
-) -> tuple[Ints, Ints]:
-    """The crowds in which some strokes of different lines may overlap."""
-    owner, starts = _of_several(line, owner, starts)
-    size = np.diff(starts)
-    run = ragged.owner(size)
-    of = line.take(owner)
-    ends = start.take(owner, axis=0).T, end.take(owner, axis=0).T
-    low, high = np.minimum(*ends), np.maximum(*ends)
-    calls = size > _SMALL
-    for lag in range(1, min(_SMALL, int(size.max(initial=1)))):
-        common = np.minimum(high[:, lag:], high[:, :-lag]) - np.maximum(low[:, lag:], low[:, :-lag])
-        touch = np.maximum(common[0], common[1]) > 0.5 * tolerance
-        touch &= np.minimum(common[0], common[1]) >= -2.0 * tolerance
-        touch &= (run[lag:] == run[:-lag]) & (of[lag:] != of[:-lag])
-        calls[run[lag:][touch]] = True
-    return owner[calls[run]], ragged.offsets(size[calls])
+def _touching(one: Floats, other: Floats, owner: Ints, starts: Ints, least: float) -> tuple[Ints, Ints]:
+    """The groups of strokes, which reach from one coordinate (n,) to the other, divided where none of a group reaches
+    over by more than least."""
+    if not len(owner):
+        return owner, starts
+    run = ragged.owner(np.diff(starts))
+    low, high = np.minimum(one, other), np.maximum(one, other)
+    origin, extent = float(low.min()), float(high.max() - low.min())
+    # Groups lie one behind the other.
+    step = 2.0**_PLACE_BITS / extent
+    begin, end = (((at - origin) * step).astype(np.int64).take(owner) for at in (low, high))
+    shift = run << (_PLACE_BITS + 1)
+    begin += shift
+    order = radix_order(begin.astype(np.uint64), _PLACE_BITS + 1 + len(starts).bit_length())
+    reach = np.maximum.accumulate((end + shift).take(order))
+    apart = begin.take(order)[1:] > reach[:-1] - int(least * step)
+    first = np.concatenate(([0], np.flatnonzero(apart) + 1, [len(owner)]))
+    return owner.take(order), first
 
 
 def _of_several(line: Ints, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
