@@ -24,7 +24,7 @@ _SHIFTS = (0.0, (1 + 1j) / 3, (2 + 2j) / 3)
 # So many bits has a code of Morton's curve: in its finest cells no pen could tell places apart.
 _CODE_BITS = 32
 # So many ends are looked at at once: what is computed of them stays near the processor.
-ENDS_AT_ONCE = 1 << 14
+ENDS_AT_ONCE = 1 << 15
 
 
 def extent(spots: Places) -> float:

@@ -29,6 +29,8 @@ _PASSES = 8
 # Rounds; shorter tours get more.
 _ROUNDS = 4
 _MORE_ROUNDS = 40000
+# Of tours too long for that a round that gains no more than this part of the travel is the last one.
+_LEAST_GAIN = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,18 +78,21 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
     mean //= len(borders) + 1
     among = crowd(ends, np.arange(count) ^ 1, layer, curves)
     everything = awake = np.ones(len(layers), dtype=np.bool_)
+    partner, travel = _partners(tour), np.inf
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
-        partner = _partners(tour)
         # A gap of no length has nothing to gain, and only one as long as the way to a neighbour has.
         own = np.fmax(np.abs(ends - spots.take(partner[:count])), 0.0)
+        last, travel = travel, 0.5 * float(own.sum())
+        if mean > _MORE_ROUNDS and last - travel < _LEAST_GAIN * travel:
+            break
         reach = np.where(awake[:count], own, 0.0)
         pairs = nearer_than(reach, among)
         moved, tried = _runs_moved(_row(spots, tour, layers, pairs), zero)
-        turned, tried_too = _stretches_turned(_within_gaps(_row(spots, moved, layers, pairs)), zero)
+        tour, tried_too = _stretches_turned(_within_gaps(_row(spots, moved, layers, pairs)), zero)
         # Only where something changed, or a move was put off, is there something to gain in the next round.
-        changed = _partners(turned) != partner
-        changed[tried] = changed[tried_too] = True
-        looked_at, awake, tour = awake, changed, turned
+        before, partner = partner, _partners(tour)
+        looked_at, awake = awake, partner != before
+        awake[tried] = awake[tried_too] = True
         if not awake.any():
             if looked_at is everything:
                 break
