@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.exact.radix import Keys, radix_order
 from vectorplot.geometry import ragged
-from vectorplot.geometry.radix import Keys, radix_order
 
 CELL = 16.0
 """Width of a cell in units of the reach: a wide cell has few points near its border, a narrow one few in all."""

@@ -12,8 +12,8 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.neighbours import companions, overlapping_cells
 from vectorplot.drawing.strokes.stroke_paths import chosen, sections
 from vectorplot.exact import intervals
+from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
-from vectorplot.geometry.radix import radix_order
 from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH
 
 PAIRS_AT_ONCE = 1 << 18

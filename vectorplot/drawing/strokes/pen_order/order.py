@@ -12,9 +12,9 @@ from vectorplot.drawing.strokes.pen_order.tour import greedy_tour
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through
 from vectorplot.drawing.strokes.pen_order.tour_moves import shortened
 from vectorplot.drawing.strokes.stroke_paths import chosen, directed, swapped
+from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
-from vectorplot.geometry.radix import radix_order
 
 # In so many bits strokes are put in order from left to right; what falls together is looked at again.
 _PLACE_BITS = 32

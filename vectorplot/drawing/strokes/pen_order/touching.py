@@ -16,8 +16,8 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through, extent, mutual_nearest
+from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
-from vectorplot.geometry.radix import radix_order
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 # Rounds in which jumps exchange partners.

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.exact.radix import radix_order
 from vectorplot.geometry.chunks import mapped, slices
-from vectorplot.geometry.radix import radix_order
 
 Places = NDArray[np.complex128]
 Curves = tuple[Ints, ...]
