@@ -53,11 +53,12 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
         # A page shows the image larger, not turned.
         directions = _at_ends(parts.chords.directions(view))
         paths = replace(paths, directions=directions, curve=parts.chords.curve, handles=_at_ends(handles))
-    straight, smooth = ~paths.smooth, chosen(paths, paths.smooth)
-    given, line = chosen(paths, straight), seen.segment[straight]
-    once = without_duplicates(given, rank[:, straight], COINCIDENT_MM, placement.page_from_world, line)
-    if not len(smooth):
-        return once
+    world = placement.page_from_world
+    if not paths.smooth.any():
+        return without_duplicates(paths, rank, COINCIDENT_MM, world, seen.segment)
+    straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
+    given, line = chosen(paths, straight), seen.segment.take(straight)
+    once = without_duplicates(given, rank.take(straight, axis=1), COINCIDENT_MM, world, line)
     curve_rank = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
     return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
 

@@ -47,7 +47,7 @@ def overlapping_cells(x: Floats, y: Floats, label: Ints, reach: tuple[float, flo
     owner = np.concatenate([part[0] for part in parts])
     sizes = [len(part[0]) for part in parts]
     step_x, step_y = (np.repeat([part[axis] for part in parts], sizes) for axis in (1, 2))
-    return hashed(column[owner] - step_x, row[owner] - step_y, label[owner]), owner
+    return hashed(column.take(owner) - step_x, row.take(owner) - step_y, label.take(owner)), owner
 
 
 def companions(key: Keys, owner: Ints) -> tuple[Ints, Ints]:

@@ -92,7 +92,8 @@ def sections(
         points[cut], points3d[cut] = _divided(paths, segment[inside], t[inside], page_from_world)
         directions[cut] = handles[cut] = np.nan
         # Parts that begin where their segment ends, or end where it begins.
-        at, of = places[there], point[there]
+        ends = np.flatnonzero(there)
+        at, of = places.take(ends), point.take(ends)
         points[at], points3d[at] = paths.points.take(of, axis=0), paths.points3d.take(of, axis=0)
         directions[at], handles[at] = paths.directions.take(of, axis=0), paths.handles.take(of, axis=0)
     open_ = np.zeros(len(stroke), dtype=np.bool_)
@@ -116,7 +117,7 @@ def _divided(paths: Paths, segment: Ints, t: Floats, page_from_world: Floats) ->
     a, b = paths.points.take(segment, axis=0), paths.points.take(segment + 1, axis=0)
     a3, b3 = paths.points3d.take(segment, axis=0), paths.points3d.take(segment + 1, axis=0)
     # Depths count by their ratio alone: powers of two keep what is very large within range, and all digits.
-    reach, weight = (int(np.frexp(np.abs(some).max(initial=1.0))[1]) for some in (paths.points3d, page_from_world[3]))
+    reach, weight = (int(np.frexp(np.abs(some).max(initial=1.0))[1]) for some in ((a3, b3), page_from_world[3]))
     row = np.ldexp(page_from_world[3], (-weight, -weight, -weight, -weight - reach))
     depth_a, depth_b = (np.abs(np.ldexp(ends, -reach) @ row[:3] + row[3]) for ends in (a3, b3))
     whole = t * depth_a + (1.0 - t) * depth_b

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import numpy as np
@@ -14,6 +14,7 @@ from vectorplot.drawing.strokes.stroke_paths import chosen, sections
 from vectorplot.exact import intervals
 from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped
 from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH
 
 PAIRS_AT_ONCE = 1 << 18
@@ -80,13 +81,15 @@ def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -
     """
     if len(line) < 2:
         return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
-    found = []
-    for axis, crowds in enumerate(_crowds(start, end, _lengths(start, end), tolerance)):
-        owner, starts = _of_several(line, *crowds)
+    crowds = _crowds(start, end, _lengths(start, end), tolerance)
+
+    def of_axis(axis: int) -> tuple[Ints, Ints]:
+        owner, starts = _of_several(line, *crowds(axis))
         owner, starts = _touching(start[:, axis], end[:, axis], owner, starts, 0.5 * tolerance)
-        found.append(_of_several(line, owner, starts))
-    sizes = np.concatenate([np.diff(starts) for _, starts in found])
-    return np.concatenate([owner for owner, _ in found]), ragged.offsets(sizes)
+        return _of_several(line, owner, starts)
+
+    owners, groups = zip(*mapped(of_axis, (0, 1)), strict=True)
+    return np.concatenate(owners), ragged.offsets(np.concatenate([np.diff(starts) for starts in groups]))
 
 
 def _overlapping(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
@@ -185,8 +188,9 @@ def _by_importance(start: Floats, end: Floats, rank: Floats | Ints) -> Ints:
     return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -_lengths(start, end), *rank))
 
 
-def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> list[tuple[Ints, Ints]]:
-    """(owner, starts) for both axes: groups of strokes with nearly the same line at nearly the same place.
+def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> Callable[[int], tuple[Ints, Ints]]:
+    """(owner, starts) of an axis: groups of strokes with nearly the same line, along which they run more than across,
+    at nearly the same place.
 
     All that overlap share a group. The page is cut into strips across the main direction of a stroke; in each strip it
     has a slope, and a height in the strip's middle. Strokes near 45 degrees have two main directions.
@@ -196,22 +200,22 @@ def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> lis
     # A stroke may be turned by this, and its line shifted by this in the middle of a strip it reaches.
     turn = 4.2 * min(COLLINEAR_OF_LENGTH, tolerance / float(length.min()))
     shift = 2.0 * tolerance + turn * width
-    along = np.abs(end - start)
-    crowds = []
-    for axis in (0, 1):
-        which = np.flatnonzero(along[:, axis] >= (1.0 - 2.0 * turn) * along[:, 1 - axis])
-        main, cross = start[:, axis].take(which) - middle[axis], start[:, 1 - axis].take(which) - middle[1 - axis]
-        run = end[:, axis].take(which) - start[:, axis].take(which)
-        slope = (end[:, 1 - axis].take(which) - start[:, 1 - axis].take(which)) / run
+
+    def of_axis(axis: int) -> tuple[Ints, Ints]:
+        (main, main_end), (cross, cross_end) = ((start[:, k], end[:, k]) for k in (axis, 1 - axis))
+        which = np.flatnonzero(np.abs(main_end - main) >= (1.0 - 2.0 * turn) * np.abs(cross_end - cross))
+        main, main_end, cross, cross_end = (ends.take(which) for ends in (main, main_end, cross, cross_end))
+        main, cross, run, rise = main - middle[axis], cross - middle[1 - axis], main_end - main, cross_end - cross
+        slope = rise / run
         strip = np.floor(np.minimum(main, main + run) / width)
         count = (np.floor(np.maximum(main, main + run) / width) - strip).astype(np.intp) + 1
         piece = ragged.owner(count)
-        number = strip.take(piece).astype(np.intp) + ragged.place(count)
-        slopes = slope.take(piece)
+        number, slopes = strip.take(piece).astype(np.intp) + ragged.place(count), slope.take(piece)
         height = cross.take(piece) + slopes * ((number + 0.5) * width - main.take(piece))
         key, entry = overlapping_cells(slopes, height, number, (turn, shift))
-        crowds.append(companions(key, which.take(piece.take(entry))))
-    return crowds
+        return companions(key, which.take(piece.take(entry)))
+
+    return of_axis
 
 
 def _touching(one: Floats, other: Floats, owner: Ints, starts: Ints, least: float) -> tuple[Ints, Ints]:
