@@ -62,8 +62,8 @@ def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> Crowd:
     several = layer[0] != layer[-1]
     places = []
     for curve in curves[:-1]:
-        place = np.empty_like(curve)
-        place[curve] = np.arange(len(curve))
+        place = np.empty(len(curve), dtype=np.int32)
+        place[curve] = np.arange(len(curve), dtype=np.int32)
         places.append(place)
 
     def stretch(part: tuple[int, slice]) -> _Stretch:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.exact.radix import radix_order
+from vectorplot.exact.radix import ShortKeys, radix_order
 from vectorplot.geometry.chunks import mapped, slices
 
 Places = NDArray[np.complex128]
@@ -103,6 +103,8 @@ def curves_through(spots: Places, layer: Ints) -> Curves:
     neighbours (Chan)."""
     low = complex(spots.real.min(), spots.imag.min())
     unit = (spots - low) / (extent(spots) or 1.0)
+    if layer[0] == layer[-1]:
+        return tuple(radix_order(_morton(unit + shift), _CODE_BITS) for shift in _SHIFTS)
     rank = np.zeros(len(spots), dtype=np.uint64)
     np.cumsum(layer[1:] != layer[:-1], out=rank[1:])
     bits = _CODE_BITS + int(rank[-1]).bit_length()
@@ -110,19 +112,13 @@ def curves_through(spots: Places, layer: Ints) -> Curves:
     return tuple(radix_order(rank | _morton(unit + shift), bits) for shift in _SHIFTS)
 
 
-def _morton(unit: Places) -> NDArray[np.uint64]:
+def _morton(unit: Places) -> ShortKeys:
     """The bits of x and y, between 0 and 2, alternating."""
-    return _every_other_bit(unit.real) | _every_other_bit(unit.imag) << np.uint64(1)
+    return _every_other_bit(unit.real) | _every_other_bit(unit.imag) << np.uint32(1)
 
 
-def _every_other_bit(x: Floats) -> NDArray[np.uint64]:
-    bits = (x * 2.0 ** (_CODE_BITS // 2 - 1)).astype(np.uint64)
-    for shift, mask in (
-        (16, 0x0000FFFF0000FFFF),
-        (8, 0x00FF00FF00FF00FF),
-        (4, 0x0F0F0F0F0F0F0F0F),
-        (2, 0x3333333333333333),
-        (1, 0x5555555555555555),
-    ):
-        bits = (bits | bits << np.uint64(shift)) & np.uint64(mask)
+def _every_other_bit(x: Floats) -> ShortKeys:
+    bits = (x * 2.0 ** (_CODE_BITS // 2 - 1)).astype(np.uint32)
+    for shift, mask in ((8, 0x00FF00FF), (4, 0x0F0F0F0F), (2, 0x33333333), (1, 0x55555555)):
+        bits = (bits | bits << np.uint32(shift)) & np.uint32(mask)
     return bits
