@@ -138,7 +138,7 @@ def visible_parts(
     alone = replace(view, occludes=view.occludes & once)
     occluders = _occluders(alone, faces, solid & once, grid, grids.deepest(grid, pieces))
     cover = covered_cells(view, grid, occluders)
-    covered = pieces.nearest > cover[pieces.row * grid.columns[0] + pieces.column]
+    covered = pieces.nearest > cover.take(pieces.row * grid.columns[0] + pieces.column)
     zones = [
         (
             pieces.segment[covered],
@@ -152,10 +152,10 @@ def visible_parts(
     fewer = min(len(occluders), len(pieces))
     slabs = min(max(fewer // IN_SLAB, 4), MOST_SLABS) if fewer > ONE_SLAB else 1
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
-        of = piece[hits.pair]
-        zones.append((pieces.segment[of], hits.low, hits.high, hits.side))
-        whole = (hits.side == 0) & (hits.low <= pieces.low[of]) & (hits.high >= pieces.high[of])
-        alive[of[whole]] = False
+        of = piece.take(hits.pair)
+        zones.append((pieces.segment.take(of), hits.low, hits.high, hits.side))
+        whole = (hits.side == 0) & (hits.low <= pieces.low.take(of)) & (hits.high >= pieces.high.take(of))
+        alive[of.compress(whole)] = False
     segment, low, high, side = (np.concatenate(column) for column in zip(*zones, strict=True))
     owner, low, high = _resolved(segment, low, high, side, gap)
     long = high - low > gap[owner]
@@ -336,7 +336,7 @@ def _all_hits(
         entries = entered(view, grid, occluders, slab, len(pieces))
         for level in entries.levels():
             which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
-            at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
+            at = grid.numbers(pieces.column.take(which) >> level, pieces.row.take(which) >> level, level)
             # A piece is in one block of a level only: whether it is still alive is the same for all of its pairs.
             yield from mapped(partial(clipped, entries), _blocks(which, *entries.of(at)))
         progress(float(end) / len(order))
