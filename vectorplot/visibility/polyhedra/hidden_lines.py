@@ -324,7 +324,7 @@ def _all_hits(
         piece, occluder = piece.take(passing), occluder.take(passing)
         close = np.flatnonzero(occluders.nearest.take(occluder) < pieces.farthest.take(piece))
         piece, occluder = piece.take(close), occluder.take(close)
-        segment, low, high = (of.take(piece) for of in (pieces.segment, pieces.low, pieces.high))
+        segment, low, high = pieces.segment.take(piece), pieces.low.take(piece), pieces.high.take(piece)
         beyond = pieces.nearest.take(piece) > occluders.farthest.take(occluder)
         return piece, clip_pairs(view, segments, occluders, segment, occluder, low, high, beyond), occluder
 

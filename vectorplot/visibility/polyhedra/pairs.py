@@ -111,8 +111,8 @@ def clip_pairs(
         else:
             kept = np.flatnonzero(inside)
             ends = ends.take(kept, axis=1)
-            pair, side, low, high = (of.take(kept) for of in (pair, side, low, high))
-            first, count, behind = (of.take(kept) for of in (first, count, behind))
+            low, high = low.take(kept), high.take(kept)
+            pair, side, first, count, behind = (of.take(kept) for of in (pair, side, first, count, behind))
     pair, low, high, side = (np.concatenate(column) for column in zip(*through, strict=True))
     return Hits(pair, low, high, side)
 

@@ -59,7 +59,8 @@ def without_duplicates(
     compared[owner] = True
     some = np.flatnonzero(compared)
     start, end = start.take(some, axis=0), end.take(some, axis=0)
-    order = _by_importance(start, end, np.atleast_2d(rank).take(long.take(some), axis=1))
+    ranks = np.atleast_2d(rank).take(long.take(some), axis=1).astype(np.float64)
+    order = _by_importance(start, end, ranks)
     some = some.take(order)
     importance = np.empty(len(long), dtype=np.intp)
     importance[some] = np.arange(len(some))
@@ -176,7 +177,7 @@ class _Segments:
         return some[over], low[over], high[over]
 
 
-def _by_importance(start: Floats, end: Floats, rank: Floats | Ints) -> Ints:
+def _by_importance(start: Floats, end: Floats, rank: Floats) -> Ints:
     """The order of the strokes by their ranks (k,n), the most important first; it depends on how they are given for
     equal ones only."""
     order = np.lexsort(rank)
