@@ -19,6 +19,7 @@ from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
 from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_lengths import LEAST_GAIN_OF_TRAVEL
 
 # A run of strokes that moves as one has at most this many.
 _LONGEST_RUN = 3
@@ -26,11 +27,9 @@ _LONGEST_RUN = 3
 _LONGEST_STRETCH = 1000
 # Turning costs no more than so many passes over the tour in a round.
 _PASSES = 8
-# Rounds; shorter tours get more.
+# Rounds; shorter tours get more, longer ones end when one gains little.
 _ROUNDS = 4
 _MORE_ROUNDS = 40000
-# Of tours too long for that a round that gains no more than this part of the travel is the last one.
-_LEAST_GAIN = 1e-3
 
 
 @dataclass(frozen=True, eq=False)
@@ -83,7 +82,7 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
         # A gap of no length has nothing to gain, and only one as long as the way to a neighbour has.
         own = np.fmax(np.abs(ends - spots.take(partner[:count])), 0.0)
         last, travel = travel, 0.5 * float(own.sum())
-        if mean > _MORE_ROUNDS and last - travel < _LEAST_GAIN * travel:
+        if mean > _MORE_ROUNDS and last - travel < LEAST_GAIN_OF_TRAVEL * travel:
             break
         reach = np.where(awake[:count], own, 0.0)
         pairs = nearer_than(reach, among)
