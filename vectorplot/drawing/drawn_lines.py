@@ -47,19 +47,18 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     open_ = np.zeros(count, dtype=np.bool_)
     # Lines at the same depth but for rounding go by their items: so neither size nor place decides which one stays.
     depth = np.round(view.depth_of(ends).reshape(-1, 2).sum(axis=1), 8)
-    order = np.lexsort((item, depth, kind, seen.hidden_by > 0))
-    rank = np.empty(count, dtype=np.intp)
-    rank[order] = np.arange(count)
+    rank = np.stack([np.arange(count), item, depth, kind, seen.hidden_by > 0])
     paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), parts.smooth)
     if parts.chords:
         # A page shows the image larger, not turned.
         directions = _at_ends(parts.chords.directions(view))
         paths = replace(paths, directions=directions, curve=parts.chords.curve, handles=_at_ends(handles))
+    world = placement.page_from_world
+    if not paths.smooth.any():
+        return without_duplicates(paths, rank, COINCIDENT_MM, world, seen.segment)
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
-    given, line = chosen(paths, straight), seen.segment[straight]
-    once = without_duplicates(given, rank[straight], COINCIDENT_MM, placement.page_from_world, line)
-    if not len(smooth):
-        return once
+    given, line = chosen(paths, straight), seen.segment.take(straight)
+    once = without_duplicates(given, rank.take(straight, axis=1), COINCIDENT_MM, world, line)
     curve_rank = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
     return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.exact.radix import radix_order
 
 BITS = 40
 """Parameters are compared in steps of 2^-40 when deciding whether intervals touch."""
@@ -46,8 +47,8 @@ def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Fl
     """
     if not len(owner):
         return owner, low, high
-    order = np.argsort(owner + 0.5 * low)
-    owner, low, high = owner[order], low[order], high[order]
+    order = _ascending(owner, low)
+    owner, low, high = owner.take(order), low.take(order), high.take(order)
     rank = np.concatenate([[0], np.cumsum(owner[1:] != owner[:-1])])
     # Never beyond the end of its owner: there the next one begins.
     reach = (rank << (BITS + 1)) + (np.minimum(high + gap[owner], 1.0) * (1 << BITS)).astype(np.int64)
@@ -55,6 +56,14 @@ def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Fl
     begin = (rank << (BITS + 1)) + (low * (1 << BITS)).astype(np.int64)
     starts = np.flatnonzero(np.concatenate([[True], begin[1:] > reach[:-1]]))
     return owner[starts], np.minimum.reduceat(low, starts), np.maximum.reduceat(high, starts)
+
+
+def _ascending(owner: Ints, low: Floats) -> Ints:
+    """The order of intervals by their owners, and for each by where they begin."""
+    bits = int(owner.max()).bit_length()
+    steps = min(BITS, 64 - bits)
+    place = np.minimum((low * 2.0**steps).astype(np.uint64), np.uint64(2**steps - 1))
+    return radix_order(owner.astype(np.uint64) << np.uint64(steps) | place, bits + steps)
 
 
 def complement(count: int, owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Floats, Floats]:

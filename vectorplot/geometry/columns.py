@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.exact.radix import radix_order
 
 
 def dot(a: Floats, b: Floats) -> Floats:
@@ -37,9 +38,9 @@ def first_of_equal(columns: Floats) -> Bools:
     for row in columns:
         key = ((key ^ key >> np.uint64(29)) + row.view(np.uint64)) * _MIX[0]
     key = (key ^ key >> np.uint64(32)) * _MIX[1]
-    order = np.argsort(key, kind="stable")
+    order = radix_order(key, 64)
     again = np.zeros(len(order), dtype=np.bool_)
-    again[1:] = key[order][1:] == key[order][:-1]
+    again[1:] = np.diff(key.take(order)) == 0
     head = order[np.maximum.accumulate(np.where(again, 0, np.arange(len(order))))]
     first = np.ones(len(order), dtype=np.bool_)
     first[order[again]] = False

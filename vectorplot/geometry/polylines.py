@@ -141,6 +141,8 @@ def segments(lines: RingRecord) -> Ints:
 def some(lines: L, which: Ints | Bools) -> L:
     """Some of the polylines, with all that is said of them: those with these indices, in this order; or those where a
     mask is true."""
+    if which.dtype == np.bool_ and which.all():
+        return lines
     points, offsets = ragged.take(lines.offsets, which)
     return _with_rows(lines, points, which, offsets)
 

@@ -105,3 +105,7 @@ SMALLEST_STEP_SHARE = 1e-3
 
 UNION_OF_SEGMENT = 1e-9
 """Hidden parts of a segment less than this part of it apart are one: what is left between them is rounding."""
+
+LEAST_GAIN_OF_TRAVEL = 1e-3
+"""A round of moves that makes a long tour of the pen shorter by less than this part is its last one: those that follow
+gain less still, and each costs as much as a tenth of the whole order."""

@@ -98,7 +98,7 @@ def _parted(node: Ints, ends: Floats, reach: float) -> Ints:
 
 def _nodes(ends: Floats, group: Ints, tolerance_mm: float) -> Ints:
     """(2m,) the node of the start (even) and end (odd) of every stroke, numbered from 0."""
-    x, y = np.ascontiguousarray((ends - ends.min(axis=0)).T)
+    x, y = (axis - axis.min() for axis in ends.T)
     head = clusters(x, y, group, tolerance_mm)
     number = np.cumsum(head == np.arange(len(head))) - 1
     return np.asarray(number[head], dtype=np.intp)
@@ -190,18 +190,20 @@ def _assembled(paths: Paths, open_: Ints, order: Chains) -> Paths:
     turned = np.zeros(len(index), dtype=np.bool_)
     turned[: kept.sum()] = np.repeat(backwards, kept)
     directions, handles = directed(whole.directions, turned), swapped(whole.handles, turned).copy()
-    joint, first = _joints(order, kept, dropped), np.where(backwards, begin + dropped, begin - dropped)
-    directions[joint, 1] = directed(paths.directions[first], backwards)[~head, 1]
-    handles[joint, 1] = swapped(paths.handles[first], backwards)[~head, 1]
+    later = np.flatnonzero(dropped)
+    joint, first, back = _joints(order, kept, later), np.where(backwards, begin + 1, begin - 1)[later], backwards[later]
+    directions[joint, 1] = directed(paths.directions.take(first, axis=0), back)[:, 1]
+    handles[joint, 1] = swapped(paths.handles.take(first, axis=0), back)[:, 1]
     return replace(whole, closed=closed, directions=directions, handles=handles)
 
 
-def _joints(order: Chains, kept: Ints, dropped: Ints) -> Ints:
-    """(j,) where the points stand at which strokes that lose their first one are joined to those before them."""
+def _joints(order: Chains, kept: Ints, later: Ints) -> Ints:
+    """(j,) where the points stand at which strokes (j,), which lose their first one, are joined to those before
+    them."""
     last = np.cumsum(kept) - 1
     before = np.arange(len(kept)) - 1
     before[order.offsets[:-1]] = order.offsets[1:] - 1
-    return last[before[dropped > 0]]
+    return last[before[later]]
 
 
 def _stepped(begin: Ints, counts: Ints, backwards: Bools) -> Ints:

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.exact.radix import Keys, radix_order
 from vectorplot.geometry import ragged
-
-Keys = NDArray[np.uint64]
 
 CELL = 16.0
 """Width of a cell in units of the reach: a wide cell has few points near its border, a narrow one few in all."""
 
 _MIX = tuple(np.uint64(odd) for odd in (0x9E3779B97F4A7C15, 0xC2B2AE3D27D4EB4F, 0x165667B19E3779F9))
+
+
+_FEWEST_BITS, _LEADING_BITS = 48, 30
+"""Keys with their owners are put in order by the first so many bits, if as many of the key are among them that hardly
+any different keys agree in these; otherwise by 64."""
 
 
 def hashed(*parts: Ints) -> Keys:
@@ -44,7 +47,7 @@ def overlapping_cells(x: Floats, y: Floats, label: Ints, reach: tuple[float, flo
     owner = np.concatenate([part[0] for part in parts])
     sizes = [len(part[0]) for part in parts]
     step_x, step_y = (np.repeat([part[axis] for part in parts], sizes) for axis in (1, 2))
-    return hashed(column[owner] - step_x, row[owner] - step_y, label[owner]), owner
+    return hashed(column.take(owner) - step_x, row.take(owner) - step_y, label.take(owner)), owner
 
 
 def companions(key: Keys, owner: Ints) -> tuple[Ints, Ints]:
@@ -56,8 +59,11 @@ def companions(key: Keys, owner: Ints) -> tuple[Ints, Ints]:
     """
     if not len(key):
         return owner, np.zeros(1, dtype=np.intp)
-    bits = np.uint64(int(owner.max()).bit_length())
-    packed = np.sort((key >> bits << bits) | owner.astype(np.uint64))
+    of_owner = int(owner.max()).bit_length()
+    width = _FEWEST_BITS if of_owner <= _FEWEST_BITS - _LEADING_BITS else 64
+    bits = np.uint64(of_owner)
+    packed = key >> np.uint64(64 - width + of_owner) << bits | owner.astype(np.uint64)
+    packed = packed.take(radix_order(packed, width))
     leading = packed >> bits
     same = leading[1:] == leading[:-1]
     shared = np.concatenate((same, [False])) | np.concatenate(([False], same))

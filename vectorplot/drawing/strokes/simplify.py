@@ -60,34 +60,41 @@ def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
 
 def _goes_straight(paths: Paths, tolerance_mm: float) -> Bools:
     """(p,) whether each point lies between its neighbours, or on one; False for the ends of open strokes."""
+    inner, before, after = _inner_points(paths)
+    (into_x, out_x), (into_y, out_y) = (
+        (here - column.take(before), column.take(after) - here)
+        for column, here in ((column, column.take(inner)) for column in paths.points.T)
+    )
+    good: Bools = into_x * out_x + into_y * out_y >= 0.0
+    area = into_x * out_y - into_y * out_x
+    chord_x, chord_y = into_x + out_x, into_y + out_y
+    good &= area * area <= tolerance_mm * tolerance_mm * (chord_x * chord_x + chord_y * chord_y)
+    # Whether a step of no length goes on or back is seen along the chord only.
+    zero = (ZERO_OF_EXTENT * _extent(paths)) ** 2
+    good |= (into_x * into_x + into_y * into_y <= zero) | (out_x * out_x + out_y * out_y <= zero)
+    straight = np.zeros(len(paths.points), dtype=np.bool_)
+    straight[inner.compress(good)] = True
+    return straight
+
+
+def _inner_points(paths: Paths) -> tuple[Ints, Ints, Ints]:
+    """(n,) the points that have neighbours on both sides, and these; the last point of a closed stroke joins the
+    first."""
     counts = np.diff(paths.offsets)
     drawn = counts > 0
     first, last = paths.offsets[:-1][drawn], paths.offsets[1:][drawn] - 1
-    (into_x, out_x), (into_y, out_y) = (_steps(column, first, last) for column in paths.points.T)
-    straight: Bools = into_x * out_x + into_y * out_y >= 0.0
-    area = into_x * out_y - into_y * out_x
-    chord_x, chord_y = into_x + out_x, into_y + out_y
-    straight &= area * area <= tolerance_mm * tolerance_mm * (chord_x * chord_x + chord_y * chord_y)
-    # Whether a step of no length goes on or back is seen along the chord only.
-    zero = (ZERO_OF_EXTENT * _extent(paths)) ** 2
-    straight |= (into_x * into_x + into_y * into_y <= zero) | (out_x * out_x + out_y * out_y <= zero)
-    ends = ~paths.closed[drawn] | (counts[drawn] < 3)
-    straight[first[ends]] = straight[last[ends]] = False
-    return straight
+    ring = paths.closed[drawn] & (counts[drawn] > 2)
+    has_two = np.ones(len(paths.points), dtype=np.bool_)
+    has_two[first[~ring]] = has_two[last[~ring]] = False
+    inner = np.flatnonzero(has_two)
+    before, after = inner - 1, inner + 1
+    first, last = first[ring], last[ring]
+    before[np.searchsorted(inner, first)], after[np.searchsorted(inner, last)] = last, first
+    return inner, before, after
 
 
 def _extent(paths: Paths) -> float:
     return float(max(np.ptp(axis) for axis in paths.points.T))
-
-
-def _steps(column: Floats, first: Ints, last: Ints) -> tuple[Floats, Floats]:
-    """(p,), (p,) what a coordinate gains on the way into each point and out of it; the last point joins the first."""
-    into = np.empty(len(column) + 1)
-    np.subtract(column[1:], column[:-1], out=into[1:-1])
-    into[first] = column[first] - column[last]
-    out = into[1:].copy()
-    out[last] = into[first]
-    return into[:-1], out
 
 
 @dataclass(frozen=True, eq=False)

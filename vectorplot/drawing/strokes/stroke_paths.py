@@ -46,15 +46,27 @@ def unrolled(paths: Paths, start: Ints, extra: Ints) -> Paths:
 
 def directed(directions: Floats, backwards: Bools) -> Floats:
     """(p,2) the directions at points, turned round at those that strokes run through backwards (p,) now."""
-    if not backwards.any():
+    turned = _known(directions, backwards)
+    if not len(turned):
         return directions
-    other_way = np.where(directions > 0.0, directions - np.pi, directions + np.pi)[:, ::-1]
-    return np.where(backwards[:, None], other_way, directions)
+    there, result = directions.take(turned, axis=0), directions.copy()
+    result[turned] = np.where(there > 0.0, there - np.pi, there + np.pi)[:, ::-1]
+    return result
 
 
 def swapped(handles: Floats, backwards: Bools) -> Floats:
     """(p,2) the lengths of handles at points, those back and ahead changed where strokes run backwards (p,) now."""
-    return np.where(backwards[:, None], handles[:, ::-1], handles) if backwards.any() else handles
+    turned = _known(handles, backwards)
+    if not len(turned):
+        return handles
+    result = handles.copy()
+    result[turned] = handles.take(turned, axis=0)[:, ::-1]
+    return result
+
+
+def _known(values: Floats, which: Bools) -> Ints:
+    """Those of some points (p,) of which one of two values (p,2) at least is known."""
+    return np.flatnonzero(which & ~(np.isnan(values[:, 0]) & np.isnan(values[:, 1])))
 
 
 def sections(
@@ -80,7 +92,8 @@ def sections(
         points[cut], points3d[cut] = _divided(paths, segment[inside], t[inside], page_from_world)
         directions[cut] = handles[cut] = np.nan
         # Parts that begin where their segment ends, or end where it begins.
-        at, of = places[there], point[there]
+        ends = np.flatnonzero(there)
+        at, of = places.take(ends), point.take(ends)
         points[at], points3d[at] = paths.points.take(of, axis=0), paths.points3d.take(of, axis=0)
         directions[at], handles[at] = paths.directions.take(of, axis=0), paths.handles.take(of, axis=0)
     open_ = np.zeros(len(stroke), dtype=np.bool_)
@@ -104,7 +117,7 @@ def _divided(paths: Paths, segment: Ints, t: Floats, page_from_world: Floats) ->
     a, b = paths.points.take(segment, axis=0), paths.points.take(segment + 1, axis=0)
     a3, b3 = paths.points3d.take(segment, axis=0), paths.points3d.take(segment + 1, axis=0)
     # Depths count by their ratio alone: powers of two keep what is very large within range, and all digits.
-    reach, weight = (int(np.frexp(np.abs(some).max(initial=1.0))[1]) for some in (paths.points3d, page_from_world[3]))
+    reach, weight = (int(np.frexp(np.abs(some).max(initial=1.0))[1]) for some in ((a3, b3), page_from_world[3]))
     row = np.ldexp(page_from_world[3], (-weight, -weight, -weight, -weight - reach))
     depth_a, depth_b = (np.abs(np.ldexp(ends, -reach) @ row[:3] + row[3]) for ends in (a3, b3))
     whole = t * depth_a + (1.0 - t) * depth_b

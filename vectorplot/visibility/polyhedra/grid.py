@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.tolerances.of_extent import SMALLEST_CELL
@@ -158,12 +159,12 @@ def _pieces(
     at: Floats,
     after: Floats,
 ) -> Pieces:
-    x0, y0 = start[0][segment], start[1][segment]
-    dx, dy = end[0][segment] - x0, end[1][segment] - y0
+    x0, y0 = start[0].take(segment), start[1].take(segment)
+    dx, dy = end[0].take(segment) - x0, end[1].take(segment) - y0
     middle = 0.5 * (at + after)
     ends = np.empty((4, len(segment)), dtype=np.float32)
     ends[0], ends[1], ends[2], ends[3] = x0 + at * dx, y0 + at * dy, x0 + after * dx, y0 + after * dy
-    near, far = start_depth[segment], end_depth[segment]
+    near, far = start_depth.take(segment), end_depth.take(segment)
     low, high = (in_space(t, near, far) if central else t for t in (at, after))
     z0, z1 = near + low * (far - near), near + high * (far - near)
     box = np.stack([pick(ends[k], ends[k + 2]) for k in (0, 1) for pick in (np.minimum, np.maximum)])
@@ -233,7 +234,8 @@ class Entries:
         if len(cells) * SEARCH_COST < self.grid.first[-1]:
             begin = np.searchsorted(self.cell, cells)
             return begin, np.searchsorted(self.cell, cells, side="right") - begin
-        return self._starts[cells], self._starts[cells + 1] - self._starts[cells]
+        begin = self._starts.take(cells)
+        return begin, self._starts.take(cells + 1) - begin
 
     @cached_property
     def _starts(self) -> Ints:
@@ -261,5 +263,5 @@ def entry_level(grid: Grid, box: Floats32) -> Ints:
 def entries(grid: Grid, thing: Ints, column: Ints, row: Ints, level: Ints) -> Entries:
     """Things entered in cells of their levels."""
     cell = grid.numbers(column, row, level)
-    order = np.argsort(cell)
-    return Entries(grid, cell[order], thing[order])
+    order = radix_order(cell.astype(np.uint64), int(grid.first[-1]).bit_length())
+    return Entries(grid, cell.take(order), thing.take(order))

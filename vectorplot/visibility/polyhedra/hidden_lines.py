@@ -138,7 +138,7 @@ def visible_parts(
     alone = replace(view, occludes=view.occludes & once)
     occluders = _occluders(alone, faces, solid & once, grid, grids.deepest(grid, pieces))
     cover = covered_cells(view, grid, occluders)
-    covered = pieces.nearest > cover[pieces.row * grid.columns[0] + pieces.column]
+    covered = pieces.nearest > cover.take(pieces.row * grid.columns[0] + pieces.column)
     zones = [
         (
             pieces.segment[covered],
@@ -152,10 +152,10 @@ def visible_parts(
     fewer = min(len(occluders), len(pieces))
     slabs = min(max(fewer // IN_SLAB, 4), MOST_SLABS) if fewer > ONE_SLAB else 1
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
-        of = piece[hits.pair]
-        zones.append((pieces.segment[of], hits.low, hits.high, hits.side))
-        whole = (hits.side == 0) & (hits.low <= pieces.low[of]) & (hits.high >= pieces.high[of])
-        alive[of[whole]] = False
+        of = piece.take(hits.pair)
+        zones.append((pieces.segment.take(of), hits.low, hits.high, hits.side))
+        whole = (hits.side == 0) & (hits.low <= pieces.low.take(of)) & (hits.high >= pieces.high.take(of))
+        alive[of.compress(whole)] = False
     segment, low, high, side = (np.concatenate(column) for column in zip(*zones, strict=True))
     owner, low, high = _resolved(segment, low, high, side, gap)
     long = high - low > gap[owner]
@@ -317,14 +317,15 @@ def _all_hits(
     order = np.argsort(occluders.nearest, kind="stable")
     in_image = sieve(view, grid, pieces, occluders)
 
-    def clipped(entries: Entries, pairs: tuple[Ints, Ints]) -> tuple[Ints, Hits, Ints]:
-        piece, occluder = pairs[0], entries.thing[pairs[1]]
+    def clipped(entries: Entries, some: tuple[Ints, Ints, Ints]) -> tuple[Ints, Hits, Ints]:
+        which, begin, counts = some
+        piece, occluder = np.repeat(which, counts), entries.thing.take(ragged.ranges(begin, counts))
         passing = in_image.passing(piece, occluder)
-        piece, occluder = piece[passing], occluder[passing]
-        close = np.flatnonzero(occluders.nearest[occluder] < pieces.farthest[piece])
-        piece, occluder = piece[close], occluder[close]
-        segment, low, high = pieces.segment[piece], pieces.low[piece], pieces.high[piece]
-        beyond = pieces.nearest[piece] > occluders.farthest[occluder]
+        piece, occluder = piece.take(passing), occluder.take(passing)
+        close = np.flatnonzero(occluders.nearest.take(occluder) < pieces.farthest.take(piece))
+        piece, occluder = piece.take(close), occluder.take(close)
+        segment, low, high = pieces.segment.take(piece), pieces.low.take(piece), pieces.high.take(piece)
+        beyond = pieces.nearest.take(piece) > occluders.farthest.take(occluder)
         return piece, clip_pairs(view, segments, occluders, segment, occluder, low, high, beyond), occluder
 
     bounds = np.linspace(0, len(order), slabs + 1).astype(np.intp)
@@ -335,24 +336,21 @@ def _all_hits(
         entries = entered(view, grid, occluders, slab, len(pieces))
         for level in entries.levels():
             which = np.flatnonzero(alive & (pieces.farthest > occluders.nearest[slab[0]]))
-            at = grid.numbers(pieces.column[which] >> level, pieces.row[which] >> level, level)
+            at = grid.numbers(pieces.column.take(which) >> level, pieces.row.take(which) >> level, level)
             # A piece is in one block of a level only: whether it is still alive is the same for all of its pairs.
-            yield from mapped(partial(clipped, entries), _expanded(*entries.of(at), which))
+            yield from mapped(partial(clipped, entries), _blocks(which, *entries.of(at)))
         progress(float(end) / len(order))
 
 
-def _expanded(begin: Ints, counts: Ints, which: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Blocks of (piece, entry) for every entry of the pieces' cells, counts of them from begin on."""
+def _blocks(which: Ints, begin: Ints, counts: Ints) -> Iterator[tuple[Ints, Ints, Ints]]:
+    """Pieces (n,) in blocks of about as many pairs with the entries of their cells, counts of them from begin on."""
     full = np.flatnonzero(counts)
-    begin, counts, which = begin[full], counts[full], which[full]
+    which, begin, counts = which.take(full), begin.take(full), counts.take(full)
     total = np.cumsum(counts)
     cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]) if len(total) else 0, PAIRS_AT_ONCE)) + 1
     edges = np.unique(np.concatenate([[0], cuts, [len(counts)]]))
     for low, high in pairwise(edges.tolist()):
-        size = counts[low:high]
-        owner = np.repeat(np.arange(low, high), size)
-        step = ragged.place(size)
-        yield which[owner], begin[owner] + step
+        yield which[low:high], begin[low:high], counts[low:high]
 
 
 def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats) -> tuple[Ints, Floats, Floats]:

@@ -68,14 +68,16 @@ def clip_pairs(
     and zero does not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
     Source: Glaeser, section 7.2; errata G7-01 and G7-02.
     """
-    skipped = np.where(beyond, occluders.behind[occluder], 0)
-    pair, reach = _over_first_plane(view, segments, occluders, segment, occluders.first[occluder] + skipped, beyond)
-    low, high, side = low[pair], high[pair], np.zeros(len(pair), dtype=np.intp)
-    of = segment[pair]
+    skipped = occluders.behind.take(occluder) * beyond
+    pair, reach = _over_first_plane(
+        view, segments, occluders, segment, occluders.first.take(occluder) + skipped, beyond
+    )
+    low, high, side = low.take(pair), high.take(pair), np.zeros(len(pair), dtype=np.intp)
+    of = segment.take(pair)
     ends = np.concatenate([segments.start.take(of, axis=1), segments.end.take(of, axis=1)])
-    occluder, skipped = occluder[pair], skipped[pair]
-    first, behind = occluders.first[occluder] + skipped, occluders.behind[occluder] - skipped
-    count = occluders.first[occluder + 1] - first
+    occluder, skipped = occluder.take(pair), skipped.take(pair)
+    first, behind = occluders.first.take(occluder) + skipped, occluders.behind.take(occluder) - skipped
+    count = occluders.first.take(occluder + 1) - first
     through = [(pair[:0], low[:0], high[:0], side[:0])]
     final = occluders.planes.shape[1] - 1
     for step in range(int(count.max(initial=0))):
@@ -92,23 +94,25 @@ def clip_pairs(
             side[along] = new
         crossing = np.flatnonzero(product < 0.0)
         if len(crossing):
-            begin, end = at_start[crossing], at_end[crossing]
+            begin, end = at_start.take(crossing), at_end.take(crossing)
             where, leaving = begin / (begin - end), begin > 0.0
-            out, into = crossing[leaving], crossing[~leaving]
-            high[out] = np.minimum(high[out], where[leaving])
-            low[into] = np.maximum(low[into], where[~leaving])
+            out, into = crossing.compress(leaving), crossing.compress(~leaving)
+            high[out] = np.minimum(high.take(out), where.compress(leaving))
+            low[into] = np.maximum(low.take(into), where.compress(~leaving))
         inside &= low < high
         last = inside & (count == step + 1)
         if last.any():
-            through.append((pair[last], low[last], high[last], side[last]))
+            done = np.flatnonzero(last)
+            through.append((pair.take(done), low.take(done), high.take(done), side.take(done)))
             inside &= ~last
         if np.count_nonzero(inside) > FULL * len(inside):
             # Few are done with: they stay, marked by an empty interval, since moving the others costs more.
-            high[~inside] = -1.0
+            np.putmask(high, ~inside, -1.0)
         else:
             kept = np.flatnonzero(inside)
-            pair, side, low, high, ends = pair[kept], side[kept], low[kept], high[kept], ends.take(kept, axis=1)
-            first, count, behind = first[kept], count[kept], behind[kept]
+            ends = ends.take(kept, axis=1)
+            low, high = low.take(kept), high.take(kept)
+            pair, side, first, count, behind = (of.take(kept) for of in (pair, side, first, count, behind))
     pair, low, high, side = (np.concatenate(column) for column in zip(*through, strict=True))
     return Hits(pair, low, high, side)
 
@@ -120,14 +124,14 @@ def _over_first_plane(
 
     Most pairs of a mesh end here: the faces around a line do not hide it. A line in a plane of the outline stays.
     """
-    a, b, c, d = (row[plane] for row in occluders.planes)
-    x, y, z = segments.start
-    at_start = a * x[segment] + b * y[segment] + c * z[segment] - d
-    x, y, z = segments.end
-    at_end = a * x[segment] + b * y[segment] + c * z[segment] - d
+    a, b, c, d = (row.take(plane) for row in occluders.planes)
+    x, y, z = (row.take(segment) for row in segments.start)
+    at_start = a * x + b * y + c * z - d
+    x, y, z = (row.take(segment) for row in segments.end)
+    at_end = a * x + b * y + c * z - d
     least = np.where(beyond, -view.tolerance, view.tolerance)
     pair = np.flatnonzero(np.maximum(at_start, at_end) > least)
-    return pair, (_snapped(at_start[pair], view.tolerance), _snapped(at_end[pair], view.tolerance))
+    return pair, (_snapped(at_start.take(pair), view.tolerance), _snapped(at_end.take(pair), view.tolerance))
 
 
 def _heights(view: View, occluders: Occluders, plane: Ints, ends: Floats) -> tuple[Floats, Floats]:

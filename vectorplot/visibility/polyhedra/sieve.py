@@ -40,9 +40,9 @@ class Sieve:
     def passing(self, piece: Ints, occluder: Ints) -> Ints:
         """The pairs, by their positions, whose boxes overlap and of which no side of the outline keeps the piece
         outside."""
-        passing = np.flatnonzero(_overlapping(self.piece_boxes[piece], self.boxes[occluder]))
+        passing = np.flatnonzero(_overlapping(self.piece_boxes.take(piece), self.boxes.take(occluder)))
         for side in self.sides:
-            reaching = _reaching(self.ends[piece[passing]], side[occluder[passing]])
+            reaching = _reaching(self.ends.take(piece.take(passing)), side.take(occluder.take(passing)))
             passing = passing.compress(reaching)
         return passing
 

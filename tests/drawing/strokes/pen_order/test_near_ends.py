@@ -15,7 +15,7 @@ def ends():
 
 def near(reach):
     spots, layer = ends()
-    one, other, apart = nearer_than(reach, OPPOSITE, crowd(spots, layer, curves_through(spots, layer)))
+    one, other, apart = nearer_than(reach, crowd(spots, OPPOSITE, layer, curves_through(spots, layer)))
     return {(int(a), int(b)): float(d) for a, b, d in zip(one, other, apart, strict=True)}
 
 
@@ -40,3 +40,9 @@ def test_those_that_look_find_the_same_however_many_look(share):
     looks = np.arange(COUNT) % share == 0
     everybody, few = near(np.full(COUNT, 0.02)), near(np.where(looks, 0.02, 0.0))
     assert few == {pair: apart for pair, apart in everybody.items() if looks[pair[0]]}
+
+
+def test_no_pair_is_found_twice_but_where_a_curve_closes():
+    spots, layer = ends()
+    one, other, _ = nearer_than(np.full(COUNT, 0.02), crowd(spots, OPPOSITE, layer, curves_through(spots, layer)))
+    assert len(set(zip(one.tolist(), other.tolist(), strict=True))) > len(one) - 10

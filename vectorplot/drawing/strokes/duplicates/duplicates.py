@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.neighbours import Keys, companions, overlapping_cells
+from vectorplot.drawing.strokes.neighbours import companions, overlapping_cells
 from vectorplot.drawing.strokes.stroke_paths import chosen, sections
 from vectorplot.exact import intervals
+from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import mapped
 from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH
 
 PAIRS_AT_ONCE = 1 << 18
 
 _SMALL = 6
-"""In crowds of up to this many, all pairs of boxes are compared first; most crowds are strokes one after the other."""
+"""Of groups of up to this many, all pairs are compared first; in most no stroke lies on another."""
+
+_PLACE_BITS = 40
+"""Places along strokes are compared in steps of 2^-40 of the extent when deciding which strokes overlap."""
 
 _ROUNDS = 3
 """How many of the best strokes of a crowd are tried on all the others before all pairs of it are looked at."""
@@ -26,41 +31,47 @@ _ROUNDS = 3
 
 def without_duplicates(
     paths: Paths,
-    rank: Ints,
+    rank: Floats | Ints,
     tolerance_mm: float,
     page_from_world: Floats | None = None,
     line: Ints | None = None,
 ) -> Paths:
     """The same picture without the parts of strokes that lie on more important ones.
 
-    paths: straight strokes of two points; rank (m,): the smaller of two wins; of equal ones the longer, then the one
-    further left, so that the picture does not depend on the order of the strokes. Two strokes lie on each other where
-    they overlap and the shorter one's ends are within tolerance_mm (and a thousandth of its length) of the other's
-    line: lines that only run close together both stay. page_from_world (4,4) as in Drawing, by default a parallel
-    projection: points3d is divided where the page is. line (m,): equal for parts of one straight line, which do not lie
-    on each other; by default each is one of its own. Strokes keep their order; what is no longer than tolerance_mm
-    is left out.
+    paths: straight strokes of two points; rank (m,): the smaller of two wins, or (k,m), where the last row counts most;
+    of equal ones the longer, then the one further left, so that the picture does not depend on the order of the
+    strokes. Two strokes lie on each other where they overlap and the shorter one's ends are within tolerance_mm (and a
+    thousandth of its length) of the other's line: lines that only run close together both stay. page_from_world (4,4)
+    as in Drawing, by default a parallel projection: points3d is divided where the page is. line (m,): equal for parts
+    of one straight line, which do not lie on each other; by default each is one of its own. Strokes keep their order;
+    what is no longer than tolerance_mm is left out.
     """
-    start, end = paths.points[::2], paths.points[1::2]
-    length = np.hypot(*(end - start).T)
-    long = length > tolerance_mm
-    if not long.all():
-        line = None if line is None else line[long]
-        return without_duplicates(chosen(paths, long), rank[long], tolerance_mm, page_from_world, line)
-    line = np.arange(len(paths)) if line is None else line
+    long = np.flatnonzero(_lengths(paths.points[::2], paths.points[1::2]) > tolerance_mm)
+    kept = np.zeros(len(paths), dtype=np.bool_)
+    kept[long] = True
+    start, end = paths.points.take(2 * long, axis=0), paths.points.take(2 * long + 1, axis=0)
+    line = long if line is None else line.take(long)
     owner, starts = nearly_collinear(start, end, tolerance_mm, line)
+    owner, starts = _overlapping(_Segments(start, end, line, tolerance_mm), owner, starts)
     if not len(owner):
-        return paths
-    candidates, index = np.unique(owner, return_inverse=True)
-    ordered = candidates[_by_importance(start[candidates], end[candidates], length[candidates], rank[candidates])]
-    importance = np.zeros(len(candidates), dtype=np.intp)
-    importance[np.searchsorted(candidates, ordered)] = np.arange(len(ordered))
-    segments = _Segments(start[ordered], end[ordered], line[ordered], tolerance_mm)
-    dropped, loser, low, high = _covered(segments, importance[index], starts)
+        return chosen(paths, kept)
+    compared = np.zeros(len(long), dtype=np.bool_)
+    compared[owner] = True
+    some = np.flatnonzero(compared)
+    start, end = start.take(some, axis=0), end.take(some, axis=0)
+    ranks = np.atleast_2d(rank).take(long.take(some), axis=1).astype(np.float64)
+    order = _by_importance(start, end, ranks)
+    some = some.take(order)
+    importance = np.empty(len(long), dtype=np.intp)
+    importance[some] = np.arange(len(some))
+    segments = _Segments(start.take(order, axis=0), end.take(order, axis=0), line.take(some), tolerance_mm)
+    dropped, loser, low, high = _covered(segments, importance.take(owner), starts)
+    some = long.take(some)
+    kept[some.take(dropped)] = False
     gap = np.zeros(len(paths))
-    gap[ordered] = tolerance_mm / segments.length
+    gap[some] = tolerance_mm / segments.length
     world = np.eye(4) if page_from_world is None else page_from_world
-    return _without(paths, ordered[dropped], ordered[loser], low, high, gap, world)
+    return _without(paths, kept, some.take(loser), low, high, gap, world)
 
 
 def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -> tuple[Ints, Ints]:
@@ -69,27 +80,54 @@ def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -
 
     line (n,): equal for strokes that are known not to lie on each other.
     """
-    length = np.hypot(*(end - start).T)
-    return _overlapping(start, end, line, *_crowds(start, end, length, tolerance), tolerance)
+    if len(line) < 2:
+        return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
+    crowds = _crowds(start, end, _lengths(start, end), tolerance)
+
+    def of_axis(axis: int) -> tuple[Ints, Ints]:
+        owner, starts = _of_several(line, *crowds(axis))
+        owner, starts = _touching(start[:, axis], end[:, axis], owner, starts, 0.5 * tolerance)
+        return _of_several(line, owner, starts)
+
+    owners, groups = zip(*mapped(of_axis, (0, 1)), strict=True)
+    return np.concatenate(owners), ragged.offsets(np.concatenate([np.diff(starts) for starts in groups]))
+
+
+def _overlapping(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
+    """The groups in which some strokes of different lines may lie on each other, and those of many strokes."""
+    size = np.diff(starts)
+    run, of = ragged.owner(size), segments.line.take(owner)
+    stays = size > _SMALL
+    for lag in range(1, min(_SMALL, int(size.max(initial=1)))):
+        one = np.flatnonzero((run[lag:] == run[:-lag]) & (of[lag:] != of[:-lag]) & ~stays.take(run[lag:]))
+        near = one.take(segments.close(owner.take(one), owner.take(one + lag))[0])
+        stays[run.take(near)] = True
+    return owner.compress(stays.take(run)), ragged.offsets(size[stays])
+
+
+def _lengths(start: Floats, end: Floats) -> Floats:
+    x, y = (end[:, axis] - start[:, axis] for axis in (0, 1))
+    length: Floats = np.sqrt(x * x + y * y)
+    return length
 
 
 def _without(
-    paths: Paths, dropped: Ints, loser: Ints, low: Floats, high: Floats, gap: Floats, page_from_world: Floats
+    paths: Paths, kept: Bools, loser: Ints, low: Floats, high: Floats, gap: Floats, page_from_world: Floats
 ) -> Paths:
-    """The strokes without those that are dropped, and without the parts from low to high of losers."""
-    whole = np.ones(len(paths), dtype=np.bool_)
-    whole[dropped] = whole[loser] = False
-    if whole.all():
-        return paths
-    touched = np.unique(loser)
-    number, low, high = intervals.union(np.searchsorted(touched, loser), low, high, gap[touched])
+    """The strokes that are kept (m,), without the parts from low to high of losers."""
+    if not len(loser):
+        return chosen(paths, kept)
+    loses = np.zeros(len(paths), dtype=np.bool_)
+    loses[loser] = True
+    touched, number = np.flatnonzero(loses), np.cumsum(loses) - 1
+    number, low, high = intervals.union(number.take(loser), low, high, gap[touched])
     part, low, high = intervals.complement(len(touched), number, low, high, gap[touched])
-    kept = np.flatnonzero(whole)
-    stroke = np.concatenate((kept, touched[part]))
-    t_low, t_high = np.concatenate((np.zeros(len(kept)), low)), np.concatenate((np.ones(len(kept)), high))
-    order = np.lexsort((t_low, stroke))
-    first = 2 * stroke[order]
-    return sections(paths, stroke[order], first, t_low[order], first, t_high[order], page_from_world)
+    whole = np.flatnonzero(kept & ~loses)
+    stroke = np.concatenate((whole, touched[part]))
+    t_low, t_high = np.concatenate((np.zeros(len(whole)), low)), np.concatenate((np.ones(len(whole)), high))
+    order = np.argsort(stroke, kind="stable")
+    stroke = stroke.take(order)
+    return sections(paths, stroke, 2 * stroke, t_low.take(order), 2 * stroke, t_high.take(order), page_from_world)
 
 
 class _Segments:
@@ -98,7 +136,7 @@ class _Segments:
     def __init__(self, start: Floats, end: Floats, line: Ints, tolerance: float) -> None:
         self.start, self.end, self.line, self.tolerance = start, end, line, tolerance
         along = end - start
-        self.length = np.hypot(along[:, 0], along[:, 1])
+        self.length = _lengths(start, end)
         self.unit = along / self.length[:, None]
         self.low, self.high = np.minimum(start.T, end.T), np.maximum(start.T, end.T)
 
@@ -108,23 +146,27 @@ class _Segments:
         common: Floats = np.minimum(high.take(one), high.take(other)) - np.maximum(low.take(one), low.take(other))
         return common
 
-    def overlaps(self, winner: Ints, loser: Ints) -> tuple[Ints, Floats, Floats]:
-        """Which pairs (k,) lie on each other, and from where to where (of each loser) they do."""
+    def close(self, one: Ints, other: Ints) -> tuple[Ints, Ints, Ints]:
+        """Which pairs (k,) have boxes that overlap and are nearly collinear; and both of each."""
         # Most have not even boxes that overlap.
-        some = np.flatnonzero((common := self._common(0, winner, loser)) >= -2.0 * self.tolerance)
-        common, winner, loser = common.take(some), winner.take(some), loser.take(some)
-        other = self._common(1, winner, loser)
-        touch = np.flatnonzero((other >= -2.0 * self.tolerance) & (np.maximum(common, other) > 0.5 * self.tolerance))
-        some, winner, loser = some.take(touch), winner.take(touch), loser.take(touch)
-        shorter = self.length.take(loser) <= self.length.take(winner)
-        short, long = np.where(shorter, loser, winner), np.where(shorter, winner, loser)
-        close = np.minimum(self.tolerance, COLLINEAR_OF_LENGTH * self.length.take(short))
+        some = np.flatnonzero((common := self._common(0, one, other)) >= -2.0 * self.tolerance)
+        common, one, other = common.take(some), one.take(some), other.take(some)
+        across = self._common(1, one, other)
+        touch = np.flatnonzero((across >= -2.0 * self.tolerance) & (np.maximum(common, across) > 0.5 * self.tolerance))
+        some, one, other = some.take(touch), one.take(touch), other.take(touch)
+        shorter = self.length.take(other) <= self.length.take(one)
+        short, long = np.where(shorter, other, one), np.where(shorter, one, other)
+        most = np.minimum(self.tolerance, COLLINEAR_OF_LENGTH * self.length.take(short))
         origin, unit = self.start.take(long, axis=0), self.unit.take(long, axis=0)
-        collinear = np.ones(len(winner), dtype=np.bool_)
+        collinear = np.ones(len(one), dtype=np.bool_)
         for ends in (self.start, self.end):
             arm = ends.take(short, axis=0) - origin
-            collinear &= np.abs(arm[:, 0] * unit[:, 1] - arm[:, 1] * unit[:, 0]) <= close
-        some, winner, loser = some[collinear], winner[collinear], loser[collinear]
+            collinear &= np.abs(arm[:, 0] * unit[:, 1] - arm[:, 1] * unit[:, 0]) <= most
+        return some[collinear], one[collinear], other[collinear]
+
+    def overlaps(self, winner: Ints, loser: Ints) -> tuple[Ints, Floats, Floats]:
+        """Which pairs (k,) lie on each other, and from where to where (of each loser) they do."""
+        some, winner, loser = self.close(winner, loser)
         origin, unit, size = self.start.take(loser, axis=0), self.unit.take(loser, axis=0), self.length.take(loser)
         places = []
         for ends in (self.start, self.end):
@@ -135,66 +177,66 @@ class _Segments:
         return some[over], low[over], high[over]
 
 
-def _by_importance(start: Floats, end: Floats, length: Floats, rank: Ints) -> Ints:
-    """The order of the strokes, the most important first; it depends on how they are given for equal ones only."""
-    order = np.argsort(rank, kind="stable")
-    if (rank[order][1:] != rank[order][:-1]).all():
+def _by_importance(start: Floats, end: Floats, rank: Floats) -> Ints:
+    """The order of the strokes by their ranks (k,n), the most important first; it depends on how they are given for
+    equal ones only."""
+    order = np.lexsort(rank)
+    ranked = rank.take(order, axis=1)
+    if (ranked[:, 1:] != ranked[:, :-1]).any(axis=0).all():
         return order
     swapped = (end[:, 0] < start[:, 0]) | ((end[:, 0] == start[:, 0]) & (end[:, 1] < start[:, 1]))
     one, two = np.where(swapped[:, None], end, start), np.where(swapped[:, None], start, end)
-    return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -length, rank))
+    return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -_lengths(start, end), *rank))
 
 
-def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> tuple[Ints, Ints]:
-    """(owner, starts): groups of strokes with nearly the same line at nearly the same place.
+def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> Callable[[int], tuple[Ints, Ints]]:
+    """(owner, starts) of an axis: groups of strokes with nearly the same line, along which they run more than across,
+    at nearly the same place.
 
     All that overlap share a group. The page is cut into strips across the main direction of a stroke; in each strip it
     has a slope, and a height in the strip's middle. Strokes near 45 degrees have two main directions.
     """
-    if len(length) < 2:
-        return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
-    middle = (start.min(axis=0) + start.max(axis=0)) / 2.0
+    middle = [(float(column.min()) + float(column.max())) / 2.0 for column in start.T]
     width = max(2.0 * float(length.mean()), float(length.max()) / 64.0)
     # A stroke may be turned by this, and its line shifted by this in the middle of a strip it reaches.
     turn = 4.2 * min(COLLINEAR_OF_LENGTH, tolerance / float(length.min()))
     shift = 2.0 * tolerance + turn * width
-    keys: list[Keys] = []
-    owners = []
-    along = np.abs(end - start)
-    for axis in (0, 1):
-        which = np.flatnonzero(along[:, axis] >= (1.0 - 2.0 * turn) * along[:, 1 - axis])
-        main, cross = start[which, axis] - middle[axis], start[which, 1 - axis] - middle[1 - axis]
-        run = end[which, axis] - start[which, axis]
-        slope = (end[which, 1 - axis] - start[which, 1 - axis]) / run
+
+    def of_axis(axis: int) -> tuple[Ints, Ints]:
+        (main, main_end), (cross, cross_end) = ((start[:, k], end[:, k]) for k in (axis, 1 - axis))
+        which = np.flatnonzero(np.abs(main_end - main) >= (1.0 - 2.0 * turn) * np.abs(cross_end - cross))
+        main, main_end, cross, cross_end = (ends.take(which) for ends in (main, main_end, cross, cross_end))
+        main, cross, run, rise = main - middle[axis], cross - middle[1 - axis], main_end - main, cross_end - cross
+        slope = rise / run
         strip = np.floor(np.minimum(main, main + run) / width)
         count = (np.floor(np.maximum(main, main + run) / width) - strip).astype(np.intp) + 1
         piece = ragged.owner(count)
-        number = strip[piece].astype(np.intp) + ragged.place(count)
-        height = cross[piece] + slope[piece] * ((number + 0.5) * width - main[piece])
-        key, entry = overlapping_cells(slope[piece], height, 2 * number + axis, (turn, shift))
-        keys.append(key)
-        owners.append(which[piece[entry]])
-    return companions(np.concatenate(keys), np.concatenate(owners))
+        number, slopes = strip.take(piece).astype(np.intp) + ragged.place(count), slope.take(piece)
+        height = cross.take(piece) + slopes * ((number + 0.5) * width - main.take(piece))
+        key, entry = overlapping_cells(slopes, height, number, (turn, shift))
+        return companions(key, which.take(piece.take(entry)))
+
+    return of_axis
 
 
-def _overlapping(
-    start: Floats, end: Floats, line: Ints, owner: Ints, starts: Ints, tolerance: float
-) -> tuple[Ints, Ints]:
-    """The crowds in which some strokes of different lines may overlap."""
-    owner, starts = _of_several(line, owner, starts)
-    size = np.diff(starts)
-    run = ragged.owner(size)
-    of = line.take(owner)
-    ends = start.take(owner, axis=0).T, end.take(owner, axis=0).T
-    low, high = np.minimum(*ends), np.maximum(*ends)
-    calls = size > _SMALL
-    for lag in range(1, min(_SMALL, int(size.max(initial=1)))):
-        common = np.minimum(high[:, lag:], high[:, :-lag]) - np.maximum(low[:, lag:], low[:, :-lag])
-        touch = np.maximum(common[0], common[1]) > 0.5 * tolerance
-        touch &= np.minimum(common[0], common[1]) >= -2.0 * tolerance
-        touch &= (run[lag:] == run[:-lag]) & (of[lag:] != of[:-lag])
-        calls[run[lag:][touch]] = True
-    return owner[calls[run]], ragged.offsets(size[calls])
+def _touching(one: Floats, other: Floats, owner: Ints, starts: Ints, least: float) -> tuple[Ints, Ints]:
+    """The groups of strokes, which reach from one coordinate (n,) to the other, divided where none of a group reaches
+    over by more than least."""
+    if not len(owner):
+        return owner, starts
+    run = ragged.owner(np.diff(starts))
+    low, high = np.minimum(one, other), np.maximum(one, other)
+    origin, extent = float(low.min()), float(high.max() - low.min())
+    # Groups lie one behind the other.
+    step = 2.0**_PLACE_BITS / extent
+    begin, end = (((at - origin) * step).astype(np.int64).take(owner) for at in (low, high))
+    shift = run << (_PLACE_BITS + 1)
+    begin += shift
+    order = radix_order(begin.astype(np.uint64), _PLACE_BITS + 1 + len(starts).bit_length())
+    reach = np.maximum.accumulate((end + shift).take(order))
+    apart = begin.take(order)[1:] > reach[:-1] - int(least * step)
+    first = np.concatenate(([0], np.flatnonzero(apart) + 1, [len(owner)]))
+    return owner.take(order), first
 
 
 def _of_several(line: Ints, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
@@ -214,8 +256,9 @@ def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints
     owner: the strokes of the crowds, by importance.
     """
     run = ragged.owner(np.diff(starts))
-    order = np.lexsort((owner, run))
-    owner = owner[order]
+    bits = len(segments.length).bit_length()
+    key = run.astype(np.uint64) << np.uint64(bits) | owner.astype(np.uint64)
+    owner = owner.take(radix_order(key, bits + len(starts).bit_length()))
     dropped = np.zeros(len(segments.length), dtype=np.bool_)
     for turn in range(_ROUNDS):
         first = np.flatnonzero(np.concatenate(([True], run[1:] != run[:-1])))

@@ -12,8 +12,12 @@ from vectorplot.drawing.strokes.pen_order.tour import greedy_tour
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through
 from vectorplot.drawing.strokes.pen_order.tour_moves import shortened
 from vectorplot.drawing.strokes.stroke_paths import chosen, directed, swapped
+from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
+
+# In so many bits strokes are put in order from left to right; what falls together is looked at again.
+_PLACE_BITS = 32
 
 
 def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
@@ -55,8 +59,9 @@ def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     if layer is None:
         layer = np.zeros(len(paths), dtype=np.intp)
     empty = np.diff(paths.offsets) == 0
-    layer = layer[np.concatenate((np.flatnonzero(~empty), np.flatnonzero(empty)))]
-    paths = chosen(paths, np.concatenate((np.flatnonzero(~empty), np.flatnonzero(empty))))
+    if empty.any():
+        last = np.argsort(empty, kind="stable")
+        layer, paths = layer[last], chosen(paths, last)
     many = int(len(paths) - empty.sum())
     if many == 0:
         return paths
@@ -69,7 +74,7 @@ def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     bounds = np.append(np.flatnonzero(np.diff(layer[tour], prepend=layer[0] - 1)), many)
     if np.any(paths.closed[:many]):
         entry, start = _entered(paths, spots, start, rank, ends, tour, bounds)
-        ends, curves = entry, curves_through(entry, layer, curves)
+        ends, curves = entry, curves_through(entry, layer)
     tour = shortened(ends, tour, layer, curves)
     if np.any(paths.closed[:many]):
         ends, start = _entered(paths, spots, start, rank, ends, tour, bounds)
@@ -155,14 +160,17 @@ def _canonical_ends(paths: Paths, spots: Places, start: Ints, layer: Ints) -> tu
     many = len(layer)
     first, last = _given_ends(paths, spots, start)
     a, b = np.minimum(first, last)[:many], np.maximum(first, last)[:many]
-    rank = np.argsort(a.real, kind="stable")
-    rank = rank[np.argsort(layer[rank], kind="stable")] if np.ptp(layer) else rank
+    from_left = (a.real - a.real.min()) / (np.ptp(a.real) or 1.0)
+    key = np.ldexp(from_left, _PLACE_BITS - 1).astype(np.uint64)
+    if np.ptp(layer):
+        key |= (layer - layer.min()).astype(np.uint64) << np.uint64(_PLACE_BITS)
+    rank = radix_order(key, _PLACE_BITS + int(np.ptp(layer)).bit_length())
     # Few are equal so far, and only these are looked at again.
-    same = (np.diff(a.real[rank]) == 0.0) & (np.diff(layer[rank]) == 0)
+    same = np.diff(key.take(rank)) == 0
     tied = np.flatnonzero(np.append(same, False) | np.append(False, same))
     if len(tied):
         run, of = np.cumsum(~same[tied[1:] - 1]), rank[tied]
-        rank[tied] = of[np.lexsort((b[of].imag, b[of].real, a[of].imag, np.append(0, run)))]
+        rank[tied] = of[np.lexsort((b[of].imag, b[of].real, a[of].imag, a[of].real, np.append(0, run)))]
     return rank, np.stack((a[rank], b[rank]), axis=1).ravel()
 
 

@@ -16,6 +16,7 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through, extent, mutual_nearest
+from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
@@ -47,8 +48,10 @@ def trails(ends: Places, spread: Places, layer: Ints) -> Ints:
 def _nodes(ends: Places, layer: Ints) -> tuple[Ints, Ints]:
     """The ends sorted by node, and (n,) the node of each."""
     unit = (ends - complex(ends.real.min(), ends.imag.min())) / ((extent(ends) or 1.0) * ZERO_OF_EXTENT)
-    key = np.rint(unit.real).astype(np.int64) << 31 | np.rint(unit.imag).astype(np.int64)
-    order = np.lexsort((key, layer))
+    key = np.rint(unit.real).astype(np.uint64) << np.uint64(31) | np.rint(unit.imag).astype(np.uint64)
+    order = radix_order(key, 62)
+    if layer[0] != layer[-1]:
+        order = order.take(np.argsort(layer.take(order), kind="stable"))
     node = np.zeros(len(ends), dtype=np.intp)
     node[order[1:]] = np.cumsum((np.diff(key[order]) != 0) | (np.diff(layer[order]) != 0))
     return order, node
@@ -117,8 +120,8 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places, layer: Ints) -
     spots = np.append(spread[odd], complex(np.nan, np.nan))
     of = np.append(part[odd], -1)
     mate = np.append(np.where(link[odd] >= 0, number[link[odd]], -1), -1)
-    among = crowd(spots[:-1], layer[odd], curves_through(spots[:-1], layer[odd]))
-    one, other, apart = nearer_than(np.full(len(odd), np.inf), np.arange(len(odd)), among)
+    among = crowd(spots[:-1], np.arange(len(odd)), layer[odd], curves_through(spots[:-1], layer[odd]))
+    one, other, apart = nearer_than(np.full(len(odd), np.inf), among)
     some = np.flatnonzero((of[one] == of[other]) & (one < other))
     one, other, apart = one[some], other[some], apart[some]
     for _ in range(_EXCHANGES):

@@ -14,7 +14,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.strokes.pen_order.touching import trails
-from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent, mutual_nearest, thinned
+from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent, mutual_nearest
+from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_extent import DRAWN_TOGETHER_OF_EXTENT, SPREAD_OF_EXTENT
 
 
@@ -24,20 +25,23 @@ def greedy_tour(ends: Places, layer: Ints, curves: Curves) -> Ints:
     spots = _spread(ends)
     link = trails(ends, spots, layer)
     layers = 1 + int(np.count_nonzero(np.diff(layer)))
-    far = _terminals(link, np.arange(len(ends)) ^ 1)
-    free = np.flatnonzero(link < 0)
-    curves = thinned(curves, link < 0)
+    # What is left is numbered along the first curve: what is near on the page is near in memory.
+    free = curves[0].compress(link.take(curves[0]) < 0)
+    place = np.empty(len(ends), dtype=np.intp)
+    place[free] = np.arange(len(free))
+    other = place.take(_terminals(link, np.arange(len(ends)) ^ 1).take(free))
+    curves = tuple(place.take(curve.compress(link.take(curve) < 0)) for curve in curves)
+    spots, of = spots.take(free), layer.take(free)
     while len(free) > 2 * layers:
-        place = np.empty(len(ends), dtype=np.intp)
-        place[free] = np.arange(len(free))
-        other = place[far[free]]
-        mate, apart = mutual_nearest(spots[free], other, layer[free], curves)
-        mate = _without_cycles(mate, other, apart)
-        joined = mate >= 0
-        link[free[joined]] = free[mate[joined]]
-        far[free] = free[_terminals(mate, other)]
-        free, curves = free[~joined], thinned(curves, ~joined)
-    return _walked(link, free[np.flatnonzero(np.diff(layer[free], prepend=-1))], layer)
+        mate, far = _joined(*mutual_nearest(spots, other, of, curves), other)
+        joined = np.flatnonzero(mate >= 0)
+        link[free.take(joined)] = free.take(mate.take(joined))
+        kept = mate < 0
+        number = np.cumsum(kept) - 1
+        other = number.take(far.compress(kept))
+        free, spots, of = free.compress(kept), spots.compress(kept), of.compress(kept)
+        curves = tuple(number.take(curve.compress(kept.take(curve))) for curve in curves)
+    return _walked(link, np.minimum(free[::2], free[1::2]), layer)
 
 
 def _spread(ends: Places) -> Places:
@@ -62,37 +66,47 @@ def _spread(ends: Places) -> Places:
     return spread
 
 
-def _without_cycles(mate: Ints, other: Ints, apart: Floats) -> Ints:
-    """The joints, without the longest one of each ring of fragments.
+def _joined(mate: Ints, apart: Floats, other: Ints) -> tuple[Ints, Ints]:
+    """The joints, without the longest one of each ring of fragments; and for every end left free the one at the other
+    side of the joined fragments.
 
     Leaving a fragment by an end, the pen comes to the other end of the fragment joined there; steps are doubled until
     every way has ended, or has been round.
     """
-    at = np.flatnonzero(mate >= 0)
-    step = np.where(mate >= 0, other[mate], np.arange(len(mate)))
+    step = np.where(mate >= 0, other.take(mate), np.arange(len(mate)))
     longest = np.where(mate >= 0, apart, 0.0)
+    at = np.flatnonzero(mate >= 0)
     for _ in range(len(mate).bit_length()):
-        at = at[mate[step[at]] >= 0]
-        if not len(at):
-            return mate
-        beyond = step[at]
-        longest[at], step[at] = np.maximum(longest[at], longest[beyond]), step[beyond]
+        beyond = step.take(at)
+        going = np.flatnonzero(mate.take(beyond) >= 0)
+        if not len(going):
+            return mate, step.take(other)
+        at, beyond = at.take(going), beyond.take(going)
+        longest[at], step[at] = np.maximum(longest.take(at), longest.take(beyond)), step.take(beyond)
     at = at[mate[step[at]] >= 0]
     cut = at[apart[at] == longest[at]]
     mate = mate.copy()
     mate[mate[cut]] = -1
     mate[cut] = -1
-    return mate
+    step[at] = np.where(mate[at] >= 0, other[mate[at]], at)
+    return mate, _ended(step, at).take(other)
 
 
 def _terminals(mate: Ints, other: Ints) -> Ints:
     """For every end of a fragment, the free end at the other side of the joined fragments."""
     step = np.where(mate >= 0, other[np.maximum(mate, 0)], np.arange(len(mate)))
-    while True:
-        further = step[step]
-        if np.array_equal(further, step):
-            return step[other]
-        step = further
+    return _ended(step, np.flatnonzero(mate >= 0)).take(other)
+
+
+def _ended(step: Ints, at: Ints) -> Ints:
+    """The steps (n,), those of some ends doubled until every way has ended."""
+    while len(at):
+        beyond = step.take(at)
+        further = step.take(beyond)
+        going = np.flatnonzero(further != beyond)
+        at = at.take(going)
+        step[at] = further.take(going)
+    return step
 
 
 def _walked(link: Ints, first: Ints, layer: Ints) -> Ints:
@@ -106,5 +120,10 @@ def _walked(link: Ints, first: Ints, layer: Ints) -> Ints:
     for _ in range(len(link).bit_length()):
         behind += behind[step]
         step = step[step]
-    entered = np.flatnonzero(np.isin(step, first))
-    return np.asarray(entered[np.lexsort((behind[entered], layer[entered]))], dtype=np.intp)
+    begins = np.zeros(len(link), dtype=np.bool_)
+    begins[first] = True
+    entered = np.flatnonzero(begins.take(step))
+    strokes = np.bincount(np.cumsum(np.diff(layer[::2], prepend=layer[0]) != 0))
+    tour = np.empty(len(entered), dtype=np.intp)
+    tour[behind.take(entered) + np.repeat(ragged.starts(strokes), strokes).take(entered >> 1)] = entered
+    return tour

@@ -19,6 +19,7 @@ from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
 from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_lengths import LEAST_GAIN_OF_TRAVEL
 
 # A run of strokes that moves as one has at most this many.
 _LONGEST_RUN = 3
@@ -26,7 +27,7 @@ _LONGEST_RUN = 3
 _LONGEST_STRETCH = 1000
 # Turning costs no more than so many passes over the tour in a round.
 _PASSES = 8
-# Rounds; shorter tours get more.
+# Rounds; shorter tours get more, longer ones end when one gains little.
 _ROUNDS = 4
 _MORE_ROUNDS = 40000
 
@@ -74,20 +75,23 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
     spots = np.append(ends, np.full(2 * len(borders) + 1, complex(np.nan, np.nan)))
     layers = np.append(layer, np.full(2 * len(borders), -1))
     mean //= len(borders) + 1
-    opposite, among = np.arange(count) ^ 1, crowd(ends, layer, curves)
+    among = crowd(ends, np.arange(count) ^ 1, layer, curves)
     everything = awake = np.ones(len(layers), dtype=np.bool_)
+    partner, travel = _partners(tour), np.inf
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
-        partner = _partners(tour)
         # A gap of no length has nothing to gain, and only one as long as the way to a neighbour has.
         own = np.fmax(np.abs(ends - spots.take(partner[:count])), 0.0)
+        last, travel = travel, 0.5 * float(own.sum())
+        if mean > _MORE_ROUNDS and last - travel < LEAST_GAIN_OF_TRAVEL * travel:
+            break
         reach = np.where(awake[:count], own, 0.0)
-        pairs = nearer_than(reach, opposite, among)
+        pairs = nearer_than(reach, among)
         moved, tried = _runs_moved(_row(spots, tour, layers, pairs), zero)
-        turned, tried_too = _stretches_turned(_within_gaps(_row(spots, moved, layers, pairs)), zero)
+        tour, tried_too = _stretches_turned(_within_gaps(_row(spots, moved, layers, pairs)), zero)
         # Only where something changed, or a move was put off, is there something to gain in the next round.
-        changed = _partners(turned) != partner
-        changed[tried] = changed[tried_too] = True
-        looked_at, awake, tour = awake, changed, turned
+        before, partner = partner, _partners(tour)
+        looked_at, awake = awake, partner != before
+        awake[tried] = awake[tried_too] = True
         if not awake.any():
             if looked_at is everything:
                 break
