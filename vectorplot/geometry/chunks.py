@@ -15,6 +15,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar, copy_context
 from itertools import chain, islice
+from threading import Lock
 from typing import TypeVar
 
 from vectorplot.errors import InputError
@@ -25,7 +26,8 @@ R = TypeVar("R")
 # Fewer things are done with before threads have begun.
 _FEW = 1 << 12
 
-_THREADS: ContextVar[int] = ContextVar("threads", default=1)
+_THREADS: ContextVar[Callable[[], int]] = ContextVar("threads", default=lambda: 1)
+"""On how many threads one may work now."""
 
 
 def threads_of(jobs: int | None) -> int:
@@ -41,7 +43,7 @@ def threads_of(jobs: int | None) -> int:
 @contextmanager
 def threads(count: int | None) -> Iterator[None]:
     """Where mapped works on so many threads; None: on as many as around it, one if nothing is said there."""
-    token = _THREADS.set(_THREADS.get() if count is None else count)
+    token = _THREADS.set(_THREADS.get() if count is None else lambda: count)
     try:
         yield
     finally:
@@ -53,19 +55,21 @@ def mapped(function: Callable[[T], R], chunks: Iterable[T]) -> Iterator[R]:
 
     Chunks are asked for on the thread that takes the results, a few ahead of these: memory does not grow with their
     number. What the function raises comes out where its result would; then, or when nobody takes the rest, chunks that
-    have not begun are never done. Within a chunk there is one thread.
+    have not begun are never done. What is mapped within a chunk has one thread, and those that are idle by then: so the
+    last and largest one of a few is shared too.
     Degenerate: without chunks nothing; a single one is done where it is asked for.
     """
-    count, chunks = _THREADS.get(), iter(chunks)
+    count, chunks = _THREADS.get()(), iter(chunks)
     first = list(islice(chunks, 2)) if count > 1 else []
     if len(first) < 2:
         yield from map(function, chain(first, chunks))
         return
     waiting: deque[Future[R]] = deque()
-    pool = ThreadPoolExecutor(count)
+    pool, share = ThreadPoolExecutor(count), _Share(count)
     try:
         for chunk in chain(first, chunks):
-            waiting.append(pool.submit(copy_context().run, _alone, function, chunk))
+            share.begin()
+            waiting.append(pool.submit(copy_context().run, _shared, share, function, chunk))
             if len(waiting) > count:
                 yield waiting.popleft().result()
         while waiting:
@@ -77,12 +81,35 @@ def mapped(function: Callable[[T], R], chunks: Iterable[T]) -> Iterator[R]:
 def workers(count: int) -> int:
     """On how many threads something that shares so many things out by itself, as a search in a tree, may work: one for
     few of them."""
-    return _THREADS.get() if count > _FEW else 1
+    return _THREADS.get()() if count > _FEW else 1
 
 
-def _alone(function: Callable[[T], R], chunk: T) -> R:
-    with threads(1):
+class _Share:
+    """How many threads of a pool are idle."""
+
+    def __init__(self, count: int) -> None:
+        self._count, self._begun, self._lock = count, 0, Lock()
+
+    def begin(self) -> None:
+        with self._lock:
+            self._begun += 1
+
+    def end(self) -> None:
+        with self._lock:
+            self._begun -= 1
+
+    def of_one(self) -> int:
+        """On how many threads one of the chunks may work."""
+        return 1 + max(self._count - self._begun, 0)
+
+
+def _shared(share: _Share, function: Callable[[T], R], chunk: T) -> R:
+    token = _THREADS.set(share.of_one)
+    try:
         return function(chunk)
+    finally:
+        _THREADS.reset(token)
+        share.end()
 
 
 def slices(count: int, size: int) -> list[slice]:
