@@ -188,13 +188,13 @@ def _with_points(cells: _Cells, tri: Ints, cell: Ints) -> Iterator[tuple[Ints, I
 
 def _within(triangles: ScreenTriangles, tri: Ints, at: Floats) -> Bools:
     """(k,) whether triangles have points (k, 2) inside or on their border: neighbours leave no gap."""
-    corners = triangles.corners[tri]
+    points, corners = triangles.points[:, :2], triangles.corners[tri]
     values = []
     for k in range(3):
         a, b = corners[:, k], corners[:, (k + 1) % 3]
         # The same arithmetic for both triangles at an edge.
         swap = a > b
-        p, q = triangles.points[np.where(swap, b, a)], triangles.points[np.where(swap, a, b)]
+        p, q = points[np.where(swap, b, a)], points[np.where(swap, a, b)]
         value = cross(q - p, at - p)
         values.append(np.where(swap, -value, value))
     return np.asarray((np.minimum.reduce(values) >= 0.0) | (np.maximum.reduce(values) <= 0.0))
