@@ -161,8 +161,8 @@ def _touches(corner: Floats, cell: Ints, side: int) -> Bools:
     row, column = np.divmod(cell, side)
     middle = np.stack([column, row], axis=1) + 0.5
     x, y = corner[:, :, 0] - middle[:, :1], corner[:, :, 1] - middle[:, 1:]
-    side, other = (np.stack([x[:, k] - x[:, 0], y[:, k] - y[:, 0]], axis=1) for k in (1, 2))
-    sign = np.sign(cross(side, other))
+    first, second = (np.stack([x[:, k] - x[:, 0], y[:, k] - y[:, 0]], axis=1) for k in (1, 2))
+    sign = np.sign(cross(first, second))
     seen = np.ones(len(cell), dtype=np.bool_)
     for k in range(3):
         one, two = k, (k + 1) % 3
