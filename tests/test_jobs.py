@@ -45,6 +45,13 @@ def test_renderings(shadows):
     assert len(made) == 1
 
 
+@pytest.mark.slow
+def test_hatching_that_flows():
+    hatch = vp.Hatching("tone", along="slope")
+    made = {write(vp.draw(bumpy_icosphere(2), jobs=jobs, hatch=hatch, page="A6"), "json") for jobs in MANY}
+    assert len(made) == 1
+
+
 @pytest.mark.parametrize("verb", [vp.draw, vp.paint, vp.render])
 def test_no_threads_are_too_few(verb):
     with pytest.raises(vp.InputError, match="0 jobs: expected 1 or more"):

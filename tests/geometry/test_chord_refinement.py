@@ -48,6 +48,30 @@ def test_points_come_in_the_order_of_the_curve():
     assert (np.diff(angle) > 0.0).all()
 
 
+def test_what_is_nearly_on_the_curve_tells_which_chords_will_do():
+    asked = []
+
+    def between(start, end, part):
+        asked.append(len(start))
+        return on_circle(start, end, part)
+
+    def near(start, end, part):
+        x, found = on_circle(start, end, part)
+        return 1.0001 * x - 0.0001 * (start + part[:, None] * (end - start)), found
+
+    def lost(start, end, part):
+        return start, np.zeros(len(start), dtype=bool)
+
+    whole = Traces(polygon(5), np.arange(6) == 5)
+    exact = refined(whole, between, same, 1e-4, most=1 << 20).lines
+    all_of_them = sum(asked)
+    for nearly, fewer in ((near, True), (lost, False)):
+        asked.clear()
+        found = refined(whole, between, same, 1e-4, most=1 << 20, near=nearly).lines
+        assert np.array_equal(found.points, exact.points) and np.array_equal(found.last, exact.last)
+        assert (sum(asked) < all_of_them) == fewer
+
+
 def test_all_that_is_known_of_a_point_goes_with_it():
     points = np.stack([np.linspace(0.0, 1.0, 3), np.full(3, 7.0)], axis=1)
 

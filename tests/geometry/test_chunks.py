@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.chunks import mapped, slices, threads, threads_of
+from vectorplot.geometry.chunks import mapped, slices, threads, threads_of, workers
 
 COUNTS = (1, 2, 5)
 
@@ -87,6 +87,13 @@ def test_within_a_chunk_there_is_one_thread_and_what_was_said_of_errors():
 
     with threads(2), np.errstate(over="ignore"):
         assert all(len(one) == 1 for one in mapped(inner, range(6)))
+
+
+def test_what_shares_its_work_itself_has_one_thread_for_few_things_and_within_a_chunk():
+    assert workers(10**6) == 1
+    with threads(3):
+        assert (workers(10), workers(10**6)) == (1, 3)
+        assert set(mapped(lambda _: workers(10**6), range(4))) == {1}
 
 
 def test_slices_cover_everything_once():

@@ -66,7 +66,8 @@ def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility
     ([0.0, 0.65], [0.35, 1.0])
     """
     shown = np.flatnonzero(seen.hidden_by == 0)
-    outline = shown[lines.side[seen.segment[shown]] != 0]
+    side = lines.sides(view)[seen.segment]
+    outline = shown[side[shown] != 0]
     if not len(outline):
         return seen
     base = lines.start[:, seen.segment]
@@ -74,7 +75,7 @@ def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility
     start, end = base + seen.low * along, base + seen.high * along
     # A halo wider than the picture is as good as one of the picture's size, and lets the grid keep its digits.
     width = min(width, _diameter(view.image_of(np.concatenate([start[:, shown], end[:, shown]], axis=1))))
-    part, low, high = _zones(view, lines, seen.segment, start, end, shown, outline, width)
+    part, low, high = _zones(view, lines.item[seen.segment], side, start, end, shown, outline, width)
     fine = np.full(len(shown), UNION_OF_SEGMENT)
     part, low, high = intervals.union(part, low, high, fine)
     part, low, high = intervals.complement(len(shown), part, low, high, fine)
@@ -98,17 +99,20 @@ def _diameter(image: Floats) -> float:
 
 
 def _zones(
-    view: View, lines: Lines, segment: Ints, start: Floats, end: Floats, shown: Ints, outline: Ints, width: float
+    view: View, item: Ints, side: Ints, start: Floats, end: Floats, shown: Ints, outline: Ints, width: float
 ) -> tuple[Ints, Floats, Floats]:
-    """Where visible parts lie in the halo of outlines: (number in shown, low, high along the part's image)."""
+    """Where visible parts lie in the halo of outlines: (number in shown, low, high along the part's image).
+
+    item, side (p,): those of the lines that the parts are of.
+    """
     image_start, image_end = view.image_of(start), view.image_of(end)
     p0, p1 = image_start[:, shown], image_end[:, shown]
     q0, q1 = image_start[:, outline], image_end[:, outline]
     depth = [view.depth_of(points) for points in (start, end)]
     found = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
     for part, near in _close_pairs(p0, p1, q0, q1, width):
-        side = lines.side[segment[outline[near]]]
-        low, high = outer_zones(p0[:, part], p1[:, part], q0[:, near], q1[:, near], side, width)
+        outer = side[outline[near]]
+        low, high = outer_zones(p0[:, part], p1[:, part], q0[:, near], q1[:, near], outer, width)
         hit = np.flatnonzero(low < high)
         part, near, low, high = part[hit], near[hit], low[hit], high[hit]
         middle = 0.5 * (low + high)
@@ -116,7 +120,7 @@ def _zones(
         behind = _depth_at(view, middle, depth[0][shown[part]], depth[1][shown[part]])
         foot = _foot(here, q0[:, near], q1[:, near])
         front = _depth_at(view, foot, depth[0][outline[near]], depth[1][outline[near]])
-        own = lines.item[segment[shown[part]]] == lines.item[segment[outline[near]]]
+        own = item[shown[part]] == item[outline[near]]
         margin = np.where(own, OWN_DEPTH * width, 10.0 * view.tolerance)
         hit = np.flatnonzero(behind - front > margin)
         found.append((part[hit], low[hit], high[hit]))

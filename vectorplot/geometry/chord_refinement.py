@@ -20,6 +20,9 @@ PROBES = (0.35, 0.7)
 MISSED = 0.8
 """Part of the largest deviation of a parabola that the probes see at least."""
 
+SURE = 0.5
+"""Part of the deviation that is allowed: where probes not quite on the curve deviate less than that a chord will do."""
+
 HALVINGS = 52
 """How often the way between two points is halved until it is known where a curve turns back: to the last bit."""
 
@@ -91,19 +94,22 @@ def refined(
     between: Between,
     image: Image,
     tolerance: float | Floats,
-    most: float,
+    most: float | Floats,
     share: Ints | None = None,
+    near: Between | None = None,
 ) -> Refined:
     """The polylines with points of their curves put in until chords deviate from these by no more than the tolerance,
-    one for all or one for each (m,), measured in the image, or there are most points.
+    measured in the image, or there are most points; both one for all or one for each (m,).
 
-    share (m,): polylines with the same number have most points together; where None all have.
+    share (m,): polylines with the same number have most points together; where None all have. near: points that are
+    off the curve by a small part of what chords are, if they are found in less time; they tell which chords will do.
     Where the curve is not found beside a chord, or has no finite image (behind an eye), refinement ends.
     """
     points, last = lines.points, lines.last
     count = int(last.sum())
     share = np.zeros(count, dtype=np.intp) if share is None else share
     limit = np.broadcast_to(np.asarray(tolerance, dtype=np.float64), count)
+    allowed = np.broadcast_to(np.asarray(most, dtype=np.float64), count)
     # A chord belongs to the point it starts at; open ones are still to be looked at.
     open_, unsure = ~last, np.zeros(count, dtype=np.intp)
     # Images are made once: the probes of one round are ends of chords in the next.
@@ -112,16 +118,16 @@ def refined(
         first = np.flatnonzero(open_)
         line = _line(last)
         used = np.bincount(share, weights=np.bincount(line, minlength=count))
-        first = first[used[share[line[first]]] <= most]
+        first = first[(used[share] <= allowed)[line[first]]]
         if not len(first):
             break
+        if near is not None:
+            _, found, _, far, _ = _probed(near, image, points, images, first)
+            does = found & (far <= SURE * MISSED * limit[line[first]])
+            open_[first[does]] = False
+            first = first[~does]
         of = line[first]
-        a, b = points[first], points[first + 1]
-        starts, ends = (np.concatenate([x] * len(PROBES)) for x in (a, b))
-        places, on = between(starts, ends, np.repeat(PROBES, len(first)))
-        probes, found = places.reshape(len(PROBES), *a.shape), on.reshape(len(PROBES), -1).all(axis=0)
-        seen = _seen(image, places).reshape(len(PROBES), len(first), -1)
-        far, long = deviation(images[first], images[first + 1], seen)
+        probes, found, seen, far, long = _probed(between, image, points, images, first)
         unsure += np.bincount(of[~found & (long > limit[of])], minlength=count)
         bad = found & (far > MISSED * limit[of])
         split = first[bad]
@@ -135,6 +141,20 @@ def refined(
         last, open_ = np.insert(last, at, False), np.insert(open_, at, True)
     enough = np.bincount(_line(last)[open_], minlength=count) == 0
     return Refined(Traces(points, last), unsure, np.asarray(enough))
+
+
+def _probed(
+    between: Between, image: Image, points: Floats, images: Floats, first: Ints
+) -> tuple[Floats, Bools, Floats, Floats, Floats]:
+    """Of the chords from points first (k,) to the next ones: the probes (j,k,c) of their curves, whether (k,) all of
+    them are found, their images (j,k,d), and as of `deviation` how far these are from the chord, and its length."""
+    a, b = points[first], points[first + 1]
+    starts, ends = (np.concatenate([x] * len(PROBES)) for x in (a, b))
+    places, on = between(starts, ends, np.repeat(PROBES, len(first)))
+    seen = _seen(image, places).reshape(len(PROBES), len(first), images.shape[1])
+    far, long = deviation(images[first], images[first + 1], seen)
+    found: Bools = np.asarray(on.reshape(len(PROBES), -1).all(axis=0))
+    return places.reshape(len(PROBES), *a.shape), found, seen, far, long
 
 
 def _line(last: Bools) -> Ints:

@@ -22,6 +22,9 @@ from vectorplot.errors import InputError
 T = TypeVar("T")
 R = TypeVar("R")
 
+# Fewer things are done with before threads have begun.
+_FEW = 1 << 12
+
 _THREADS: ContextVar[int] = ContextVar("threads", default=1)
 
 
@@ -69,6 +72,12 @@ def mapped(function: Callable[[T], R], chunks: Iterable[T]) -> Iterator[R]:
             yield waiting.popleft().result()
     finally:
         pool.shutdown(wait=True, cancel_futures=True)
+
+
+def workers(count: int) -> int:
+    """On how many threads something that shares so many things out by itself, as a search in a tree, may work: one for
+    few of them."""
+    return _THREADS.get() if count > _FEW else 1
 
 
 def _alone(function: Callable[[T], R], chunk: T) -> R:

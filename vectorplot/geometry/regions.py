@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.tolerances.of_extent import UNITED_OF_EXTENT
 
 POLYGON, MULTIPOLYGON = 3, 6
 """The numbers of shapely's types."""
@@ -51,14 +52,41 @@ def polygons_of(points: Floats, offsets: Ints) -> Any:
 
 def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
     """(g,) the unions of groups 0, 1, ... of polygons, which may cross themselves, on a grid: sides that nearly
-    coincide leave no splinters."""
+    coincide leave no splinters. None: in floating numbers, where these lead to a union."""
     import shapely
 
     order = np.argsort(group, kind="stable")
     several = shapely.geometrycollections(insides_of(polygons[order]), indices=group[order])
-    united = shapely.union_all(several[:, None], axis=1)
-    # A grid makes each side dear: those between polygons are gone by now.
-    return united if grid is None else shapely.union_all(united[:, None], axis=1, grid_size=grid)
+    united, found = _united(several)
+    if grid is not None:
+        # A grid makes each side dear: those between polygons are gone by now.
+        return shapely.union_all(united[:, None], axis=1, grid_size=grid)
+    for number in np.flatnonzero(~found).tolist():
+        united[number] = shapely.union_all(several[number], grid_size=_finest_grid(several[number]))
+    return united
+
+
+def _united(several: Any) -> tuple[Any, Bools]:
+    """(g,) the unions of collections (g,), and (g,) which of them floating numbers led to: the others, rare ones of
+    which sides pass each other within the last digits, stay as they are."""
+    import shapely
+
+    try:
+        return shapely.union_all(several[:, None], axis=1), np.ones(len(several), dtype=np.bool_)
+    except shapely.errors.GEOSException:
+        if len(several) == 1:
+            return several.copy(), np.zeros(1, dtype=np.bool_)
+    half = len(several) // 2
+    parts = (_united(several[:half]), _united(several[half:]))
+    united, found = (np.concatenate(column) for column in zip(*parts, strict=True))
+    return united, found
+
+
+def _finest_grid(region: Any) -> float:
+    """The finest grid on which the union of a region is found for certain."""
+    import shapely
+
+    return UNITED_OF_EXTENT * float(np.abs(shapely.bounds(region)).max())
 
 
 def mosaics(polygons: Any, group: Ints) -> Any:

@@ -59,7 +59,7 @@ def lines_and_chords(
     traced = walk.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
     if not sheets or not walk.calls_for("smooth surfaces"):
         _say(traced.doubts)
-        return with_kinds_of_cuts(scene, view, whole_lines_and_chords(view, traced, lines), kinds)
+        return with_kinds_of_cuts(scene, view, whole_lines_and_chords(traced, lines), kinds)
     done = walk.fraction("smooth surfaces")
     cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
     _say([*traced.doubts, *((scene.items[item].name, text) for item, text in unsure)])

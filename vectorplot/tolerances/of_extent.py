@@ -256,3 +256,7 @@ themselves, known to about 1e-12."""
 COLOURED_OF_EXTENT = 3e-4
 """Part of the extent of a scene within which smooth surfaces become triangles that get colours by numbers: a twentieth
 of a millimetre on a page."""
+
+UNITED_OF_EXTENT = 1e-12
+"""Part of the largest coordinate that the meshes of a grid have on which regions are united where floating numbers do
+not lead to a union: a few thousand of their last digits."""

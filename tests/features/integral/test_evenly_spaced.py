@@ -17,6 +17,7 @@ from vectorplot.features.integral.integral_curves import courses_from
 from vectorplot.features.integral.integration import Accuracy, Until
 from vectorplot.features.integral.spacing import uncrowded_lines
 from vectorplot.features.integral.spacing.crowd import Crowd, Ground, crowds_itself, thinned
+from vectorplot.features.integral.spacing.gaps import widest_first
 from vectorplot.features.integral.spacing.places_along import PlacesAlong
 from vectorplot.surfaces import Cylinder, Domain, Sphere, Torus
 from vectorplot.testing import curves_in_space
@@ -202,3 +203,18 @@ def test_lines_are_taken_one_after_the_other_however_many_are_compared_at_a_time
         away = cKDTree(np.concatenate(kept[:number])).query(own)[0]
         assert away.min() > 0.05, "no two are nearer than half the distance"
     assert sum(map(len, kept)) == sum(len(taken.places) for taken in crowd.groups)
+
+
+@pytest.mark.parametrize("most", [1, 7, 1000])
+@pytest.mark.parametrize("far", [0.0, 30.0])
+def test_the_widest_gaps_are_filled_first_and_none_about_them(far, most):
+    rng = np.random.default_rng(5)
+    where, apart = rng.uniform(0.0, 60.0, (700, 6)) * (1.0, 1.0, 0.1, 0.01, 0.01, 0.01), 1.0
+    away = rng.uniform(0.9, 3.0, 700) + far * (where[:, 0] > 50.0)
+    expected: list[int] = []
+    for place in np.argsort(-away, kind="stable"):
+        before = np.array(expected, dtype=int)
+        empty = np.maximum(4.0 * apart, 2.0 * away[before])
+        if len(expected) < most and (np.linalg.norm(where[before] - where[place], axis=1) > empty).all():
+            expected.append(int(place))
+    assert widest_first(where, away, apart, most).tolist() == expected

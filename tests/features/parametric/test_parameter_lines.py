@@ -5,13 +5,20 @@ import pytest
 
 from vectorplot.errors import InputError
 from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.parameter_lines import borders, parameter_lines, u_lines, v_lines
+from vectorplot.features.parametric.parameter_lines import (
+    borders,
+    parameter_lines,
+    parameter_lines_of_each,
+    u_lines,
+    v_lines,
+)
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
 from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.graphs.graph_regions import Disc
+from vectorplot.surfaces.placed_surface import PlacedSurface
 
 
 def test_parameter_lines_of_the_torus_are_closed_circles_within_the_tolerance():
@@ -73,3 +80,21 @@ def test_scaled_surfaces_have_the_same_lines(scale):
 def test_negative_columns_are_refused():
     with pytest.raises(InputError, match="columns"):
         parameter_lines(Sphere(), -1, 3)
+
+
+def test_of_many_surfaces_each_has_the_lines_that_it_has_alone():
+    turned = np.linalg.qr(np.random.default_rng(0).normal(size=(3, 3)))[0]
+    cap = graph(lambda x, y: x * x + y * y, Disc(1.0))
+    shapes = [Torus(3.0, 1.0), Sphere(), Torus(2.0, 0.3), Cone(1.0, 0.0, 1.0), cap, Cylinder(1.0, 0.0, 2.0)]
+    placed = [PlacedSurface(shape, (1.0 + k) * turned, (k, 0.0, -k)) for k, shape in enumerate(shapes)]
+    surfaces, counts = (
+        [*placed, Torus(), HyperbolicParaboloid()],
+        [(5, 4), (6, 0), (0, 3), (4, 4), (3, 3)] + 3 * [(2, 7)],
+    )
+    for surface, (columns, rows), found in zip(
+        surfaces, counts, parameter_lines_of_each(surfaces, counts, tracing=Tracing(tolerance=1e-2)), strict=True
+    ):
+        alone = parameter_lines(surface, columns, rows, tracing=Tracing(tolerance=1e-2))
+        assert np.array_equal(found.offsets, alone.offsets) and np.array_equal(found.closed, alone.closed)
+        assert np.array_equal(found.levels, alone.levels) and np.array_equal(found.turns, alone.turns)
+        assert np.allclose(found.points, alone.points, rtol=0.0, atol=1e-12) and found.doubts == alone.doubts

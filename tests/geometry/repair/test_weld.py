@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from vectorplot.geometry.repair import weld
-from vectorplot.geometry.repair.weld import close_points, distinct_points
+from vectorplot.geometry.repair.weld import close_points, distinct_points, one_each
 
 
 @pytest.mark.parametrize("kind", [np.float32, np.float64])
@@ -53,3 +53,13 @@ def test_a_chain_of_close_points_is_one_point() -> None:
     points = np.arange(50)[:, None] * np.array([0.9, 0.0, 0.0])
     assert (close_points(points, 1.0) == 0).all()
     assert np.array_equal(close_points(points, 0.8), np.arange(50))
+
+
+@pytest.mark.parametrize("size", [0.3, 1e-7, 1e9])
+def test_of_the_points_in_a_cube_the_first_one_is_taken(size: float) -> None:
+    points = np.random.default_rng(3).uniform(-2.0, 2.0, size=(400, 6)) * np.array([1.0, 1.0, 1.0, 0.1, 0.1, 0.0])
+    cubes = np.floor((points - points.min(axis=0)) / size)
+    first: dict[tuple[float, ...], int] = {}
+    for place, cube in enumerate(cubes.tolist()):
+        first.setdefault(tuple(cube), place)
+    assert one_each(points, size).tolist() == sorted(first.values())

@@ -206,13 +206,13 @@ def test_bodies_lie_to_the_side_of_their_traced_outlines_that_is_said(eye, paral
     sheets = scene_sheets(Scene((item,)), view)
     traced = traced_scene(Scene((item,)), view, sheets, frozenset({LineKind.CONTOUR}), view.tolerance)
     none = np.zeros(0, dtype=np.intp)
-    lines = whole_lines_and_chords(view, traced, straight_lines(np.zeros((3, 0)), np.zeros((3, 0)), none, none, none))
+    lines = whole_lines_and_chords(traced, straight_lines(np.zeros((3, 0)), np.zeros((3, 0)), none, none, none))
     start, end = view.image_of(lines.start), view.image_of(lines.end)
     way, arm = end - start, np.mean(start, axis=1, keepdims=True) - start
     # The image of the body is convex.
     left = way[0] * arm[1] - way[1] * arm[0] > 0.0
     assert len(lines) > 8
-    assert np.array_equal(lines.side, np.where(left, 1, -1))
+    assert np.array_equal(lines.sides(view), np.where(left, 1, -1))
 
 
 def test_rulings_on_outlines_are_drawn_once():

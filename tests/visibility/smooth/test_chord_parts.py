@@ -18,6 +18,7 @@ from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.visibility.polyhedra.lines import joined_lines
 from vectorplot.visibility.smooth.chord_parts import ChordParts
 from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import FEATURE_KINDS, LineKind
@@ -56,7 +57,7 @@ def test_directions_are_those_of_the_curves(name):
     for number, camera in enumerate(list(views(scene, 2, seed=len(name)))[turn :: several(2, long=1)]):
         view = look(scene, camera)
         traced = traced_scene(scene, view, scene_sheets(scene, view), KINDS, 1e-4)
-        chords = whole_lines_and_chords(view, traced, joined_lines([])).chords
+        chords = whole_lines_and_chords(traced, joined_lines([])).chords
         random = np.random.default_rng(number)
         begin, end = np.sort(random.uniform(0.0, 1.0, (2, len(chords.chord))), axis=0)
         some = random.permutation(len(begin))[:400]
@@ -98,7 +99,20 @@ def test_at_a_cusp_a_contour_arrives_and_turns_back(shape, parallel):
 
 def test_lines_of_no_curve_have_no_directions():
     view = look(Scene((Item("ball", Torus(3.0, 1.0)),)), Camera((0.0, 0.0, 9.0), parallel=True))
-    chords = ChordParts(polylines(around(8)), np.array([3, -1]), np.zeros(2), np.ones(2))
+    chords = ChordParts(Sheets(()), polylines(around(8)), np.array([3, -1]), np.zeros(2), np.ones(2))
     found = chords.directions(view)
     assert np.isfinite(found[0]).all() and np.isnan(found[1]).all()
     assert chords.curve.tolist() == [0, -1]
+    assert chords.sides(view).tolist() == [0, 0]
+
+
+def test_a_ring_lies_inside_of_its_outer_outline_and_outside_of_its_inner_one():
+    scene = Scene((Item("ring", Torus(3.0, 1.0)),))
+    view = look(scene, Camera((0.0, 0.0, 9.0), up=(0.0, 1.0, 0.0), parallel=True))
+    traced = traced_scene(scene, view, scene_sheets(scene, view), frozenset((LineKind.CONTOUR,)), 1e-4)
+    lines, _ = cut_lines_and_chords(view, traced, joined_lines([]), 1e-4)
+    start, end = view.image_of(lines.start), view.image_of(lines.end)
+    turns_left = start[0] * end[1] - start[1] * end[0] > 0.0
+    far = np.linalg.norm(view.world_of(lines.start)[:, :2], axis=1) > 3.0
+    assert (lines.side == 0).all() and far.any() and not far.all()
+    assert np.array_equal(lines.sides(view), np.where(turns_left == far, 1, -1))

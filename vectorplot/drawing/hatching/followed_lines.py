@@ -12,6 +12,7 @@ from vectorplot.drawing.hatching.densities import covers
 from vectorplot.drawing.hatching.toned_regions import TonedRegions
 from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import workers
 from vectorplot.scene.hatching import Hatching
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM
 from vectorplot.words import LineKind
@@ -62,7 +63,7 @@ def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) 
     flat = ends[of, 0] + share[:, None] * (ends[of, 1] - ends[of, 0])
     solid = space[of, 0] + share[:, None] * (space[of, 1] - space[of, 0])
     known = np.flatnonzero(np.isfinite(lines.samples).all(axis=1))
-    near = known[cKDTree(lines.samples[known]).query(solid)[1]]
+    near = known[cKDTree(lines.samples[known]).query(solid, workers=workers(len(solid)))[1]]
     rank = _ranks(lines, near, of, _lines(lines.line[near], of, paths.curve))
     dark = np.ones(len(flat)) if hatching.by == "even" else _darkness(some, flat)
     cover = covers(hatching, dark)[lines.family]

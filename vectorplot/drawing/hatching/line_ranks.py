@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import workers
 
 MOST_PLACES = 24
 """Places on one line at which it is compared with others to find the order of lines, at most."""
@@ -70,7 +71,7 @@ def _farthest_first(where: Floats, starts: Ints, sizes: Ints) -> Ints:
         rest = left[of]
         own = cKDTree(some[first[line] : first[line] + taken[line]])
         if turn < FIRST_ONES:
-            away[rest] = np.minimum(away[rest], own.query(some[rest])[0])
+            away[rest] = np.minimum(away[rest], own.query(some[rest], workers=workers(len(some)))[0])
         else:
             # What is nearer to lines before than to this one is not asked.
             reach = float(away.max(where=rest, initial=0.0))
@@ -90,9 +91,9 @@ def _from_those_before(where: Floats, turn: Ints) -> Floats:
     while begin < count:
         end = max(begin + 1, int(GROWTH * begin))
         own = np.flatnonzero((turn >= begin) & (turn < end))
-        away[own] = cKDTree(where[turn < begin]).query(where[own])[0]
+        away[own] = cKDTree(where[turn < begin]).query(where[own], workers=workers(len(own)))[0]
         if end > begin + 1 and len(own):
-            far, which = cKDTree(where[own]).query(where[own], min(NEIGHBOURS, len(own)))
+            far, which = cKDTree(where[own]).query(where[own], min(NEIGHBOURS, len(own)), workers=workers(len(own)))
             far = np.where(turn[own][which] < turn[own][:, None], far, np.inf)
             away[own] = np.minimum(away[own], far.min(axis=1))
         begin = end

@@ -11,6 +11,7 @@ from vectorplot.drawing.hatching.hatching_frames import PageFrame
 from vectorplot.drawing.hatching.scan import scanned
 from vectorplot.drawing.hatching.toned_regions import TonedRegions
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import workers
 from vectorplot.scene.hatching import Stippling
 from vectorplot.words import LineKind
 
@@ -56,12 +57,12 @@ def stippled(regions: TonedRegions, stippling: Stippling, page_from_world: Float
     start = np.searchsorted(total, (np.arange(count) + 0.5) / count * total[-1])
     dots = places[np.unique(np.minimum(start, len(places) - 1))]
     for _ in range(ROUNDS):
-        nearest = cKDTree(dots).query(places)[1]
+        nearest = cKDTree(dots).query(places, workers=workers(len(places)))[1]
         mass = np.bincount(nearest, weight, len(dots))
         middle = np.stack([np.bincount(nearest, weight * places[:, k], len(dots)) for k in (0, 1)], axis=1)
         dots = np.where(mass[:, None] > 0.0, middle / np.where(mass > 0.0, mass, 1.0)[:, None], dots)
     # The middle of a cell may lie beside a region that is not convex: then the nearest place of it does.
-    distance, near = cKDTree(places).query(dots)
+    distance, near = cKDTree(places).query(dots, workers=workers(len(dots)))
     dots = np.where((distance <= pitch)[:, None], dots, places[near])
     return _dots(regions, dots, region[near], page_from_world)
 

@@ -11,13 +11,22 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.conditions import Condition
 from vectorplot.features.parametric.holes.holes import up_to_rims
 from vectorplot.features.parametric.poles import through_poles
-from vectorplot.features.parametric.stacked_conditions import MOST_PARAMETERS, C, StackedConditions, alone, on_levels
+from vectorplot.features.parametric.stacked_conditions import (
+    MOST_PARAMETERS,
+    C,
+    StackedConditions,
+    SurfacesAtOnce,
+    alone,
+    on_levels,
+)
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.wrapping import wrapped
-from vectorplot.features.zeros.zero_manifold import ZeroManifold, zero_manifolds
+from vectorplot.features.zeros.scalar_field import scalar_fields
+from vectorplot.features.zeros.zero_manifold import ZeroManifold, check_grid, zero_manifolds
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.chunks import slices
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.surface import Domain, Surface
@@ -84,10 +93,11 @@ class Tracing:
 
 def extent(surface: Surface) -> tuple[float, float]:
     """The diagonal of the box around points of the surface, and their largest coordinate."""
-    return _extent(samples(surface)[2])
+    return extent_of(samples(surface)[2])
 
 
-def _extent(points: Floats) -> tuple[float, float]:
+def extent_of(points: Floats) -> tuple[float, float]:
+    """The diagonal of the box around points (k,3), and their largest coordinate; 0 without any."""
     if not len(points):
         return 0.0, 0.0
     return float(np.linalg.norm(np.ptp(points, axis=0))), float(np.abs(points).max())
@@ -101,11 +111,12 @@ def samples(surface: Surface) -> tuple[Floats, Floats, Floats]:
     return u[good], v[good], points[good]
 
 
-def samples_of_each(conditions: StackedConditions[C]) -> list[Floats]:
+def samples_of_each(asked: SurfacesAtOnce) -> list[Floats]:
     """For each of the surfaces the points (k,3) on a coarse grid; none in holes."""
-    u, v, of = conditions.on_grids(16, 16)
-    points = np.split(conditions.surface(of).points(u, v), len(conditions))
-    return [own[np.isfinite(own).all(axis=1)] for own in points]
+    u, v, of = asked.on_grids(16, 16)
+    points = asked.surface(of).points(u, v)
+    good = np.split(all_finite(points), len(asked))
+    return [own[known] for own, known in zip(np.split(points, len(asked)), good, strict=True)]
 
 
 def curves_where_zero(
@@ -151,17 +162,20 @@ def curves_on_each(
     sizes, roundings (s,): those of `curves_where_zero`, one for each.
     Errors: InputError for a grid that is too coarse.
     """
-    u, v, of = conditions.on_grids(tracing.columns, tracing.rows)
-    on_grid = np.asarray(conditions.at(of).values(u, v), dtype=np.float64)
+
+    def values(u: Floats, v: Floats, of: Ints) -> Floats:
+        return np.asarray(conditions.at(of).values(*wrapped(conditions.surface(of).domain, u, v)), dtype=np.float64)
+
+    domains = [_turned(domain) for domain in conditions.domains]
+    check_grid(domains[0], tracing.columns, tracing.rows, tracing.resolution)
+    on_grid = scalar_fields(values, domains).on_grid(tracing.columns, tracing.rows)
     tiny = FLAT_OF_VALUES * np.array(sizes)
-    shape = (len(conditions), tracing.columns + 1, tracing.rows + 1)
-    small = np.abs(on_grid).reshape(shape) <= tiny[:, None, None]
+    small = np.abs(on_grid) <= tiny[:, None, None]
     flat = (small[:, 1:, 1:] & small[:, 1:, :-1] & small[:, :-1, 1:] & small[:, :-1, :-1]).any(axis=(1, 2))
     noise = np.maximum(np.array(roundings), np.where(flat, tiny, 0.0))
 
     def snapped(u: Floats, v: Floats, of: Ints) -> Floats:
-        w = np.asarray(conditions.at(of).values(*wrapped(conditions.surface(of).domain, u, v)), dtype=np.float64)
-        return np.where(np.abs(w) <= noise[of], 0.0, w)
+        return _without_noise(values(u, v, of), noise[of])
 
     def slopes(u: Floats, v: Floats, of: Ints) -> tuple[Floats, Floats]:
         return conditions.at(of).slopes(*wrapped(conditions.surface(of).domain, u, v))
@@ -172,27 +186,32 @@ def curves_on_each(
         return points if tracing.picture is None else tracing.picture(points)
 
     if tracing.tolerance is None:
-        tolerances = [CHORD_OF_EXTENT * _extent(points)[0] or np.inf for points in samples_of_each(conditions)]
+        tolerances = [CHORD_OF_EXTENT * extent_of(points)[0] or np.inf for points in samples_of_each(conditions)]
     else:
         tolerances = [tracing.tolerance or np.inf] * len(conditions)
     found = zero_manifolds(
         snapped,
-        [_turned(domain) for domain in conditions.domains],
+        domains,
         columns=tracing.columns,
         rows=tracing.rows,
         gradient=slopes,
         resolution=tracing.resolution,
         positions=space,
         tolerances=tolerances,
+        values=_without_noise(on_grid, noise[:, None, None]),
         budget=tracing.budget,
     )
     led = [through_poles(surface, curves) for surface, curves in zip(conditions.surfaces, found, strict=True)]
     curves = _in_space(conditions, led)
-    holed: Bools = np.asarray(np.isnan(on_grid).reshape(len(conditions), -1).any(axis=1))
+    holed: Bools = np.asarray(np.isnan(on_grid).any(axis=(1, 2)))
     return [
         _to_rims(surface, own, tracing.resolution) if has_holes else own
         for surface, own, has_holes in zip(conditions.surfaces, curves, holed, strict=True)
     ]
+
+
+def _without_noise(values: Floats, noise: Floats) -> Floats:
+    return np.where(np.abs(values) <= noise, 0.0, values)
 
 
 def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> SurfaceCurves:

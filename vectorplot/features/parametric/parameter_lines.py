@@ -2,28 +2,38 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.curve_tracing import Tracing, extent
+from vectorplot.features.parametric.curve_tracing import Tracing, extent_of, samples_of_each
 from vectorplot.features.parametric.holes.hole_rims import hole_rims
 from vectorplot.features.parametric.holes.holes import is_known
 from vectorplot.features.parametric.poles import poles
+from vectorplot.features.parametric.stacked_conditions import SurfacesAtOnce, stacks
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.features.zeros.scalar_field import number
+from vectorplot.features.zeros.zero_refinement import of_lines
+from vectorplot.geometry import records
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, refined, straight_between, torn, with_standstills
-from vectorplot.geometry.polylines import some
+from vectorplot.geometry.components import all_finite
+from vectorplot.geometry.polylines import some, split
+from vectorplot.geometry.vectors import from_components, norm
 from vectorplot.surfaces.splines.line_pieces import line_pieces
-from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_parameters import AROUND_RIM
 
 DEFAULT = Tracing()
+
+FIRST_CHORDS = 24
+"""Chords of a line before it is refined, but for breaks."""
 
 LINES_A_BUDGET = 16
 """Lines to which the budget's points go; more lines may have more points, each as many as one of these."""
@@ -65,16 +75,29 @@ def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Traci
     >>> len(curves), curves.levels[8:].tolist(), curves.closed[8:].tolist()
     (10, [1.0, 2.0], [True, True])
     """
-    if columns < 0 or rows < 0:
-        raise InputError(f"parameter lines: {columns} columns and {rows} rows: expected 0 or more")
-    domain = surface.domain
-    u, v = domain.grid(max(columns, 1), max(rows, 1))
-    found = []
-    if columns:
-        found.append(u_lines(surface, u[int(not domain.closed_u) : -1], tracing=tracing))
-    if rows:
-        found.append(v_lines(surface, v[int(not domain.closed_v) : -1], tracing=tracing))
-    return together(found)
+    return parameter_lines_of_each([surface], [(columns, rows)], tracing=tracing)[0]
+
+
+def parameter_lines_of_each(
+    surfaces: Sequence[Surface], counts: Sequence[tuple[int, int]], *, tracing: Tracing = DEFAULT
+) -> list[SurfaceCurves]:
+    """As of `parameter_lines` for many surfaces, each with its own columns and rows: those of placed surfaces are
+    traced at once."""
+    values: list[tuple[Floats, Floats]] = []
+    for surface, (columns, rows) in zip(surfaces, counts, strict=True):
+        if columns < 0 or rows < 0:
+            raise InputError(f"parameter lines: {columns} columns and {rows} rows: expected 0 or more")
+        domain = surface.domain
+        u, v = domain.grid(max(columns, 1), max(rows, 1))
+        values.append((u[int(not domain.closed_u) : columns], v[int(not domain.closed_v) : rows]))
+    found = [no_curves()] * len(surfaces)
+    for part in stacks(surfaces, (FIRST_CHORDS + 1) * max((sum(pair) for pair in counts), default=0) or 1):
+        which = part.tolist()
+        asked = SurfacesAtOnce.of([surfaces[k] for k in which])
+        lines = [_lines(asked, axis, [values[k][axis] for k in which], tracing) for axis in (0, 1)]
+        for k, *own in zip(which, *lines, strict=True):
+            found[k] = together(own)
+    return found
 
 
 def u_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -111,7 +134,7 @@ def u_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) 
     >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 1], 0.0))
     ([False], True)
     """
-    return _lines(surface, 0, np.atleast_1d(np.asarray(values, dtype=np.float64)), tracing)
+    return _lines_of_one(surface, 0, values, tracing)
 
 
 def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -148,7 +171,7 @@ def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) 
     >>> curves.levels.tolist(), curves.closed.tolist()
     ([0.0], [True])
     """
-    return _lines(surface, 1, np.atleast_1d(np.asarray(values, dtype=np.float64)), tracing)
+    return _lines_of_one(surface, 1, values, tracing)
 
 
 def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -191,35 +214,56 @@ def domain_borders(surface: Surface, tracing: Tracing) -> SurfaceCurves:
     return together([u_lines(surface, u, tracing=tracing), v_lines(surface, v, tracing=tracing)])
 
 
-def _lines(surface: Surface, axis: int, values: Floats, tracing: Tracing) -> SurfaceCurves:
-    """The lines on which parameter 0 (u) or 1 (v) has one of the values."""
-    domain = surface.domain
-    if not np.isfinite(values).all():
+def _lines_of_one(surface: Surface, axis: int, values: ArrayLike, tracing: Tracing) -> SurfaceCurves:
+    """The lines on which parameter 0 (u) or 1 (v) of a surface has one of the values."""
+    own = np.atleast_1d(np.asarray(values, dtype=np.float64))
+    return _lines(SurfacesAtOnce.of([surface]), axis, [own], tracing)[0]
+
+
+def _lines(asked: SurfacesAtOnce, axis: int, values: Sequence[Floats], tracing: Tracing) -> list[SurfaceCurves]:
+    """For each of the surfaces (s,) the lines on which parameter 0 (u) or 1 (v) has one of its values (k,).
+
+    On the way a point of a line is its constant parameter, the running one and the number of its surface: its way.
+    """
+    if not all(np.isfinite(own).all() for own in values):
         raise InputError("parameter lines: values must be finite numbers")
-    size = extent(surface)[0] if len(values) else 0.0
-    if size == 0.0:
-        return no_curves()
-    t = domain.grid(24, 24)[1 - axis]
+    if not any(len(own) for own in values):
+        return [no_curves()] * len(asked)
+    sizes = np.array([extent_of(points)[0] for points in samples_of_each(asked)])
+    starts = [
+        _first_ways(surface, axis, own if size > 0.0 else own[:0], k)
+        for k, (surface, own, size) in enumerate(zip(asked.surfaces, values, sizes.tolist(), strict=True))
+    ]
+    lines = _without_holes(asked, axis, records.joined(starts))
+    lines, enough = _refined(asked, axis, lines, tracing, sizes)
+    return _curves(asked, axis, lines, sizes, enough)
+
+
+def _first_ways(surface: Surface, axis: int, values: Floats, of: int) -> Traces:
+    """Lines of the surface with the number of, in chords that are even but for the breaks of its pieces: one across a
+    break might cut off a corner."""
+    t = surface.domain.grid(FIRST_CHORDS, FIRST_CHORDS)[1 - axis]
     breaks = line_pieces(surface).breaks[1 - axis]
-    # A chord across a break might cut off a corner.
     t = np.union1d(t, breaks[(breaks > t[0]) & (breaks < t[-1])])
-    ways = np.stack([np.repeat(values, len(t)), np.tile(t, len(values))], axis=1)
-    lines = Traces(ways, np.tile(np.arange(len(t)) == len(t) - 1, len(values)))
-    lines, enough = _refined(surface, axis, _without_holes(surface, axis, lines), tracing, size)
-    doubts = () if enough else (unresolved("parameter lines or borders are off by more than the tolerance"),)
-    return replace(_without_points(_curves(surface, axis, lines), size), doubts=doubts)
+    ways = from_components(np.repeat(values, len(t)), np.tile(t, len(values)), float(of))
+    return Traces(ways, np.tile(np.arange(len(t)) == len(t) - 1, len(values)))
 
 
-def _at(surface: Surface, axis: int, ways: Floats) -> Floats:
-    """(n,3) points of the surface; ways (n,2): the constant parameter of a line and the running one."""
-    u, v = (ways[:, 0], ways[:, 1]) if axis == 0 else (ways[:, 1], ways[:, 0])
-    return surface.points(np.ascontiguousarray(u), np.ascontiguousarray(v))
+def _parameters(axis: int, ways: Floats) -> tuple[Floats, Floats]:
+    """u and v (n,) of ways (n,3)."""
+    fixed, running = np.ascontiguousarray(ways[:, :2].T)
+    return (fixed, running) if axis == 0 else (running, fixed)
 
 
-def _without_holes(surface: Surface, axis: int, lines: Traces) -> Traces:
-    """The lines cut where the surface has holes, their ends at the borders of the holes by halving."""
+def _at(asked: SurfacesAtOnce, axis: int, ways: Floats) -> Floats:
+    """(n,3) points of the surfaces at ways (n,3)."""
+    return asked.surface(number(ways)).points(*_parameters(axis, ways))
+
+
+def _without_holes(asked: SurfacesAtOnce, axis: int, lines: Traces) -> Traces:
+    """The lines cut where their surfaces have holes, their ends at the borders of the holes by halving."""
     ways, last = lines.points, lines.last
-    good = _on_surface(surface, axis, ways)
+    good = _on_surface(asked, axis, ways)
     if good.all():
         return lines
     change = np.flatnonzero((good[1:] != good[:-1]) & ~last[:-1])
@@ -227,7 +271,7 @@ def _without_holes(surface: Surface, axis: int, lines: Traces) -> Traces:
     low, high = ways[change + enters], ways[change + ~enters]
     for _ in range(50):
         middle = 0.5 * (low + high)
-        there = _on_surface(surface, axis, middle)[:, None]
+        there = _on_surface(asked, axis, middle)[:, None]
         low, high = np.where(there, middle, low), np.where(there, high, middle)
     kept, ends = np.insert(good, change + 1, True), np.insert(last & good, change + 1, ~enters)
     # A line that consists of a single point is no line.
@@ -235,66 +279,79 @@ def _without_holes(surface: Surface, axis: int, lines: Traces) -> Traces:
     return Traces(np.insert(ways, change + 1, low, axis=0), ends).some(kept)
 
 
-def _on_surface(surface: Surface, axis: int, ways: Floats) -> Bools:
-    """(n,) where lines are on the surface, and it goes on beside them: x^y has values at whole y for x < 0 too, but is
-    no surface there."""
-    there = np.isfinite(_at(surface, axis, ways)).all(axis=1)
+def _on_surface(asked: SurfacesAtOnce, axis: int, ways: Floats) -> Bools:
+    """(n,) where lines are on their surface, and it goes on beside them: x^y has values at whole y for x < 0 too, but
+    is no surface there."""
+    there = all_finite(_at(asked, axis, ways))
+    surface = asked.surface(number(ways))
     beside = np.zeros(len(ways), dtype=np.bool_)
     for step in (AROUND_RIM, -AROUND_RIM):
         if beside.all():
             break
-        moved = ways + np.array([step * surface.domain.size[axis], 0.0])
-        beside |= is_known(surface, moved if axis == 0 else moved[:, ::-1])
+        moved = ways + from_components(step * surface.domain.size[axis], 0.0, 0.0)
+        beside |= is_known(surface, from_components(*_parameters(axis, moved)))
     return np.asarray(there & beside, dtype=np.bool_)
 
 
-def _refined(surface: Surface, axis: int, lines: Traces, tracing: Tracing, size: float) -> tuple[Traces, bool]:
-    """The lines with points put in until chords stay within the tolerance, interrupted where the surface jumps; and
-    whether the budget's points sufficed."""
-    tolerance = CHORD_OF_EXTENT * size if tracing.tolerance is None else tracing.tolerance
+def _refined(asked: SurfacesAtOnce, axis: int, lines: Traces, tracing: Tracing, sizes: Floats) -> tuple[Traces, Bools]:
+    """The lines with points put in until chords stay within the tolerance, interrupted where a surface jumps; and
+    whether the budget's points sufficed for each surface (s,)."""
     # Without a tolerance nothing is cut.
-    if not tolerance > 0.0:
-        return lines, True
+    if tracing.tolerance is not None and not tracing.tolerance > 0.0:
+        return lines, np.ones(len(asked), dtype=np.bool_)
+    tolerance = CHORD_OF_EXTENT * sizes if tracing.tolerance is None else np.full(len(sizes), tracing.tolerance)
 
     def image(ways: Floats) -> Floats:
-        points = _at(surface, axis, ways)
+        points = _at(asked, axis, ways)
         return points if tracing.picture is None else tracing.picture(points)
 
-    most = tracing.budget.points * max(1.0, int(lines.last.sum()) / LINES_A_BUDGET)
-
     def slopes(ways: Floats) -> Floats:
-        u, v = (ways[:, 0], ways[:, 1]) if axis == 0 else (ways[:, 1], ways[:, 0])
-        return surface.partials(u, v)[1 - axis]
+        return asked.surface(number(ways)).partials(*_parameters(axis, ways))[1 - axis]
 
-    found = refined(lines, straight_between, image, tolerance, most)
-    domain = np.array(surface.domain.size)
-    whole = torn(found.lines, image, tolerance, domain if axis == 0 else domain[::-1])
-    return with_standstills(whole, slopes), bool(found.enough.all())
+    of = of_lines(lines)
+    most = tracing.budget.points * np.maximum(1.0, np.bincount(of, minlength=len(asked)) / LINES_A_BUDGET)
+    found = refined(lines, straight_between, image, tolerance[of], most[of], share=of)
+    size = np.array([(*domain.size[:: 1 - 2 * axis], 1.0) for domain in asked.domains])
+    whole = torn(found.lines, image, tolerance[of], size[of])
+    short = np.bincount(of[~found.enough], minlength=len(asked))
+    return with_standstills(whole, slopes), np.asarray(short == 0)
 
 
-def _curves(surface: Surface, axis: int, lines: Traces) -> SurfaceCurves:
-    """The lines as curves; those that run all around a closed direction without their last point."""
-    domain: Domain = surface.domain
-    begin, finish = ((domain.v_start, domain.v_end), (domain.u_start, domain.u_end))[axis]
-    goes_round = (domain.closed_v, domain.closed_u)[axis]
-    fixed, running = lines.points.T
-    first, last = lines.starts, lines.ends
+def _curves(asked: SurfacesAtOnce, axis: int, lines: Traces, sizes: Floats, enough: Bools) -> list[SurfaceCurves]:
+    """The lines of each surface as curves, without those that are only a point; those that run all around a closed
+    direction without their last point."""
+    ends = np.array([((d.v_start, d.v_end), (d.u_start, d.u_end))[axis] for d in asked.domains])
+    one = asked.domains[0]
+    goes_round = (one.closed_v, one.closed_u)[axis]
+    first, last, of = lines.starts, lines.ends, of_lines(lines)
+    begin, finish = ends[of].T
+    running = lines.points[:, 1]
     closed: Bools = np.asarray(goes_round & (running[first] == begin) & (running[last] == finish))
     kept, offsets = lines.unrepeated(closed)
+    ways = lines.points[kept]
+    u, v = _parameters(axis, ways)
+    surface = asked.surface(number(ways))
+    points = surface.points(*wrapped(surface.domain, u, v))
     turns = np.zeros((len(last), 2), dtype=np.intp)
     turns[:, 1 - axis] = closed
-    u, v = (fixed[kept], running[kept]) if axis == 0 else (running[kept], fixed[kept])
     none = np.zeros((0, 2))
-    points = surface.points(*wrapped(domain, u, v))
-    return SurfaceCurves(u, v, points, offsets, closed, turns, fixed[first], none, none, none, ())
+    whole = SurfaceCurves(u, v, points, offsets, closed, turns, lines.points[first, 0], none, none, none, ())
+    real = _more_than_points(whole, sizes[of])
+    if not real.all():
+        whole, of = some(whole, real), of[real]
+    doubt = unresolved("parameter lines or borders are off by more than the tolerance")
+    return [
+        replace(curves, doubts=() if did else (doubt,))
+        for curves, did in zip(
+            split(whole, np.searchsorted(of, np.arange(len(asked) + 1))), enough.tolist(), strict=True
+        )
+    ]
 
 
-def _without_points(curves: SurfaceCurves, size: float) -> SurfaceCurves:
-    """The curves that are more than a single point."""
+def _more_than_points(curves: SurfaceCurves, sizes: Floats) -> Bools:
+    """(m,) the curves that are more than a single point, on surfaces of these sizes (m,)."""
     if not len(curves):
-        return curves
-    counts: Ints = np.diff(curves.offsets)
+        return np.zeros(0, dtype=np.bool_)
     start = curves.offsets[:-1]
-    away = np.linalg.norm(curves.points - np.repeat(curves.points[start], counts, axis=0), axis=1)
-    real = np.maximum.reduceat(away, start) > ZERO_OF_EXTENT * size
-    return curves if real.all() else some(curves, real)
+    away = norm(curves.points - np.repeat(curves.points[start], np.diff(curves.offsets), axis=0))
+    return np.asarray(np.maximum.reduceat(away, start) > ZERO_OF_EXTENT * sizes)

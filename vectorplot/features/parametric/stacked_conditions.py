@@ -23,16 +23,23 @@ T = TypeVar("T")
 
 
 @dataclass(frozen=True, eq=False)
-class StackedConditions(Generic[C]):
-    """A condition on each of several surfaces that are closed in the same directions.
+class SurfacesAtOnce:
+    """Several surfaces that are closed in the same directions.
 
-    surfaces (s,): at least one; surface, at: what is asked for k pairs of parameters, and the condition on it, each on
-    the surface with the number of (k,).
+    surfaces (s,): at least one; surface: what is asked for k pairs of parameters, each of the surface with the number
+    of (k,).
     """
 
     surfaces: tuple[Surface, ...]
     surface: Callable[[Ints], Surface]
-    at: Callable[[Ints], C]
+
+    @classmethod
+    def of(cls, surfaces: Sequence[Surface]) -> SurfacesAtOnce:
+        """A single surface of any kind, or the surfaces of one of `stacks`."""
+        if len(surfaces) == 1:
+            return cls(tuple(surfaces), lambda of: surfaces[0])
+        placed = (surface for surface in surfaces if isinstance(surface, PlacedSurface))
+        return cls(tuple(surfaces), StackedSurfaces(tuple(placed)).at)
 
     def __len__(self) -> int:
         return len(self.surfaces)
@@ -48,6 +55,14 @@ class StackedConditions(Generic[C]):
         pairs = [np.meshgrid(*domain.grid(columns, rows), indexing="ij") for domain in self.domains]
         u, v = (np.stack([pair[axis] for pair in pairs]).ravel() for axis in (0, 1))
         return u, v, np.repeat(np.arange(len(self)), (columns + 1) * (rows + 1))
+
+
+@dataclass(frozen=True, eq=False)
+class StackedConditions(SurfacesAtOnce, Generic[C]):
+    """A condition on each of several surfaces; at: that on the surfaces with the numbers (k,), asked for k pairs of
+    parameters."""
+
+    at: Callable[[Ints], C]
 
 
 def alone(surface: Surface, condition: C) -> StackedConditions[C]:
@@ -80,8 +95,9 @@ def stacked(surfaces: Sequence[Surface], condition: S) -> StackedConditions[S]:
     """A condition on the first of several surfaces, and the same on the others: one of `stacks`."""
     if len(surfaces) == 1:
         return alone(surfaces[0], condition)
-    stack = StackedSurfaces(tuple(surface for surface in surfaces if isinstance(surface, PlacedSurface)))
-    return StackedConditions(tuple(surfaces), stack.at, lambda of: condition.on(stack.at(of), of))
+    together = SurfacesAtOnce.of(surfaces)
+    surface = together.surface
+    return StackedConditions(together.surfaces, surface, lambda of: condition.on(surface(of), of))
 
 
 def stacks(surfaces: Sequence[Surface], parameters: int) -> list[Ints]:

@@ -90,6 +90,8 @@ def with_points(curves: SurfaceCurves, after: Ints, u: Floats, v: Floats, points
     in whose place a new one comes, to within 1e-9 of what the parameters span, gives way to it.
     """
     place = np.asarray(after, dtype=np.intp)
+    if not len(place):
+        return curves, place
     order = np.argsort(place, kind="stable")
     at = np.empty_like(place)
     at[order] = place[order] + 1 + np.arange(len(place))

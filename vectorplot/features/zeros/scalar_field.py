@@ -77,9 +77,10 @@ class ScalarFields:
         w[~np.isfinite(w)] = np.nan
         return w
 
-    def on_grid(self, columns: int, rows: int, which: Ints) -> Floats:
-        """(k, columns+1, rows+1) the functions which (k,) on even grids; seams are evaluated once, so that both sides
-        agree to the last bit."""
+    def on_grid(self, columns: int, rows: int, which: Ints | None = None) -> Floats:
+        """(k, columns+1, rows+1) the functions which (k,), or all of them, on even grids; seams are evaluated once, so
+        that both sides agree to the last bit."""
+        which = np.arange(len(self)) if which is None else which
         start, size, low, high = (x[which, :, None] for x in (self.start, self.size, self.low, self.high))
         u, v = (
             np.clip(
@@ -159,14 +160,15 @@ def in_units(field: ScalarFields, unit: Floats) -> ScalarFields:
     )
 
 
-def grid_values(field: ScalarFields, columns: int, rows: int) -> tuple[ScalarFields, Floats]:
-    """The values (s, columns+1, rows+1) of f on grids over the domains, and the fields without their poles.
+def without_poles(field: ScalarFields, values: Floats) -> tuple[ScalarFields, Floats]:
+    """The fields without their poles, and their values (s, columns+1, rows+1) on grids over the domains; values: those
+    that `on_grid` gives.
 
     Degenerate: a border all along which f is zero or not defined is a pole of the parametrisation (there the normal of
     a surface vanishes), it gets the values next to it. A single point where f is not defined, such as sin(r) / r at
     r = 0, gets the value next to it.
     """
-    w = field.on_grid(columns, rows, np.arange(len(field)))
+    w, columns, rows = values.copy(), values.shape[1] - 1, values.shape[2] - 1
     low, high = field.low.copy(), field.high.copy()
     for axis, closed in enumerate(field.closed):
         for side, limits, inwards in () if closed else ((0, low, 1), (-1, high, -1)):

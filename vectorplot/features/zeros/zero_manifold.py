@@ -19,10 +19,10 @@ from vectorplot.features.zeros.scalar_field import (
     Gradients,
     ScalarFields,
     grid_points,
-    grid_values,
     in_units,
     number,
     scalar_fields,
+    without_poles,
 )
 from vectorplot.features.zeros.sizes_of_values import sizes_of_zeros, units_of_values, usual_sizes
 from vectorplot.features.zeros.tangles import without_tangles
@@ -201,6 +201,7 @@ def zero_manifolds(
     resolution: float = RESOLUTION,
     positions: Positions | None = None,
     tolerances: Sequence[float] | None = None,
+    values: Floats | None = None,
     budget: Budget = USUAL,
 ) -> list[ZeroManifold]:
     """The curves f(u, v) = 0 of many functions, each over a domain of its own, all traced at once.
@@ -217,6 +218,8 @@ def zero_manifolds(
         As of `zero_manifold_of_f_uv`, with the numbers (k,) as their third argument.
     tolerances : sequence of float, optional
         As the tolerance of `zero_manifold_of_f_uv`, one for each function.
+    values : (s, columns+1, rows+1) array of float, optional
+        Those of f on the grids, where they are known already.
     resolution, budget
         As of `zero_manifold_of_f_uv`, for each function.
 
@@ -239,7 +242,8 @@ def zero_manifolds(
     """
     for domain in domains:
         check_grid(domain, columns, rows, resolution)
-    field, w = grid_values(scalar_fields(f, domains, gradient), columns, rows)
+    field = scalar_fields(f, domains, gradient)
+    field, w = without_poles(field, field.on_grid(columns, rows) if values is None else values)
     scale = usual_sizes(field, w)
     unit = units_of_values(scale)
     field, w, scale = in_units(field, unit), w / unit[:, None, None], scale / unit

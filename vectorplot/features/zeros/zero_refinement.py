@@ -15,6 +15,9 @@ from vectorplot.geometry.components import greatest_component
 from vectorplot.geometry.vectors import from_components
 from vectorplot.tolerances.of_parameters import DOT_OF_DOMAIN, REPEATED_OF_DOMAIN
 
+FIRST_STEP = 0.01
+"""Part of the way along which a zero is looked for, to its slope."""
+
 Positions = Callable[[Floats, Floats, Ints], Floats]
 """Takes arrays u, v (k,) and the numbers of the functions whose parameters they are to (k, 2 or 3)."""
 
@@ -28,11 +31,11 @@ def onto_curve(field: ScalarFields, points: Floats, across: Floats, zero: Floats
     zero = zero[number(points)]
     s = np.zeros(len(points))
     active = np.arange(len(points))
-    before, w_before = np.full(len(points), 0.01), field.values(moved(points, 0.01 * across))
+    before, w_before = np.full(len(points), FIRST_STEP), field.values(moved(points, FIRST_STEP * across))
     # Next to a border or a hole the first step goes the other way.
     turned = np.flatnonzero(np.isnan(w_before))
     before[turned] *= -1.0
-    w_before[turned] = field.values(moved(points[turned], -0.01 * across[turned]))
+    w_before[turned] = field.values(moved(points[turned], -FIRST_STEP * across[turned]))
     w = field.values(points)
     done = np.abs(w) <= zero
     active = active[~done]
@@ -51,6 +54,16 @@ def onto_curve(field: ScalarFields, points: Floats, across: Floats, zero: Floats
     if len(failed):
         s[failed], done[failed] = _searched(field, points[failed], across[failed], zero[failed])
     return moved(points, np.where(done, s, 0.0)[:, None] * across), done
+
+
+def near_curve(field: ScalarFields, points: Floats, across: Floats) -> tuple[Floats, Bools]:
+    """The same after a single secant, which for points next to the curve leads to within a small part of the way; they
+    are next to it that are no farther than two of the first steps."""
+    w, aside = field.values(points), field.values(moved(points, FIRST_STEP * across))
+    with np.errstate(all="ignore"):
+        s = FIRST_STEP * w / (w - aside)
+    found = np.abs(s) <= 2.0 * FIRST_STEP
+    return moved(points, np.where(found, s, 0.0)[:, None] * across), found
 
 
 def _searched(field: ScalarFields, points: Floats, across: Floats, zero: Floats) -> tuple[Floats, Bools]:
@@ -83,17 +96,22 @@ def refined_on_curve(
     measured between positions, or until there are most of them of one function; interrupted where positions jump. And
     for each function (s,) at how many chords its curve was not found, and whether most points were enough."""
 
-    def between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
+    def beside(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Floats]:
         size = field.size[number(start)]
         chord = (end - start)[:, :2] / size
-        across = from_components(-chord[:, 1], chord[:, 0]) * size
-        return onto_curve(field, start + part[:, None] * (end - start), across, zero)
+        return start + part[:, None] * (end - start), from_components(-chord[:, 1], chord[:, 0]) * size
+
+    def between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
+        return onto_curve(field, *beside(start, end, part), zero)
+
+    def near(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
+        return near_curve(field, *beside(start, end, part))
 
     def image(points: Floats) -> Floats:
         return positions(points[:, 0], points[:, 1], number(points))
 
     of = of_lines(lines)
-    found = refined(lines, between, image, tolerance[of], most, share=of)
+    found = refined(lines, between, image, tolerance[of], most, share=of, near=near)
     size = np.concatenate([field.size, np.ones((len(field), 1))], axis=1)
     unsure = np.bincount(of, weights=found.unsure, minlength=len(field)).astype(np.intp)
     short = np.bincount(of[~found.enough], minlength=len(field))

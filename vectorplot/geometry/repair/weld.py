@@ -12,6 +12,8 @@ from vectorplot.geometry.chunks import mapped, slices
 
 # Work in pieces that stay in the processor's cache.
 _PIECE = 1 << 15
+# More cubes have no numbers that numpy could hold.
+MOST_CUBES = 2.0**62
 # Odd multipliers with well mixed bits; a round of hashing takes three that no other round takes.
 _MULTIPLIERS = np.array(
     [
@@ -154,6 +156,11 @@ def one_each(points: Floats, size: float) -> Ints:
     if not len(points):
         return np.zeros(0, dtype=np.intp)
     cubes = np.floor((points - points.min(axis=0)) / size)
+    most = cubes.max(axis=0) + 1.0
+    if np.prod(most) < MOST_CUBES:
+        # So few cubes are numbered, and numbers are sorted sooner than rows.
+        number = np.ravel_multi_index(tuple(cubes.astype(np.int64).T), tuple(most.astype(np.int64)))
+        return np.sort(np.unique(number, return_index=True)[1])
     return np.sort(np.unique(cubes, axis=0, return_index=True)[1])
 
 

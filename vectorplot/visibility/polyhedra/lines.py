@@ -56,7 +56,7 @@ class Lines:
         Of which item each is a line.
     side : (n,) array of int
         1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
-        lines.
+        lines; and for outlines of which only `sides` tells it.
     smooth : (n,) array of bool
         A chord of a smooth curve, both of its ends on it.
     behind : (n,) array of int
@@ -122,6 +122,21 @@ class Lines:
             self.aside.take(which, axis=1),
             self.chords.some(which) if self.chords else None,
         )
+
+    def sides(self, view: View) -> Ints:
+        """The sides of all outlines, as of side, those of smooth surfaces too.
+
+        Parameters
+        ----------
+        view : View
+            What the lines are lines of.
+
+        Returns
+        -------
+        (n,) array of int
+            1, -1 or 0.
+        """
+        return self.side + self.chords.sides(view) if self.chords else self.side
 
     def ends(self, view: View, which: Ints, low: Floats, high: Floats) -> tuple[Floats, Floats]:
         """Both ends of parts of lines.

@@ -64,8 +64,11 @@ class BoxStrips:
 
 def _overlap(low: Floats, high: Floats, one: Ints, other_low: Floats, other_high: Floats, other: Ints) -> Ints:
     """(p,) which pairs of boxes overlap."""
-    near = np.ones(len(one), dtype=np.bool_)
+    pairs = np.arange(len(one))
     for axis in (0, 1):
-        near &= other_low[axis].take(other) <= high[axis].take(one)
+        # Of those that overlap along one axis few are left for the other.
+        near = other_low[axis].take(other) <= high[axis].take(one)
         near &= other_high[axis].take(other) >= low[axis].take(one)
-    return np.flatnonzero(near)
+        kept = np.flatnonzero(near)
+        pairs, one, other = pairs.take(kept), one.take(kept), other.take(kept)
+    return pairs

@@ -12,10 +12,16 @@ from vectorplot.geometry.components import all_components, any_component
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_parameters import BESIDE_STANDSTILL
+from vectorplot.visibility.smooth.events.edge_sides import covered_sides, sides_of_rims
 from vectorplot.visibility.smooth.sheets import sight_lines
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.words import LineKind
 
 NONE = -1
+
+OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)
+"""Kinds of curves to one side of which there is nothing of their sheet."""
 
 STEPS = 3
 """Steps of Newton from the part of a chord to that of its curve, which is close to it."""
@@ -27,9 +33,10 @@ come from a standstill near by."""
 
 @dataclass(frozen=True, eq=False)
 class ChordParts:
-    """What lines (n,) are of curves: chord (n,) by the point at which it begins, -1 for lines that are of none; begin
-    and end (n,): the part of the curve above it."""
+    """What lines (n,) are of curves on sheets: chord (n,) by the point at which it begins, -1 for lines that are of
+    none; begin and end (n,): the part of the curve above it."""
 
+    sheets: Sheets
     curves: Curves
     chord: Ints
     begin: Floats
@@ -37,7 +44,7 @@ class ChordParts:
 
     def some(self, which: Ints | Bools) -> ChordParts:
         """That of some of the lines."""
-        return ChordParts(self.curves, self.chord[which], self.begin[which], self.end[which])
+        return ChordParts(self.sheets, self.curves, self.chord[which], self.begin[which], self.end[which])
 
     def cut(self, view: View, low: Floats, high: Floats, start: Floats, end: Floats) -> tuple[Floats, Floats]:
         """Parts (n,) of the curves at which parts of the lines, from low to high (n,), begin and end; start and end
@@ -51,6 +58,23 @@ class ChordParts:
     def curve(self) -> Ints:
         """(n,) the curves that the lines are parts of; -1 for lines that are of none."""
         return np.where(self.chord >= 0, np.append(self.curves.owner, NONE)[self.chord], NONE)
+
+    def sides(self, view: View) -> Ints:
+        """(n,) 1 where the sheet of an outline lies to the left of the line in the image, -1 where to the right; 0 for
+        all other lines. Seen from the middle of the chord."""
+        result, curve = np.zeros(len(self.chord), dtype=np.intp), self.curve
+        outline = np.isin(self.curves.kind, OUTLINES) & (self.curves.sheet >= 0)
+        on = np.flatnonzero(np.append(outline, False)[curve])
+        curve = curve[on]
+        at, kind = self.curves.at(self.chord[on], np.full(len(on), 0.5)), self.curves.kind[curve]
+        one, two = self.curves.sheet[curve], self.curves.second_sheet[curve]
+        side = covered_sides(view, self.sheets, one, kind, at.points, at.places, at.slopes)
+        rim = np.flatnonzero(two >= 0)
+        edge, both = at.some(rim), (one[rim], two[rim])
+        places = (edge.places, edge.second_places)
+        side[rim] = sides_of_rims(view, self.sheets, both, edge.points, places, edge.slopes)
+        result[on] = side
+        return result
 
     def directions(self, view: View) -> Floats:
         """(n,2) the angles in the image, in radians from its first axis, at which curves leave the starts of the lines

@@ -26,6 +26,8 @@ def clearances(view: View, edges: Curves, points: Floats, tolerance: float) -> F
     """(k,) distances in the image of points (k,3) from the nearest edge, those from borders on which points lie left
     out: what ends in a point is not in front of it on either side. tolerance: how far chords are off their curves.
     """
+    if not len(points):
+        return np.zeros(0)
     image, chord = sight_lines.image(view, points), edges.chords
     border = edges.kind[edges.owner[chord]] == LineKind.BOUNDARY
     distance = _distances(view, edges, chord[~border], image)

@@ -15,10 +15,11 @@ from vectorplot.visibility.smooth.chord_parts import ChordParts
 from vectorplot.visibility.smooth.events.crossings import crossings
 from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.events.missed_events import missed_events
-from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events
+from vectorplot.visibility.smooth.events.own_events import edge_on_curves, facing_of, own_events
 from vectorplot.visibility.smooth.events.piercings import piercings
 from vectorplot.visibility.smooth.hidden_pieces import Counts, Pieces, carried, counted, cut, recounted
 from vectorplot.visibility.smooth.runs import without_short_runs
+from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import targets_of
 from vectorplot.visibility.smooth.tracing.traced import TracedScene
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves
@@ -57,8 +58,9 @@ def hidden_curves(
     sheets = replace(traced.sheets, counted_as=np.searchsorted(hiding, traced.sheets.item))
     edges = replace(traced.edges, item=np.searchsorted(hiding, traced.edges.item))
     targets = targets_of(view, sheets)
-    edge_on = edge_on_curves(view, sheets, curves)
-    own = own_events(view, sheets, curves, edge_on)
+    facing = facing_of(view, sheets, curves)
+    edge_on = edge_on_curves(curves, facing)
+    own = own_events(view, sheets, curves, facing, edge_on)
     done(0.2)
     crossed, short_of_crossings = crossings(view, sheets, curves, edges, edge_on, tolerance, budget.pairs)
     done(0.4)
@@ -83,8 +85,8 @@ def hidden_curves(
     return HiddenCurves(pieces, hidden_by, tuple(sorted(short)))
 
 
-def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, ChordParts, Ints]:
-    """The chords of all pieces, cut at events: start and end (c,3), which parts of chords, hidden_by (c,)."""
+def cut_curves(sheets: Sheets, curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, ChordParts, Ints]:
+    """The chords of all pieces on sheets, cut at events: start and end (c,3), which parts of chords, hidden_by (c,)."""
     pieces = found.pieces
     count = pieces.end_chord - pieces.begin_chord + 1
     first = ragged.starts(count)
@@ -98,4 +100,4 @@ def cut_curves(curves: Curves, found: HiddenCurves) -> tuple[Floats, Floats, Cho
     start[first[inner]] = curves.at(pieces.begin_chord[inner], pieces.begin_part[inner]).points
     inner = np.flatnonzero(pieces.end_part < 1.0)
     end[(first + count - 1)[inner]] = curves.at(pieces.end_chord[inner], pieces.end_part[inner]).points
-    return start, end, ChordParts(curves, chord, begin_part, end_part), found.hidden_by[owner]
+    return start, end, ChordParts(sheets, curves, chord, begin_part, end_part), found.hidden_by[owner]

@@ -143,8 +143,12 @@ def _seen(view: View, curves: Curves, pieces: Pieces, shortest: float) -> Ints:
 def recounted(pieces: Pieces, counts: Counts, again: Pieces, count: Callable[[Pieces], Counts]) -> Counts:
     """The sight lines of pieces that are cut again: of those that were there before what is known of them, of the
     others what count finds."""
-    rows = [np.column_stack([p.curve, p.begin_chord, p.begin_part, p.end_chord, p.end_part]) for p in (pieces, again)]
-    number = np.unique(np.concatenate(rows), axis=0, return_inverse=True)[1].ravel()
+    places = [[p.curve, p.begin_chord, p.begin_part, p.end_chord, p.end_part] for p in (pieces, again)]
+    rows = [np.concatenate(pair) for pair in zip(*places, strict=True)]
+    order = np.lexsort(rows)
+    new_one = np.logical_or.reduce([np.diff(row[order], prepend=np.nan) != 0.0 for row in rows])
+    number = np.empty_like(order)
+    number[order] = np.cumsum(new_one) - 1
     known = np.full(len(number), -1)
     known[number[: len(pieces)]] = np.arange(len(pieces))
     source = known[number[len(pieces) :]]

@@ -192,26 +192,37 @@ def _meetings(
         there = sheets.moved(sheet[mine], at[mine], again[:, None] * way[mine])
         good = np.isfinite(there).all(axis=1)
         starts.append(_Starts(mine[good], sheet[mine[good]], there[good]))
-    met = _solved(view, sheets, samples.points, way, records.joined(starts))
+    met = _solved(view, sheets, samples, way, records.joined(starts))
     met = _different(sheets, way, met)
     beside = _second_ones(sheets, way, met)
     if len(beside.sample):
-        others = _solved(view, sheets, samples.points, way, beside)
+        others = _solved(view, sheets, samples, way, beside)
         met = _different(sheets, way, records.joined((met, others)))
     return met
 
 
-def _solved(view: View, sheets: Sheets, points: Floats, way: Floats, starts: _Starts) -> _Met:
-    """What Newton's method finds from the starts, some of it more than once."""
+def _solved(view: View, sheets: Sheets, samples: Samples, way: Floats, starts: _Starts) -> _Met:
+    """What Newton's method finds from the starts, some of it more than once.
+
+    From a point of a contour the sight line touches the sheet: steps towards the point only halve the way there, and
+    what is found in the end is no meeting. They end where the place is that of the point.
+    """
     sample, number, places = starts.sample, starts.number, starts.places.copy()
     t = np.zeros(len(sample))
-    points, ways = points[sample], way[sample]
+    points, ways, own = samples.points[sample], way[sample], samples.places[sample]
+    touching = samples.contour[sample] & (samples.sheet[sample] == number)
     off = np.full(len(sample), np.inf)
     active = np.arange(len(sample))
     for begun in range(ROUNDS):
+        mine = np.flatnonzero(touching[active])
+        these = active[mine]
+        back = sheets.apart(number[these], places[these], own[these]) < CONTACT_PLACES
+        off[these[back]] = np.inf
+        active = np.delete(active, mine[back])
         if not len(active):
             break
-        step, led_to, here = sheets.missed(number[active], points[active], ways[active], places[active])
+        lines = (x.take(active, axis=0) for x in (points, ways, places))
+        step, led_to, here = sheets.missed(number[active], *lines)
         if begun:
             # How far the last step missed is known where the next one is.
             off[active] = _apart(points[active], ways[active], t[active], here)
@@ -258,10 +269,10 @@ def _different(sheets: Sheets, way: Floats, met: _Met) -> _Met:
     order = np.lexsort((distance, met.number, met.sample))
     for _ in range(3):
         s, n, d, at = met.sample[order], met.number[order], distance[order], met.places[order]
-        if len(order) < 2:
-            break
         same = (s[1:] == s[:-1]) & (n[1:] == n[:-1]) & (d[1:] - d[:-1] < ONE_MEETING)
         pair = np.flatnonzero(same)
         same[pair] = sheets.apart(n[pair], at[pair + 1], at[pair]) < ONE_MEETING_PLACES
+        if not same.any():
+            break
         order = order[np.concatenate([[True], ~same])]
     return records.some(met, order)

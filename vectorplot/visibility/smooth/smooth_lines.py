@@ -7,22 +7,16 @@ from dataclasses import replace
 
 import numpy as np
 
-from vectorplot.arrays import Ints
 from vectorplot.geometry.budget import USUAL, Budget, unheard, unresolved
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_parameters import LEAST_PART
 from vectorplot.visibility.polyhedra.lines import Lines
-from vectorplot.visibility.smooth.events.edge_sides import covered_sides, sides_of_rims
 from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.hidden_curves import HiddenCurves, cut_curves, hidden_curves
 from vectorplot.visibility.smooth.hidden_pieces import cut
 from vectorplot.visibility.smooth.sheets.family import StraightLines
 from vectorplot.visibility.smooth.tracing.traced import TracedScene
 from vectorplot.visibility.smooth.tracing.traced_curves import Curves, together
-from vectorplot.words import LineKind
-
-OUTLINES = (LineKind.CONTOUR, LineKind.BOUNDARY)
-"""Kinds of curves to one side of which there is nothing of their sheet."""
 
 
 def cut_lines_and_chords(
@@ -42,45 +36,32 @@ def cut_lines_and_chords(
     curves = together([traced.curves, _straight(lines)])
     found = hidden_curves(view, traced, curves, tolerance, budget, done)
     doubts = tuple((item, unresolved("lines in front of or behind it may be drawn wrong")) for item in found.short)
-    return _as_lines(view, traced, lines, curves, found), doubts
+    return _as_lines(traced, lines, curves, found), doubts
 
 
-def whole_lines_and_chords(view: View, traced: TracedScene, lines: Lines) -> Lines:
+def whole_lines_and_chords(traced: TracedScene, lines: Lines) -> Lines:
     """Straight lines and the chords of curves, from end to end, as if nothing hid them."""
     curves = together([traced.curves, _straight(lines)])
     pieces = cut(curves, all_events([]))
     whole = HiddenCurves(pieces, np.zeros(len(pieces), dtype=np.intp), ())
-    return _as_lines(view, traced, lines, curves, whole)
+    return _as_lines(traced, lines, curves, whole)
 
 
-def _as_lines(view: View, traced: TracedScene, lines: Lines, curves: Curves, found: HiddenCurves) -> Lines:
+def _as_lines(traced: TracedScene, lines: Lines, curves: Curves, found: HiddenCurves) -> Lines:
     """The chords of pieces of curves: those of the scene, and after them the straight lines."""
-    start, end, chords, behind = cut_curves(curves, found)
+    start, end, chords, behind = cut_curves(traced.sheets, curves, found)
     long = (start != end).any(axis=1) & (chords.end - chords.begin > LEAST_PART)
     start, end, chords, behind = start[long], end[long], chords.some(long), behind[long]
     chord, curve = chords.chord, curves.owner[chords.chord]
     smooth = curve < len(traced.curves)
     side = np.zeros(len(chord), dtype=np.intp)
     side[~smooth] = lines.side[curve[~smooth] - len(traced.curves)]
-    outline = np.flatnonzero(smooth & np.isin(curves.kind[curve], OUTLINES) & (curves.sheet[curve] >= 0))
     aside = np.zeros((3, len(chord)))
     aside[:, ~smooth] = lines.aside[:, curve[~smooth] - len(traced.curves)]
-    side[outline] = _sides(view, traced, curves, chord[outline])
-    side[smooth] += curves.side[curve[smooth]]
+    side[smooth] = curves.side[curve[smooth]]
     behind = behind + curves.behind[curve]
     chords = replace(chords, chord=np.where(smooth, chord, -1))
     return Lines(start.T, end.T, curves.kind[curve], curves.item[curve], side, smooth, behind, aside, chords)
-
-
-def _sides(view: View, traced: TracedScene, curves: Curves, chord: Ints) -> Ints:
-    """(k,) the sides on which sheets lie of chords of their outlines, seen from the middle of the chord."""
-    at, curve = curves.at(chord, np.full(len(chord), 0.5)), curves.owner[chord]
-    sheets, one, two = traced.sheets, curves.sheet[curve], curves.second_sheet[curve]
-    side = covered_sides(view, sheets, one, curves.kind[curve], at.points, at.places, at.slopes)
-    rim = np.flatnonzero(two >= 0)
-    on = at.some(rim)
-    side[rim] = sides_of_rims(view, sheets, (one[rim], two[rim]), on.points, (on.places, on.second_places), on.slopes)
-    return side
 
 
 def _straight(lines: Lines) -> Curves:

@@ -6,6 +6,7 @@ from scipy.spatial import cKDTree
 
 from vectorplot import Mesh, features
 from vectorplot.errors import InputError
+from vectorplot.features.integral.on_meshes.mesh_combing import _away
 from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.testing import assert_integral_curve
 from vectorplot.testing.shapes import box
@@ -77,3 +78,16 @@ def test_every_part_of_a_mesh_of_many_is_covered_with_one_even_family_a_face():
     walls = np.flatnonzero(np.abs(town.face_normals[:, 2]) < 0.5)
     lines = np.bincount(found.faces[found.offsets[:-1]], minlength=town.face_count)[walls]
     assert lines.min() >= 9 and lines.max() <= 11
+
+
+def test_how_far_gaps_are_is_exact_where_they_are_near_and_known_roughly_elsewhere():
+    turns = np.linspace(0.0, 6.0 * np.pi, 4000)
+    taken = np.stack([np.cos(turns), np.sin(turns), 0.1 * turns, *np.zeros((3, len(turns)))], axis=1)
+    where = np.random.default_rng(2).uniform(-9.0, 9.0, (500, 6)) * (1.0, 1.0, 1.0, 0.1, 0.1, 0.1)
+    where[0] = (0.0, 0.0, 0.5, 0.0, 0.0, 0.0)  # as far from everything around it
+    tree = cKDTree(taken)
+    exact, away = tree.query(where)[0], _away(tree, where, 0.4)
+    assert (away >= exact).all()
+    assert (away <= 1.25 * exact).all()
+    assert np.array_equal(away[exact < 0.4], exact[exact < 0.4])
+    assert len(_away(tree, where[:0], 0.4)) == 0

@@ -13,7 +13,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.torus import Torus
-from vectorplot.visibility.smooth.events.own_events import edge_on_curves, own_events
+from vectorplot.visibility.smooth.events.own_events import edge_on_curves, facing_of, own_events
 from vectorplot.visibility.smooth.sheets.family import ParameterCurves
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
@@ -36,7 +36,8 @@ def on_ball(places):
 def test_a_meridian_goes_behind_the_sphere_at_the_equator() -> None:
     v = np.linspace(1.0, -1.0, 8)
     view, sheet, meridian = on_ball(np.stack([np.full(8, 0.3), v, np.zeros(8)], axis=1))
-    found = own_events(view, Sheets((sheet,)), meridian, np.zeros(1, dtype=np.bool_))
+    sheets = Sheets((sheet,))
+    found = own_events(view, sheets, meridian, facing_of(view, sheets, meridian), np.zeros(1, dtype=np.bool_))
     assert found.chord.tolist() == [3] and np.allclose(found.part, 0.5, atol=1e-9)
     # In front of the lower half there is the upper one, too.
     assert found.change.tolist() == [1]
@@ -46,8 +47,9 @@ def test_the_equator_is_edge_on_and_a_parallel_circle_not() -> None:
     for latitude, expected in ((0.0, True), (0.2, False)):
         u = np.linspace(0.0, 2.0, 9)
         view, sheet, circle = on_ball(np.stack([u, np.full(9, latitude), np.zeros(9)], axis=1))
-        assert edge_on_curves(view, Sheets((sheet,)), circle).tolist() == [expected]
-    assert not edge_on_curves(view, Sheets((sheet,)), replace(polylines(around(8)), item=np.array([0]))).any()
+        assert edge_on_curves(circle, facing_of(view, Sheets((sheet,)), circle)).tolist() == [expected]
+    straight = replace(polylines(around(8)), item=np.array([0]))
+    assert not edge_on_curves(straight, facing_of(view, Sheets((sheet,)), straight)).any()
 
 
 @pytest.mark.hard(29)
@@ -57,7 +59,8 @@ def test_cusps_of_a_torus_come_in_pairs_that_begin_and_end_two_sheets() -> None:
     sheets = scene_sheets(scene, view)
     contour = traced_scene(scene, view, sheets, frozenset(map(LineKind.from_word, DRAWN)), 1e-4).edges
     contour = contour.some(np.flatnonzero(contour.kind == LineKind.CONTOUR))
-    found = own_events(view, Sheets(sheets), contour, np.ones(len(contour), dtype=np.bool_))
+    facing = facing_of(view, Sheets(sheets), contour)
+    found = own_events(view, Sheets(sheets), contour, facing, np.ones(len(contour), dtype=np.bool_))
     assert sorted(found.change.tolist()) == [-1, -1, 1, 1]
     # There the sight line is an asymptotic direction: the contour runs along it.
     at = contour.at(found.chord, found.part).slopes

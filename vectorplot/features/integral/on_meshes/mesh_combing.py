@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.integral.on_meshes.combed_mesh import CombedMesh
+from vectorplot.features.integral.on_meshes.place_cells import PlaceCells
 from vectorplot.features.integral.on_meshes.placed_curves import (
     PlacedCurves,
     beside,
@@ -16,13 +17,16 @@ from vectorplot.features.integral.on_meshes.placed_curves import (
     reached,
     some_places,
 )
+from vectorplot.features.integral.spacing.crowd import ROUGHLY
 from vectorplot.features.integral.spacing.evenly_spaced import MOST_LINES, SAMPLES
-from vectorplot.features.integral.spacing.gaps import SEPARATE, WIDEST
+from vectorplot.features.integral.spacing.gaps import SEPARATE, WIDEST, widest_first
 from vectorplot.features.integral.spacing.uncrowded_lines import NEAREST, SHORTEST
 from vectorplot.features.meshes.mesh_curves import MeshCurves, all_mesh_curves
 from vectorplot.geometry import ragged
 from vectorplot.geometry.bounds.boxes import overlapping_boxes
+from vectorplot.geometry.chunks import workers
 from vectorplot.geometry.polylines import closed_round, joined, some
+from vectorplot.geometry.repair.weld import one_each
 from vectorplot.geometry.vectors import norm
 
 if TYPE_CHECKING:
@@ -37,8 +41,11 @@ MOST_ROUNDS = 24
 MOST_AT_ONCE = 1000
 """And so many at a time."""
 
-BESIDE = 2.0
-"""Times as far as a gap is from all that is taken, within which no other one is filled at the same time."""
+FARTHER = 4.0
+"""Times as far one looks for what is taken where nothing is near enough."""
+
+CELL = 2.0
+"""Times the distance of curves that the cells are large by which is told what is near what is taken."""
 
 GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
@@ -85,15 +92,29 @@ def _gaps(where: Floats, tree: cKDTree | None, apart: float) -> Ints:
     if tree is None:
         middle = np.median(where, axis=0)
         return np.array([np.argmin(norm(where[:, :3] - middle[:3]))])
-    away = tree.query(where)[0]
-    left = np.argsort(-away, kind="stable")
-    chosen: list[int] = []
-    while len(left) and len(chosen) < MOST_AT_ONCE:
-        chosen.append(int(left[0]))
-        # Where much is empty, what begins in one gap fills those about it too.
-        empty = max(SEPARATE * apart, BESIDE * float(away[left[0]]))
-        left = left[norm(where[left] - where[left[0]]) > empty]
-    return np.array(chosen, dtype=np.intp)
+    return widest_first(where, _away(tree, where, SEPARATE * apart), apart, MOST_AT_ONCE)
+
+
+def _away(tree: cKDTree, where: Floats, near: float) -> Floats:
+    """(k,) how far places where (k,6) are from what a tree has: exact up to near, else larger by a part, ROUGHLY, at
+    most.
+
+    On shapes with flat sides much of what is far is equally far, and a tree must look at all of it: so the farther one
+    looks, the fewer stand for all.
+    """
+    from scipy.spatial import cKDTree
+
+    away = np.full(len(where), np.inf)
+    left = np.arange(len(where))
+    while True:
+        away[left] = tree.query(where[left], distance_upper_bound=near, workers=workers(len(left)))[0]
+        left = left[~np.isfinite(away[left])]
+        if not len(left):
+            return away
+        taken = np.asarray(tree.data)
+        # The longest way within a cube is a part of the distance from which on it counts.
+        tree = cKDTree(taken[one_each(taken, ROUGHLY * near / np.sqrt(taken.shape[1]))])
+        near *= FARTHER
 
 
 def _seeds(shape: CombedMesh, gaps: Floats, tree: cKDTree | None) -> tuple[Floats, Floats]:
@@ -171,6 +192,8 @@ def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None
     spans = [np.zeros((0, 3), dtype=np.intp)]
     bounds = np.searchsorted(found.curve, np.arange(count + 1))
     low, high = _boxes(found.where, bounds[:-1])
+    cells = PlaceCells.over(found.where[:, :3], CELL * apart)
+    cell = cells.of(found.where[:, :3])
     left = np.flatnonzero(free[found.seed])
     while len(left):
         group, left = np.split(left, [max(1, int(np.searchsorted(np.cumsum(np.diff(bounds)[left]), GROUP)))])
@@ -185,7 +208,7 @@ def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None
         reach = NEAREST * apart
         near = left[np.unique(overlapping_boxes(low[:, left], high[:, left], about[0] - reach, about[1] + reach)[0])]
         at = ragged.ranges(bounds[near], bounds[near + 1] - bounds[near])
-        at = at[free[at]]
+        at = at[free[at] & cells.near(own[-1][:, :3], reach)[cell[at]]]
         free[at] = ~beside(last, found.where[at], reach)
     line, first, end = np.concatenate(spans).T
     if not len(line):

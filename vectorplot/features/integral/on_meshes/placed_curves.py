@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import workers
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
@@ -35,7 +36,8 @@ class PlacedCurves:
 
 def beside(tree: cKDTree, where: Floats, reach: float) -> Bools:
     """(k,) which places (k,6) are within reach of what a tree has."""
-    return np.asarray(np.isfinite(tree.query(where, distance_upper_bound=reach)[0]))
+    away = tree.query(where, distance_upper_bound=reach, workers=workers(len(where)))[0]
+    return np.asarray(np.isfinite(away))
 
 
 def reached(found: PlacedCurves, free: Bools) -> tuple[Ints, Ints]:

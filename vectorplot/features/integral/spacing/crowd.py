@@ -12,6 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.integral.charts import Charts
 from vectorplot.features.integral.sites import Sites
 from vectorplot.features.integral.spacing.places_along import PlacesAlong
+from vectorplot.geometry.chunks import workers
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.surface import Surface
@@ -111,7 +112,8 @@ class Crowd:
         known = all_finite(where)
         result = np.where(known, np.inf, 0.0)
         for group in self.groups:
-            result[known] = np.minimum(result[known], group.tree.query(where[known], eps=ROUGHLY)[0])
+            away = group.tree.query(where[known], eps=ROUGHLY, workers=workers(len(where)))[0]
+            result[known] = np.minimum(result[known], away)
         return result
 
     def near(self, places: Floats, where: Floats, reach: float) -> Bools:
@@ -120,7 +122,7 @@ class Crowd:
         result = ~all_finite(where)
         for group in self.groups:
             at = np.flatnonzero(~result)
-            away, nearest = group.tree.query(where[at], distance_upper_bound=reach)
+            away, nearest = group.tree.query(where[at], distance_upper_bound=reach, workers=workers(len(at)))
             at, nearest = at[np.isfinite(away)], nearest[np.isfinite(away)]
             # Mostly what is nearest is on the sheet, and the others need not be looked at.
             if len(at):

@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.integral.sites import Sites
 from vectorplot.features.integral.spacing.crowd import Crowd, Ground
 from vectorplot.features.integral.tangent_fields import TangentField
@@ -27,6 +27,9 @@ SEPARATE = 4.0
 BESIDE = 2.0
 """And times what is empty around the one that is filled first."""
 
+BLOCK = 128
+"""So many places are compared with each other at a time, and what is taken of them with all."""
+
 
 @dataclass(frozen=True, eq=False)
 class Gaps:
@@ -45,14 +48,7 @@ class Gaps:
         if not np.isfinite(self.away).any():
             points = self.where[:, :3]
             return np.array([np.argmin(norm(points - np.median(points, axis=0)))])
-        left = np.argsort(-self.away, kind="stable")
-        chosen: list[int] = []
-        while len(left) and len(chosen) < AT_ONCE:
-            chosen.append(int(left[0]))
-            # Where much is empty, what begins in one gap fills those about it too.
-            empty = max(SEPARATE * self.ground.apart, BESIDE * float(self.away[left[0]]))
-            left = left[norm(self.where[left] - self.where[left[0]]) > empty]
-        return np.array(chosen, dtype=np.intp)
+        return widest_first(self.where, self.away, self.ground.apart, AT_ONCE)
 
     def left_by(self, crowd: Crowd, tried: Ints) -> Gaps:
         """Those that are left now that these places are taken, and some have been tried: a gap that nothing fits into
@@ -63,6 +59,39 @@ class Gaps:
         kept = np.flatnonzero(~np.logical_or(*taken))
         where = self.where[kept]
         return replace(self, places=self.places[kept], where=where, away=crowd.away(where))
+
+
+def widest_first(where: Floats, away: Floats, apart: float, most: int) -> Ints:
+    """Which of the places where (n,6), away (n,) from all that is taken, to fill next, so many at most: the farthest
+    ones first, none of them in what is empty around one before."""
+    from scipy.spatial import cKDTree
+
+    every, open_ = cKDTree(where), np.ones(len(where), dtype=np.bool_)
+    left = np.argsort(-away, kind="stable")
+    chosen = [np.zeros(0, dtype=np.intp)]
+    while len(left) and most > 0:
+        block = left[:BLOCK]
+        # Where much is empty, what begins in one gap fills those about it too.
+        empty = np.maximum(SEPARATE * apart, BESIDE * away[block])
+        picked = _one_after_the_other(norm(where[block, None] - where[block]) > empty[:, None])[:most]
+        chosen.append(block[picked])
+        most -= len(picked)
+        pairs = cKDTree(where[chosen[-1]]).sparse_distance_matrix(every, float(empty[0]), output_type="ndarray")
+        open_[pairs["j"][pairs["v"] <= empty[picked][pairs["i"]]]] = False
+        left = left[BLOCK:]
+        left = left[open_[left]]
+    return np.concatenate(chosen)
+
+
+def _one_after_the_other(apart: Bools) -> Ints:
+    """Which of some places to take, one after the other, of which apart (b,b) tells whether a later one is none of
+    those about an earlier one."""
+    free, taken = np.ones(len(apart), dtype=np.bool_), []
+    for place in range(len(apart)):
+        if free[place]:
+            taken.append(place)
+            free &= apart[place]
+    return np.array(taken, dtype=np.intp)
 
 
 def gaps_all_over(ground: Ground, field: TangentField) -> Gaps:

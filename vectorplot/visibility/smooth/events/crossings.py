@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
+from vectorplot.geometry.components import all_components
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import ALONG_EDGE_SINE, SEEN_ALONG_SINE
@@ -29,6 +30,9 @@ ROUNDS, HOPS = 8, 3
 
 ULPS = 16.0
 """So many times the rounding of points it may be too."""
+
+TOUCHING = 0.5
+"""Nearer to an edge than this part of the least gap in front of a curve it goes on to touch the curve."""
 
 NEAR_CUSPS = 0.1
 """Part of the largest bending along an edge below which a cusp is near."""
@@ -76,7 +80,7 @@ def crossings(
     pairs, short = _close_pairs(view, sheets, curves, edges, tolerance, allowed)
     settled: list[Pairs] = []
     for hop in range(HOPS):
-        pairs = _met(view, curves, edges, pairs)
+        pairs = _met(view, curves, edges, pairs, _least_gaps(curves, edges, edge_on, pairs))
         chord, part = hopped(curves, pairs.chord, pairs.part)
         edge, edge_part = hopped(edges, pairs.edge, pairs.edge_part)
         moved = (chord != pairs.chord) | (edge != pairs.edge)
@@ -144,7 +148,7 @@ def _one_way(view: View, curves: Curves, edges: Curves, chord: Ints, edge: Ints)
     image: on these no curve meets itself again."""
 
     def same(point: Ints, edge_point: Ints) -> Bools:
-        return np.asarray((curves.points[point] == edges.points[edge_point]).all(axis=1))
+        return all_components(curves.points.take(point, axis=0) == edges.points.take(edge_point, axis=0))
 
     on = (same(chord, edge) & same(chord + 1, edge + 1)) | same(chord + 1, edge) | same(chord, edge + 1)
     some = np.flatnonzero(on)
@@ -229,7 +233,7 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
         s, t = _step(away, a, b)
         part, edge_part = np.clip(part + s, -0.5, 1.5), np.clip(edge_part + t, -0.5, 1.5)
     met = np.flatnonzero(
-        (off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > 0.5 * GAP_IN_FRONT)
+        (off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > TOUCHING * GAP_IN_FRONT)
     )
     return Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
 
@@ -242,13 +246,24 @@ def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
     return s, t
 
 
-def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
-    """The pairs at parts where the images meet; those that find no meeting are left out."""
+def _least_gaps(curves: Curves, edges: Curves, edge_on: Bools, pairs: Pairs) -> Floats:
+    """(k,) how far in front of the chords of curves those of edges are at least: nearer to it a curve touches an
+    edge."""
+    curve, edge = curves.owner[pairs.chord], edges.owner[pairs.edge]
+    alike = edge_on[curve] & (curves.sheet[curve] == edges.sheet[edge]) & (edges.kind[edge] == LineKind.CONTOUR)
+    return np.where(alike, FOLDS_GAP, GAP_IN_FRONT)
+
+
+def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs, least_gap: Floats) -> Pairs:
+    """The pairs at parts where the images meet; those that find no meeting are left out.
+
+    least_gap (k,): as `_least_gaps` gives it. Towards a place where two curves touch steps get shorter, but never end.
+    """
     part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
     off = np.full(len(part), np.inf)
     active = np.arange(len(part))
     rounding = ULPS * sight_lines.rounding(view)
-    for _ in range(ROUNDS):
+    for begun in range(ROUNDS):
         if not len(active):
             break
         of = pairs.some(active)
@@ -260,8 +275,11 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pairs:
         part[active] = np.clip(part[active] + s, -1.5, 2.5)
         edge_part[active] = np.clip(edge_part[active] + t, -1.5, 2.5)
         far = (np.abs(s) > CROSSING_SETTLED) | (np.abs(t) > CROSSING_SETTLED)
+        depth = sight_lines.depth(view, one.points) - sight_lines.depth(view, two.points)
+        touching = (np.abs(depth) < TOUCHING * least_gap[active]) & (begun > 0)
+        off[active[touching]] = np.inf
         # A long way along chords may be a short one in the image, on which there is nothing but rounding.
-        active = active[far & (off[active] > rounding)]
+        active = active[far & ~touching & (off[active] > rounding)]
     # Beyond the chords' ends the search goes on with the neighbours, whatever the residual.
     beyond = (part < 0.0) | (part > 1.0) | (edge_part < 0.0) | (edge_part > 1.0)
     kept = (off <= 100.0 * max(CROSSING_RESIDUAL, rounding)) | (beyond & (off < np.inf))
@@ -274,16 +292,13 @@ def _events(view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: 
     away = sight_lines.image(view, two.points) - sight_lines.image(view, one.points)
     residual = np.sqrt(dot(away, away))
     gap = sight_lines.depth(view, one.points) - sight_lines.depth(view, two.points)
-    curve, edge = curves.owner[pairs.chord], edges.owner[pairs.edge]
-    alike = edge_on[curve] & (curves.sheet[curve] == edges.sheet[edge]) & (edges.kind[edge] == LineKind.CONTOUR)
     exact = max(CROSSING_RESIDUAL, ULPS * sight_lines.rounding(view))
-    real = (
-        (gap > np.where(alike, FOLDS_GAP, GAP_IN_FRONT)) & (residual <= exact) & (residual <= RESIDUAL_OF_GAP * gap**3)
-    )
+    real = (gap > _least_gaps(curves, edges, edge_on, pairs)) & (residual <= exact)
+    real &= residual <= RESIDUAL_OF_GAP * gap**3
     direction = sight_lines.image_slopes(view, one.points, one.slopes)
     along = sight_lines.image_slopes(view, two.points, two.slopes)
     real &= np.abs(turn(along, direction)) > ALONG_EDGE_SINE * np.sqrt(dot(along, along) * dot(direction, direction))
-    pairs, points, places, edge = pairs.some(real), two.points[real], two.places[real], edge[real]
+    pairs, points, places, edge = pairs.some(real), two.points[real], two.places[real], edges.owner[pairs.edge[real]]
     direction, along = direction[real], along[real]
     kind = edges.kind[edge]
     covered = covered_sides(view, sheets, edges.sheet[edge], kind, points, places, two.slopes[real])

@@ -7,6 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_angles import EDGE_ON_SINE
@@ -19,19 +20,26 @@ from vectorplot.visibility.smooth.tracing.traced_curves import Curves
 from vectorplot.words import LineKind
 
 
-def edge_on_curves(view: View, sheets: Sheets, curves: Curves) -> Bools:
-    """(m,) the curves that lie on the contour of their own sheet all along.
+def facing_of(view: View, sheets: Sheets, curves: Curves) -> Floats:
+    """(n,) cosines of the angles between sight lines and the normals of their sheets at the points of curves; infinite
+    on no sheet."""
+    facing = np.full(len(curves.points), np.inf)
+    number = curves.sheet[curves.owner]
+    at = np.flatnonzero(number >= 0)
+    facing[at] = _facing(view, sheets, number[at], curves.points.take(at, axis=0), curves.places.take(at, axis=0))
+    return facing
+
+
+def edge_on_curves(curves: Curves, facing: Floats) -> Bools:
+    """(m,) the curves that lie on the contour of their own sheet all along; facing (n,): as `facing_of` gives it.
 
     Contours do, whatever rounding makes of normals close to singular points; but not the outlines along the sharp edges
     of bodies, at which two sheets meet and neither of them need turn away.
     """
     contour = (curves.kind == LineKind.CONTOUR) & (curves.sheet >= 0) & (curves.second_sheet < 0)
-    facing = np.full(len(curves.points), np.inf)
-    number = curves.sheet[curves.owner]
-    at = np.flatnonzero(number >= 0)
-    facing[at] = _facing(view, sheets, number[at], curves.points[at], curves.places[at])
-    turned = np.abs(facing) > EDGE_ON_SINE
-    return np.asarray(contour | ~np.isin(np.arange(len(curves)), curves.owner[turned]))
+    straight = np.ones(len(curves), dtype=np.bool_)
+    straight[curves.owner[np.abs(facing) > EDGE_ON_SINE]] = False
+    return np.asarray(contour | straight)
 
 
 def _facing(view: View, sheets: Sheets, number: Ints, points: Floats, places: Floats) -> Floats:
@@ -40,27 +48,35 @@ def _facing(view: View, sheets: Sheets, number: Ints, points: Floats, places: Fl
     return np.asarray(dot(sheets.normals(number, places), way) / norm(way))
 
 
-def own_events(view: View, sheets: Sheets, curves: Curves, edge_on: Bools) -> Events:
+def own_events(view: View, sheets: Sheets, curves: Curves, facing: Floats, edge_on: Bools) -> Events:
     """The events where curves pass the contours of their own sheets, and cusps of curves that are contours.
 
-    edge_on (m,): as edge_on_curves tells.
+    facing (n,): as `facing_of` gives it; edge_on (m,): as `edge_on_curves` tells.
     """
     hides = np.append(sheets.hides, False)
-    first, second = hides[curves.sheet], hides[curves.second_sheet]
+    first, second = np.flatnonzero(hides[curves.sheet] & ~edge_on), np.flatnonzero(hides[curves.second_sheet])
+    folds = np.flatnonzero(hides[curves.sheet] & edge_on)
+    on_first = facing[ragged.take(curves.offsets, first)[0]]
+    on_second = _facing_on_second(view, sheets, curves.some(second))
     return all_events(
         [
-            _passings(view, sheets, curves, np.flatnonzero(first & ~edge_on), curves.sheet, _first_places),
-            _cusps(view, sheets, curves, np.flatnonzero(first & edge_on)),
-            _passings(view, sheets, curves, np.flatnonzero(second), curves.second_sheet, _second_places),
+            _passings(view, sheets, curves, first, curves.sheet, on_first, _first_places),
+            _cusps(view, sheets, curves, folds),
+            _passings(view, sheets, curves, second, curves.second_sheet, on_second, _second_places),
         ]
     )
 
 
-def _first_places(of: Curves | Along) -> Floats:
+def _facing_on_second(view: View, sheets: Sheets, curves: Curves) -> Floats:
+    """(n,) as `facing_of`, on the second sheets that all of the curves have."""
+    return _facing(view, sheets, curves.second_sheet[curves.owner], curves.points, curves.second_places)
+
+
+def _first_places(of: Along) -> Floats:
     return of.places
 
 
-def _second_places(of: Curves | Along) -> Floats:
+def _second_places(of: Along) -> Floats:
     return of.second_places
 
 
@@ -70,19 +86,19 @@ def _passings(
     curves: Curves,
     numbers: Ints,
     sheet: Ints,
-    places: Callable[[Curves | Along], Floats],
+    values: Floats,
+    places: Callable[[Along], Floats],
 ) -> Events:
     """Where some of the curves, by their numbers, go over from a part of a sheet that they see to one that the sheet
     itself hides, or back.
 
-    sheet (m,): the sheets of all curves, and places of curves on them.
+    sheet (m,): the sheets of all curves, and places of curves on them; values: how their points face the eye.
     """
     own = curves.some(numbers)
 
     def facing(curve: Ints, at: Along) -> Floats:
         return _facing(view, sheets, sheet[numbers[curve]], at.points, places(at))
 
-    values = _facing(view, sheets, sheet[numbers[own.owner]], own.points, places(own))
     roots = roots_along(own, facing, values)
     at, passed = own.at(roots.chord, roots.part), sheet[numbers[own.owner[roots.chord]]]
     chord = _chords(own, numbers, curves, roots.chord)

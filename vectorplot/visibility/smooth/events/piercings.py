@@ -84,12 +84,12 @@ def _close(
     depth, image = sight_lines.depth(view, curves.points), sight_lines.image(view, curves.points)
     none = np.zeros(0, dtype=np.intp)
     parts, short = [_Close(none, none, np.zeros(0), np.zeros((0, 3)), np.zeros(0))], list[int]()
-    curve, of = _neighbours(sheets, targets, curves)
+    within = _within(targets)
+    curve, of = _neighbours(sheets, targets, curves, within)
     stranger = (curves.sheet[curve] != of) & (curves.second_sheet[curve] != of) | meets_itself[of]
     curve, of = curve[stranger], of[stranger]
     order = np.argsort(of, kind="stable")
     sizes = np.diff(curves.offsets) - 1
-    within = _within(targets)
     start, end = curves.points[:-1], curves.points[1:]
     below, above = np.minimum(start, end), np.maximum(start, end)
     for own in np.split(order, np.flatnonzero(np.diff(of[order])) + 1) if len(order) else ():
@@ -115,15 +115,15 @@ def _close(
     return records.joined(parts), tuple(short)
 
 
-def _neighbours(sheets: Sheets, targets: Targets, curves: Curves) -> tuple[Ints, Ints]:
-    """Curves and sheets (n,) that their hulls in space do not separate."""
+def _neighbours(sheets: Sheets, targets: Targets, curves: Curves, within: Floats) -> tuple[Ints, Ints]:
+    """Curves and sheets (n,) that their hulls in space do not separate; within (t,): as `_within` gives it."""
     first = np.flatnonzero(np.diff(targets.sheet, prepend=-1))
     if not len(first) or not len(curves):
         return np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp)
-    within = np.maximum.reduceat(_within(targets), first)
     vertices = [sheets[number].vertices for number in targets.sheet[first].tolist()]
     finite = [own[np.isfinite(own).all(axis=1)] for own in vertices]
-    of_sheets = SlabHulls.of(np.concatenate(finite), np.array([len(own) for own in finite])).widened(within)
+    of_sheets = SlabHulls.of(np.concatenate(finite), np.array([len(own) for own in finite]))
+    of_sheets = of_sheets.widened(np.maximum.reduceat(within, first))
     curve, sheet = SlabHulls.of(curves.points, np.diff(curves.offsets)).near(of_sheets)
     return curve, targets.sheet[first[sheet]]
 

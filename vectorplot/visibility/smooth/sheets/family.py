@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, runtime_checkable
 
@@ -46,10 +46,16 @@ class Chords:
 
     def some(self, which: Ints | slice) -> Chords:
         """Some of the chords."""
+        if isinstance(which, slice):
+            return self._chosen(lambda values: values[which])
+        # take is several times as fast as an index between brackets.
+        return self._chosen(lambda values: values.take(which, axis=0))
+
+    def _chosen(self, rows: Callable[[Floats], Floats]) -> Chords:
         places, points, second = (
-            (start[which], end[which]) for start, end in (self.places, self.points, self.second_places)
+            (rows(start), rows(end)) for start, end in (self.places, self.points, self.second_places)
         )
-        return Chords(places, points, second, self.level[which])
+        return Chords(places, points, second, rows(self.level))
 
 
 def joined_chords(parts: Sequence[Chords]) -> Chords:

@@ -9,11 +9,15 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.visibility.smooth.sheets.parametric_places import StackedSheets
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
 from vectorplot.visibility.smooth.sheets.surface_sheet import OnSheet, Sheet
+
+Rows = Ints | slice
+"""Some of the rows of arrays, by their indices, or all of them."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,20 +151,22 @@ class Sheets:
             result[which] = sheet.on_sheet(at)
         return result
 
-    def _vectors(self, number: Ints, places: Floats, ask: Callable[[OnSheet, Ints, Floats], Floats]) -> Floats:
+    def _vectors(self, number: Ints, places: Floats, ask: Callable[[OnSheet, Rows, Floats], Floats]) -> Floats:
         result = np.full((len(number), 3), np.nan)
         for sheet, which, at in self._each(number, places):
             result[which] = ask(sheet, which, at)
         return result
 
-    def _each(self, number: Ints, places: Floats) -> Iterator[tuple[OnSheet, Ints, Floats]]:
-        """Each group that is asked, the indices of what it is asked for, and the places as it takes them."""
+    def _each(self, number: Ints, places: Floats) -> Iterator[tuple[OnSheet, Rows, Floats]]:
+        """Each group that is asked, which rows it is asked for, and the places as it takes them."""
         of = self.group[number]
-        for one in np.unique(of[of >= 0]).tolist():
-            group, which = self.groups[one], np.flatnonzero(of == one)
-            at = places[which]
+        counts = np.bincount(of + 1, minlength=1)[1:]
+        for one in np.flatnonzero(counts).tolist():
+            # Where one group is asked for everything there is nothing to choose.
+            which: Rows = slice(None) if counts[one] == len(of) else np.flatnonzero(of == one)
+            group, at = self.groups[one], places[which]
             if group.stacked:
-                at[:, 2] = self.row[number[which]]
+                at = from_components(at[:, 0], at[:, 1], self.row[number[which]])
             yield group.as_one, which, at
 
 

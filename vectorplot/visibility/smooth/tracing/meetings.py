@@ -72,17 +72,18 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
         names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
         doubts += [(names, text) for text in unsure]
         parts.append(part)
-    boxes = [_box(sheet.vertices) for sheet in sheets]
-    for other, item in enumerate(scene.items):
-        if not isinstance(item.shape, Mesh) or not item.shape.face_count or item.is_cut_face:
-            continue
-        mesh = Mesh(view.points_of(item.shape.vertices).T, item.shape.corners, item.shape.offsets, item.shape.present)
+    shapes = [(k, item.shape) for k, item in enumerate(scene.items) if not item.is_cut_face]
+    meshes = [(k, shape) for k, shape in shapes if isinstance(shape, Mesh) and shape.face_count]
+    boxes = [_box(sheet.vertices) for sheet in sheets if meshes]
+    for other, shape in meshes:
+        mesh = Mesh(view.points_of(shape.vertices).T, shape.corners, shape.offsets, shape.present)
         box = _box(mesh.vertices)
         for number, sheet in enumerate(sheets):
             items = [i for i in sorted((sheet.item, other)) if wants[i]]
             if items and _overlap(boxes[number], box):
                 part, unsure = _with_mesh(sheet, number, mesh, items[0], tracing)
-                doubts += [(f"{scene.items[sheet.item].name} and {item.name}", text) for text in unsure]
+                names = f"{scene.items[sheet.item].name} and {scene.items[other].name}"
+                doubts += [(names, text) for text in unsure]
                 parts.append(part)
     return Meetings(together(parts), itself, tuple(doubts))
 

@@ -24,7 +24,7 @@ from vectorplot.features.parametric.cuspidal_edges import singular_lines
 from vectorplot.features.parametric.cusps import contours_with_cusps
 from vectorplot.features.parametric.holes.hole_rims import hole_rims
 from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
-from vectorplot.features.parametric.parameter_lines import domain_borders, parameter_lines
+from vectorplot.features.parametric.parameter_lines import domain_borders, parameter_lines_of_each
 from vectorplot.features.parametric.stacked_conditions import stacked, stacks
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.surface_paths import surface_path
@@ -40,6 +40,7 @@ from vectorplot.surfaces.parts import covered_once, smooth_parts
 from vectorplot.surfaces.placed_surface import placed_once
 from vectorplot.surfaces.splines.line_pieces import line_pieces
 from vectorplot.surfaces.surface import Surface
+from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.visibility.smooth.sheets.directed_curves import DirectedCurves
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheets
@@ -88,6 +89,20 @@ def contours_of_parametrised(
     return found
 
 
+def parameter_lines_of_parametrised(
+    scene: Scene, sheets: Mapping[int, ParametricSheet], kinds: frozenset[LineKind], tracing: Tracing
+) -> dict[int, SurfaceCurves]:
+    """The parameter lines of those sheets whose items ask for some, by the numbers of the sheets."""
+    asked = {}
+    for number, sheet in sheets.items():
+        item = scene.items[sheet.item]
+        counts = (item.curves.columns, item.curves.rows)
+        if sum(counts) > 0 and not sheet.is_cap and LineKind.PARAMETER in kinds_of(item, kinds):
+            asked[number] = counts
+    surfaces = [sheets[number].surface for number in asked]
+    return dict(zip(asked, parameter_lines_of_each(surfaces, list(asked.values()), tracing=tracing), strict=True))
+
+
 def _turn(view: View, surface: Surface) -> Contour:
     """The condition of the contour."""
     return ParallelContour(surface, (0.0, 0.0, 1.0)) if view.eye is None else CentralContour(surface, view.eye)
@@ -99,16 +114,20 @@ def curves_of_parametrised(
     sheet: ParametricSheet,
     number: int,
     contour: SurfaceCurves,
+    lines: SurfaceCurves | None,
     wanted: frozenset[LineKind],
     tracing: Tracing,
 ) -> tuple[list[Curves], tuple[str, ...]]:
     """The curves of an item, each list entry of one kind, and doubts about them; contour, borders and cuspidal edges
-    always, because they hide. contour: that of the sheet."""
+    always, because they hide. contour: that of the sheet; lines: its parameter lines, if there are to be some."""
     item = scene.items[sheet.item]
     # Of a surface that is all seen edge-on, as a cylinder from the top, the borders are the whole picture.
     seen = replace(contour, doubts=tuple(text for text in contour.doubts if text != EVERYWHERE))
     found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet, number, _turn(view, sheet.surface)), seen)]
-    found += [*_edges(view, sheet, number, tracing), *_asked_for(scene, view, item, sheet, number, wanted, tracing)]
+    found += _edges(view, sheet, number, tracing)
+    if lines is not None:
+        found.append((LineKind.PARAMETER, _lines_of_parameters(view, sheet, number), lines))
+    found += _asked_for(scene, view, item, sheet, number, wanted, tracing)
     doubts = tuple(text for _, _, curves in found for text in curves.doubts)
     if any(kind == LineKind.CREASE and (len(curves) or len(curves.isolated)) for kind, _, curves in found):
         # At an apex or a cuspidal edge the normal jumps: that is known, and no doubt.
@@ -143,12 +162,9 @@ def _asked_for(
     wanted: frozenset[LineKind],
     tracing: Tracing,
 ) -> list[Found]:
-    """Parameter lines, isophotes, sections, paths, feature lines and integral curves."""
+    """Isophotes, sections, paths, feature lines and integral curves."""
     surface, lines = sheet.surface, item.curves
     result: list[Found] = []
-    if LineKind.PARAMETER in wanted and lines.columns + lines.rows > 0 and not sheet.is_cap:
-        found = parameter_lines(surface, lines.columns, lines.rows, tracing=tracing)
-        result.append((LineKind.PARAMETER, _lines_of_parameters(view, sheet, number), found))
     if LineKind.ISOPHOTE in wanted and lines.isophotes:
         result.append(_isophotes(scene, view, item, sheet, number, tracing))
     for section in lines.sections:

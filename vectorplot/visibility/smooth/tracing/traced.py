@@ -25,6 +25,7 @@ from vectorplot.visibility.smooth.tracing.merged_families import with_merged_fam
 from vectorplot.visibility.smooth.tracing.parametric_items import (
     contours_of_parametrised,
     curves_of_parametrised,
+    parameter_lines_of_parametrised,
     sheets_of_items,
 )
 from vectorplot.visibility.smooth.tracing.rims import with_rims
@@ -86,11 +87,13 @@ def traced_scene(
     drawn, edges, doubts = [], [], []
     own = {number: sheet for number, sheet in enumerate(sheets) if isinstance(sheet, ParametricSheet)}
     contours = contours_of_parametrised(view, own, tracing, lambda part: done(part / 2.0))
+    lines_of = parameter_lines_of_parametrised(scene, own, kinds, tracing)
     for number, sheet in enumerate(sheets):
         item = scene.items[sheet.item]
         wanted = kinds_of(item, kinds)
         if isinstance(sheet, ParametricSheet):
-            parts, unsure = curves_of_parametrised(scene, view, sheet, number, contours[number], wanted, tracing)
+            ready = contours[number], lines_of.get(number)
+            parts, unsure = curves_of_parametrised(scene, view, sheet, number, *ready, wanted, tracing)
         else:
             parts, unsure = curves_of_implicit(scene, view, sheet, number, wanted, tracing)
         doubts += [(item.name, text) for text in unsure]
@@ -114,7 +117,9 @@ def traced_scene(
 
 def _of_kinds(parts: Sequence[Curves], kinds: Collection[LineKind]) -> list[Curves]:
     """What there is of some kinds in each of the parts that have any."""
-    chosen = [(part, np.isin(part.kind, list(kinds))) for part in parts if len(part)]
+    among = np.zeros(len(LineKind), dtype=np.bool_)
+    among[list(kinds)] = True
+    chosen = [(part, among[part.kind]) for part in parts if len(part)]
     return [part if wanted.all() else part.some(np.flatnonzero(wanted)) for part, wanted in chosen if wanted.any()]
 
 

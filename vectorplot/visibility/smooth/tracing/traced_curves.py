@@ -128,7 +128,10 @@ class Curves:
 
     def chords_from(self, begin: Ints) -> Chords:
         """The chords that begin at these points."""
-        places, points, second = ((x[begin], x[begin + 1]) for x in (self.places, self.points, self.second_places))
+        end = begin + 1
+        places, points, second = (
+            (x.take(begin, axis=0), x.take(end, axis=0)) for x in (self.places, self.points, self.second_places)
+        )
         return Chords(places, points, second, self.level[self.owner[begin]])
 
     def some(self, which: Ints) -> Curves:

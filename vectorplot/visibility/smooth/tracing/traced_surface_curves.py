@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.geometry.polylines import closed_round
+from vectorplot.geometry.vectors import from_components
 from vectorplot.visibility.smooth.sheets.directed_curves import DirectedCurves
 from vectorplot.visibility.smooth.sheets.family import ConditionCurves, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets.meeting_families import FaceCurves
@@ -23,15 +24,17 @@ def as_curves(
     else their directions."""
     rounds = closed_round(found)
     index = rounds.index
-    places = np.stack([found.u, found.v, np.zeros_like(found.u)], axis=1)[index]
+    places = from_components(found.u.take(index), found.v.take(index), 0.0)
     size = np.stack(family.surface.surface_at(places[rounds.again]).domain.size, axis=-1)
     places[rounds.again, :2] += found.turns[found.closed] * size
+    if second_places is None:
+        second_places = from_components(found.directions[:, 0], found.directions[:, 1], 0.0)
     many = len(found)
     whole = np.full(many, item, dtype=np.intp)
     return Curves(
-        found.points[index],
+        found.points.take(index, axis=0),
         places,
-        (np.insert(found.directions, 2, 0.0, axis=1) if second_places is None else second_places)[index],
+        second_places.take(index, axis=0),
         rounds.offsets,
         found.closed,
         np.full(many, int(kind)),
