@@ -22,9 +22,8 @@ def bent(angle: float):
 
     def point(u, v):
         c, s = np.cos(angle), np.sin(angle)
-        x = c * np.sinh(v) * np.sin(u) + s * np.cosh(v) * np.cos(u)
-        y = -c * np.sinh(v) * np.cos(u) + s * np.cosh(v) * np.sin(u)
-        return np.stack([x, y, u * c + v * s], axis=-1)
+        along, across, low, high = np.cos(u), np.sin(u), c * np.sinh(v), s * np.cosh(v)
+        return low * across + high * along, high * across - low * along, u * c + v * s
 
     return surface_of_function(point, Domain(-np.pi, np.pi, -1.35, 1.35))
 

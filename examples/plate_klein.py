@@ -19,11 +19,12 @@ from vectorplot.surfaces import Domain, surface_of_function
 def bottle(u, v):
     """Once along the bottle, u from 0 to pi, what was left is right; v runs round the tube."""
     c, s, cv = np.cos(u), np.sin(u), np.cos(v)
+    square = c * c
     bulge = 3.0 + 5.0 * c * s
-    x = -2.0 * c * (bulge * cv - 30.0 * s + 90.0 * c**4 * s - 60.0 * c**6 * s)
-    height = -s * ((3.0 - 3.0 * c**2 - 48.0 * c**4 + 48.0 * c**6) * cv - 60.0 * s)
-    height -= s * s * c * cv * (5.0 - 5.0 * c**2 - 80.0 * c**4 + 80.0 * c**6)
-    return np.stack([x, 2.0 * bulge * np.sin(v), height], axis=-1) / 15.0
+    x = -2.0 * c * (bulge * cv + 30.0 * s * (square * square * (3.0 - 2.0 * square) - 1.0))
+    neck = (1.0 - square) * (1.0 - 16.0 * square * square)
+    height = s * (60.0 * s - neck * cv * bulge)
+    return x / 15.0, bulge * np.sin(v) * 2.0 / 15.0, height / 15.0
 
 
 def main(folder: Path) -> None:

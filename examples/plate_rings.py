@@ -22,11 +22,10 @@ def oval(turn):
 
     def point(u, v):
         long, short = 3.0, 1.7
-        middle = np.stack([long * np.cos(u), short * np.sin(u), 0 * u], axis=-1)
-        way = np.sqrt((short * np.cos(u)) ** 2 + (long * np.sin(u)) ** 2)
-        out = np.stack([short * np.cos(u) / way, long * np.sin(u) / way, 0 * u], axis=-1)
-        up = np.stack([0 * u, 0 * u, 0 * u + 1.0], axis=-1)
-        return (middle + THICK * (np.cos(v)[..., None] * out + np.sin(v)[..., None] * up))[..., turn]
+        c, s = np.cos(u), np.sin(u)
+        out = THICK * np.cos(v) / np.sqrt((short * c) ** 2 + (long * s) ** 2)
+        place = c * (long + short * out), s * (short + long * out), THICK * np.sin(v)
+        return tuple(place[axis] for axis in turn)
 
     return surface_of_function(point, Domain(0, 2 * np.pi, 0, 2 * np.pi, closed_u=True, closed_v=True))
 

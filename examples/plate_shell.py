@@ -20,7 +20,7 @@ def shell(u, v):
     """A tube that grows along a spiral."""
     size = np.exp(GROWTH * u)
     out = 1.05 + 0.78 * np.cos(v)
-    return np.stack([size * out * np.cos(u), size * out * np.sin(u), size * (0.95 * np.sin(v) - 2.25)], axis=-1)
+    return size * out * np.cos(u), size * out * np.sin(u), size * (0.95 * np.sin(v) - 2.25)
 
 
 def main(folder: Path) -> None:

@@ -104,8 +104,7 @@ def test_without_an_eye_models_that_stand_upright_along_y_are_seen_from_above_an
     ("fov", "word"), [(4, "telephoto"), (9.9, "telephoto"), (10, ""), (15, ""), (40, ""), (60, ""), (61, "distorts")]
 )
 def test_every_verb_tells_of_fields_of_vision_that_do_not_look_natural(verb, fov, word, cube, tmp_path, capsys):
-    out = tmp_path / "out.png"
-    small = ["--size", "20x15"] if verb == "render" else []
+    out, small = (tmp_path / "out.png", ["--size", "20x15"]) if verb == "render" else (tmp_path / "out.svg", [])
     assert run([verb, str(cube), "-o", str(out), "--fov", str(fov), *small]) == 0
     told = capsys.readouterr().err
     assert told.count("\n") == bool(word) and word in told

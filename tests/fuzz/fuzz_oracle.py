@@ -162,6 +162,8 @@ def judged(target: str, data: bytes, suffix: str, folder: Path) -> Finding | Non
     if target == "formula":
         return finding(lambda: _used(data.decode("utf-8", "surrogatepass")), reading)
     path = folder / f"input.{suffix}"
+    # To write over a file makes some file systems wait for the disk.
+    path.unlink(missing_ok=True)
     path.write_bytes(data)
     if target == "json":
         return finding(lambda: read_back(path), reading)

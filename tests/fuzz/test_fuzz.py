@@ -63,8 +63,8 @@ def test_formulas_that_shrink(tmp_path: Path, rng: Random) -> None:
 @pytest.mark.parametrize("suffix", FILES)
 def test_arbitrary_bytes(tmp_path: Path, suffix: str) -> None:
     rng = Random(suffix)
-    for _ in range(60):
-        path = tmp_path / f"input.{suffix}"
+    for number in range(60):
+        path = tmp_path / f"input{number}.{suffix}"
         path.write_bytes(bytes(rng.randrange(256) for _ in range(rng.randrange(1, 200))))
         assert finding(lambda path=path: read(path), 2.0) is None
 

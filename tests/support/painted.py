@@ -84,12 +84,16 @@ def _met(corner: Floats, start: Floats, along: Floats, parallel: bool) -> tuple[
     turn = np.where(slope < 0.0, -1.0, 1.0)
     for k in range(corner.shape[2]):
         side = after[:, :, k] - corner[:, :, k]
-        length = np.linalg.norm(side, axis=0)
-        arm = start[:, None, :] - corner[:, :, k][:, :, None]
-        moment = np.einsum("kfs,ks->fs", np.cross(side[:, :, None], arm, axis=0), along)
-        scale = np.maximum(np.einsum("f,s->fs", length, np.linalg.norm(along, axis=0)), 1e-300)
-        if not parallel:
-            scale = scale * np.maximum(np.linalg.norm(arm, axis=0), 1e-3)
+        scale = np.maximum(np.linalg.norm(side, axis=0)[:, None] * np.linalg.norm(along, axis=0), 1e-300)
+        if parallel:
+            # All rays run along the third axis.
+            (to_x, to_y), (from_x, from_y) = side[:2, :, None], corner[:2, :, k, None]
+            moment = to_x * (start[1] - from_y) - to_y * (start[0] - from_x)
+        else:
+            # All of them start in the eye.
+            arm = start[:, :1] - corner[:, :, k]
+            moment = np.cross(side, arm, axis=0).T @ along
+            scale = scale * np.maximum(np.linalg.norm(arm, axis=0), 1e-3)[:, None]
         distance = turn * moment / scale
         near_edge |= np.abs(distance) < NEAR_EDGE
         inside &= distance > 0.0

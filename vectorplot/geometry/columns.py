@@ -19,7 +19,13 @@ def dot(a: Floats, b: Floats) -> Floats:
 
 def cross(a: Floats, b: Floats) -> Floats:
     """(3,n,...) the vector products of vectors (3,n,...), or of one (3,) with all."""
-    return np.stack([a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]])
+    # Of small arrays np.stack spends most of its time on checks.
+    first = a[1] * b[2] - a[2] * b[1]
+    result = np.empty((3, *first.shape))
+    result[0] = first
+    result[1] = a[2] * b[0] - a[0] * b[2]
+    result[2] = a[0] * b[1] - a[1] * b[0]
+    return result
 
 
 def triangle_corners(points: Floats, corners: Ints) -> tuple[Floats, Floats, Floats]:

@@ -16,6 +16,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.geometry.repair.circulation import faces_are_closed
 from vectorplot.geometry.repair.pieces import pieces_of_faces
+from vectorplot.geometry.vectors import cross
 
 
 def next_positions(offsets: Ints, position: Ints) -> Ints:
@@ -214,10 +215,10 @@ class Mesh(Movable["Mesh"]):
         v = self.vertices
         if self.is_triangular:
             a, b, c = (v[self.corners[k::3]] for k in range(3))
-            return np.cross(b - a, c - a)
+            return cross(b - a, c - a)
         first = v[self.corners[self.offsets[:-1]]]
         arm = v[self.corners] - first[self.corner_face]
-        return np.add.reduceat(np.cross(arm, arm[self.next_corner]), self.offsets[:-1], axis=0) if len(first) else first
+        return np.add.reduceat(cross(arm, arm[self.next_corner]), self.offsets[:-1], axis=0) if len(first) else first
 
     @cached_property
     def face_normals(self) -> Floats:

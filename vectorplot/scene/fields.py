@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.geometry.cuts.half_spaces import nothing_beside
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.triangles.triangle_places import places_in_triangles
+from vectorplot.geometry.triangles.triangle_places import PlacedTriangles
 
 AXES = ("x", "y", "z")
 
@@ -89,7 +89,7 @@ class Fields:
             same = far <= nothing_beside(self.mesh.vertices)
             result[same] = values[nearest[same]]
             left = np.flatnonzero(~same)
-        place, corners, weights, face = places_in_triangles(self.mesh, points[left])
+        place, corners, weights, face = PlacedTriangles(self.mesh).places(points[left])
         if self.is_on_faces(name):
             result[left[place]] = values[face]
         else:

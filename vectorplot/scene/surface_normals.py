@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.triangles.triangle_places import PlacedTriangles
 from vectorplot.geometry.vectors import norm
 
 
@@ -51,3 +53,8 @@ class SurfaceNormals:
         turned = self.at_vertices @ (np.linalg.inv(linear) * abs(np.linalg.det(linear)))
         length = norm(turned)[:, None]
         return SurfaceNormals(self.mesh.transformed(matrix), turned / np.where(length > 0.0, length, 1.0), self.on_edge)
+
+    @cached_property
+    def triangles(self) -> PlacedTriangles:
+        """The triangles of the mesh: what was divided and cut since is looked up in them, item after item."""
+        return PlacedTriangles(self.mesh)

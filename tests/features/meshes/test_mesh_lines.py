@@ -275,3 +275,16 @@ def test_wrong_input_is_named():
     ):
         with pytest.raises(InputError):
             call()
+
+
+def test_sections_by_many_planes_are_those_by_each(monkeypatch):
+    u, v = np.meshgrid(*Sphere().domain.grid(24, 12), indexing="ij")
+    ball, normal, offsets = mesh_of_grid(Sphere().points(u, v), closed_u=True), (1.0, 2.0, 2.0), np.linspace(-1, 1, 9)
+    each = [mesh_plane_sections(ball, normal, d) for d in offsets]
+    for at_once in (1, 3 * len(ball.corners), 1 << 20):
+        monkeypatch.setattr("vectorplot.features.meshes.mesh_curves.TRIANGLES_AT_ONCE", at_once)
+        whole = mesh_plane_sections(ball, normal, offsets)
+        assert np.array_equal(whole.points, np.concatenate([own.points for own in each]))
+        assert np.array_equal(whole.faces, np.concatenate([own.faces for own in each]))
+        assert np.array_equal(whole.levels, np.concatenate([own.levels for own in each]))
+        assert np.array_equal(whole.closed, np.concatenate([own.closed for own in each]))

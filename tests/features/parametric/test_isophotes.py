@@ -107,3 +107,14 @@ def test_isophote_on_a_flat_part_gives_one_border_at_most():
 def test_levels_beyond_one_are_refused():
     with pytest.raises(InputError, match="cosines"):
         isophotes(Sphere(), LIGHT, [1.5])
+
+
+@pytest.mark.parametrize(
+    ("found", "light"), [(isophotes, (1.0, 2.0, 3.0)), (point_light_isophotes, (9.0, 4.0, 7.0))], ids=["sun", "lamp"]
+)
+def test_on_several_levels_they_are_those_on_each(found, light):
+    ring, levels = Torus(3.0, 1.0), [-0.6, 0.0, 0.3, 0.8]
+    whole, each = found(ring, light, levels), [found(ring, light, c) for c in levels]
+    assert whole.levels.tolist() == [c for c, own in zip(levels, each, strict=True) for _ in range(len(own))]
+    assert np.allclose(whole.points, np.concatenate([own.points for own in each]), rtol=0.0, atol=1e-12)
+    assert np.diff(whole.offsets).tolist() == [size for own in each for size in np.diff(own.offsets)]

@@ -11,6 +11,7 @@ from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.tessellation import FREE, Tessellation
 from vectorplot.geometry.bounds.boxes import PAIRS_AT_ONCE, overlapping_boxes
 from vectorplot.geometry.components import all_components, any_component, component_sum
+from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_numbers import ULP
 
 Pair = tuple[Ints, Ints]
@@ -194,7 +195,7 @@ def _meet(one: Tessellation, two: Tessellation, origin: Floats, i: Ints, j: Ints
 
 def _volumes(a: Floats, b: Floats, c: Floats, points: Floats) -> Floats:
     """(k,3) six times the volumes of the tetrahedra of triangles a, b, c (k,3) and each of points (k,3,3)."""
-    normal = np.cross(b - a, c - a)
+    normal = cross(b - a, c - a)
     return np.asarray(component_sum((points - a[:, None]) * normal[:, None]))
 
 
@@ -208,7 +209,7 @@ def _past_edges(of_a: Ints, of_b: Ints, a: Floats, b: Floats) -> Floats:
     low_b, high_b = _ends(of_b, b)
     along_a, along_b = high_a - low_a, high_b - low_b
     arm = low_b[:, None] - low_a[:, :, None]
-    return np.asarray((np.cross(along_a[:, :, None], along_b[:, None]) * arm).sum(axis=3))
+    return np.asarray((cross(along_a[:, :, None], along_b[:, None]) * arm).sum(axis=3))
 
 
 def _ends(numbers: Ints, corners: Floats) -> tuple[Floats, Floats]:

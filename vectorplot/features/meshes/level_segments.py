@@ -13,7 +13,8 @@ from vectorplot.geometry.components import any_component
 @dataclass(frozen=True, eq=False)
 class LevelSegments:
     """low, high (k,): the vertices of the edges that are crossed; pairs (s,2): segments between these crossings, values
-    positive on the left seen from outside; triangle (s,): the one each segment lies in."""
+    positive on the left seen from outside; triangle (s,): the one each segment lies in. Of curve j the n vertices are
+    numbered from j n on."""
 
     low: Ints
     high: Ints
@@ -22,25 +23,28 @@ class LevelSegments:
 
 
 def level_segments(triangles: Ints, values: Floats) -> LevelSegments:
-    """The segments in triangles (t,3) of vertex indices whose corners have values (n,) of different signs.
+    """The segments in triangles (t,3) of vertex indices whose corners have values (n,) of different signs; of several
+    curves, with values (c,n), those of one after those of the other.
 
     An edge is one for all its triangles, and so is the crossing on it. Zero counts as positive: a curve through a
     vertex or along an edge is met once, in one triangle of those around it.
     Degenerate: triangles with a value that is not a number have none.
     """
-    negative = values[triangles] < 0.0
+    negative = (values[..., triangles] < 0.0).reshape(-1, 3)
     count = negative.sum(axis=1)
-    row = np.flatnonzero((count % 3 != 0) & ~any_component(np.isnan(values)[triangles]))
+    row = np.flatnonzero((count % 3 != 0) & ~any_component(np.isnan(values)[..., triangles]).ravel())
     alone = count[row] == 1
     lone = np.where(alone, negative[row].argmax(axis=1), (~negative[row]).argmax(axis=1))
-    corner, after, before = (triangles[row, (lone + k) % 3] for k in range(3))
+    curve, triangle = np.divmod(row, len(triangles))
+    begin = curve * values.shape[-1]
+    corner, after, before = (begin + triangles[triangle, (lone + k) % 3] for k in range(3))
     a, b = np.concatenate([corner, corner]), np.concatenate([after, before])
     low, high = np.minimum(a, b), np.maximum(a, b)
-    _, first, side = np.unique(low * len(values) + high, return_index=True, return_inverse=True)
+    _, first, side = np.unique(low * values.size + high, return_index=True, return_inverse=True)
     out, back = side[: len(row)], side[len(row) :]
     # From the side before the lone corner to the side after it: that corner is then on the right.
     pairs = np.stack([np.where(alone, back, out), np.where(alone, out, back)], axis=1)
-    return LevelSegments(low[first], high[first], pairs, row)
+    return LevelSegments(low[first], high[first], pairs, triangle)
 
 
 @dataclass(frozen=True, eq=False)

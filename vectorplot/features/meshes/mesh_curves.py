@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -12,6 +12,7 @@ from vectorplot.curves.bezier.fit import fitted_paths
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.features.meshes.level_segments import level_segments
 from vectorplot.geometry import ragged
+from vectorplot.geometry.chunks import slices
 from vectorplot.geometry.components import all_components
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
@@ -25,12 +26,15 @@ from vectorplot.geometry.polylines import (
     with_points_kept,
 )
 from vectorplot.geometry.strokes import Strokes
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import cross, norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
 from vectorplot.words import LineKind
 
 NO_FACE = -1
+
+TRIANGLES_AT_ONCE = 1 << 14
+"""Levels are looked at together as long as they meet about so many triangles: of small meshes all at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -117,23 +121,30 @@ def face_triangles(mesh: Mesh) -> FaceTriangles:
     return FaceTriangles(mesh, triangles, face, (low + high) / 2.0, extent, rounding)
 
 
-def curves_of_values(faces: FaceTriangles, values: Floats, level: float) -> MeshCurves:
-    """The curves across faces on which values (v,) at the vertices, linear in every triangle, are zero.
+def curves_of_values(faces: FaceTriangles, levels: Floats, values: Callable[[Floats], Floats]) -> MeshCurves:
+    """The curves across faces on which values (c,v) at the vertices, linear in every triangle, are zero: for c levels,
+    as a column (c,1), there are c curves.
 
     Zero counts as positive: a curve through a vertex has it as a point, once; along an edge it is met once; around a
     face where the values are zero it is drawn if they are negative beyond.
     """
-    found = level_segments(faces.triangles, values)
-    a, b = faces.mesh.vertices[found.low], faces.mesh.vertices[found.high]
-    w0, w1 = values[found.low], values[found.high]
+    some = slices(len(levels), max(1, TRIANGLES_AT_ONCE // max(1, len(faces.triangles))))
+    return all_mesh_curves([_between_values(faces, levels[part], values(levels[part, None])) for part in some])
+
+
+def _between_values(faces: FaceTriangles, levels: Floats, values: Floats) -> MeshCurves:
+    """The curves of some levels (c,), with values (c,v)."""
+    found, vertices, heights = level_segments(faces.triangles, values), faces.mesh.vertices, values.ravel()
+    a, b = vertices[found.low % len(vertices)], vertices[found.high % len(vertices)]
+    w0, w1 = heights[found.low], heights[found.high]
     t = (w0 / (w0 - w1))[:, None]
     points = np.where(t < 0.5, a + t * (b - a), b - (w1 / (w1 - w0))[:, None] * (b - a))
-    return joined_segments(points, found.pairs, faces.face[found.triangle], level)
+    return joined_segments(points, found.pairs, faces.face[found.triangle], levels[found.low // len(vertices)])
 
 
-def joined_segments(points: Floats, pairs: Ints, face: Ints, level: float) -> MeshCurves:
-    """Polylines from segments between points (k,3): pairs (s,2) of them in faces (s,); points that repeat the one
-    before them are left out, and curves that are nothing but one point."""
+def joined_segments(points: Floats, pairs: Ints, face: Ints, levels: Floats | float) -> MeshCurves:
+    """Polylines from segments between points (k,3) on levels (k,), or all on one: pairs (s,2) of them in faces (s,);
+    points that repeat the one before them are left out, and curves that are nothing but one point."""
     branches = concat(pairs)
     if not len(branches):
         return all_mesh_curves([])
@@ -145,7 +156,8 @@ def joined_segments(points: Floats, pairs: Ints, face: Ints, level: float) -> Me
     # A segment without length goes, and its first point with it; at the end of an open curve its second.
     still = all_components(own == points[after])
     still[last[~branches.closed]] = False
-    whole = MeshCurves(own, branches.offsets, branches.closed, faces, np.full(len(branches), level))
+    level = np.broadcast_to(levels, len(points))[branches.points[branches.offsets[:-1]]]
+    whole = MeshCurves(own, branches.offsets, branches.closed, faces, level)
     return with_points_kept(whole, ~still)
 
 
@@ -158,7 +170,7 @@ def without_inner(curves: MeshCurves, extent: float) -> MeshCurves:
     here, chord = curves.points, curves.points[after] - curves.points[before]
     on = np.einsum("ij,ij->i", here - curves.points[before], curves.points[after] - here) > 0.0
     length = np.maximum(np.linalg.norm(chord, axis=1), LEAST_DIVISOR)
-    aside = norm(np.cross(here - curves.points[before], chord)) / length
+    aside = norm(cross(here - curves.points[before], chord)) / length
     straight = on & (aside <= ZERO_OF_EXTENT * extent)
     inner = straight & (curves.faces == curves.faces[before]) & (curves.faces != NO_FACE)
     return with_points_kept(curves, ~inner)

@@ -71,11 +71,8 @@ def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> Me
     faces = face_triangles(mesh)
     height = (mesh.vertices - faces.centre) @ n
     middle = float(faces.centre @ n)
-    families = []
-    for d in levels.tolist():
-        found = curves_of_values(faces, _snapped(height - (d - middle), faces.rounding), d)
-        families.append(without_inner(found, faces.extent))
-    return all_mesh_curves(families)
+    found = curves_of_values(faces, levels, lambda d: _snapped(height - (d - middle), faces.rounding))
+    return without_inner(found, faces.extent)
 
 
 def mesh_level_lines(mesh: Mesh, heights: ArrayLike) -> MeshCurves:
@@ -389,8 +386,7 @@ def _across_faces(mesh: Mesh, cosine: Callable[[Floats, Floats], Floats], levels
     faces: FaceTriangles = face_triangles(mesh)
     normals = vertex_normals(mesh)
     w = np.where(normals.any(axis=1), cosine(mesh.vertices, normals), np.nan)
-    rounding = ROUNDING_OF_TERMS
-    return all_mesh_curves([curves_of_values(faces, _snapped(w - c, rounding), c) for c in levels.tolist()])
+    return curves_of_values(faces, levels, lambda c: _snapped(w - c, ROUNDING_OF_TERMS))
 
 
 def _along_edges(mesh: Mesh, cosine: Floats, levels: Floats) -> MeshCurves:

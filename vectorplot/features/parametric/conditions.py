@@ -212,7 +212,7 @@ class Isophote(_Alike):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "light", normalize(vector("isophotes: light", self.light)))
-        _check_cosine(self.cosine)
+        check_cosine(self.cosine)
 
     def values(self, u: Floats, v: Floats) -> Floats:
         """(...,) cosines of the angles between normal and light, less c."""
@@ -243,7 +243,7 @@ class PointIsophote(_Alike):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "light", vector("isophotes: light", self.light))
-        _check_cosine(self.cosine)
+        check_cosine(self.cosine)
 
     def values(self, u: Floats, v: Floats) -> Floats:
         """(...,) cosines of the angles between normal and light, less c."""
@@ -348,6 +348,7 @@ def _turning_towards(surface: Surface, direction: Floats, u: Floats, v: Floats) 
     return np.asarray(unit @ direction), (np.asarray(by_u @ direction), np.asarray(by_v @ direction))
 
 
-def _check_cosine(cosine: float) -> None:
+def check_cosine(cosine: float) -> None:
+    """Errors: InputError for a cosine that is not within -1 and 1."""
     if not abs(number("isophotes: cosine", cosine)) <= 1.0:
         raise InputError(f"isophotes: cosine {cosine:g}: cosines must lie between -1 and 1")

@@ -11,13 +11,21 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.conditions import Condition
 from vectorplot.features.parametric.holes.holes import up_to_rims
 from vectorplot.features.parametric.poles import through_poles
-from vectorplot.features.parametric.stacked_conditions import C, StackedConditions, SurfacesAtOnce, alone
+from vectorplot.features.parametric.stacked_conditions import (
+    MOST_PARAMETERS,
+    C,
+    StackedConditions,
+    SurfacesAtOnce,
+    alone,
+    on_levels,
+)
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.scalar_field import scalar_fields
 from vectorplot.features.zeros.zero_manifold import ZeroManifold, check_grid, zero_manifolds
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget
+from vectorplot.geometry.chunks import slices
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import from_components
@@ -118,7 +126,6 @@ def curves_where_zero(
     size: float,
     rounding: float,
     tracing: Tracing,
-    level: float = 0.0,
 ) -> SurfaceCurves:
     """The curves on a surface along which a condition f(u, v) = 0 holds.
 
@@ -128,7 +135,23 @@ def curves_where_zero(
     Errors: InputError for a grid that is too coarse.
     """
     (found,) = curves_on_each(alone(surface, condition), [size], [rounding], tracing)
-    return replace(found, levels=np.full(len(found), level))
+    return found
+
+
+def curves_on_levels(
+    surface: Surface, condition: Condition, levels: Floats, *, size: float, roundings: Floats, tracing: Tracing
+) -> list[SurfaceCurves]:
+    """For each of levels c (k,) the curves on a surface along which f(u, v) = c, f = 0 being a condition: all traced at
+    once.
+
+    size, roundings (k,): those of `curves_where_zero` on each level.
+    Errors: InputError for a grid that is too coarse.
+    """
+    found: list[SurfaceCurves] = []
+    for part in slices(len(levels), max(1, MOST_PARAMETERS // tracing.nodes)):
+        conditions = on_levels(surface, condition, levels[part])
+        found += curves_on_each(conditions, [size] * len(conditions), roundings[part].tolist(), tracing)
+    return [replace(curves, levels=np.full(len(curves), c)) for curves, c in zip(found, levels, strict=True)]
 
 
 def curves_on_each(

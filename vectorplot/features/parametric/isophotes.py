@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.conditions import Isophote, PointIsophote
-from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples
+from vectorplot.features.parametric.conditions import Isophote, PointIsophote, check_cosine
+from vectorplot.features.parametric.curve_tracing import Tracing, curves_on_levels, samples
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
@@ -59,7 +58,7 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
     >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
     ([0.0, 0.5], True)
     """
-    return _isophotes(surface, [Isophote(surface, light, c) for c in _levels(cosines)], ROUNDING_OF_TERMS, tracing)
+    return _isophotes(Isophote(surface, light, 0.0), _levels(cosines), ROUNDING_OF_TERMS, tracing)
 
 
 def point_light_isophotes(
@@ -109,22 +108,20 @@ def point_light_isophotes(
         return no_curves()
     nearest = float(np.linalg.norm(points - lamp, axis=1).min()) or np.inf
     rounding = ROUNDING_OF_TERMS * max(1.0, min(float(np.abs(points).max() + np.abs(lamp).max()) / nearest, 1e6))
-    return _isophotes(surface, [PointIsophote(surface, lamp, c) for c in levels], rounding, tracing)
+    return _isophotes(PointIsophote(surface, lamp, 0.0), levels, rounding, tracing)
 
 
-def _levels(cosines: ArrayLike) -> list[float]:
+def _levels(cosines: ArrayLike) -> Floats:
     levels = np.atleast_1d(np.asarray(cosines, dtype=np.float64))
     if levels.ndim != 1:
         raise InputError("isophotes: cosines must be numbers in a row")
-    return [float(c) for c in levels]
+    for cosine in levels.tolist():
+        check_cosine(cosine)
+    return levels
 
 
-def _isophotes(
-    surface: Surface, conditions: Sequence[Isophote | PointIsophote], rounding: float, tracing: Tracing
-) -> SurfaceCurves:
+def _isophotes(condition: Isophote | PointIsophote, levels: Floats, rounding: float, tracing: Tracing) -> SurfaceCurves:
+    roundings = np.full(len(levels), rounding)
     return together(
-        [
-            curves_where_zero(surface, f, size=1.0, rounding=rounding, tracing=tracing, level=f.cosine)
-            for f in conditions
-        ]
+        curves_on_levels(condition.surface, condition, levels, size=1.0, roundings=roundings, tracing=tracing)
     )

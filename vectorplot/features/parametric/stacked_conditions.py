@@ -1,4 +1,4 @@
-"""One condition on many surfaces, asked at once: every pair of parameters may be another surface's."""
+"""One condition on many surfaces, or on many levels, asked at once: every pair of parameters may be another's."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Generic, TypeVar
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.features.parametric.conditions import Condition, SurfaceCondition
+from vectorplot.features.parametric.conditions import Condition, Slopes, SurfaceCondition
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import Domain, Surface
@@ -68,6 +68,27 @@ class StackedConditions(SurfacesAtOnce, Generic[C]):
 def alone(surface: Surface, condition: C) -> StackedConditions[C]:
     """A condition on a single surface of any kind."""
     return StackedConditions((surface,), lambda of: surface, lambda of: condition)
+
+
+@dataclass(frozen=True, eq=False)
+class OnLevels:
+    """f = c of a condition f = 0, with a level c for each pair of parameters (k,)."""
+
+    condition: Condition
+    levels: Floats
+
+    def values(self, u: Floats, v: Floats) -> Floats:
+        """(k,) f, less c."""
+        return self.condition.values(u, v) - self.levels
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(k,) derivatives by u and by v."""
+        return self.condition.slopes(u, v)
+
+
+def on_levels(surface: Surface, condition: Condition, levels: Floats) -> StackedConditions[OnLevels]:
+    """A condition on a single surface of any kind, on each of levels (s,)."""
+    return StackedConditions((surface,) * len(levels), lambda of: surface, lambda of: OnLevels(condition, levels[of]))
 
 
 def stacked(surfaces: Sequence[Surface], condition: S) -> StackedConditions[S]:

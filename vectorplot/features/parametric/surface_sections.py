@@ -7,9 +7,10 @@ import warnings
 import numpy as np
 from numpy.typing import ArrayLike
 
+from vectorplot.curves.parameters import number
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.parametric.conditions import ImplicitSection, PlaneSection
-from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, extent, samples
+from vectorplot.features.parametric.curve_tracing import Tracing, curves_on_levels, curves_where_zero, extent, samples
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.tolerances.of_numbers import ROUNDING_OF_TERMS
@@ -126,22 +127,13 @@ def plane_sections(
     levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
     if levels.ndim != 1:
         raise InputError("plane sections: offsets must be numbers in a row")
+    for offset in levels.tolist():
+        number("plane sections: offset", offset)
     size, large = extent(surface)
-    return together(
-        [
-            _warned(
-                curves_where_zero(
-                    surface,
-                    plane,
-                    size=size,
-                    rounding=ROUNDING_OF_TERMS * (large + abs(plane.offset)),
-                    tracing=tracing,
-                    level=plane.offset,
-                )
-            )
-            for plane in [PlaneSection(surface, normal, float(d)) for d in levels]
-        ]
-    )
+    roundings = ROUNDING_OF_TERMS * (large + np.abs(levels))
+    plane = PlaneSection(surface, normal, 0.0)
+    found = curves_on_levels(surface, plane, levels, size=size, roundings=roundings, tracing=tracing)
+    return together([_warned(curves) for curves in found])
 
 
 def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from dataclasses import dataclass
+from functools import cached_property
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -12,6 +14,9 @@ from vectorplot.geometry.chunks import slices
 from vectorplot.geometry.cuts.half_spaces import nothing_beside
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot
+
+if TYPE_CHECKING:
+    from shapely import STRtree
 
 PIECE = 1 << 14
 """Points that are looked up at a time."""
@@ -27,34 +32,55 @@ class TrianglePlaces(NamedTuple):
     face: Ints
 
 
-def places_in_triangles(mesh: Mesh, points: Floats) -> TrianglePlaces:
-    """The places of those of some points (n,3) that are on a mesh, but for rounding: each in the triangle it is nearest
-    to.
+@dataclass(frozen=True, eq=False)
+class PlacedTriangles:
+    """The triangles of a mesh, in which many points can be looked up, some now and some later."""
 
-    Degenerate: points off the mesh are left out.
-    """
-    import shapely
+    mesh: Mesh
 
-    fans, face = ragged.fans(mesh.offsets)
-    triangles, size = mesh.corners[fans], np.ptp(mesh.bounds, axis=0)
-    flat = np.sort(np.argsort(size, kind="stable")[1:])
-    low = mesh.vertices[triangles].min(axis=1)[:, flat]
-    high = mesh.vertices[triangles].max(axis=1)[:, flat]
-    near = nothing_beside(mesh.vertices)
-    tree = shapely.STRtree(shapely.box(*(low - near).T, *(high + near).T))
-    found = []
-    for piece in slices(len(points), PIECE):
-        here = points[piece]
-        which, triangle = tree.query(shapely.points(here[:, flat]))
-        weights, off = _weights(here[which], mesh.vertices[triangles[triangle]])
-        order = np.lexsort((off, which))
-        first = order[np.diff(which[order], prepend=-1) > 0]
-        found.append((which[first] + piece.start, triangle[first], weights[first]))
-    none = np.zeros(0, dtype=np.intp)
-    place, triangle, weight = (
-        np.concatenate(parts) for parts in zip((none, none, np.zeros((0, 3))), *found, strict=True)
-    )
-    return TrianglePlaces(place, triangles[triangle], weight, face[triangle])
+    def places(self, points: Floats) -> TrianglePlaces:
+        """The places of those of some points (n,3) that are on the mesh, but for rounding: each in the triangle it is
+        nearest to.
+
+        Degenerate: points off the mesh are left out.
+        """
+        import shapely
+
+        triangles, face = self._triangles
+        found = []
+        for piece in slices(len(points), PIECE):
+            here = points[piece]
+            which, triangle = self._tree.query(shapely.points(here[:, self._flat]))
+            weights, off = _weights(here[which], self.mesh.vertices[triangles[triangle]])
+            order = np.lexsort((off, which))
+            first = order[np.diff(which[order], prepend=-1) > 0]
+            found.append((which[first] + piece.start, triangle[first], weights[first]))
+        none = np.zeros(0, dtype=np.intp)
+        place, triangle, weight = (
+            np.concatenate(parts) for parts in zip((none, none, np.zeros((0, 3))), *found, strict=True)
+        )
+        return TrianglePlaces(place, triangles[triangle], weight, face[triangle])
+
+    @cached_property
+    def _triangles(self) -> tuple[Ints, Ints]:
+        """(t,3) their corners, and (t,) the faces they are parts of."""
+        fans, face = ragged.fans(self.mesh.offsets)
+        return self.mesh.corners[fans], face
+
+    @cached_property
+    def _flat(self) -> Ints:
+        """(2,) the axes along which the mesh is largest."""
+        return np.sort(np.argsort(np.ptp(self.mesh.bounds, axis=0), kind="stable")[1:])
+
+    @cached_property
+    def _tree(self) -> STRtree:
+        """Their rectangles along these axes."""
+        import shapely
+
+        corners, near = self.mesh.vertices[self._triangles[0]][..., self._flat], nothing_beside(self.mesh.vertices)
+        ends = [corners.min(axis=1) - near, corners.max(axis=1) + near]
+        # Of what lies in a tree only the bounds count: a segment has those of a rectangle, and is made sooner.
+        return shapely.STRtree(shapely.linestrings(np.stack(ends, axis=1)))
 
 
 def _weights(points: Floats, corners: Floats) -> tuple[Floats, Floats]:

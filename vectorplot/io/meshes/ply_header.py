@@ -33,6 +33,11 @@ class Property:
     kind: str
     count_kind: str = ""
 
+    @property
+    def size(self) -> int:
+        """The bytes of the number, or of the count."""
+        return np.dtype(self.count_kind or self.kind).itemsize
+
 
 @dataclass(frozen=True)
 class Element:
@@ -126,4 +131,4 @@ def _add(properties: dict[str, Property], entry: Property) -> None:
 def _least_bytes(form: str, element: Element) -> int:
     if form == "ascii":
         return max(2 * len(element.properties), 1)
-    return sum(np.dtype(entry.count_kind or entry.kind).itemsize for entry in element.properties)
+    return sum(entry.size for entry in element.properties)

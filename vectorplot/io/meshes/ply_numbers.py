@@ -91,7 +91,7 @@ def _binary_numbers(text: TextFile, header: Header, wanted: dict[str, list[int]]
         own = {}
         for k in wanted.get(element.name, []):
             entry = element.properties[k]
-            at = starts + sum(np.dtype(p.count_kind or p.kind).itemsize for p in element.properties[:k])
+            at = starts + sum(p.size for p in element.properties[:k])
             if k > listed:
                 at = at + lengths * np.dtype(element.properties[listed].kind).itemsize
             kind = np.dtype(order + entry.kind)
@@ -111,7 +111,7 @@ def _at(data: bytes, kind: np.dtype[Any], at: Ints) -> NDArray[Any]:
 
 def _records(text: TextFile, order: str, element: Element, position: int) -> tuple[Ints, Ints, int]:
     """Where records begin, how long their list is, and where they end; the file holds them, as was seen before."""
-    fixed = sum(np.dtype(entry.count_kind or entry.kind).itemsize for entry in element.properties)
+    fixed = sum(entry.size for entry in element.properties)
     number, listed = np.arange(element.count), _list_place(element)
     if listed == len(element.properties):
         return position + fixed * number, np.zeros(element.count, dtype=np.intp), position + fixed * element.count

@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.vectors import cross
 from vectorplot.scene.light import Light
 from vectorplot.shading.raster.screen import ScreenTriangles, screen_triangles
 from vectorplot.shading.shadows.shadow_buffer import SIDES, aimed_system, is_inside
@@ -160,7 +161,8 @@ def _touches(corner: Floats, cell: Ints, side: int) -> Bools:
     row, column = np.divmod(cell, side)
     middle = np.stack([column, row], axis=1) + 0.5
     x, y = corner[:, :, 0] - middle[:, :1], corner[:, :, 1] - middle[:, 1:]
-    sign = np.sign((x[:, 1] - x[:, 0]) * (y[:, 2] - y[:, 0]) - (y[:, 1] - y[:, 0]) * (x[:, 2] - x[:, 0]))
+    first, second = (np.stack([x[:, k] - x[:, 0], y[:, k] - y[:, 0]], axis=1) for k in (1, 2))
+    sign = np.sign(cross(first, second))
     seen = np.ones(len(cell), dtype=np.bool_)
     for k in range(3):
         one, two = k, (k + 1) % 3
@@ -186,13 +188,13 @@ def _with_points(cells: _Cells, tri: Ints, cell: Ints) -> Iterator[tuple[Ints, I
 
 def _within(triangles: ScreenTriangles, tri: Ints, at: Floats) -> Bools:
     """(k,) whether triangles have points (k, 2) inside or on their border: neighbours leave no gap."""
-    corners = triangles.corners[tri]
+    points, corners = triangles.points[:, :2], triangles.corners[tri]
     values = []
     for k in range(3):
         a, b = corners[:, k], corners[:, (k + 1) % 3]
         # The same arithmetic for both triangles at an edge.
         swap = a > b
-        p, q = triangles.points[np.where(swap, b, a)], triangles.points[np.where(swap, a, b)]
-        value = (q[:, 0] - p[:, 0]) * (at[:, 1] - p[:, 1]) - (q[:, 1] - p[:, 1]) * (at[:, 0] - p[:, 0])
+        p, q = points[np.where(swap, b, a)], points[np.where(swap, a, b)]
+        value = cross(q - p, at - p)
         values.append(np.where(swap, -value, value))
     return np.asarray((np.minimum.reduce(values) >= 0.0) | (np.maximum.reduce(values) <= 0.0))

@@ -12,7 +12,6 @@ import numpy as np
 from vectorplot.errors import InputWarning
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
-from vectorplot.geometry.triangles.triangle_places import places_in_triangles
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.corner_normals import TrueNormals, unit
@@ -83,7 +82,7 @@ def _normals_of(item: Item) -> TrueNormals | None:
     known, points = item.normals, item.mesh.vertices
     if known is None or not len(points):
         return None
-    place, corners, weights, _ = places_in_triangles(known.mesh, points)
+    place, corners, weights, _ = known.triangles.places(points)
     normals, on_edge = np.zeros(points.shape), np.ones(len(points), dtype=np.bool_)
     normals[place] = unit(np.einsum("kc,kcx->kx", weights, known.at_vertices[corners]))
     on_edge[place] = ((weights > 0.0) & known.on_edge[corners]).any(axis=1)
