@@ -77,7 +77,8 @@ class Fields:
         Returns
         -------
         (n,) array of float
-            NaN where there is none, and off the mesh.
+            NaN where there is none. Points off the mesh have that of a triangle above or below them, along the axis in
+            which the mesh is thinnest; NaN where there is none of these.
         """
         values = self.on_faces[name] if self.is_on_faces(name) else self.at_vertices[name]
         result = np.full(len(points), np.nan)

@@ -42,7 +42,8 @@ class PlacedTriangles:
         """The places of those of some points (n,3) that are on the mesh, but for rounding: each in the triangle it is
         nearest to.
 
-        Degenerate: points off the mesh are left out.
+        Degenerate: points off the mesh are left out where no rectangle of a triangle has them, seen along the axis in
+        which the mesh is thinnest; others have a place in the nearest triangle of those that have.
         """
         import shapely
 
