@@ -71,7 +71,7 @@ missing() {
     command -v gs >/dev/null || printf 'ghostscript '
     command -v pdftoppm >/dev/null || printf 'poppler-utils '
     command -v rsvg-convert >/dev/null || printf 'librsvg2-bin '
-    command -v chromium >/dev/null || printf 'chromium '
+    command -v chromium-headless-shell >/dev/null || command -v chromium >/dev/null || printf 'chromium-headless-shell '
     command -v pdflatex >/dev/null || printf 'texlive-latex-base texlive-pictures '
 }
 
@@ -79,7 +79,7 @@ please_install() {
     if [ "$(uname)" = Darwin ]; then
         # The same things under the names that Homebrew gives them.
         packages=$(echo "$*" | sed -e 's/python3[^ ]*/python@3.12/g' -e 's/libcairo2-dev/cairo/' \
-            -e 's/poppler-utils/poppler/' -e 's/librsvg2-bin/librsvg/' -e 's/texlive-latex-base texlive-pictures/texlive/' | tr ' ' '\n' | sort -u | tr '\n' ' ')
+            -e 's/chromium-headless-shell/chromium/' -e 's/poppler-utils/poppler/' -e 's/librsvg2-bin/librsvg/' -e 's/texlive-latex-base texlive-pictures/texlive/' | tr ' ' '\n' | sort -u | tr '\n' ' ')
         fail "please install (brew install ${packages% }) and run this again"
     fi
     fail "please install (as root: apt-get install $*) or their like on your system, and run this again"

@@ -80,7 +80,7 @@ def test_the_second_time_nothing_is_installed(tmp_path):
         gs="",
         pdftoppm="",
         rsvg_convert="",
-        chromium="",
+        chromium_headless_shell="",
         pdflatex="",
         pkg_config="exit 0",
         python3="case $* in *-m\\ venv*) mkdir -p .venv/bin; for name in python vectorplot; do "
@@ -113,7 +113,7 @@ def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
         id="echo 0",
         python3="case $* in *-m\\ venv*) exit 7 ;; *ensurepip*) [ -f venv ] ;; *sysconfig*) echo . ;; esac",
         apt_get=f'echo "$@" >>"{tmp_path}/calls"; case $1 in install) touch venv Python.h; '
-        "for name in cc gs pdftoppm rsvg-convert chromium pdflatex pkg-config; do "
+        "for name in cc gs pdftoppm rsvg-convert chromium-headless-shell pdflatex pkg-config; do "
         f'printf "#!/bin/sh\n" >"{tmp_path}/programs/$name"; '
         f'chmod +x "{tmp_path}/programs/$name"; done ;; esac',
     )
@@ -123,5 +123,5 @@ def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
     assert update == "update"
     assert install == (
         "install -y --no-install-recommends python3-venv python3-dev gcc pkg-config libcairo2-dev "
-        "ghostscript poppler-utils librsvg2-bin chromium texlive-latex-base texlive-pictures"
+        "ghostscript poppler-utils librsvg2-bin chromium-headless-shell texlive-latex-base texlive-pictures"
     )

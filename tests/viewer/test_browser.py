@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import asyncio
 import json
-import shutil
 import threading
 import time
 import zipfile
@@ -13,6 +12,7 @@ from urllib.parse import unquote
 import numpy as np
 import pytest
 from playwright.sync_api import sync_playwright
+from support.browser import launched
 from support.paths import ROOT
 
 from vectorplot.animate import animate
@@ -25,7 +25,6 @@ from vectorplot.viewer.sources import Source
 
 pytestmark = pytest.mark.slow
 
-CHROMIUM = shutil.which("chromium")
 TEXT = 'title "Die"\npage 60x40 margin 2\ncamera eye 5 -7 4\nlight LAMP position 6 -5 8\nDIE red box solid 1 2 1\n'
 PATIENCE_MS = 30_000
 
@@ -58,7 +57,7 @@ class Served:
 @pytest.fixture(scope="module")
 def browser():
     with sync_playwright() as playwright:
-        found = playwright.chromium.launch(executable_path=CHROMIUM, args=["--no-sandbox", "--disable-gpu"])
+        found = launched(playwright)
         yield found
         found.close()
 

@@ -5,11 +5,11 @@ from __future__ import annotations
 import base64
 import json
 import queue
-import shutil
 import sys
 
 import pytest
 from playwright.sync_api import sync_playwright
+from support.browser import launched
 
 import vectorplot as vp
 from vectorplot.errors import InputError
@@ -136,9 +136,7 @@ def test_the_page_runs_in_a_notebook(tmp_path, monkeypatch):
         return [[content, [base64.b64encode(one).decode() for one in buffers]]]
 
     with sync_playwright() as playwright:
-        browser = playwright.chromium.launch(
-            executable_path=shutil.which("chromium"), args=["--no-sandbox", "--disable-gpu"]
-        )
+        browser = launched(playwright)
         page = browser.new_page(viewport={"width": 900, "height": 700})
         page.on("pageerror", lambda error: errors.append(str(error)))
         page.expose_function("told", told)
