@@ -208,6 +208,12 @@ def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozens
     return [(one, np.array([other == one for other in own], dtype=np.bool_)) for one in dict.fromkeys(own)]
 
 
+def items_wanting(kind: LineKind, scene: Scene, kinds: frozenset[LineKind]) -> Bools:
+    """(i,) the items on which lines of a kind are looked for, as of kinds_of."""
+    found = (kind in kinds_of(item, kinds) for item in scene.items)
+    return np.fromiter(found, dtype=np.bool_, count=len(scene.items))
+
+
 def kinds_of(item: Item, kinds: frozenset[LineKind]) -> frozenset[LineKind]:
     """The kinds to look for on an item: its own, or else those asked for, and those that edges of cuts and ghosts are
     before they are told from others."""
@@ -258,7 +264,7 @@ def edge_lines(
     [6, 3]
     """
     parts = []
-    smooth = np.array([item.curves.smooth_contours for item in scene.items], dtype=np.bool_)
+    smooth = _smoothly_outlined(scene)
     ways = (mesh_edges, ~smooth), (smooth_mesh_edges, smooth)
     asking = [(wanted, items & those, find) for wanted, items in wanted_kinds(scene, kinds) for find, those in ways]
     for wanted, items, find in asking:
@@ -297,7 +303,7 @@ def intersection_lines(
     A segment belongs to the item, of those that want intersections, that comes first in the scene. backs (i,): items
     whose faces that turn away are met too; what lies in those of a closed solid is hidden, but for its outline.
     """
-    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
+    wants = items_wanting(LineKind.INTERSECTION, scene, kinds)
     part = _parts(scene, view, solid)
     faced = np.array([item.is_cut_face for item in scene.items], dtype=np.bool_)
     left_out = (_beyond_two(first_twins(view)) | faced)[view.face_item]
@@ -318,8 +324,12 @@ def intersection_lines(
 
 def _outlined(scene: Scene, kinds: frozenset[LineKind]) -> Bools:
     """(i,) the items of which all edges of the outline are drawn: what else lies on these adds nothing."""
-    outlined = (LineKind.CONTOUR in kinds_of(item, kinds) and not item.curves.smooth_contours for item in scene.items)
-    return np.fromiter(outlined, dtype=np.bool_, count=len(scene.items))
+    return items_wanting(LineKind.CONTOUR, scene, kinds) & ~_smoothly_outlined(scene)
+
+
+def _smoothly_outlined(scene: Scene) -> Bools:
+    """(i,) the items whose contours run across their faces, as of the smooth shapes they stand for."""
+    return np.array([item.curves.smooth_contours for item in scene.items], dtype=np.bool_)
 
 
 def _parts(scene: Scene, view: View, solid: Bools) -> Ints:

@@ -22,7 +22,7 @@ from vectorplot.surfaces.quadric_bodies.balls import Ball, ball_of
 from vectorplot.surfaces.quadric_bodies.capped_quadrics import capped_quadric_of
 from vectorplot.tolerances.of_values import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
-from vectorplot.visibility.polyhedra.lines import Lines, kinds_of
+from vectorplot.visibility.polyhedra.lines import Lines, items_wanting, kinds_of
 from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
 from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
 from vectorplot.visibility.quadrics.bodies.seen_capped import capped_bodies_of
@@ -106,7 +106,7 @@ def closed_forms(
     that hides, as the bonds of an atom do, is left out.
     """
     bodies = _bodies(scene, view, kinds)
-    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
+    wants = items_wanting(LineKind.INTERSECTION, scene, kinds)
     bodies, met = _apart(scene, view, bodies, wants, hidden_too)
 
     def asked(item: Item, kind: LineKind) -> bool:

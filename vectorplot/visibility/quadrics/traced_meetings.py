@@ -14,7 +14,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.families.capped import CappedPart
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.visibility.polyhedra.lines import kinds_of
+from vectorplot.visibility.polyhedra.lines import items_wanting
 from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
 from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP
 from vectorplot.visibility.quadrics.closed_forms import ClosedForms
@@ -59,7 +59,7 @@ def traced_meetings(
     A curve belongs to the item, of those that want it, that comes first in the scene.
     """
     bodies, doubts = forms.bodies, []
-    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
+    wants = items_wanting(LineKind.INTERSECTION, scene, kinds)
 
     def owner(*items: int) -> int:
         return next(item for item in sorted(items) if wants[item])

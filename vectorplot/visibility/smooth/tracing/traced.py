@@ -14,7 +14,7 @@ from vectorplot.geometry.budget import USUAL, Budget, unheard
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
-from vectorplot.visibility.polyhedra.lines import kinds_of
+from vectorplot.visibility.polyhedra.lines import items_wanting, kinds_of
 from vectorplot.visibility.smooth.sheets import sight_lines
 from vectorplot.visibility.smooth.sheets.implicit_sheet import implicit_sheet
 from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
@@ -102,7 +102,7 @@ def traced_scene(
         drawn += _of_kinds(lines, wanted)
         if item.hides:
             edges += _of_kinds(parts, HIDING)
-    wants = np.array([LineKind.INTERSECTION in kinds_of(item, kinds) for item in scene.items], dtype=np.bool_)
+    wants = items_wanting(LineKind.INTERSECTION, scene, kinds)
     met = meetings(scene, view, sheets, wants, tracing)
     doubts += met.doubts
     for number, item in enumerate(scene.items):
