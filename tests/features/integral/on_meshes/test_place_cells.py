@@ -23,3 +23,7 @@ def test_one_place_has_one_cell():
     cells = PlaceCells.over(np.array([(1.0, 2.0, 3.0)]), 0.1)
     assert cells.counts.tolist() == [1, 1, 1]
     assert cells.near(np.array([(9.0, 9.0, 9.0)]), 0.1).tolist() == [True]  # outside, and so in the nearest one
+
+
+def test_without_places_there_is_one_cell():
+    assert len(PlaceCells.over(np.zeros((0, 3)), 0.1).near(np.zeros((0, 3)), 0.1)) == 1

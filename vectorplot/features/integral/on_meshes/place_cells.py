@@ -20,7 +20,9 @@ class PlaceCells:
 
     @classmethod
     def over(cls, points: Floats, side: float) -> PlaceCells:
-        """Over points (n,3), one at least. As many as the box has cubes: memory grows with these, one byte each."""
+        """Over points (n,3). As many as the box has cubes: memory grows with these, one byte each. One of no points."""
+        if not len(points):
+            return cls(np.zeros(3), side, np.ones(3, dtype=np.intp))
         low = points.min(axis=0)
         return cls(low, side, ((points.max(axis=0) - low) / side).astype(np.intp) + 1)
 
