@@ -78,3 +78,18 @@ def test_a_gap_as_long_as_its_owner_does_not_reach_the_next_one() -> None:
     assert found[0].tolist() == [0, 1, 1]
     assert found[1].tolist() == [0.0, 0.0, 0.75]
     assert found[2].tolist() == [1.0, 0.25, 1.0]
+
+
+def test_places_below_zero_by_rounding_are_at_the_beginning():
+    owner, low, high = union(np.array([0, 0, 1]), np.array([0.5, -1e-9, 0.0]), np.array([0.6, 0.2, 1.0]), np.zeros(2))
+    assert owner.tolist() == [0, 0, 1]
+    assert (low.tolist(), high.tolist()) == ([-1e-9, 0.5, 0.0], [0.2, 0.6, 1.0])
+
+
+@pytest.mark.slow
+def test_no_owner_of_millions_is_forgotten():
+    count = (1 << 22) + 5
+    quarter = np.full(count, 0.25)
+    owner, low, high = union(np.arange(count), quarter, 2.0 * quarter, np.zeros(count))
+    assert np.array_equal(owner, np.arange(count))
+    assert (low == 0.25).all() and (high == 0.5).all()

@@ -10,6 +10,9 @@ from vectorplot.exact.radix import radix_order
 BITS = 40
 """Parameters are compared in steps of 2^-40 when deciding whether intervals touch."""
 
+NUMBER_BITS = 61
+"""So many bits have the number of an owner and its parameters together: of millions of owners these have fewer."""
+
 
 def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Floats, Floats]:
     """Disjoint intervals that cover what the given ones cover, for each owner, ascending.
@@ -32,7 +35,8 @@ def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Fl
 
     Notes
     -----
-    Parameters are compared in steps of 2^-40. Degenerate: nothing in, nothing out.
+    Parameters are compared in steps of 2^-40, in coarser ones where there are more than two million owners. Degenerate:
+    nothing in, nothing out.
 
     Source: Glaeser, section 7.2, equation 2.
 
@@ -50,10 +54,11 @@ def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Fl
     order = _ascending(owner, low)
     owner, low, high = owner.take(order), low.take(order), high.take(order)
     rank = np.concatenate([[0], np.cumsum(owner[1:] != owner[:-1])])
+    bits = min(BITS, NUMBER_BITS - int(rank[-1]).bit_length())
     # Never beyond the end of its owner: there the next one begins.
-    reach = (rank << (BITS + 1)) + (np.minimum(high + gap[owner], 1.0) * (1 << BITS)).astype(np.int64)
+    reach = (rank << (bits + 1)) + (np.minimum(high + gap[owner], 1.0) * (1 << bits)).astype(np.int64)
     reach = np.maximum.accumulate(reach)
-    begin = (rank << (BITS + 1)) + (low * (1 << BITS)).astype(np.int64)
+    begin = (rank << (bits + 1)) + (low * (1 << bits)).astype(np.int64)
     starts = np.flatnonzero(np.concatenate([[True], begin[1:] > reach[:-1]]))
     return owner[starts], np.minimum.reduceat(low, starts), np.maximum.reduceat(high, starts)
 
@@ -62,7 +67,7 @@ def _ascending(owner: Ints, low: Floats) -> Ints:
     """The order of intervals by their owners, and for each by where they begin."""
     bits = int(owner.max()).bit_length()
     steps = min(BITS, 64 - bits)
-    place = np.minimum((low * 2.0**steps).astype(np.uint64), np.uint64(2**steps - 1))
+    place = np.minimum((np.maximum(low, 0.0) * 2.0**steps).astype(np.uint64), np.uint64(2**steps - 1))
     return radix_order(owner.astype(np.uint64) << np.uint64(steps) | place, bits + steps)
 
 

@@ -232,3 +232,10 @@ def test_thousands_of_layers_take_hardly_longer_than_one():
     paths, layer = layered(6000, 3000)
     whole = cpu_seconds(lambda: pen_ordered(paths), 2)
     assert cpu_seconds(lambda: pen_ordered(paths, layer), 2) < 4.0 * whole
+
+
+@pytest.mark.parametrize("step", [2**31, 2**40])
+def test_numbers_of_layers_may_be_far_apart(step):
+    paths, layer = layered(60, 3)
+    near, far = pen_ordered(paths, layer), pen_ordered(paths, layer * step)
+    assert np.array_equal(near.points, far.points)

@@ -12,6 +12,7 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.neighbours import companions, overlapping_cells
 from vectorplot.drawing.strokes.stroke_paths import chosen, sections
 from vectorplot.exact import intervals
+from vectorplot.exact.intervals import NUMBER_BITS
 from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.chunks import mapped
@@ -228,11 +229,12 @@ def _touching(one: Floats, other: Floats, owner: Ints, starts: Ints, least: floa
     low, high = np.minimum(one, other), np.maximum(one, other)
     origin, extent = float(low.min()), float(high.max() - low.min())
     # Groups lie one behind the other.
-    step = 2.0**_PLACE_BITS / extent
+    bits = min(_PLACE_BITS, NUMBER_BITS - len(starts).bit_length())
+    step = 2.0**bits / extent
     begin, end = (((at - origin) * step).astype(np.int64).take(owner) for at in (low, high))
-    shift = run << (_PLACE_BITS + 1)
+    shift = run << (bits + 1)
     begin += shift
-    order = radix_order(begin.astype(np.uint64), _PLACE_BITS + 1 + len(starts).bit_length())
+    order = radix_order(begin.astype(np.uint64), bits + 1 + len(starts).bit_length())
     reach = np.maximum.accumulate((end + shift).take(order))
     apart = begin.take(order)[1:] > reach[:-1] - int(least * step)
     first = np.concatenate(([0], np.flatnonzero(apart) + 1, [len(owner)]))

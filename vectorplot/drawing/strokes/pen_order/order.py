@@ -162,9 +162,12 @@ def _canonical_ends(paths: Paths, spots: Places, start: Ints, layer: Ints) -> tu
     a, b = np.minimum(first, last)[:many], np.maximum(first, last)[:many]
     from_left = (a.real - a.real.min()) / (np.ptp(a.real) or 1.0)
     key = np.ldexp(from_left, _PLACE_BITS - 1).astype(np.uint64)
-    if np.ptp(layer):
-        key |= (layer - layer.min()).astype(np.uint64) << np.uint64(_PLACE_BITS)
-    rank = radix_order(key, _PLACE_BITS + int(np.ptp(layer)).bit_length())
+    layer = layer - layer.min()
+    if layer.max() >> (64 - _PLACE_BITS):
+        layer = np.unique(layer, return_inverse=True)[1]
+    if layer.any():
+        key |= layer.astype(np.uint64) << np.uint64(_PLACE_BITS)
+    rank = radix_order(key, _PLACE_BITS + int(layer.max()).bit_length())
     # Few are equal so far, and only these are looked at again.
     same = np.diff(key.take(rank)) == 0
     tied = np.flatnonzero(np.append(same, False) | np.append(False, same))
