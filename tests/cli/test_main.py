@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 import vectorplot
-from vectorplot.cli.main import run
+from vectorplot.cli.main import main, run
 
 COMMAND = [sys.executable, "-m", "vectorplot.cli.main"]
 
@@ -25,6 +25,17 @@ def test_version_and_help(capsys):
     assert capsys.readouterr().out == f"vectorplot {vectorplot.__version__}\n"
     assert run(["draw", "--help"]) == 0
     assert "--crease-angle DEG" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(("given", "then"), [(None, "1"), ("3", "3")])
+def test_matrix_products_have_one_thread_unless_told_otherwise(monkeypatch, capsys, given, then):
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", given or "")
+    if given is None:
+        monkeypatch.delenv("OPENBLAS_NUM_THREADS")
+    monkeypatch.setattr(sys, "argv", ["vectorplot", "--version"])
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert (end.value.code, os.environ["OPENBLAS_NUM_THREADS"]) == (0, then)
 
 
 def test_help_loads_neither_numpy_nor_a_backend():
@@ -260,7 +271,7 @@ def test_a_reader_that_went_away_is_no_traceback(cube):
 SLOW = """
 import sys, time
 import vectorplot.stages.walk as walk
-from vectorplot.cli.main import run
+from vectorplot.cli.main import main, run
 real = walk.Walk.run
 def slow(self, name, function, *args, **kwargs):
     if name == "write":

@@ -17,6 +17,9 @@ NO_MEMORY = "there is not enough memory for this"
 
 def main() -> None:
     """What the shell starts."""
+    # Before numpy comes. Stages share their work out themselves (--jobs): threads of matrix products would mostly wait
+    # for more of these, which takes as much of a processor as small pictures do.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
     try:
         with stoppable():
             status = run(sys.argv[1:])
