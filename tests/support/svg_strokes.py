@@ -10,7 +10,8 @@ import numpy as np
 SVG = "{http://www.w3.org/2000/svg}"
 LABEL = "{http://www.inkscape.org/namespaces/inkscape}label"
 
-SAMPLES = np.linspace(0.0, 1.0, 17)[1:, None]
+SAMPLES = np.linspace(0.0, 1.0, 65)[1:, None]
+"""Of one curve or arc: so many that chords are off by less than what strokes may be, also on one that fills a page."""
 
 _COMMAND = re.compile(r"([MCAZ])([^MCAZ]*)")
 _NUMBER = re.compile(r"-?[\d.]+")
