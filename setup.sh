@@ -50,7 +50,7 @@ find_python() {
     return 1
 }
 
-# What is missing, as names of Debian packages.
+# What is missing to install and run the package, as names of Debian packages.
 missing() {
     if python=$(find_python); then
         dev=python3
@@ -67,6 +67,10 @@ missing() {
     elif ! pkg-config --exists cairo; then
         printf 'libcairo2-dev '
     fi
+}
+
+# What the tests open files with and is missing.
+missing_readers() {
     [ "$goal" = test ] || return 0
     command -v gs >/dev/null || printf 'ghostscript '
     command -v pdftoppm >/dev/null || printf 'poppler-utils '
@@ -85,7 +89,8 @@ please_install() {
     fail "please install (as root: apt-get install $*) or their like on your system, and run this again"
 }
 
-install_packages() {
+# How packages are installed: root is what stands before a command. Who cannot install any is told which.
+find_installer() {
     command -v apt-get >/dev/null || please_install "$@"
     if [ "$(id -u)" = 0 ]; then
         root=
@@ -94,11 +99,14 @@ install_packages() {
     else
         please_install "$@"
     fi
+    # A package list that could not be renewed need not matter, a package that cannot be installed does.
+    $root apt-get update >/dev/null 2>&1 || true
+}
+
+install_packages() {
     echo "setup.sh: installing $*" >&2
     log=$(mktemp)
-    # A package list that could not be renewed need not matter, a package that cannot be installed does.
-    $root apt-get update >"$log" 2>&1 || true
-    if ! $root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" >>"$log" 2>&1; then
+    if ! $root env DEBIAN_FRONTEND=noninteractive apt-get install -y --no-install-recommends "$@" >"$log" 2>&1; then
         tail -n 20 "$log" >&2
         rm -f "$log"
         please_install "$@"
@@ -106,19 +114,25 @@ install_packages() {
     rm -f "$log"
 }
 
+# The lists of packages are one word a package.
+# shellcheck disable=SC2086
 install_all() {
     if command -v python3 >/dev/null && ! find_python >/dev/null; then
         fail "Python 3.11 or newer is needed, python3 is $(python3 -V 2>&1); set PYTHON=/path/to/another"
     fi
     packages=$(missing)
+    readers=$(missing_readers)
+    [ -z "$packages$readers" ] || find_installer $packages $readers
     if [ -n "$packages" ]; then
-        # shellcheck disable=SC2086  # one word a package
         install_packages $packages
         packages=$(missing)
-        # shellcheck disable=SC2086
         [ -z "$packages" ] || please_install $packages
     fi
     python=$(find_python) || fail "Python 3.11 or newer is needed; set PYTHON=/path/to/python3 if it has another name"
+    # Readers come while pip works, which needs none; whatever ends this script, they are not left half installed.
+    trap wait EXIT
+    [ -z "$readers" ] || install_packages $readers &
+    installed=$!
     if ! is_new_enough .venv/bin/python || [ ! -f "$stamp" ] || [ "$(sed 's/^[a-z]* [0-9]* [0-9]* //' "$stamp")" != "$here" ]; then
         echo "setup.sh: making the virtual environment .venv" >&2
         "$python" -m venv --clear .venv
@@ -133,6 +147,10 @@ install_all() {
         fail "pip could not install the Python packages; is there a way to the package index?"
     # Compiled now, the package starts a tenth of a second sooner, also where Python may not write beside it later.
     .venv/bin/python -m compileall -q -j 0 vectorplot || true
+    wait "$installed"
+    trap - EXIT
+    readers=$(missing_readers)
+    [ -z "$readers" ] || please_install $readers
     echo "$goal $key" >"$stamp"
 }
 

@@ -104,7 +104,7 @@ def test_the_second_time_nothing_is_installed(tmp_path):
 
 
 def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
-    """The stand-in of apt-get brings the programs; what pip does comes after it."""
+    """The stand-in of apt-get brings the programs; what pip does comes after those that it needs, beside the others."""
     path = programs(
         tmp_path,
         "mkdir",
@@ -119,9 +119,39 @@ def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
     )
     result = set_up(tmp_path, "test", path=path)
     assert result.returncode != 0  # the stand-in of Python makes no environment
-    update, install = (tmp_path / "calls").read_text(encoding="utf-8").splitlines()
-    assert update == "update"
-    assert install == (
-        "install -y --no-install-recommends python3-venv python3-dev gcc pkg-config libcairo2-dev "
-        "ghostscript poppler-utils librsvg2-bin chromium-headless-shell texlive-latex-base texlive-pictures"
+    assert (tmp_path / "calls").read_text(encoding="utf-8").splitlines() == [
+        "update",
+        "install -y --no-install-recommends python3-venv python3-dev gcc pkg-config libcairo2-dev",
+        "install -y --no-install-recommends "
+        "ghostscript poppler-utils librsvg2-bin chromium-headless-shell texlive-latex-base texlive-pictures",
+    ]
+
+
+@pytest.mark.parametrize("pip", ["exit 0", "exit 1"])
+def test_a_reader_that_cannot_be_installed_is_named_and_nothing_counts_as_installed(tmp_path, pip):
+    """Whatever pip does meanwhile, the script ends after apt-get, which is not left at work."""
+    path = programs(
+        tmp_path,
+        "mkdir",
+        "chmod",
+        "sleep",
+        "touch",
+        id="echo 0",
+        uname="echo Linux",
+        cc="",
+        gs="",
+        rsvg_convert="",
+        chromium_headless_shell="",
+        pdflatex="",
+        pkg_config="exit 0",
+        apt_get=f'case $1 in install) sleep 0.3; touch "{tmp_path}/done"; exit 100 ;; esac',
+        python3="case $* in *-m\\ venv*) mkdir -p .venv/bin; for name in python vectorplot; do "
+        f'printf "#!/bin/sh\n{pip}\n" >.venv/bin/$name; chmod +x .venv/bin/$name; done ;;'
+        " *sysconfig*) echo . ;; esac",
     )
+    (tmp_path / "Python.h").touch()
+    result = set_up(tmp_path, "test", path=path)
+    assert result.returncode == 1
+    assert "apt-get install poppler-utils)" in result.stderr
+    assert (tmp_path / "done").exists()
+    assert not (tmp_path / ".venv" / "vectorplot-setup").exists()
