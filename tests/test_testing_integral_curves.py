@@ -6,10 +6,15 @@ from functools import cache
 import numpy as np
 import pytest
 
+import vectorplot as vp
 from vectorplot import features
+from vectorplot.drawing.drawing import Paths
 from vectorplot.features import Tracing, integral_curves
-from vectorplot.surfaces import Sphere, Torus
-from vectorplot.testing import assert_geodesic, assert_integral_curve
+from vectorplot.scene import GeodesicLines
+from vectorplot.surfaces import Ellipsoid, Sphere, Torus
+from vectorplot.testing import assert_geodesic, assert_integral_curve, curves_in_space
+from vectorplot.testing.curve_points import polylines_of
+from vectorplot.words import LineKind
 
 BALL, FIELD = Sphere(2.0), features.loxodromes(1.1)
 CHORDS = "chords are not on a curve of the field"
@@ -75,3 +80,36 @@ def test_geodesics_are_held_to_the_directions_that_they_know():
     with pytest.raises(AssertionError, match="at u, v = "):
         assert_geodesic(blind, Torus(3, 1), 1e-4)
     assert_geodesic(blind, Torus(3, 1), 0.05)
+
+
+@pytest.mark.parametrize("count", [2, 3])
+def test_geodesics_from_one_point_that_the_pen_draws_in_one_stroke_are_geodesics_each(count):
+    surface = Ellipsoid((3.0, 2.0, 1.2))
+    starts = tuple((0.3, 0.1, angle) for angle in np.linspace(0.2, np.pi, count, endpoint=False))
+    lines = vp.SurfaceLines(integral=(GeodesicLines(starts, length=9.0),))
+    drawing = vp.draw(vp.Item("ellipsoid", surface, curves=lines), vp.Camera((8, 6, 6)), page="A5", hidden="solid")
+    curves = curves_in_space(drawing, kind="integral")
+    strokes = [layer.strokes for layer in drawing.layers]
+    assert len(curves) > sum((paths.kind == LineKind.INTEGRAL).sum() for group in strokes for paths in group)
+    # Points and no directions: the curvature is right but for what neighbouring chords differ by in length.
+    assert_geodesic(curves, surface, 0.2)
+
+
+def test_a_smooth_stroke_is_parted_at_its_corners_and_not_in_its_cusps():
+    """A ring whose first point is no corner: what is before it goes on behind it."""
+    points = np.array([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (2.0, 1.0), (1.0, 1.0), (0.0, 1.0)])
+    angles = np.zeros((6, 2))
+    angles[2, 1], angles[3], angles[4] = np.pi / 2.0, (np.pi / 2.0, np.pi), (np.pi, 0.0)
+    angles[5, 1] = -np.pi / 2.0
+    fields = {name: np.zeros(1, dtype=np.intp) for name in ("kind", "item", "hidden_by")}
+    paths = Paths(
+        points=points,
+        offsets=np.array([0, 6]),
+        closed=np.array([True]),
+        points3d=np.column_stack([points, np.zeros(6)]),
+        smooth=np.array([True]),
+        directions=angles,
+        **fields,
+    )
+    assert [len(curve) for curve in polylines_of(paths)] == [4, 2, 3]
+    assert [len(curve) for curve in polylines_of(replace(paths, smooth=np.array([False])))] == [7]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 from typing import NamedTuple
 
 import numpy as np
@@ -10,9 +11,10 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing, Paths
+from vectorplot.drawing.strokes.fewer_cubics import CORNER_ANGLE
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.polylines import Polylines, closed_round
+from vectorplot.geometry.polylines import Polylines, closed_round, indices_along
 from vectorplot.geometry.strokes import Strokes
 from vectorplot.words import LineKind
 
@@ -35,7 +37,8 @@ def curves_in_space(drawing: Drawing, *, kind: str | None = None, item: str | No
     Returns
     -------
     list of (n, 3) array of float
-        In world units, in drawing order; closed ones repeat their first point.
+        In world units, in drawing order; closed ones repeat their first point. A smooth stroke that turns a corner is one
+        for each of its sides: there the pen goes on with another curve, or the curve has no tangent.
 
     Raises
     ------
@@ -62,8 +65,31 @@ def curves_in_space(drawing: Drawing, *, kind: str | None = None, item: str | No
                 kept &= paths.kind == wanted_kind
             if item is not None:
                 kept &= np.isin(paths.item, [k for k, name in enumerate(drawing.items) if name == item])
-            found += cut(Polylines(paths.points3d, paths.offsets, paths.closed), kept)
+            found += _curves_of(paths, kept)
     return found
+
+
+def _curves_of(paths: Paths, kept: Bools) -> list[Floats]:
+    """The curves of the paths that are kept, parted at corners."""
+    lines = Polylines(paths.points3d, paths.offsets, paths.closed)
+    turns = np.repeat(paths.smooth, np.diff(paths.offsets)) & _corners(paths.directions)
+    if not turns.any():
+        return cut(lines, kept)
+    found: list[Floats] = []
+    for path in np.flatnonzero(kept & (np.diff(paths.offsets) > 0)).tolist():
+        index = indices_along(lines, path)
+        at = np.flatnonzero(turns[index[1:-1]]) + 1
+        sides = [paths.points3d[index[low : high + 1]] for low, high in pairwise([0, *at.tolist(), len(index) - 1])]
+        if len(sides) > 1 and paths.closed[path] and not turns[index[0]]:
+            sides[0] = np.concatenate([sides.pop(), sides[0][1:]])
+        found += sides or [paths.points3d[index]]
+    return found
+
+
+def _corners(directions: Floats) -> Bools:
+    """(p,) where curves arrive and leave in directions (p,2) that are known and differ, other than in a cusp."""
+    turn = np.abs(np.remainder(directions[:, 1] - directions[:, 0] + np.pi, 2.0 * np.pi) - np.pi)
+    return np.asarray((turn > CORNER_ANGLE) & (turn < np.pi - CORNER_ANGLE))
 
 
 def cut(lines: Polylines, kept: Bools) -> list[Floats]:
@@ -82,7 +108,7 @@ def polylines_of(curves: Curves) -> list[Floats]:
     if isinstance(curves, Drawing):
         return curves_in_space(curves)
     if isinstance(curves, Paths):
-        return cut(Polylines(curves.points3d, curves.offsets, curves.closed), np.ones(len(curves), dtype=np.bool_))
+        return _curves_of(curves, np.ones(len(curves), dtype=np.bool_))
     if isinstance(curves, Strokes):
         every = np.ones(len(curves), dtype=np.bool_)
         return cut(Polylines(curves.points, curves.offsets, ~every), every)
