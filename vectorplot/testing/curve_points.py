@@ -37,8 +37,8 @@ def curves_in_space(drawing: Drawing, *, kind: str | None = None, item: str | No
     Returns
     -------
     list of (n, 3) array of float
-        In world units, in drawing order; closed ones repeat their first point. A smooth stroke that turns a corner is one
-        for each of its sides: there the pen goes on with another curve, or the curve has no tangent.
+        In world units, in drawing order; closed ones repeat their first point. A smooth stroke that turns a corner is
+        one for each of its sides: there the pen goes on with another curve, or the curve has no tangent.
 
     Raises
     ------
