@@ -60,8 +60,7 @@ def test_memory_that_cannot_be_had_is_one_line(verb, tmp_path, capsys, monkeypat
     def without_memory(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr("vectorplot.io.read_file.read", without_memory)
-    monkeypatch.setattr("vectorplot.cli.commands.info.read", without_memory, raising=False)
+    monkeypatch.setattr("vectorplot.io.standard_input.read", without_memory)
     scene = tmp_path / "a.scene"
     scene.write_text("A box 1 1 1", encoding="utf-8")
     out = [] if verb == "info" else ["-o", str(tmp_path / "a.png")]

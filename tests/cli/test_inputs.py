@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import io
 import re
+import sys
 
 import pytest
 
@@ -86,3 +88,53 @@ def test_what_is_found_late_names_the_file_and_the_line_too(tmp_path, capsys, ve
     assert run([verb, str(path), *options, "-o", str(tmp_path / "x.png")]) == status
     told = capsys.readouterr().err.splitlines()
     assert told and all(f"{path}:3: BALL: " in line for line in told)
+
+
+@pytest.fixture
+def piped(monkeypatch):
+    """What comes in on standard input, in bytes."""
+
+    def pipe(data):
+        monkeypatch.setattr(sys, "stdin", io.TextIOWrapper(io.BytesIO(data)))
+
+    return pipe
+
+
+@pytest.mark.parametrize(("verb", "suffix"), [("draw", "svg"), ("paint", "json"), ("render", "png"), ("sheet", "pdf")])
+def test_a_scene_on_standard_input_makes_the_picture_of_its_file(die, tmp_path, piped, verb, suffix):
+    one, other = tmp_path / f"one.{suffix}", tmp_path / f"other.{suffix}"
+    piped(b"\xef\xbb\xbf" + die.read_bytes())
+    assert run([verb, "-", "-o", str(one)]) == 0
+    assert run([verb, str(die), "-o", str(other)]) == 0
+    assert one.read_bytes().replace(b"standard input", b"die") == other.read_bytes()
+
+
+def test_standard_input_is_one_of_several_inputs_and_names_files_beside_one(cube, tmp_path, piped, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    piped(b'part mesh "cube.obj" translation 4 0 0')
+    assert run(["info", "cube.obj", "-"]) == 0
+    assert [line.split(":")[0] for line in capsys.readouterr().out.splitlines()[:2]] == ["cube", "part"]
+
+
+@pytest.mark.parametrize(
+    ("data", "cause"),
+    [
+        (b"", "nothing came in"),
+        (b"cube red\nbxo 1 2 3", ":2: cube: unknown word 'bxo'"),
+        (b"cube red box 1 2 3 \n\xff", "2: not UTF-8"),
+        (b"\x89PNG\r\n", "standard input is read as a scene"),
+        (b'x mesh "../../etc/passwd"', "'../../etc/passwd'"),
+    ],
+)
+def test_what_is_wrong_on_standard_input_is_one_line(tmp_path, piped, capsys, data, cause):
+    piped(data)
+    assert run(["draw", "-", "-o", str(tmp_path / "x.svg")]) == 1
+    told = capsys.readouterr().err
+    assert told.count("\n") == 1 and "standard input" in told and cause in told
+    assert not (tmp_path / "x.svg").exists()
+
+
+def test_standard_input_is_of_one_picture(tmp_path, piped, capsys):
+    piped(b"cube red box 1 2 3")
+    assert run(["draw", "-", "-o", f"{tmp_path}/out/"]) == 2
+    assert "standard input is of one picture" in capsys.readouterr().err

@@ -53,11 +53,11 @@ class Source:
 
     def read(self) -> Scene:
         """All that is in them; an InputWarning hints at files with y upwards."""
-        from vectorplot.io.read_file import read
+        from vectorplot.io.standard_input import read_named
         from vectorplot.io.upwards import upwards_hint
         from vectorplot.scene.naming.joined_scenes import together
 
-        scenes = [read(path, exaggeration=self.exaggeration) for path in self.paths]
+        scenes = [read_named(path, exaggeration=self.exaggeration) for path in self.paths]
         for path, scene in zip(self.paths, scenes, strict=True):
             told = None if self.upright else upwards_hint(path, scene)
             if told is not None:

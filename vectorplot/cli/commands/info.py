@@ -16,11 +16,11 @@ from vectorplot.errors import printable
 def info(files: tuple[str, ...], up: tuple[float, float, float] | None, quiet: bool) -> None:
     """Say what the files hold: counts, whether it is closed and convex, its size, and what is wrong with it."""
     from vectorplot.io.description import describe
-    from vectorplot.io.read_file import read
+    from vectorplot.io.standard_input import read_named
     from vectorplot.io.upwards import stood_up
     from vectorplot.scene.naming.joined_scenes import together
 
     with told_warnings(quiet=quiet):
-        scene = together([read(file) for file in files])
+        scene = together([read_named(file) for file in files])
         lines = describe(scene if up is None else stood_up(scene, up))
     click.echo("\n".join(map(printable, lines)))

@@ -67,8 +67,8 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     BACKGROUND,
 )
 def render(scene: Scene, *, shadow_bits: str, **told: Any) -> Image:
-    """Render INPUT, a scene file, mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain (asc, xyz), as
-    a PNG picture OUT.
+    """Render INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain
+    (asc, xyz), as a PNG picture OUT.
 
     Camera options replace the fields of the camera in the scene file one by one.
     """

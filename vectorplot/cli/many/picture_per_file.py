@@ -54,6 +54,8 @@ def make_pictures(
         raise click.UsageError("--explain is of one picture: OUT must be a file")
     if params.get("text") == "latex":
         raise click.UsageError("--text latex is of one picture: OUT must be a file")
+    if "-" in params["scene_file"]:
+        raise click.UsageError("standard input is of one picture: OUT must be a file")
     workers = WorkerOptions.of(params)
     written = params["format_"] or formats[0]
     # Workers are as many as there is room for: threads of theirs would only be in each other's way.
