@@ -65,11 +65,7 @@ class IsophoteDirections:
         p, m, q = own.second_form
         size = own.surface.domain.size
         with np.errstate(all="ignore"):
-            if self.parallel:
-                light, distance = np.repeat(self._rays, len(normals), axis=0), np.inf
-            else:
-                way = np.asarray(self.light) - own.points
-                light, distance = unit(way), norm(way)
+            light, distance = self._lit_from(own.points)
             # The normals turn against the light's part in the tangent plane, as the second form says; that of a point
             # moves besides.
             a, b = own.steps(light)
@@ -79,6 +75,13 @@ class IsophoteDirections:
             known = np.abs(by_u) * size[0] + np.abs(by_v) * size[1] > FLAT_SLOPE
             found = unit(by_v[:, None] * along_u - by_u[:, None] * along_v)
         return np.where(known[:, None], found, np.nan)[None]
+
+    def _lit_from(self, points: Floats) -> tuple[Floats, Floats | float]:
+        """(k,3) unit vectors from points (k,3) to the light, and how far (k,) it is."""
+        if self.parallel:
+            return np.repeat(self._rays, len(points), axis=0), np.inf
+        way = np.asarray(self.light) - points
+        return unit(way), norm(way)
 
     @cached_property
     def _rays(self) -> Floats:

@@ -204,10 +204,10 @@ def _ordered(
         field[thing[thing >= 0]] = number
     item = np.append(things.bodies.item, view.face_item[faces.source[things.single]])
     allowed = pairs_allowed(budget.pairs, len(things))
-    crowded, pairs = crowded_items(things.box, item, field, view.tolerance, allowed)
+    crowded, lot = crowded_items(things.box, item, field, view.tolerance, allowed)
     if len(crowded):
         return _with_crowds(view, projected, faces, crowded, known, group_of_item, budget)
-    lots = pairs_across(things.box, field, view.tolerance) if pairs is None else [pairs]
+    lots = pairs_across(things.box, field, view.tolerance) if lot is None else [lot]
     compared = _demands(view, faces, things, lots)
     before, after = (np.concatenate(two) for two in zip(compared, (nodes.before, nodes.after), strict=True))
     rank = _ranks(faces, things, len(nodes.owner), before, after)
