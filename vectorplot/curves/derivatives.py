@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, reduce
 from itertools import accumulate, pairwise
@@ -95,7 +95,7 @@ class NumericFunction:
 
     def gradient(self, *parameters: Floats) -> tuple[Floats, ...]:
         """(..., k) derivatives by each parameter: the function is called as seldom as can be."""
-        if np.size(parameters[0]) > FEW_PLACES:
+        if np.size(parameters[0]) > FEW_PLACES and not self.by_complex_step:
             return tuple(self.derivatives(axis, *parameters) for axis in range(len(self.ranges)))
 
         def evaluate(flat: list[Floats]) -> Floats:
@@ -113,7 +113,7 @@ class NumericFunction:
 
     def values_and_gradient(self, *parameters: Floats) -> tuple[Floats, ...]:
         """(..., k) values, and derivatives by each parameter: to the last bit what is said when asked for each."""
-        if np.size(parameters[0]) > FEW_PLACES or not self.by_complex_step:
+        if not self.by_complex_step:
             return self.values(*parameters), *self.gradient(*parameters)
 
         def evaluate(flat: list[Floats]) -> Floats:
@@ -233,20 +233,22 @@ class NumericFunction:
 
     def _by_complex_step(self, asked: Sequence[tuple[int, list[Floats]]]) -> tuple[list[Floats], Floats]:
         """(n, k) derivatives by axes at parameters, (axis, parameters) each, and the values at all these, equal lists
-        once: in one call, and one for where the function has values at all."""
+        once: of few places in one call, and one for where the function has values at all."""
         heights = [COMPLEX_STEP * self.ranges[axis].length for axis, _ in asked]
         lifted: list[list[Numbers]] = []
         for (axis, parameters), height in zip(asked, heights, strict=True):
             lifted.append(list(parameters))
             lifted[-1][axis] = parameters[axis] + 1j * height
         places = {id(parameters): parameters for _, parameters in asked}
-        answers = self._asked(_in_a_row(lifted))
+        if any(len(each[0]) > FEW_PLACES for each in lifted):
+            answers: Iterable[Numbers] = map(self._asked, lifted)
+        else:
+            answers = _split(self._asked(_in_a_row(lifted)), [parameters for _, parameters in asked])
         values = self._values(_in_a_row(list(places.values())))
         # A root of a negative number is imaginary there, and a hole here.
         known = dict(zip(places, _split(np.isfinite(values), list(places.values())), strict=True))
-        each = _split(answers, [parameters for _, parameters in asked])
         found: list[Floats] = []
-        for (_, parameters), height, answer in zip(asked, heights, each, strict=True):
+        for (_, parameters), height, answer in zip(asked, heights, answers, strict=True):
             real, slopes = known[id(parameters)] & np.isfinite(answer), answer.imag / height
             found.append(slopes if _all(real) else np.where(all_components(real)[..., None], slopes, np.nan))
         return found, values

@@ -60,9 +60,10 @@ def ordered_faces(
 
     Warns: InputWarning for items that may be in a wrong order.
     """
-    facets = FacetedScene.of_meshes(shown)
     if walk.calls_for("facets"):
         facets = walk.run("facets", faceted, shown, demand(), budget)
+    else:
+        facets = FacetedScene.of_meshes(shown)
     facets = replace(facets, scene=_with_clear_items(facets.scene))
     view = walk.run("look", view_of, facets.scene, projection)
     projected = walk.run("faces", project_faces, view)

@@ -43,5 +43,5 @@ def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int
     width, height = columns / PIXELS_PER_MM, rows / PIXELS_PER_MM
     drawing = with_colour_bar(Drawing(width, height, ()), bar, size[0] / PIXELS_PER_MM - width)
     blank = np.broadcast_to(np.rint(paper).astype(np.uint8), (BAR_SAMPLES * rows, BAR_SAMPLES * size[0], 3))
-    fine = averaged(painted(blank, drawing), BAR_SAMPLES)
-    return np.concatenate([pixels, np.rint(fine[:, columns:]).astype(np.uint8)], axis=1)
+    beside = averaged(painted(blank, drawing)[:, BAR_SAMPLES * columns :], BAR_SAMPLES)
+    return np.concatenate([pixels, np.rint(beside).astype(np.uint8)], axis=1)

@@ -104,15 +104,11 @@ class Charts:
 
     def within(self, places: Floats) -> Floats:
         """(k,2) u and v within the domain, those beyond a border on it."""
-        d = self.domain
-        u, v = wrapped(d, places[:, 0], places[:, 1])
-        u = u if d.closed_u else np.clip(u, d.u_start, d.u_end)
-        v = v if d.closed_v else np.clip(v, d.v_start, d.v_end)
-        return from_components(u, v)
+        return from_components(*self._within(places))
 
     def inside(self, places: Floats) -> Floats:
         """(k,2) u and v within the domain, and beside poles, where the surface has no tangent plane."""
-        u, v = self.within(places).T
+        u, v = self._within(places)
         for pole in range(len(self.axis)):
             own = u if self.axis[pole] == 0 else v
             if np.abs(own - self.place[pole]).min(initial=np.inf) >= AT_POLE * self.size[pole]:
@@ -146,6 +142,13 @@ class Charts:
                 period = self.domain.size[axis]
                 result[:, axis] += period * np.rint((others[:, axis] - places[:, axis]) / period)
         return result
+
+    def _within(self, places: Floats) -> tuple[Floats, Floats]:
+        d = self.domain
+        u, v = wrapped(d, places[:, 0], places[:, 1])
+        u = u if d.closed_u else np.minimum(np.maximum(u, d.u_start), d.u_end)
+        v = v if d.closed_v else np.minimum(np.maximum(v, d.v_start), d.v_end)
+        return u, v
 
     def _polar(self, chart: Ints, places: Floats) -> tuple[Floats, Floats]:
         row, axis = np.arange(len(chart)), self.axis[chart]

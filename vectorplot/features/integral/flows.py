@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.features.integral.charts import Charts
 from vectorplot.features.integral.sites import Sites, unit
 from vectorplot.features.integral.tangent_fields import TangentField
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import dot, from_components
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_values import NEIGHBOURS_COUNT
@@ -64,8 +65,10 @@ class FieldFlow:
         else:
             tangents = aligned(found, last)
         if len(found) > 1:
-            lost = ~np.isfinite(tangents).all(axis=1) & np.isfinite(last).all(axis=1) & np.isfinite(sites.normals[:, 0])
-            tangents[lost] = unit(sites.tangential(last))[lost]
+            lost = ~all_finite(tangents)
+            if lost.any():
+                lost &= all_finite(last) & np.isfinite(sites.normals[:, 0])
+                tangents[lost] = unit(sites.tangential(last))[lost]
         return self.charts.rates(chart, places, from_components(*sites.steps(tangents))), tangents, sites
 
 
@@ -128,6 +131,7 @@ class JacobiFlow:
 def aligned(candidates: Floats, last: Floats) -> Floats:
     """(k,3) of the unit tangents (j,k,3) at each place, and their opposites, the one nearest to the last (k,3)."""
     cosines = dot(candidates, last[None])
-    best = np.argmax(np.abs(np.nan_to_num(cosines)), axis=0)
+    cosines[np.isnan(cosines)] = 0.0
+    best = np.argmax(np.abs(cosines), axis=0)
     row = np.arange(len(last))
     return np.asarray(candidates[best, row] * np.where(cosines[best, row] < 0.0, -1.0, 1.0)[:, None])

@@ -228,8 +228,10 @@ def courses(
             np.concatenate([np.where(gone[:, None], points[at], now.anchor[at])[~finished], now.anchor[waits]]),
             np.concatenate([wound[~finished], now.wound[waits]]),
         )
-        spent[now.which[now.done >= accuracy.steps]] = True
-        now = records.some(now, now.done < accuracy.steps)
+        worn = now.done >= accuracy.steps
+        if worn.any():
+            spent[now.which[worn]] = True
+            now = records.some(now, ~worn)
     order, offsets = np.zeros(0, dtype=np.intp), np.zeros(count + 1, dtype=np.intp)
     if not leaps:
         none = Leaps(order, order, np.zeros(0), np.zeros(0), np.zeros((0, 2)))

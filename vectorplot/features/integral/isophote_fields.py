@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 from typing import ClassVar
 
 import numpy as np
@@ -64,9 +65,7 @@ class IsophoteDirections:
         p, m, q = own.second_form
         size = own.surface.domain.size
         with np.errstate(all="ignore"):
-            way = self._way(own.points)
-            distance = np.inf if self.parallel else norm(way)
-            light = unit(way)
+            light, distance = self._lit_from(own.points)
             # The normals turn against the light's part in the tangent plane, as the second form says; that of a point
             # moves besides.
             a, b = own.steps(light)
@@ -77,7 +76,14 @@ class IsophoteDirections:
             found = unit(by_v[:, None] * along_u - by_u[:, None] * along_v)
         return np.where(known[:, None], found, np.nan)[None]
 
-    def _way(self, points: Floats) -> Floats:
-        """(k,3) from points (k,3) to the light."""
-        light = np.asarray(self.light)
-        return np.broadcast_to(normalize(light), points.shape) if self.parallel else light - points
+    def _lit_from(self, points: Floats) -> tuple[Floats, Floats | float]:
+        """(k,3) unit vectors from points (k,3) to the light, and how far (k,) it is."""
+        if self.parallel:
+            return np.repeat(self._rays, len(points), axis=0), np.inf
+        way = np.asarray(self.light) - points
+        return unit(way), norm(way)
+
+    @cached_property
+    def _rays(self) -> Floats:
+        """(1,3) the unit vector to a light with parallel rays."""
+        return unit(normalize(np.asarray(self.light)))[None]

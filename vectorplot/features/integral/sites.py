@@ -83,8 +83,9 @@ class Sites(TangentPlanes):
         """Derivatives by u and by v, and unit normals, (k,3) each; no normals at poles and singular points, and none in
         holes, where formulas of derivatives may go on."""
         points, along_u, along_v = self._jets
-        there = np.where(all_finite(points)[:, None], 1.0, np.nan)
-        return along_u, along_v, unit(cross(along_u, along_v) * there)
+        across, there = cross(along_u, along_v), all_finite(points)
+        across[~there] = np.nan
+        return along_u, along_v, unit(across)
 
     @property
     def normals(self) -> Floats:

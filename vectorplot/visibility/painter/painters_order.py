@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -204,10 +204,11 @@ def _ordered(
         field[thing[thing >= 0]] = number
     item = np.append(things.bodies.item, view.face_item[faces.source[things.single]])
     allowed = pairs_allowed(budget.pairs, len(things))
-    crowded = crowded_items(things.box, item, field, view.tolerance, allowed)
+    crowded, lot = crowded_items(things.box, item, field, view.tolerance, allowed)
     if len(crowded):
         return _with_crowds(view, projected, faces, crowded, known, group_of_item, budget)
-    compared = _demands(view, faces, things, field)
+    lots = pairs_across(things.box, field, view.tolerance) if lot is None else [lot]
+    compared = _demands(view, faces, things, lots)
     before, after = (np.concatenate(two) for two in zip(compared, (nodes.before, nodes.after), strict=True))
     rank = _ranks(faces, things, len(nodes.owner), before, after)
     undone: tuple[int, ...] = ()
@@ -300,14 +301,11 @@ def _things(view: View, projected: ProjectedFaces, faces: ImageFaces) -> _Things
     return _Things(bodies, of_face, single, box)
 
 
-def _demands(view: View, faces: ImageFaces, things: _Things, field: Ints) -> tuple[Ints, Ints]:
-    """The things that have to be drawn before others: (k,) and (k,).
-
-    field (t,): things of one field need not be compared with each other; -1 for none.
-    """
+def _demands(view: View, faces: ImageFaces, things: _Things, lots: Iterable[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
+    """The things that have to be drawn before others: (k,) and (k,). lots: of pairs of things to be compared."""
     count = len(things.bodies)
     demands = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
-    for first, second in pairs_across(things.box, field, view.tolerance):
+    for first, second in lots:
         # A pair names the smaller number first, so a body stands before a face.
         both = second < count
         neither = first >= count

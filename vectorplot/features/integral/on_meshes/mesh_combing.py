@@ -69,7 +69,7 @@ def combed(shape: CombedMesh) -> MeshCurves:
     taken = np.zeros((0, 6))
     found: list[MeshCurves] = [all_mesh_curves([])]
     for _ in range(MOST_ROUNDS):
-        tree = cKDTree(taken) if len(taken) else None
+        tree = cKDTree(taken, balanced_tree=False) if len(taken) else None
         if tree is not None:
             open_ = ~beside(tree, where, WIDEST * apart)
             places, where = places[open_], where[open_]
@@ -202,7 +202,7 @@ def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None
             continue
         spans.append(kept)
         own.append(found.where[ragged.ranges(kept[:, 1], kept[:, 2] - kept[:, 1] + 1)])
-        last = cKDTree(own[-1])
+        last = cKDTree(own[-1], balanced_tree=False)
         left = left[~beside(last, found.where[found.seed[left]], WIDEST * apart)]
         about = _boxes(own[-1], ragged.starts(kept[:, 2] - kept[:, 1] + 1))
         reach = NEAREST * apart
@@ -231,7 +231,7 @@ def _kept(found: PlacedCurves, lines: Ints, free: Bools, apart: float) -> Ints:
     at = ragged.ranges(first, np.maximum(last - first + 1, 0))
     if not len(at):
         return np.zeros((0, 3), dtype=np.intp)
-    tree = cKDTree(found.where[at])
+    tree = cKDTree(found.where[at], balanced_tree=False)
     pairs = at[tree.query_pairs(NEAREST * apart, output_type="ndarray")]
     one, two = np.concatenate([pairs, pairs[:, ::-1]]).T
     free &= ~_beside_itself(found, one, two, apart)

@@ -96,12 +96,14 @@ def mesh_courses(
         if step == 0:
             first_point[line], first_way[line], first_face[line] = here, now.directions, now.face
             continue
-        back = (now.face == first_face[line]) & (now.face >= 0)
-        near = CLOSED_OF_EXTENT * sides.extent
-        back &= np.linalg.norm(here - first_point[line], axis=1) <= near
-        back &= np.linalg.norm(now.directions - first_way[line], axis=1) <= CLOSED_OF_EXTENT
-        closed[line[back]] = True
-        now = now._replace(face=np.where(back, -1, now.face))
+        back = np.flatnonzero((now.face == first_face[line]) & (now.face >= 0))
+        own = line[back]
+        home = norm(here[back] - first_point[own]) <= CLOSED_OF_EXTENT * sides.extent
+        home &= norm(now.directions[back] - first_way[own]) <= CLOSED_OF_EXTENT
+        closed[own[home]] = True
+        going = np.ones(len(line), dtype=np.bool_)
+        going[back[home]] = False
+        now = now._replace(face=np.where(going, now.face, -1))
     parts = [np.concatenate([s[i] for s in segments]) if segments else np.zeros(0) for i in range(4)]
     order = np.argsort(parts[0], kind="stable")
     rows, begin, end, faces = (part[order] for part in parts)
@@ -131,16 +133,17 @@ class _Rounds:
         if self.beside <= 0.0:
             return np.zeros(len(line), dtype=np.bool_)
         step, place = end - start, self.place[line]
-        part = np.clip(dot(place - start, step) / np.maximum(dot(step, step), LEAST_DIVISOR), 0.0, 1.0)
+        part = dot(place - start, step) / np.maximum(dot(step, step), LEAST_DIVISOR)
+        part = np.minimum(np.maximum(part, 0.0), 1.0)
         near = norm(start + part[:, None] * step - place) <= self.beside
-        normals = self.sides.mesh.face_normals
-        near &= dot(normals[face], normals[self.face[line]]) > 0.0
-        back = near & (self.run[line] - self.at[line] > FAR * self.beside)
+        near &= self.run[line] - self.at[line] > FAR * self.beside
+        back, normals = np.flatnonzero(near), self.sides.mesh.face_normals
+        near[back] = dot(normals[face[back]], normals[self.face[line[back]]]) > 0.0
         self.run[line] += norm(step)
         onward = self.run[line] >= np.maximum(2.0 * self.at[line], self.sides.extent)
         moved = line[onward]
         self.place[moved], self.face[moved], self.at[moved] = end[onward], face[onward], self.run[moved]
-        return np.asarray(back)
+        return np.asarray(near)
 
 
 def _onward(flow: MeshFlow, side: Ints, at_vertex: Bools, directions: Floats, way: Floats) -> Onward:
@@ -164,17 +167,19 @@ def _exits(sides: MeshSides, here: Floats, now: Onward) -> _Exits:
     distance = np.where(ahead, off / np.where(ahead, speed, 1.0), np.inf)
     chosen = np.lexsort((distance, line))[offsets[:-1]]
     side, distance = all_sides[chosen], distance[chosen]
-    along = dot(sides.along[now.first], now.directions) > 0.0
     # Along a side it is left at one of its ends.
-    side = np.where(now.follows, now.first, side)
-    a, b = sides.starts(side), sides.ends(side)
-    to_end = np.linalg.norm(np.where(along[:, None], b, a) - here, axis=1)
-    distance = np.where(now.follows, to_end, distance)
+    follow = np.flatnonzero(now.follows)
+    side[follow] = now.first[follow]
+    a, b, long = sides.starts(side), sides.ends(side), sides.lengths[side]
+    if len(follow):
+        along = dot(sides.along[side[follow]], now.directions[follow]) > 0.0
+        distance[follow] = norm(np.where(along[:, None], b[follow], a[follow]) - here[follow])
     reached = here + np.where(np.isfinite(distance), distance, 0.0)[:, None] * now.directions
-    place = np.clip(dot(reached - a, sides.along[side]), 0.0, sides.lengths[side])
-    place = np.where(now.follows, np.where(along, sides.lengths[side], 0.0), place)
-    at_start, at_end = place <= sides.rounding, sides.lengths[side] - place <= sides.rounding
-    points = point_on_line(a, b, place / np.where(sides.lengths[side] > 0.0, sides.lengths[side], 1.0))
+    place = np.minimum(np.maximum(dot(reached - a, sides.along[side]), 0.0), long)
+    if len(follow):
+        place[follow] = np.where(along, long[follow], 0.0)
+    at_start, at_end = place <= sides.rounding, long - place <= sides.rounding
+    points = point_on_line(a, b, place / np.where(long > 0.0, long, 1.0))
     points = np.where(at_start[:, None], a, np.where(at_end[:, None], b, points))
     # A vertex is where a side of this face begins.
     return _Exits(distance, points, np.where(at_end & ~at_start, sides.after[side], side), at_start | at_end)

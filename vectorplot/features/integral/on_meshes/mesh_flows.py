@@ -87,18 +87,19 @@ class FaceFieldFlow:
         """
         sides, other = self.sides, self.sides.across[side]
         inside = other != NO_SIDE
-        here = self._nearest(sides.mesh.corner_face[other], unfolded(sides, side, other, directions), way)
-        leads = (outwards(sides, other, here) < 0.0) & inside
-        slide = _slide(sides, side, other, directions, here)
-        follows = inside & ~leads & (np.abs(slide) > sides.slack[side])
-        own = np.where(follows, sides.mesh.corner_face[side], -1)
-        return Onward(
-            np.where(leads, sides.mesh.corner_face[other], own),
-            np.where(follows[:, None], np.sign(slide)[:, None] * sides.along[side], here),
-            np.where(follows, side, other),
-            np.full(len(side), NO_SIDE),
-            follows,
-        )
+        face = sides.mesh.corner_face[other]
+        here = self._nearest(face, unfolded(sides, side, other, directions), way)
+        first, follows = np.array(other), np.zeros(len(side), dtype=np.bool_)
+        # Mostly the other face leads on.
+        pushed = np.flatnonzero(~(inside & (outwards(sides, other, here) < 0.0)))
+        if len(pushed):
+            edge = side[pushed]
+            slide = _slide(sides, edge, other[pushed], directions[pushed], here[pushed])
+            slides = inside[pushed] & (np.abs(slide) > sides.slack[edge])
+            face[pushed] = np.where(slides, sides.mesh.corner_face[edge], -1)
+            on, edge = pushed[slides], edge[slides]
+            here[on], first[on], follows[on] = np.sign(slide[slides])[:, None] * sides.along[edge], edge, True
+        return Onward(face, here, first, np.full(len(side), NO_SIDE), follows)
 
     def over_vertex(self, side: Ints, directions: Floats, way: Floats) -> Onward:
         """Into the face, or along the edge, that leads away from the vertex and is nearest to the way it came."""
@@ -138,7 +139,10 @@ class FaceFieldFlow:
     def _nearest(self, face: Ints, wanted: Floats, way: Floats) -> Floats:
         """(k,3) of the directions that lines may take in faces (k,) those nearest to wanted ones (k,3)."""
         choice = self._of_faces(face, way)
-        near = np.nan_to_num(dot(choice, wanted[None]), nan=-np.inf)
+        if self.directed:
+            return np.array(choice[0])
+        near = dot(choice, wanted[None])
+        near[np.isnan(near)] = -np.inf
         return np.asarray(choice[near.argmax(axis=0), np.arange(len(face))])
 
     def first(self, face: Ints, way: Floats) -> Floats:
@@ -150,7 +154,8 @@ class FaceFieldFlow:
         """(j,k,3) the directions that lines may take in faces (k,)."""
         if self.directed:
             return np.asarray(self.candidates[:1, face] * way[:, None])
-        return np.concatenate([self.candidates[:, face], -self.candidates[:, face]])
+        found = self.candidates.take(face, axis=1)
+        return np.concatenate([found, -found])
 
 
 def face_field_flow(sides: MeshSides, given: BentFaces, field: TangentField) -> FaceFieldFlow:

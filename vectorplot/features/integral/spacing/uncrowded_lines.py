@@ -101,7 +101,7 @@ def _beside_each_other(lines: PlacesAlong, where: Floats, group: Ints, at: Ints,
     empty = np.zeros((2, 0), dtype=np.intp)
     if not len(at):
         return empty, empty
-    tree = cKDTree(where[at])
+    tree = cKDTree(where[at], balanced_tree=False)
     one, two = at[tree.query_pairs(near, output_type="ndarray")].T
     way = np.abs(lines.along[one] - lines.along[two])
     curve = lines.curve[one]

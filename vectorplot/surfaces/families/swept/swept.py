@@ -12,6 +12,7 @@ from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.surfaces.families.swept.motions import Motion
+from vectorplot.surfaces.jets import FirstJets, SecondJets
 from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 
@@ -81,4 +82,21 @@ class Swept(MovableSurface):
             self.motion.moved(second_derivatives(g, u), 0.0, v),
             self.motion.velocities(g.tangents(u), 0.0, v),
             self.motion.accelerations(g.points(u), 1.0, v),
+        )
+
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(..., 3) points and derivatives by u and by v: the generating curve is asked once."""
+        at, along, v = self.generator.points(u), self.generator.tangents(u), np.asarray(v)
+        return self.motion.moved(at, 1.0, v), self.motion.moved(along, 0.0, v), self.motion.velocities(at, 1.0, v)
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(..., 3) these and the second derivatives."""
+        at, along, v = self.generator.points(u), self.generator.tangents(u), np.asarray(v)
+        return (
+            self.motion.moved(at, 1.0, v),
+            self.motion.moved(along, 0.0, v),
+            self.motion.velocities(at, 1.0, v),
+            self.motion.moved(second_derivatives(self.generator, u), 0.0, v),
+            self.motion.velocities(along, 0.0, v),
+            self.motion.accelerations(at, 1.0, v),
         )

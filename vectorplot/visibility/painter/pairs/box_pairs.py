@@ -84,13 +84,18 @@ def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[
     (left, right, bottom, top), (left_2, right_2, bottom_2, top_2) = box[:4], others[:4]
     if not len(left) or not len(left_2):
         return
-    tree = shapely.STRtree(shapely.box(left_2, bottom_2, right_2, top_2), node_capacity=16)
-    rectangles = shapely.box(left, bottom, right, top)
+    # Of what lies in a tree only the bounds count: a diagonal has those of its rectangle, and is made sooner.
+    diagonals = shapely.linestrings(np.stack([left, bottom, right, top], axis=1).reshape(-1, 2, 2))
+    if others is box:
+        diagonals_2 = diagonals
+    else:
+        diagonals_2 = shapely.linestrings(np.stack([left_2, bottom_2, right_2, top_2], axis=1).reshape(-1, 2, 2))
+    tree = shapely.STRtree(diagonals_2, node_capacity=16)
     # Even where all that is looked up lies on all the others, after much that does not.
     most = int(np.clip(PAIRS_AT_MOST // len(left_2), 1, QUERIES_AT_ONCE))
     low, step = 0, min(most, FIRST_QUERIES)
     while low < len(left):
-        first, second = tree.query(rectangles[low : low + step])
+        first, second = tree.query(diagonals[low : low + step])
         first = first + low
         wide = np.minimum(right[first], right_2[second]) - np.maximum(left[first], left_2[second]) > tolerance
         wide &= np.minimum(top[first], top_2[second]) - np.maximum(bottom[first], bottom_2[second]) > tolerance

@@ -23,19 +23,25 @@ def pairs_allowed(pairs: int, things: int) -> int:
     return max(OF_THE_BUDGET * pairs, OF_EACH * things)
 
 
-def crowded_items(box: Floats, item: Ints, field: Ints, tolerance: float, most: int) -> Ints:
-    """The items to be left out so that no more than most pairs remain to be compared, in ascending order.
+def crowded_items(
+    box: Floats, item: Ints, field: Ints, tolerance: float, most: int
+) -> tuple[Ints, tuple[Ints, Ints] | None]:
+    """The items to be left out so that no more than most pairs remain to be compared, in ascending order; and the pairs
+    that remain, as of pairs_across, where they are known and so few that they come in one lot.
 
     box (4,t), item (t,), field (t,): of things, as of pairs_across. They are those that have most pairs of all, as far
     as these were counted; what is done follows most, not how many pairs there are.
     """
+    pairs: tuple[Ints, Ints] | None = None
     kept = np.arange(box.shape[1])
     out = np.zeros(int(item.max(initial=-1)) + 1, dtype=np.bool_)
     for _ in range(ROUNDS):
         if len(kept) * (len(kept) - 1) // 2 <= most:
             break
         tally, total = np.zeros(len(out), dtype=np.intp), 0
+        pairs = kept[:0], kept[:0]
         for first, second in pairs_across(box[:, kept], field[kept], tolerance):
+            pairs = (kept[first], kept[second]) if total == 0 else None
             total += len(first)
             for ends in (first, second):
                 tally += np.bincount(item[kept[ends]], minlength=len(out))
@@ -48,7 +54,7 @@ def crowded_items(box: Floats, item: Ints, field: Ints, tolerance: float, most: 
         kept = np.flatnonzero(~out[item])
     else:
         out[item] = True
-    return np.flatnonzero(out)
+    return np.flatnonzero(out), pairs
 
 
 def around(box: Floats, item: Ints, some: Ints, tolerance: float) -> Bools:
