@@ -13,9 +13,12 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.surface import Domain
 from vectorplot.visibility.smooth.events.own_events import edge_on_curves, facing_of, own_events
 from vectorplot.visibility.smooth.sheets.family import ParameterCurves
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
+from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
@@ -41,6 +44,26 @@ def test_a_meridian_goes_behind_the_sphere_at_the_equator() -> None:
     assert found.chord.tolist() == [3] and np.allclose(found.part, 0.5, atol=1e-9)
     # In front of the lower half there is the upper one, too.
     assert found.change.tolist() == [1]
+
+
+@pytest.mark.parametrize("slope", [1.5, -1.5])
+@pytest.mark.parametrize("end", [1.0, -1.0])
+def test_a_border_goes_behind_its_sheet_where_that_goes_on(end: float, slope: float) -> None:
+    """A part of the sphere seen from the north, between two borders that run aslant from north to south: what is above
+    the southern half of a border at the same longitude is in the part for one border, and beyond it for the other."""
+
+    def points(u, v):
+        return np.cos(v) * np.cos(u + slope * v), np.cos(v) * np.sin(u + slope * v), np.sin(v)
+
+    slanting = surface_of_function(points, Domain(-1.0, 1.0, -0.8, 0.7))
+    scene = Scene((Item("part", slanting),))
+    view = look(scene, Camera((0.0, 0.0, 9.0), (0.0, 0.0, 0.0), up=(0.0, 1.0, 0.0), parallel=True))
+    (sheet,) = sheets_of_parametrised(view, slanting, 0, True)
+    places = np.stack([np.full(8, end), np.linspace(0.5, -0.6, 8), np.zeros(8)], axis=1)
+    border = replace(on_ball(places)[2], points=sheet.points(places), families=(ParameterCurves(sheet, 0),))
+    sheets = Sheets((sheet,))
+    found = own_events(view, sheets, border, facing_of(view, sheets, border), np.zeros(1, dtype=np.bool_))
+    assert found.change.tolist() == [int(end * slope > 0.0)]
 
 
 def test_the_equator_is_edge_on_and_a_parallel_circle_not() -> None:

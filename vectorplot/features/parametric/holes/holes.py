@@ -129,6 +129,21 @@ def into_surface(surface: Surface, places: Floats) -> Floats:
     return np.where(np.asarray(known.all(axis=0))[:, None], 0.0, way)
 
 
+def along_rims(surface: Surface, places: Floats, inwards: Floats) -> tuple[Floats, Floats]:
+    """The places (k,2) of rims to the right and to the left of places (k,2) on them; inwards (k,2): the short ways into
+    the surface, as long as the steps to the sides. At corners and ends of rims a place may stay where it is."""
+    twice = np.tile(np.arange(len(places)), 2)
+    own, at, way = of_some(surface, twice), places[twice], inwards[twice]
+    size = from_components(*own.domain.size)
+    aside = from_components(-way[:, 1], way[:, 0]) * size / size[..., ::-1]
+    base = at + np.where(np.arange(len(at)) < len(places), -1.0, 1.0)[:, None] * aside
+    there = is_known(own, base + way) & ~is_known(own, base - way)
+    one = np.ones(len(at))
+    low, _ = last_alike(own, base, way, one, -one)
+    found = np.where(there[:, None], just_inside(own, base + low[:, None] * way, way), at)
+    return found[: len(places)], found[len(places) :]
+
+
 def around(surface: Surface, places: Floats) -> Floats:
     """(a,k,2) places around places (k,2), AROUND_RIM of the domain from them."""
     angle = 2.0 * np.pi * (np.arange(AROUND) + 0.5) / AROUND

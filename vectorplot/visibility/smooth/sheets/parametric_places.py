@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.features.parametric.holes.holes import into_surface, is_known
+from vectorplot.features.parametric.holes.holes import along_rims, into_surface, is_known
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.vectors import cross, dot, from_components
 from vectorplot.surfaces.jets import first_jets
@@ -93,31 +93,39 @@ class OnParametrised(ABC):
         return _moved(places, *self.partials(places), steps)
 
     def inwards(self, places: Floats) -> Floats:
-        """(k,3) tangents into the sheet at places on its border; 0 elsewhere."""
+        """(k,3) tangents into the sheet at places on its border, at right angles to it; 0 elsewhere."""
         surface = self.surface_at(places)
         domain = surface.domain
         along_u, along_v = surface.partials(*inside(domain, places))
-        inner = np.zeros_like(along_u)
-        for axis, closed, start, size, along in (
-            (0, domain.closed_u, domain.u_start, domain.size[0], along_u),
-            (1, domain.closed_v, domain.v_start, domain.size[1], along_v),
-        ):
-            if not closed:
-                part = (places[:, axis] - start) / size
-                inner += (part <= OUTSIDE_DOMAIN)[:, None] * along - (part >= 1.0 - OUTSIDE_DOMAIN)[:, None] * along
+        on_u, on_v = (
+            np.zeros((len(places), 1)) if closed else _at_ends((places[:, axis] - start) / size)[:, None]
+            for axis, closed, start, size in (
+                (0, domain.closed_u, domain.u_start, domain.size[0]),
+                (1, domain.closed_v, domain.v_start, domain.size[1]),
+            )
+        )
+        # A border of u runs along v. In a corner nothing is at right angles to both: there it is between them.
+        border = (on_u == 0.0) * along_u + (on_v == 0.0) * along_v
+        inner = _across(on_u * along_u + on_v * along_v, border)
         inside_domain = np.flatnonzero(~inner.any(axis=1))
         if self.holed and len(inside_domain):
             inner[inside_domain] = self._into_holed(places[inside_domain])
         return inner
 
     def _into_holed(self, places: Floats) -> Floats:
-        """(k,3) short ways into the sheet from places on rims of holes; 0 elsewhere. Differences: where a surface
-        comes to its rim with a vertical tangent there is no derivative."""
-        surface = self.surface_at(places)
-        way = into_surface(surface, places[:, :2])
-        inner = places + np.concatenate([way, np.zeros((len(way), 1))], axis=1)
-        found = surface.points(*inside(surface.domain, inner)) - surface.points(*inside(surface.domain, places))
-        return np.where(np.isfinite(found), found, 0.0)
+        """(k,3) short ways into the sheet from places on rims of holes, at right angles to them; 0 elsewhere.
+        Differences: where a surface comes to its rim with a vertical tangent there is no derivative."""
+        result = np.zeros_like(places)
+        way = into_surface(self.surface_at(places), places[:, :2])
+        rim = np.flatnonzero(way.any(axis=1))
+        if len(rim):
+            at, way = places[rim], way[rim]
+            one, two = along_rims(self.surface_at(at), at[:, :2], way)
+            here, inner, one, two = (
+                self.points(np.concatenate([of, at[:, 2:]], axis=1)) for of in (at[:, :2], at[:, :2] + way, one, two)
+            )
+            result[rim] = _across(inner - here, two - one)
+        return np.where(np.isfinite(result), result, 0.0)
 
     def turnings(self, places: Floats) -> Floats:
         """(k,3) second derivatives along the direction in which the point stands still."""
@@ -199,6 +207,16 @@ def off_rims(surface: Surface, places: Floats) -> Floats:
     result = places.copy()
     result[at[good], :2] = inner[good]
     return result
+
+
+def _at_ends(part: Floats) -> Floats:
+    """(k,) 1 for parts of a range at its start, -1 for those at its end; else 0."""
+    return (part <= OUTSIDE_DOMAIN).astype(np.float64) - (part >= 1.0 - OUTSIDE_DOMAIN)
+
+
+def _across(vectors: Floats, along: Floats) -> Floats:
+    """(k,3) the parts of vectors at right angles to others; all of them where these have no length."""
+    return np.asarray(vectors - (dot(vectors, along) / dot(along, along).clip(LEAST_DIVISOR))[:, None] * along)
 
 
 def _moved(places: Floats, along_u: Floats, along_v: Floats, steps: Floats) -> Floats:
