@@ -138,3 +138,35 @@ def test_floors_below_lamps_have_gradients_and_those_in_the_sun_do_not() -> None
     assert len(colours_of_item(Scene((Item("A", sheet(1)),), (lamp,)))) > 40
     assert len(colours_of_item(Scene((Item("A", sheet(1)),), (lamp,)), smooth=False)) == 1
     assert len(colours_of_item(Scene((Item("A", sheet(1)),), (SUN,)))) == 1
+
+
+def notched_bar(corners: int) -> Mesh:
+    """A bar along x whose front has corners inside of its lower and of its upper side, from where its fans begin."""
+    x = np.linspace(0.0, 3.0, corners)
+    # What files and cuts do to corners on one line.
+    z = 0.1 + 1e-16 * np.random.default_rng(3).standard_normal(corners)
+    front = np.concatenate([np.column_stack([x, np.zeros(corners), some]) for some in (z, z + 0.7)])
+    front[corners:] = front[corners:][::-1]
+    ring = np.arange(2 * corners)
+    back = 2 * corners + ring
+    sides = [[a, a + 2 * corners, b + 2 * corners, b] for a, b in zip(ring, np.roll(ring, -1), strict=True)]
+    return Mesh.from_polygons(
+        np.concatenate([front, front + np.array((0.0, 1.0, 0.0))]), [ring.tolist(), back[::-1].tolist(), *sides]
+    )
+
+
+@pytest.mark.hard(74)
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("crease_angle_deg", [0.0, 5.0, 25.0, 60.0])
+def test_plane_faces_with_corners_on_their_sides_have_one_shade(scale: float, crease_angle_deg: float) -> None:
+    bar = notched_bar(40)
+    turned = np.array([[0.8, -0.6, 0.0, 0.0], [0.36, 0.48, 0.8, 0.0], [-0.48, -0.64, 0.6, 0.0], [0.0, 0.0, 0.0, 1.0]])
+    turned[:3, :3] *= scale
+    scene = Scene((Item("A", bar.transformed(turned)),), (SUN,))
+    camera = Camera(tuple((scale * np.array(CAMERA.eye)).tolist()))
+    fills = [
+        paint(scene, camera, smooth=smooth, crease_angle_deg=crease_angle_deg).layers[0].fills[0]
+        for smooth in (True, False)
+    ]
+    assert np.array_equal(fills[0].points, fills[1].points)
+    assert np.array_equal(fills[0].colours, fills[1].colours)

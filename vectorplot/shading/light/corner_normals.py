@@ -13,6 +13,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
+from vectorplot.shading.light.face_shades import face_normals as view_face_normals
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 BEYOND_EDGE = float(np.cos(np.radians(20.0)))
@@ -42,7 +43,10 @@ def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle
     normals: for every item those of its true surface, None where its faces are flat or, where they meet at less than
     the crease angle, look round.
     """
-    triangles = view.corners[ragged.fans(view.offsets)[0]]
+    place, face = ragged.fans(view.offsets)
+    triangles = view.corners[place]
+    # Of a triangle between corners on one side of its face only the face can tell where it looks.
+    of_faces = None if view.is_triangular else view_face_normals(view)[:, face].T
     points = np.ascontiguousarray(view.points.T)
     known, given = np.zeros(len(points), dtype=np.bool_), np.zeros((len(points), 3))
     on_edge = np.zeros(len(points), dtype=np.bool_)
@@ -52,7 +56,7 @@ def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle
             given[part] = own.at_vertices @ view.axes.T
             known[part] = True
             on_edge[part] = own.on_edge
-    return corner_normals(points, triangles, crease_angle_deg, given, known, on_edge)
+    return corner_normals(points, triangles, crease_angle_deg, given, known, on_edge, of_faces)
 
 
 def at_corners(view: View, normals: CornerNormals) -> Floats:
@@ -86,20 +90,30 @@ def unit(vectors: Floats) -> Floats:
 
 
 def corner_normals(
-    points: Floats, triangles: Ints, crease_angle_deg: float, given: Floats, known: Bools, on_edge: Bools | None = None
+    points: Floats,
+    triangles: Ints,
+    crease_angle_deg: float,
+    given: Floats,
+    known: Bools,
+    on_edge: Bools | None = None,
+    own: Floats | None = None,
 ) -> CornerNormals:
     """The normals at the corners of triangles (t, 3) of points (n, 3).
 
     Each is the mean, by area, of the normals of those triangles around the vertex that differ from its own by no more
     than the crease angle. given (n, 3), known (n,): vertices of true surfaces have their true normals; on_edge (n,):
-    those of them on sharp edges that of one side, for the triangles there.
-    Degenerate: triangles without area have no say; alone they get zeros.
+    those of them on sharp edges that of one side, for the triangles there. own (t, 3): the unit normals of the plane
+    faces that triangles are parts of, where they are not faces themselves.
+    Degenerate: triangles without area have no say; alone they get the normals of their faces, or zeros.
     """
     faces = face_normals(points, triangles)
+    if own is None:
+        own = unit(faces)
+    else:
+        faces = own * np.abs(np.einsum("ij,ij->i", faces, own))[:, None]
     mean = np.stack([_sum_at(triangles, faces[:, k], len(points)) for k in range(3)], axis=1)
     mean = unit(mean)
     mean[known] = given[known]
-    own = unit(faces)
     # Where all triangles lie within half of the angle from the mean, they lie within the angle from each other.
     least = np.cos(np.radians(min(crease_angle_deg, 180.0)) / 2.0)
     sharp = np.zeros(len(points), dtype=np.bool_)
@@ -146,4 +160,5 @@ def _with_creases(
         sums[:, k] = np.bincount(one, weights=faces[triangle[other], k], minlength=len(corner))
     index = triangles.copy()
     index.ravel()[corner] = len(mean) + np.arange(len(corner))
-    return CornerNormals(np.concatenate([mean, unit(sums)]), index)
+    normals = np.where((sums != 0.0).any(axis=1)[:, None], unit(sums), own[triangle])
+    return CornerNormals(np.concatenate([mean, normals]), index)

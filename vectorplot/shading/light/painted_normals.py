@@ -17,6 +17,7 @@ from vectorplot.shading.light.face_shades import decal_shades, face_middles, fac
 from vectorplot.shading.light.illumination import DIRECT_SHARE, shades
 from vectorplot.shading.light.palettes import PALETTE_SIZE
 from vectorplot.tolerances.of_angles import FLAT_COSINE
+from vectorplot.visibility.projected_faces import newell
 
 VARIED = 2.0 / PALETTE_SIZE
 """By so much of a palette light varies on planes that are not shown in one shade: by two shades of a usual one."""
@@ -40,7 +41,7 @@ def painted_normals(
     own = face_normals(view)
     of_corner = ragged.owner(view.face_sizes)
     turned = (found * own[:, of_corner]).sum(axis=0) < FLAT_COSINE
-    turned &= (own != 0.0).any(axis=0)[of_corner]
+    turned &= _wide(view)[of_corner]
     count = int(plane.max(initial=-1)) + 1
     round_ = np.zeros(count, dtype=np.bool_)
     round_[plane[of_corner[turned]]] = True
@@ -51,6 +52,12 @@ def painted_normals(
     plain = (flat & varied)[of_corner]
     found[:, plain] = own[:, of_corner[plain]]
     return found
+
+
+def _wide(view: View) -> Bools:
+    """(f,) the faces that are wide enough to tell where they look, and not only long."""
+    area, longest, _ = newell(view, np.arange(view.face_count))
+    return np.asarray(np.sqrt((area * area).sum(axis=0)) > view.tolerance * longest)
 
 
 def _varied(view: View, items: Sequence[Item], lights: Sequence[Light], plane: Ints) -> Bools:
