@@ -46,3 +46,17 @@ def test_of_hatchings_of_several_widths_the_first_has_its_number_among_the_kinds
     layers = vp.draw(vp.Scene((CUBE, fine)), "iso", **TONE).layers
     assert [layer.name for layer in layers[9:]] == ["hatch 0.18", "hatch 0.1"]
     assert all(len(layer.strokes[0]) for layer in layers[9:])
+
+
+@pytest.mark.parametrize("how", [{"style": "plotter"}, {"pens": "0.3"}, {"pens": "0.3", "layers": "colour"}])
+def test_a_pen_for_all_lines_hatches_and_frames_too(how):
+    drawing = vp.draw(CUBE, "iso", title="I", frame=True, **TONE, **how)
+    assert {layer.pen.width_mm for layer in drawing.layers if len(layer.marks[0])} == {0.3}
+
+
+@pytest.mark.parametrize(("more", "width"), [("", 0.1), (",hatch=0.5", 0.5)])
+def test_a_hatching_with_a_width_of_its_own_keeps_it_but_for_pens_that_name_it(more, width):
+    own = vp.Hatching("tone", 2.0, width_mm=0.1)
+    layers = vp.draw(CUBE, "iso", hatch=own, frame=True, pens=f"0.3,frame=0.7{more}").layers
+    pens = {layer.name: layer.pen.width_mm for layer in layers}
+    assert (pens["hatch"], pens["frame"], pens["visible"]) == (width, 0.7, 0.3)
