@@ -25,6 +25,7 @@ from vectorplot.linework.traceable import traceable
 from vectorplot.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
 from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
 from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.lines.usual_lines import with_usual_lines
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
 from vectorplot.scene.view import look
@@ -182,7 +183,7 @@ def draw(
     >>> [layer.name for layer in drawing.layers if len(layer.strokes[0])]
     ['contour', 'hidden']
     """
-    given = scene_of(scene)
+    given = scene_of(scene) if lines is not None else with_usual_lines(scene_of(scene))
     chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)
     hidden = chosen.hidden if hidden is None else hidden

@@ -34,6 +34,7 @@ from vectorplot.plan import accuracy_of_paint, plan_paint, with_accuracy
 from vectorplot.scene.coincidence.twins import without_twins
 from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
 from vectorplot.scene.light import Exposure, Light
+from vectorplot.scene.lines.usual_lines import with_usual_lines
 from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.pages.fitted_pages import FittedPage
 from vectorplot.scene.pages.page import Page
@@ -184,7 +185,9 @@ def paint(
         raise InputError("depth_cue does not go with fills that are erasing, whose lines have the shades of items")
     budget_of(budget)
     threads = threads_of(jobs)
-    given = scene_of(scene)
+    given, kinds = scene_of(scene), line_kinds(lines)
+    if fills == "erasing" and not kinds:
+        given = with_usual_lines(given)
     chosen = overlaid_pens(given.inks, style, pens, dashes)
     if fills == "erasing" and (style is not None or pens is not None or dashes is not None):
         raise InputError("style, pens and dashes do not go with fills that are erasing, whose lines are those of items")
@@ -203,7 +206,6 @@ def paint(
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
     check_targets(over.rules, names)
     sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
-    kinds = line_kinds(lines)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     walk = Walk(stages, explain, progress, threads)
     projection = projection_of(subject.camera, scene.bounds)

@@ -23,6 +23,7 @@ from vectorplot.linework.lines_in_place import lines_in_place
 from vectorplot.plan import plan_panorama
 from vectorplot.scene.coincidence.seamless_scene import without_seams
 from vectorplot.scene.cuts.exploded import shown_apart
+from vectorplot.scene.lines.usual_lines import with_usual_lines
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import field_of_vision
 from vectorplot.scene.point_of_view import page_of
@@ -101,7 +102,8 @@ def panorama(
     >>> sum(len(strokes) for layer in round_about.layers for strokes in layer.strokes) > 10
     True
     """
-    given = shown_apart(scene_of(scene))
+    given = scene_of(scene) if lines is not None else with_usual_lines(scene_of(scene))
+    given = shown_apart(given)
     chosen, own = style_of_scene(given.inks, style)
     if chosen.look != "plain":
         raise InputError(f"panorama: a picture in the style {chosen.look} shows all lines, and a panorama those seen")

@@ -100,6 +100,8 @@ class Item(Movable["Item"]):
         Numbers at its vertices and on its faces, by which it can be coloured.
     normals : SurfaceNormals, optional
         Of the smooth surface that a mesh was made of: it is shaded by them.
+    usual_lines : tuple of str, optional
+        The words of the kinds to draw where neither lines nor the drawing say any (None: those of all things).
 
     Raises
     ------
@@ -130,11 +132,14 @@ class Item(Movable["Item"]):
     is_cut_face: bool = False
     fields: Fields | None = None
     normals: SurfaceNormals | None = None
+    usual_lines: tuple[str, ...] | None = None
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
         if self.lines is not None:
             object.__setattr__(self, "lines", line_words(self.lines, OWN_LINE_WORDS))
+        if self.usual_lines is not None:
+            object.__setattr__(self, "usual_lines", line_words(self.usual_lines, OWN_LINE_WORDS))
 
     def transformed(self, matrix: ArrayLike) -> Item:
         """The item under a 4x4 matrix acting on columns, with what lies on it.

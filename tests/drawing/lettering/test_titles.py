@@ -44,6 +44,21 @@ def test_what_cannot_be_set_is_one_line() -> None:
             vp.draw(CUBE, **{"page": PAGE, **wrong})  # type: ignore[arg-type]
 
 
+@pytest.mark.parametrize("text", ["strokes", "real"])
+@pytest.mark.parametrize(("words", "lines"), [(4, 1), (6, 1), (10, 2)])
+def test_titles_that_are_too_wide_are_smaller_and_then_in_several_lines(words: int, lines: int, text: str) -> None:
+    page = vp.Page(80, 60, 9.0)
+    (*_, frame) = vp.draw(CUBE, page=page, title="wide " * (words - 1) + "ones", text=text).layers  # type: ignore[arg-type]
+    if text == "real":
+        texts = frame.marks[-1]
+        assert len(texts) == lines and (texts.size_mm >= 2.5).all() and (texts.room_mm <= 80.0).all()
+    else:
+        (paths,) = frame.strokes
+        x, y = paths.points.T
+        assert 0.0 < x.min() and x.max() < 80.0 and 0.0 < y.min() and y.max() < 9.0
+        assert x.min() + x.max() == pytest.approx(80.0, abs=1.5)
+
+
 @pytest.mark.parametrize("verb", ["draw", "paint"])
 def test_the_command_has_them_too(verb: str, tmp_path) -> None:  # type: ignore[no-untyped-def]
     scene, out = tmp_path / "cube.scene", tmp_path / "cube.svg"

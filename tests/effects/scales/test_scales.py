@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import box as solid_box
 from vectorplot.geometry import ragged
 from vectorplot.io import parse_scene, write_scene
-from vectorplot.scene import BoxAxes, Colouring
+from vectorplot.scene import BoxAxes, Colouring, terrain_scene
 from vectorplot.surfaces import Sphere
 
 CUBE = vp.Scene((vp.Item("CUBE", solid_box((2.0, 2.0, 2.0))),))
@@ -169,3 +169,15 @@ def test_pens_of_an_item_are_those_of_its_bands(verb):
     assert {layer.pen.width_mm for layer in drawing.layers if layer.name.startswith("contour")} == {1.25}
     with pytest.raises(InputError, match="no item"):
         verb(scene, pens="nobody=1")
+
+
+@pytest.mark.parametrize("verb", [vp.draw, vp.paint])
+def test_level_lines_over_colours_are_black_and_alone_where_nothing_else_is_asked_for(verb):
+    hill = terrain_scene([[0, 1, 0], [1, 9, 1], [0, 1, 0]])
+    drawing = verb(replace(hill, colouring=Colouring("z", "land", 7)), "top", lines="section,index")
+    layers = {layer.name: layer for layer in drawing.layers if any(len(paths) for paths in layer.strokes)}
+    assert set(layers) == {"section", "index", "colour bar"}
+    assert layers["section"].pen.colour == layers["index"].pen.colour == "#000000"
+    heights = np.concatenate([paths.points3d[:, 2] for paths in (*layers["section"].strokes, *layers["index"].strokes)])
+    rounded = hill.items[0].curves.sections
+    assert set(heights.round(6)) <= {offset for section in rounded for offset in section.offsets}

@@ -158,3 +158,18 @@ def test_a_point_far_off_all_others_is_left_out_and_told(stray, tmp_path):
     with pytest.warns(vp.InputWarning, match="a point lies far off all others and is left out"):
         scene = vp.read(tmp_path / "a.xyz")
     assert np.ptp(scene.bounds, axis=0).max() < 1.1
+
+
+@pytest.mark.parametrize("verb", [vp.draw, vp.paint])
+@pytest.mark.parametrize("lines", ["none", "boundary", "section,index", "contour,boundary,section,index"])
+def test_lines_that_are_asked_for_are_the_lines_of_a_terrain(verb, lines, tmp_path):
+    path = tmp_path / "hill.asc"
+    path.write_text("ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n0 1 0\n1 3 1\n0 1 0\n", encoding="ascii")
+
+    def shown(**how):
+        layers = verb(path, vp.Camera((5, -7, 6), (1, 1, 0)), **how).layers
+        return {vp.LineKind(kind).word for layer in layers for paths in layer.strokes for kind in paths.kind.tolist()}
+
+    assert shown(lines=lines) == set(lines.split(",")) - {"none"}
+    # Nothing but level lines, outlines and borders is drawn where nothing is said.
+    assert shown() == ({"contour", "boundary", "section", "index"} if verb is vp.draw else set())

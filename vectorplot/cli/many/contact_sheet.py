@@ -31,7 +31,7 @@ MOST_CELLS = 1000
 """Drawings on one sheet."""
 
 CELL_MARGIN_MM = 8.0
-"""Around the drawing in its cell: letters stand in it."""
+"""Around the drawing in its cell, where its name does not need more: letters stand in it."""
 
 Cell = tuple[str, ...]
 
@@ -99,6 +99,7 @@ def contact_sheet(
     drawings side by side, in reading order, onto one sheet, OUT (svg, ps, eps, pdf, png, tex, dxf, json).
     """
     from vectorplot.batch.running import results
+    from vectorplot.drawing.lettering.titles import room_for_title
     from vectorplot.drawing.sheets.contact_sheets import contact_sheet as sheet_of
     from vectorplot.save import write
     from vectorplot.scene.pages.page import Page
@@ -107,7 +108,9 @@ def contact_sheet(
     cells = _cells(inputs_of(scene_file), told["vary"])
     width, height = _size("--cell", told["cell"])
     page = Page(*_size("--page", told["page"]))
-    same = ("--page", f"{width!r}x{height!r}", "--margin", repr(CELL_MARGIN_MM), *verb[1:])
+    captions = [name for _, name, _ in cells] if told["names"] else []
+    margin = max([CELL_MARGIN_MM, *(room_for_title(name, width) for name in captions)])
+    same = ("--page", f"{width!r}x{height!r}", "--margin", repr(margin), *verb[1:])
     params = [_params(verb[0], path, (*same, *_named(name, told["names"]), *words)) for path, name, words in cells]
     if workers.given:
         params = [{**one, "jobs": one["jobs"] or 1} for one in params]

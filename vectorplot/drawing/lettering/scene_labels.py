@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from itertools import takewhile
 from typing import Any
 
 import numpy as np
@@ -118,9 +119,13 @@ class SceneLabels:
         if "label" in names:
             at = names.index("label")
             return (*layers[:at], replace(layers[at], marks=(*layers[at].marks, *marks)), *layers[at + 1 :])
-        missing = (*PENS,)[len(layers) : (*PENS,).index("label")] if by_kind else ()
-        empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in missing)
-        return (*layers, *empty, Layer("label", pen, marks))
+        label = Layer("label", pen, marks)
+        if not by_kind:
+            return (*layers, label)
+        before = (*PENS,)[: (*PENS,).index("label")]
+        kinds = len(list(takewhile(lambda pair: pair[0].startswith(pair[1]), zip(names, before, strict=False))))
+        empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in before[kinds:])
+        return (*layers[:kinds], *empty, label, *layers[kinds:])
 
 
 @dataclass(frozen=True, eq=False)

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.scene_labels import LETTERS, Letters, label_paths
-from vectorplot.drawing.lettering.text import Lettering
+from vectorplot.drawing.lettering.text import DESCENT, LINES_APART, Lettering
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.stroke_paths import concatenated
@@ -16,7 +18,10 @@ from vectorplot.errors import InputError
 from vectorplot.scene.placement import Placement
 
 SIZES_MM = (5.0, 2.5)
-"""The height of the capitals of titles: as large as fits the margin of the page, between these."""
+"""The height of the capitals of titles: as large as fits the margin and the width of the page, between these."""
+
+PART = 0.9
+"""How much of the width of the page letters take at most: wider ones are made smaller, or set in several lines."""
 
 BESIDE = 1.5
 """From the letters of a title to the frame beside them, in heights of capitals."""
@@ -33,11 +38,11 @@ def with_title(
 ) -> tuple[Layer, ...]:
     """The layers of a drawing, and one with its title and a frame, if these are wanted.
 
-    The frame runs in the middle of the margin; the title stands in the middle of the lower margin, and the frame ends
-    before it. pen: of both, the frame with its dashes; longest_mm: longer strokes leave in parts; text: a word of
-    LETTERS.
-    Errors: InputError for a character without strokes, a title wider than the page, and a frame on a page without a
-    margin.
+    The frame runs in the middle of the margin; the title stands in the middle of the lower margin, in several lines
+    where one is too wide, and the frame ends before it. pen: of both, the frame with its dashes; longest_mm: longer
+    strokes leave in parts; text: a word of LETTERS.
+    Errors: InputError for a character without strokes, a title that the margin has no room for, and a frame on a page
+    without a margin.
     """
     page = placement.page
     if frame and not page.margin_mm > 0.0:
@@ -56,15 +61,58 @@ def with_title(
     return (*layers, Layer("frame", pen, marks))
 
 
+def room_for_title(title: str, width_mm: float) -> float:
+    """The margin in mm that a title needs on a page of such a width, in the smallest letters that titles have.
+
+    Degenerate: a word that is wider than the page needs what a line of its own does.
+    Errors: InputError for a character without strokes.
+    """
+    return _height(_lines(LETTERS["strokes"], title, PART * width_mm))
+
+
 def _title(letters: Letters, title: str, width: float, margin: float) -> Lettering:
-    size = float(np.clip(0.6 * margin, SIZES_MM[1], SIZES_MM[0]))
+    largest, smallest = float(np.clip(0.6 * margin, SIZES_MM[1], SIZES_MM[0])), SIZES_MM[1]
+
+    def set_in(text: str, size: float) -> Lettering:
+        return letters.plain(text, (0.5 * width, 0.5 * margin), size_mm=size, align="centre", level="middle")
+
     try:
-        text = letters.plain(title, (0.5 * width, 0.5 * margin), size_mm=size, align="centre", level="middle")
+        text = set_in(title, largest)
+        if _wide(text) <= PART * width:
+            return text
+        size = largest * PART * width / _wide(text)
+        if size >= smallest:
+            return set_in(title, size)
+        lines = _lines(letters, title, PART * width)
+        text = set_in("\n".join(lines), smallest)
     except InputError as error:
         raise InputError(f"title: {error.cause}") from None
-    if float(np.ptp(text.bounds, axis=0)[0]) > width:
+    if _wide(text) > width:
         raise InputError("the title is wider than the page")
+    if _height(lines) > margin:
+        raise InputError(f"the title takes {len(lines)} lines: a margin of {margin:g} mm has no room for them")
     return text
+
+
+def _lines(letters: Letters, title: str, width: float) -> list[str]:
+    """The title in lines as wide as that, in the smallest letters, parted at blanks."""
+    lines = [""]
+    for word in title.split():
+        longer = f"{lines[-1]} {word}".lstrip()
+        if lines[-1] and _wide(letters.plain(longer, size_mm=SIZES_MM[1])) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
+
+
+def _height(lines: Sequence[str]) -> float:
+    """What lines of the smallest letters take of a margin in mm, with what letters reach below them."""
+    return SIZES_MM[1] * (1.0 + (len(lines) - 1) * LINES_APART + 2.0 * DESCENT)
+
+
+def _wide(text: Lettering) -> float:
+    return float(np.ptp(text.bounds, axis=0)[0])
 
 
 def _ring(width: float, height: float, inset: float) -> Floats:

@@ -9,7 +9,7 @@ from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.layers import FRAME_PEN, layers_by_kind
 from vectorplot.drawing.pens.pen_rules import PenRule, Pens, frame_pen, pen_of, pen_rules, rules_by_target, scaled_pen
 from vectorplot.drawing.pens.scene_inks import style_of_scene
-from vectorplot.drawing.pens.sorted_layers import with_pens
+from vectorplot.drawing.pens.sorted_layers import in_pens
 from vectorplot.drawing.pens.styles import Style
 from vectorplot.errors import InputError
 from vectorplot.scene.pages.inks import Inks
@@ -33,10 +33,7 @@ class OverlaidPens:
         found: Sequence[Layer] = layers_by_kind(paths)
         if width is not None:
             found = [replace(layer, pen=replace(layer.pen, width_mm=width / mm)) for layer in found]
-        if self.rules:
-            said = rules_by_target(self.rules)
-            found = [part for layer in found for part in with_pens(layer, items, said)]
-        return [replace(layer, pen=scaled_pen(layer.pen, mm)) for layer in found]
+        return [replace(layer, pen=scaled_pen(layer.pen, mm)) for layer in in_pens(found, items, self.rules)]
 
     def letters(self, pen: Pen) -> Pen:
         """The pen of letters, where rules say nothing the one given."""

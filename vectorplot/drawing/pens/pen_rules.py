@@ -9,12 +9,16 @@ from dataclasses import dataclass, replace
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.layers import ink
 from vectorplot.errors import InputError
+from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.pages.inks import FINEST_MM, FRAME, HIDDEN, WIDEST_MM, target_of, unknown_item
 from vectorplot.scene.pages.paper import LENGTH, length_mm
 from vectorplot.words import COLOURS, LineKind, is_colour, nearest
 
 _NEXT = re.compile(r",(?=[^,=]*=)")
 """The commas between rules, where a rule has commas of its own."""
+
+USUAL_HATCHING_MM = (Hatching.width_mm, Stippling.width_mm)
+"""The widths of the pens that hatch, or make dots, where nothing else is said."""
 
 
 @dataclass(frozen=True)
@@ -148,10 +152,11 @@ def check_targets(rules: Sequence[PenRule], items: Sequence[str]) -> None:
 
 
 def frame_pen(rules: Sequence[PenRule], pen: Pen) -> Pen:
-    """The pen of a frame and a title with what the rules for these say."""
-    for rule in rules:
-        if rule.kind == FRAME:
-            pen = rule.applied(pen)
+    """The pen of a frame and a title with what the rules for all lines say, and then those for these."""
+    for kind in (None, FRAME):
+        for rule in rules:
+            if rule.kind == kind and rule.item is None:
+                pen = rule.applied(pen)
     return pen
 
 
@@ -167,13 +172,17 @@ def pen_of(rules: RulesByTarget, pen: Pen, kind: int, hidden: bool, item: str) -
     """The pen of lines of one kind and item, that of their layer with what the rules say: those for all lines first,
     then those for the kind, for the item, and for both, the later ones before the earlier ones.
 
-    Lines that something hides are of the kind hidden only; rules for their item that name no kind leave them alone.
+    Lines that something hides are of the kind hidden only; rules for their item that name no kind leave them alone. Of
+    hatchings these change the colour only, and those for all lines the width too, where it is the usual one: their
+    spacing goes by one that is their own.
     """
     word = HIDDEN if hidden else LineKind(kind).word
     hatching = kind == LineKind.HATCH
+    usual = pen.width_mm in USUAL_HATCHING_MM
     for target in [(None, None), (word, None), *(() if hidden else ((None, item),)), (word, item)]:
         for rule in rules.get(target, ()):
-            # The spacing of hatchings goes by the width of their own pen.
-            said = replace(rule, width_mm=None, dash_mm=None) if hatching and rule.kind is None else rule
-            pen = said.applied(pen)
+            if hatching and rule.kind is None:
+                width = rule.width_mm if usual and rule.item is None else None
+                rule = replace(rule, width_mm=width, dash_mm=None)
+            pen = rule.applied(pen)
     return pen

@@ -59,31 +59,32 @@ def sorted_layers(
     """The layers of strokes; hidden ones have one of their own.
 
     items, colours: the name and the colour of every item; layers: as of layer_words; hatches: layers of hatching, which
-    come last. Where rules give strokes of a layer different pens, it becomes one layer for each of them, the first one
-    with its name, the others with what their pens are added to it.
+    come last; by kind the first of them has its place among the kinds. Where rules give strokes of a layer different
+    pens, it becomes as many as of in_pens.
     Errors: InputError for rules for items that are not there.
     """
     check_targets(rules, items)
     words = layer_words(layers)
     if words == ("kind",):
-        # Hatching has its number among the kinds.
-        hatched = [strokes for layer in hatches for strokes in layer.strokes]
-        found = layers_by_kind(concatenated((paths, *hatched)))
-        if hatched:
-            own = [one for one in layers_by_kind(paths) if one.name == _HATCH and len(one.strokes[0])]
-            lines = [replace(one, name=CUT_HATCH) for one in own]
-            found = (*(one for one in found if one.name != _HATCH), *lines)
-    elif words == ("object",):
+        return in_pens(_by_kind(paths, hatches), items, rules)
+    if words == ("object",):
         found = layers_by_object(paths, items)
     elif words == ("colour",):
         found = layers_by_colour(paths, colours)
     else:
         found = _by_several(paths, items, colours, words)
-    found = (*found, *hatches)
-    if rules:
-        said = rules_by_target(rules)
-        found = tuple(part for layer in found for part in with_pens(layer, items, said))
-    return tuple(found)
+    return in_pens((*found, *hatches), items, rules)
+
+
+def _by_kind(paths: Paths, hatches: Sequence[Layer]) -> Sequence[Layer]:
+    """Layers by kind. The first one that hatches has its number among them, whatever else is drawn."""
+    if not hatches:
+        return layers_by_kind(paths)
+    found = layers_by_kind(concatenated((paths, *(strokes for layer in hatches for strokes in layer.strokes))))
+    place = list(PENS).index(_HATCH)
+    own = [one for one in layers_by_kind(paths) if one.name == _HATCH and len(one.strokes[0])]
+    cuts = [replace(one, name=CUT_HATCH) for one in own]
+    return (*found[:place], hatches[0], *found[place + 1 :], *hatches[1:], *cuts)
 
 
 def not_plotted(layers: Sequence[Layer], unplotted: Sequence[str], others: Sequence[str]) -> tuple[Layer, ...]:
@@ -127,9 +128,21 @@ def _by_several(paths: Paths, items: Sequence[str], colours: Sequence[str], word
     return layers_of(paths, layer, [*layers, ("hidden", PENS["hidden"], True)])
 
 
-def with_pens(layer: Layer, items: Sequence[str], rules: RulesByTarget) -> list[Layer]:
-    """The layer, or several in its place, with the pens that rules give its strokes, in the order of their pens' first
-    strokes."""
+def in_pens(layers: Sequence[Layer], items: Sequence[str], rules: Sequence[PenRule]) -> tuple[Layer, ...]:
+    """The layers with the pens that rules give their strokes.
+
+    A layer whose strokes have several pens becomes one for each of them: one keeps its name and its number, the others,
+    with what their pens are added to it, come after all layers, in the order of their first strokes.
+    """
+    if not rules:
+        return tuple(layers)
+    said = rules_by_target(rules)
+    parts = [_parted(layer, items, said) for layer in layers]
+    return (*(own for own, _ in parts), *(one for _, others in parts for one in others))
+
+
+def _parted(layer: Layer, items: Sequence[str], rules: RulesByTarget) -> tuple[Layer, list[Layer]]:
+    """The layer, with the strokes of one pen, and those of the other pens of its strokes."""
     (paths,) = layer.strokes
     hidden = paths.hidden_by > 0
     several = max(len(items), 1) * 2
@@ -142,10 +155,11 @@ def with_pens(layer: Layer, items: Sequence[str], rules: RulesByTarget) -> list[
         pen = pen_of(rules, layer.pen, int(paths.kind[at]), bool(hidden[at]), items[paths.item[at]])
         number[k] = pens.setdefault(pen, len(pens))
     if len(pens) < 2:
-        return [replace(layer, pen=next(iter(pens), layer.pen))]
+        return replace(layer, pen=next(iter(pens), layer.pen)), []
     main = pens.get(layer.pen, 0)
     named = [(layer.name if k == main else f"{layer.name} {_told(pen)}", pen, True) for pen, k in pens.items()]
-    return list(layers_of(paths, number[which.ravel()], named))
+    found = list(layers_of(paths, number[which.ravel()], named))
+    return found.pop(main), found
 
 
 def _told(pen: Pen) -> str:

@@ -31,10 +31,16 @@ from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.scene.surface_normals import SurfaceNormals
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances.of_extent import COLOURED_OF_EXTENT
-from vectorplot.words import unknown
+from vectorplot.words import LineKind, unknown
 
 LINE_MM = 0.25
 """The width of lines between bands."""
+
+OWN_INK = (LineKind.SECTION, LineKind.INDEX, LineKind.ISOPHOTE)
+"""Lines that run across bands, and have nothing of their colours."""
+
+IN_COLOURS = tuple(kind.word for kind in LineKind if kind not in OWN_INK)
+"""The kinds of lines that have the colours of bands."""
 
 WORDS = ("x", "y", "z", "height", "slope", "curvature")
 """Numbers that every shape has at its points; all else is a formula."""
@@ -75,8 +81,10 @@ class ColourBar:
         all of its bands."""
         bands = dict(self.bands)
         names = [(rule.item,) if rule.item is None else bands.get(rule.item, (rule.item,)) for rule in rules]
-        of_bands = (replace(rule, item=name) for rule, own in zip(rules, names, strict=True) for name in own)
-        return (*self.pens, *of_bands)
+        of_bands = [replace(rule, item=name) for rule, own in zip(rules, names, strict=True) for name in own]
+        whole = [rule for rule in of_bands if rule.kind is None and rule.item is not None]
+        # Pens of a kind would come before those of an item that name none.
+        return (*self.pens, *(replace(rule, kind=kind) for rule in whole for kind in IN_COLOURS), *of_bands)
 
 
 def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
@@ -129,7 +137,7 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
                 items.append(replace(band, fields=None, normals=whole.normals))
                 own.append(name)
-                pens.append(PenRule(item=name, colour=colours[k]))
+                pens.extend(PenRule(kind, name, colour=colours[k]) for kind in IN_COLOURS)
                 pens.append(PenRule("boundary", name, width_mm=LINE_MM))
         names.append((item.name, tuple(own)))
     bar = ColourBar(low, high, tuple(colours), colouring.title, tuple(pens), tuple(names))

@@ -189,8 +189,9 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
         words.append(f"group {_name(item.group)}")
     if item.hatch is not None:
         words.append(hatch_text(item.hatch))
-    if item.lines is not None:
-        words.append(f"lines {', '.join(item.lines) or 'none'}")
+    lines = item.usual_lines if item.lines is None else item.lines
+    if lines is not None:
+        words.append(f"lines {', '.join(lines) or 'none'}")
     return " ".join(words) + _shape(item, lights) + _patterns(item.patterns)
 
 

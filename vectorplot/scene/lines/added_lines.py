@@ -135,11 +135,14 @@ def _with(item: Item, added: SurfaceLines) -> Item:
     own = item.curves
     reaching = tuple(one for section in added.sections if (one := _reaching(section, item)).offsets)
     sections, isophotes = (*own.sections, *reaching), (*own.isophotes, *added.isophotes)
-    lines = None if item.lines is None else tuple(dict.fromkeys((*item.lines, *line_kinds(added))))
+    kinds = line_kinds(added)
+    lines, usual = (
+        None if words is None else tuple(dict.fromkeys((*words, *kinds))) for words in (item.lines, item.usual_lines)
+    )
     smooth = own.smooth_contours or added.smooth_contours
     detail = own.detail * added.detail
     curves = replace(own, sections=sections, isophotes=isophotes, detail=detail, smooth_contours=smooth)
-    return replace(item, curves=curves, lines=lines)
+    return replace(item, curves=curves, lines=lines, usual_lines=usual)
 
 
 def _reaching(section: Section, item: Item) -> Section:

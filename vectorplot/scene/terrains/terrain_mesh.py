@@ -98,4 +98,4 @@ def terrain_scene(
     land = given if isinstance(given, Terrain) else terrain(np.ma.asarray(given))
     heights = round_heights(*land.relief, levels) if levels else ()
     lines = SurfaceLines(sections=level_sections(heights, every) if heights else ())
-    return Scene((Item(name, terrain_mesh(land), "green", lines=TERRAIN_LINES, curves=lines),), title=name)
+    return Scene((Item(name, terrain_mesh(land), "green", usual_lines=TERRAIN_LINES, curves=lines),), title=name)
