@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from typing import Literal
 
 from vectorplot.drawing.drawing import Drawing, Paths
@@ -222,8 +223,9 @@ def draw(
     view = walk.run("look", look, seen, subject.camera)
     faces = walk.run("faces", project_faces, view)
     shapes = traceable(walk, seen, view, faces, kinds, crease_angle_deg, allowed)
-    placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed).with_halo(halo_mm)
-    strokes, placement = placed.strokes(), placed.placement
+    placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed)
+    placement = subject.around(placed.placement, view, sheet)
+    strokes = replace(placed, placement=placement).with_halo(halo_mm).strokes()
     for stage in ("visible lines", "counted lines"):
         walk.measured(stage, "mm", lambda: view.tolerance * placement.scale)
     walk.measured("curves", "mm", chord_error_mm, strokes)

@@ -66,8 +66,8 @@ if TYPE_CHECKING:
 SIZE = (800, 600)
 """Columns and rows of a picture if nobody says otherwise."""
 
-AROUND_BOX = 0.04
-"""Part of a picture that stays free around the places of the numbers of a box."""
+AROUND_BOX = 0.02
+"""Part of a picture that stays free on each side of a box with its numbers."""
 
 LETTER_PIXELS = 1.25
 """The width of the strokes of letters."""
@@ -235,7 +235,7 @@ def render(
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     placement = picture_placement(view, *fine, fit, annotation_points(seen))
     if fit:
-        placement = subject.around(placement, view, placement.page, AROUND_BOX)
+        placement = subject.around(placement, view, placement.page, AROUND_BOX, samples * PIXELS_PER_MM)
     walk.measured("facets", "samples", facet_error, facets, view, placement)
     system = pixel_system(placement)
     (seen, here), sides = exposed_scene(view, seen), outer_sides(view)

@@ -33,8 +33,9 @@ def labels_in_place(
     anchors: what they name in the scene as it was given; strokes: of the picture; hidden, style, text: as of draw; mm:
     how long a millimetre is in units of the page.
     """
+    from vectorplot.drawing.lettering.labels.seen_labels import seen_labels
     from vectorplot.drawing.lettering.level_numbers import level_numbers
-    from vectorplot.drawing.lettering.scene_labels import labels_on_page, seen_labels, with_letters
+    from vectorplot.drawing.lettering.scene_labels import labels_on_page, with_letters
 
     seen = seen_labels(scene, view, faces, placement, anchors, style != "plain", mm)
     named = labels_on_page(seen, placement, strokes, hidden, text, mm)

@@ -160,6 +160,42 @@ def fitted_picture(projection: Projection, page: Page, image: Floats, border: fl
     return Placement(projection, sheet, fitted(sheet, low, high, border), whole=True)
 
 
+def fitted_with_room(
+    projection: Projection, page: Page, image: Floats, low_mm: Floats, high_mm: Floats, border: float = 0.0
+) -> Placement:
+    """The place of a picture that fills the page with points (2,n) of the image and with room beside them: rectangles
+    from low_mm (2,n) to high_mm (2,n), counted from the points on the page. border: as of fitted_picture.
+
+    Degenerate: as of fitted_picture; so it is, without the room, where a page has no place for that at all.
+    """
+    plain = fitted_picture(projection, page, image, border)
+    most = (1.0 - 2.0 * border) * np.array(page.room)
+    scale, beside = plain.scale, (low_mm, high_mm)
+    # What a picture takes is a convex function of its scale: Newton's steps come down to the root, one a corner.
+    for _ in range(2 * image.shape[1]):
+        low, high = _reach(scale, image, *beside)
+        lowest, highest = (scale * image + low_mm).argmin(axis=1), (scale * image + high_mm).argmax(axis=1)
+        both = np.arange(2)
+        slope = image[both, highest] - image[both, lowest]
+        over = high - low - most
+        steps = [o / s if s > 0.0 else np.inf for o, s in zip(over.tolist(), slope.tolist(), strict=True) if o > 0.0]
+        if not steps or scale - max(steps) == scale:
+            break
+        scale -= max(steps)
+        if not scale > 0.0:
+            return plain
+    low, high = _reach(scale, image, *beside)
+    sheet = page.around(*((high - low) / (1.0 - 2.0 * border)).tolist())
+    offset = 0.5 * (np.array([sheet.width_mm, sheet.height_mm]) - low - high)
+    matrix = np.array([[scale, 0.0, offset[0]], [0.0, scale, offset[1]], [0.0, 0.0, 1.0]])
+    return Placement(projection, sheet, matrix, whole=True)
+
+
+def _reach(scale: float, image: Floats, low_mm: Floats, high_mm: Floats) -> tuple[Floats, Floats]:
+    """The corners (2,) of what points of the image and rectangles beside them take at a scale."""
+    return (scale * image + low_mm).min(axis=1), (scale * image + high_mm).max(axis=1)
+
+
 def fitted(page: Page, low: Floats, high: Floats, border: float = 0.0) -> Floats:
     """(3,3) matrix from image to page: the box from low to high (2,) fills the page but for its margin, in the middle.
     border: what part of what is inside the margin stays free on each side.

@@ -3,11 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import combinations
 
 import numpy as np
 import pytest
+import shapely
 
 import vectorplot as vp
+from vectorplot.drawing import typeset
+from vectorplot.effects.scales.axis_numbers import axis_numbers
 from vectorplot.effects.scales.box_axes import with_box
 from vectorplot.effects.scales.colour_maps import COLOUR_MAPS, map_colours
 from vectorplot.effects.scales.coloured_scene import coloured
@@ -74,21 +78,97 @@ def test_the_grids_of_a_box_are_on_the_far_sides(eye):
     assert np.allclose(reach[:8].min(axis=0), low) and np.allclose(reach[:8].max(axis=0), high)
 
 
+@pytest.mark.parametrize("names", [("x", "y", "z"), ("Länge in m", "Breite in m", "Höhe in m")], ids=["x", "Länge"])
 @pytest.mark.parametrize("eye", VIEWS, ids=str)
-def test_numbers_of_a_box_stand_outside_of_its_picture(eye):
-    from shapely import MultiPoint, Point
+def test_numbers_of_a_box_stand_outside_of_its_picture_and_on_the_page(eye, names):
+    page = vp.Page(100, 90, 5)
+    drawing = vp.draw(vp.Scene(CUBE.items, box=BoxAxes(names)), vp.Camera(eye), page=page, text="real")
+    outline, rooms = _outline(drawing, CUBE.bounds), _rooms(drawing)
+    assert {*names, "0.5", "1", "1.5"} <= rooms.keys()
+    inside = shapely.box(4.99, 4.99, 95.01, 85.01)
+    for text, room in rooms.items():
+        assert shapely.distance(outline, room) > 1.0, text
+        assert inside.contains(room), text
+        # Numbers are beside the edges they belong to, names beyond them.
+        assert shapely.distance(outline, room) < (25.0 if text in names else 3.5), text
+    assert not any(one.intersects(other) for one, other in combinations(rooms.values(), 2))
 
-    camera = vp.Camera(eye)
-    boxed, reach = with_box(vp.Scene(CUBE.items, box=BoxAxes()), camera)
-    right, up, back = camera.axes
 
-    def image(points):
-        own = np.asarray(points) - np.asarray(eye)
-        return np.stack([own @ right, own @ up], axis=1) / -(own @ back)[:, None]
+def test_edges_of_a_box_are_whole_beside_wide_numbers():
+    saddle = vp.graph(lambda x, y: x * y, (-1.5, 1.5), (-1.5, 1.5))
+    bare, numbered = (
+        vp.draw(vp.Scene((saddle,), box=BoxAxes(size_mm=size)), vp.Camera((8, -10, 6)), page="A5", lines="curve")
+        for size in (1e-3, 3.5)
+    )
+    long = [
+        sum(np.hypot(*np.diff(paths.points, axis=0).T).sum() for paths in drawing.layers[-2].strokes)
+        for drawing in (bare, numbered)
+    ]
+    assert bare.layers[-2].name == numbered.layers[-2].name
+    scales = [float(np.linalg.norm(drawing.page_from_world[0, :3])) for drawing in (bare, numbered)]
+    assert long[0] / scales[0] == pytest.approx(long[1] / scales[1], rel=1e-6)
 
-    outline = MultiPoint(image(reach[:8])).convex_hull
-    for label in boxed.labels:
-        assert not outline.contains(Point(*image([label.at])[0])), label.name
+
+@pytest.mark.parametrize(
+    ("low", "high", "texts", "common"),
+    [
+        (0.0, 1.0, ("0", "0.2", "0.4", "0.6", "0.8", "1"), ""),
+        (0.0, 5e4, ("0", "10000", "20000", "30000", "40000", "50000"), ""),
+        (2_600_000.0, 2_600_975.0, ("0", "200", "400", "600", "800"), "+ 2600000"),
+        (-1_200_725.0, -1_200_000.0, ("-600", "-400", "-200", "0"), "− 1200000"),
+        (0.0, 1e-6, ("0", "0.2", "0.4", "0.6", "0.8", "1"), "× 10⁻⁶"),
+        (1e-3 - 2.5e-7, 1e-3 + 2.5e-7, ("-2", "-1", "0", "1", "2"), "× 10⁻⁷ + 0.001"),
+        (0.0, 4e6, ("0", "1", "2", "3", "4"), "× 10⁶"),
+        (1990.0, 2010.0, ("1990", "1995", "2000", "2005", "2010"), ""),
+        (7.0, 7.0, ("7",), ""),
+    ],
+)
+def test_numbers_that_would_be_long_say_once_what_they_have_in_common(low, high, texts, common):
+    found = axis_numbers(low, high)
+    assert (found.texts, found.common) == (texts, common)
+    assert np.all(np.diff(found.values) > 0.0) and low <= found.values[0] and found.values[-1] <= high
+
+
+@pytest.mark.parametrize(
+    ("surface", "said"),
+    [
+        (vp.graph(lambda x, y: 7 + 0 * x, (0, 1), (0, 1)), {"x", "y", "z", "7", "0", "0.2", "0.4", "0.6", "0.8", "1"}),
+        (
+            vp.graph(lambda x, y: x * y, (0, 1e-6), (0, 5e4)),
+            {"x", "y", "z", "0", "10000", "20000", "30000", "40000", "50000"},
+        ),
+    ],
+    ids=["constant", "thin"],
+)
+def test_a_box_has_no_numbers_that_the_scene_does_not_have(surface, said):
+    drawing = vp.draw(vp.Scene((surface,), box=BoxAxes()), "iso", page="A6", text="real")
+    assert set(_rooms(drawing)) <= said and ("7" in _rooms(drawing)) == ("7" in said)
+
+
+@pytest.mark.parametrize(("view", "names"), [("front", "xz"), ("top", "xy"), ("right", "yz")])
+def test_axes_of_a_box_that_are_seen_end_on_have_no_numbers(view, names):
+    drawing = vp.draw(vp.Scene(CUBE.items, box=BoxAxes()), view, page="A6", text="real")
+    assert {text for text in _rooms(drawing) if text in "xyz"} == set(names)
+    left, bottom, *_ = _outline(drawing, CUBE.bounds).bounds
+    assert all(room.bounds[2] < left or room.bounds[3] < bottom for room in _rooms(drawing).values())
+
+
+def _outline(drawing, bounds):
+    """The outline of a box on the page."""
+    corners = np.where(np.array(list(np.ndindex(2, 2, 2)), dtype=bool), *bounds[::-1])
+    image = np.column_stack([corners, np.ones(8)]) @ drawing.page_from_world.T
+    return shapely.MultiPoint(image[:, :2] / image[:, 3:]).convex_hull
+
+
+def _rooms(drawing):
+    """The room of each text on a page; of several that say the same that of the last one."""
+    found = {}
+    for texts in (texts for layer in drawing.layers for texts in layer.texts):
+        for k, text in enumerate(texts.strings):
+            left = texts.points[k] - (texts.anchor[k] * texts.room_mm[k], 0.0)
+            low, high = typeset(text, left, size_mm=texts.size_mm[k]).bounds
+            found[text] = shapely.box(*low, *high)
+    return found
 
 
 def test_all_verbs_have_bar_and_box():

@@ -9,12 +9,15 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.formulas import without_formulas
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.drawing.lettering.labels.label_marks import ARROW_MM, ARROW_SLOPE, MARK_MM, TICK, direction_at, marked
+from vectorplot.drawing.lettering.labels.labels_with_room import labels_with_room
+from vectorplot.drawing.lettering.labels.seen_labels import SeenLabels
 from vectorplot.drawing.lettering.placing import places
 from vectorplot.drawing.lettering.text import Lettering, lettered, typeset
 from vectorplot.drawing.lettering.text_along import lettered_along, typeset_along
@@ -25,13 +28,8 @@ from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import segments
-from vectorplot.scene.naming.label_anchors import LabelAnchors
-from vectorplot.scene.naming.labels import Along, Label, OnCurve, OnPage
+from vectorplot.scene.naming.labels import Along, BesidePoint, Label, OnPage
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scene import Scene
-from vectorplot.scene.view import View
-from vectorplot.visibility.hidden_points import points_hidden_by
-from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import LineKind
 
 HALO_MM = 0.6
@@ -42,15 +40,6 @@ GAP = 0.4
 
 DASH = (0.25, 0.15)
 """Dash and gap of the letters of what is hidden, in heights of capitals."""
-
-MARK_MM = 0.6
-"""Half of the size of marks at points."""
-
-ARROW_MM, ARROW_SLOPE = 2.8, 0.18
-"""The length of arrowheads, and half of their width as a part of it (ISO 129: between 15 and 30 degrees)."""
-
-TICK = 1.5
-"""Half of the length of ticks across curves, beside that of other marks."""
 
 NO_ITEM = -1
 """Strokes of labels belong to no item."""
@@ -128,47 +117,6 @@ class SceneLabels:
         return (*layers[:kinds], *empty, label, *layers[kinds:])
 
 
-@dataclass(frozen=True, eq=False)
-class SeenLabels:
-    """Labels that a picture shows: anchors; points (l,2) on the page, by how many items (l,) each is hidden."""
-
-    anchors: LabelAnchors
-    points: Floats
-    hidden_by: Ints
-
-
-def seen_labels(
-    scene: Scene, view: View, faces: ProjectedFaces, placement: Placement, anchors: LabelAnchors, wires: bool, mm: float
-) -> SeenLabels:
-    """The labels on the page of which what they name is before the eye and on the page.
-
-    anchors: of the scene as it was read; wires: nothing hides anything; mm: how long a millimetre is in
-    units of the page.
-    """
-    on_page = np.array([isinstance(label.at, OnPage) for label in anchors.labels], dtype=np.bool_)
-    inside = np.flatnonzero(~on_page)
-    points = view.points_of(anchors.points[inside])
-    ahead = view.depth_of(points) > view.near
-    inside, points = inside[ahead], points.compress(ahead, axis=1)
-    found = np.full((len(anchors), 2), np.nan)
-    found[inside] = placement.on_page(view.image_of(points))
-    for number in np.flatnonzero(on_page).tolist():
-        at = anchors.labels[number].at
-        assert isinstance(at, OnPage)
-        found[number] = at.x_mm * mm, at.y_mm * mm
-    hidden = np.zeros(len(anchors), dtype=np.intp)
-    if not wires and len(inside):
-        hidden[inside] = points_hidden_by(scene, view, faces, points)
-    page = placement.page
-    with np.errstate(invalid="ignore"):
-        shown = ((found >= 0.0) & (found <= (page.width_mm, page.height_mm))).all(axis=1)
-    some = np.flatnonzero(shown | on_page)
-    kept = LabelAnchors(
-        tuple(anchors.labels[k] for k in some), anchors.points[some], tuple(anchors.courses[k] for k in some)
-    )
-    return SeenLabels(kept, found[some], hidden[some])
-
-
 def labels_on_page(
     seen: SeenLabels, placement: Placement, strokes: Paths, hidden: str, text: str = "strokes", mm: float = 1.0
 ) -> SceneLabels:
@@ -182,6 +130,7 @@ def labels_on_page(
     letters = LETTERS[text]
     ways = [label.hidden or hidden for label in seen.anchors.labels]
     some = [k for k, way in enumerate(ways) if not seen.hidden_by[k] or way != "none"]
+    some = labels_with_room(seen, some, mm)
     labels = [seen.anchors.labels[k] for k in some]
     paths = {k: _path(seen, k, placement) for k in some if isinstance(seen.anchors.labels[k].at, Along)}
     along = [k for k, path in paths.items() if _length(path) > seen.anchors.labels[k].size_mm * mm]
@@ -196,7 +145,8 @@ def labels_on_page(
     page = np.array([[0.0, 0.0], [placement.page.width_mm, placement.page.height_mm]])
     asked = [_asked(seen.anchors.labels[k]) for k in beside]
     gap = np.array([_gap(seen.anchors.labels[k], mm) for k in beside])
-    found = places(seen.points[beside], sizes, height, gap, asked, begin, end, page, taken)
+    points = np.array([_named(seen, k, mm) for k in beside]).reshape(-1, 2)
+    found = places(points, sizes, height, gap, asked, begin, end, page, taken)
     for number, k in enumerate(beside):
         middle = found.middles[number] - 0.5 * texts[number].bounds.sum(axis=0)
         text_ = texts[number].moved(middle)
@@ -207,8 +157,8 @@ def labels_on_page(
     leaders = {beside[of]: line for of, line in zip(found.label, found.leaders, strict=True)}
     parts = []
     for k, label in zip(some, labels, strict=True):
-        way = _direction(seen, k, placement) if label.mark in ("arrow", "tick") else np.zeros(2)
-        lines = [*_lines(set_[k]), *_marked(label, seen.points[k], way, mm), *([leaders[k]] if k in leaders else [])]
+        way = direction_at(seen, k, placement) if label.mark in ("arrow", "tick") else np.zeros(2)
+        lines = [*_lines(set_[k]), *marked(label, seen.points[k], way, mm), *([leaders[k]] if k in leaders else [])]
         made = label_paths(lines, int(seen.hidden_by[k]), placement)
         if seen.hidden_by[k] and ways[k] == "dashed":
             made = dashed(made, DASH[0] * label.size_mm * mm, DASH[1] * label.size_mm * mm)
@@ -259,6 +209,12 @@ def _side(middle: Floats, size: Floats, point: Floats) -> float:
     return 0.5 - 0.5 * float(np.sign(across)) if beside else 0.5
 
 
+def _named(seen: SeenLabels, number: int, mm: float) -> Floats:
+    """(2,) the point on the page that a label stands at or beside."""
+    at = seen.anchors.labels[number].at
+    return seen.points[number] + mm * np.array(at.middle_mm) if isinstance(at, BesidePoint) else seen.points[number]
+
+
 def _set(letters: Letters, label: Label, mm: float) -> Lettering:
     try:
         return letters.plain(label.text, size_mm=label.size_mm * mm, align="centre")
@@ -296,38 +252,6 @@ def _along(letters: Letters, seen: SeenLabels, number: int, path: Floats, mm: fl
 
 def _lines(text: Lettering) -> list[Floats]:
     return [text.strokes[k] for k in range(len(text.strokes))]
-
-
-def _direction(seen: SeenLabels, number: int, placement: Placement) -> Floats:
-    """(2,) the unit direction on the page of the curve that a label is at a point of; at its beginning out of it."""
-    course, at = seen.anchors.courses[number], seen.anchors.labels[number].at
-    assert course is not None and isinstance(at, OnCurve)
-    projection, last = placement.projection, len(course) - 1
-    nearest = int(np.argmin(np.linalg.norm(course - seen.anchors.points[number], axis=1)))
-    ends = projection.points_of(course[[max(nearest - 1, 0), min(nearest + 1, last)]])
-    way = np.diff(placement.on_page(projection.image_of(ends)), axis=0)[0]
-    long = float(np.hypot(*way))
-    return np.asarray(way / long * (-1.0 if at.part == 0.0 else 1.0)) if long > 0.0 else np.zeros(2)
-
-
-def _marked(label: Label, point: Floats, way: Floats, mm: float) -> list[Floats]:
-    """The strokes of the mark at the point of a label, where a curve has the direction way."""
-    size, left = MARK_MM * mm, np.array([-way[1], way[0]])
-    if label.mark == "tick":
-        return [np.stack([point - TICK * size * left, point + TICK * size * left])]
-    if label.mark == "arrow":
-        back = point - ARROW_MM * mm * way
-        wings = ARROW_MM * mm * ARROW_SLOPE * left
-        # The stroke along the middle makes it dark.
-        return [np.stack([point, back + wings, back - wings, point, back])]
-    if label.mark == "cross":
-        return [point + size * np.array(ends) for ends in (((-1.0, 0.0), (1.0, 0.0)), ((0.0, -1.0), (0.0, 1.0)))]
-    if label.mark == "dot":
-        angle = np.linspace(0.0, 2.0 * np.pi, 17)
-        circle = np.stack([np.cos(angle), np.sin(angle)], axis=1)
-        # Two rounds of a pen fill a dot.
-        return [point + 0.7 * size * circle, point + 0.3 * size * circle]
-    return []
 
 
 def label_paths(lines: Sequence[Floats], hidden_by: int, placement: Placement) -> Paths:

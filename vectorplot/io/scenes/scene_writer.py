@@ -20,7 +20,7 @@ from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
-from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
+from vectorplot.scene.naming.labels import Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
 from vectorplot.scene.naming.scales import Colouring
 from vectorplot.scene.pages.fitted_pages import FittedPage, PageOfWidth
 from vectorplot.scene.pages.page import Page
@@ -167,8 +167,10 @@ def _label(label: Label) -> str:
         place = f"vertex {_name(at.item)} {at.vertex + 1}"
     elif isinstance(at, (Along, OnCurve)):
         place = f"{'on' if isinstance(at, OnCurve) else 'along'} {_name(at.item)} {float(at.part)!r}"
+    elif isinstance(at, OnPage):
+        place = f"page {_numbers((at.x_mm, at.y_mm))}"
     else:
-        place = f"page {_numbers((at.x_mm, at.y_mm))}" if isinstance(at, OnPage) else f"at {_numbers(at)}"
+        place = f"at {_numbers(at.point if isinstance(at, BesidePoint) else at)}"
     words = [
         "label",
         _name(label.name) if label.name else '""',

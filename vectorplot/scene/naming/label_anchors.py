@@ -11,7 +11,7 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
-from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve, OnPage
+from vectorplot.scene.naming.labels import Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
 from vectorplot.scene.scene import Scene
 
 CHORDS = 256
@@ -50,6 +50,8 @@ def _point(label: Label, items: dict[str, Item]) -> Floats:
     at = label.at
     if isinstance(at, OnPage):
         return np.full(3, np.nan)
+    if isinstance(at, BesidePoint):
+        return np.array(at.point, dtype=np.float64)
     if isinstance(at, tuple):
         return np.array(at, dtype=np.float64)
     assert isinstance(at, AtVertex)

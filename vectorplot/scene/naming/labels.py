@@ -137,6 +137,24 @@ class OnPage:
 
 
 @dataclass(frozen=True)
+class BesidePoint:
+    """Room for letters on the page, beside a point of the world: a rectangle between corners low_mm and high_mm, which
+    are counted from the image of the point. What has room there no more, since others stand in it, is left out where
+    it is_dispensable."""
+
+    point: tuple[float, float, float]
+    low_mm: tuple[float, float]
+    high_mm: tuple[float, float]
+    is_dispensable: bool = True
+
+    @property
+    def middle_mm(self) -> tuple[float, float]:
+        """The middle of the room, from the image of the point."""
+        (left, bottom), (right, top) = self.low_mm, self.high_mm
+        return 0.5 * (left + right), 0.5 * (bottom + top)
+
+
+@dataclass(frozen=True)
 class Label:
     """A name in a picture.
 
@@ -176,7 +194,7 @@ class Label:
     """
 
     text: str
-    at: tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage
+    at: tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage | BesidePoint
     name: str = ""
     size_mm: float = USUAL_SIZE_MM
     place: str = "auto"
@@ -199,7 +217,7 @@ class Label:
             raise InputError(f"{owner}along a curve a label is above, below or centre, not {self.place}")
         if self.mark in ("arrow", "tick") and not isinstance(self.at, OnCurve):
             raise InputError(f"{owner}a mark {self.mark} needs a point on a curve, which has a direction")
-        if isinstance(self.at, (AtVertex, OnCurve, Along)):
+        if isinstance(self.at, (AtVertex, OnCurve, Along, BesidePoint)):
             return
         if not isinstance(self.at, OnPage):
             object.__setattr__(self, "at", tuple(self.at))
