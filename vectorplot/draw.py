@@ -9,6 +9,7 @@ from typing import Literal
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.drawing.pens.pen_rules import Pens, pen_rules
 from vectorplot.drawing.pens.scene_inks import style_of_scene
+from vectorplot.drawing.pens.sheet_layer import pen_scale
 from vectorplot.drawing.pens.sorted_layers import line_list
 from vectorplot.drawing.pens.styles import Style
 from vectorplot.geometry.budget import budget_of
@@ -31,7 +32,7 @@ from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
 from vectorplot.scene.view import look
 from vectorplot.stages.around_picture import beside_bar, left_of_bar
-from vectorplot.stages.subject import subject_of
+from vectorplot.stages.subject import Paper, subject_of
 from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import DRAWN, TEXT_WORDS, WIRES, check_word, line_kinds
@@ -197,9 +198,11 @@ def draw(
     others["depth_cue"] = depth_cue_of(depth_cue) is not None
     check_look(chosen.look, hidden=hidden != "none", **others)
     kinds = line_kinds((DRAWN if chosen.look == "plain" else WIRES) if lines is None else lines)
-    subject = subject_of(given, camera, explain, progress, depth_cue=depth_cue)
+    sheet = page_of(page, given, width, fit)
+    paper = Paper(sheet, fit, pen_scale(sheet) if scale_pens else 1.0)
+    subject = subject_of(given, camera, paper, explain, progress, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
-    sheet, strip = left_of_bar(page_of(page, seen, width, fit), bar)
+    sheet, strip = left_of_bar(sheet, bar)
     rules = (*chosen.rules, *own, *asked)
     finish = Finish(
         look=chosen.look,

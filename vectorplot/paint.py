@@ -47,7 +47,7 @@ from vectorplot.shading.light.painted_normals import painted_normals
 from vectorplot.shading.light.palettes import PALETTE_SIZE
 from vectorplot.stages.around_picture import beside_bar, left_of_bar, room_for_labels, titled
 from vectorplot.stages.facet_errors import outline_error
-from vectorplot.stages.subject import subject_of
+from vectorplot.stages.subject import Paper, subject_of
 from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.words import LINE_WORDS, TEXT_WORDS, check_word, line_kinds
 
@@ -191,9 +191,11 @@ def paint(
     chosen = overlaid_pens(given.inks, style, pens, dashes)
     if fills == "erasing" and (style is not None or pens is not None or dashes is not None):
         raise InputError("style, pens and dashes do not go with fills that are erasing, whose lines are those of items")
+    sheet = page_of(page, given, width, fit)
     subject = subject_of(
         given,
         camera,
+        Paper(sheet, fit),
         explain,
         progress,
         lights=lights,
@@ -205,7 +207,7 @@ def paint(
     names = tuple(item.name for item in scene.items)
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
     check_targets(over.rules, names)
-    sheet, strip = left_of_bar(page_of(page, scene, width, fit), bar)
+    sheet, strip = left_of_bar(sheet, bar)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
     walk = Walk(stages, explain, progress, threads)
     projection = projection_of(subject.camera, scene.bounds)

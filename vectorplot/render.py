@@ -55,7 +55,7 @@ from vectorplot.shading.raster.screen import (
 from vectorplot.shading.raster.supersampling import averaged_light
 from vectorplot.shading.shadows.map_settings import MapSettings
 from vectorplot.stages.facet_errors import facet_error
-from vectorplot.stages.subject import subject_of
+from vectorplot.stages.subject import Paper, subject_of
 from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.visibility.painter.image_faces import outer_sides
 from vectorplot.words import LineKind, line_kinds
@@ -214,7 +214,8 @@ def render(
     threads = threads_of(jobs)
     given = scene_of(scene)
     chosen = overlaid_pens(given.inks, style, pens, dashes)
-    subject = subject_of(given, camera, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
+    paper = Paper(Page(size[0] / PIXELS_PER_MM, size[1] / PIXELS_PER_MM, 0.0), fit)
+    subject = subject_of(given, camera, paper, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
     names = tuple(item.name for item in seen.items)
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))

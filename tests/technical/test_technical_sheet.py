@@ -125,6 +125,14 @@ def test_the_command_writes_every_format(suffix, tmp_path):
     assert (tmp_path / f"s.{suffix}").stat().st_size > 1000
 
 
+def test_short_hidden_lines_show_a_gap():
+    """Two sides of a pin behind a plate, 4 mm on the page: each is two dashes with a gap of 1 mm."""
+    items = [vp.Item("plate", box((80, 10, 8))), vp.Item("pin", box((10, 10, 8)).moved(30, 10, 0))]
+    sheet = vp.technical_sheet(items, views="front", scale="1:2", page="A4")
+    upright = [points for _, points in strokes_of(sheet, "hidden") if np.ptp(points[:, 0]) < 1e-9]
+    assert [float(np.ptp(points[:, 1])) for points in upright] == pytest.approx([1.5] * 4)
+
+
 def test_a_section_has_its_line_its_letters_and_its_hatches():
     sheet = vp.technical_sheet(BRICK, views="front,top", section="y=12", scale="1:1")
     *views, seen = outlines(sheet)

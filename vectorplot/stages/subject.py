@@ -6,7 +6,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+from vectorplot.arrays import Floats
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.plan import plan_cuts
 from vectorplot.scene.coincidence.seamless_scene import without_seams
@@ -15,7 +17,7 @@ from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.naming.label_anchors import LabelAnchors, label_anchors
 from vectorplot.scene.pages.page import Page
-from vectorplot.scene.placement import Placement
+from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.point_of_view import camera_of
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.unbounded_items import tell_what_is_cut_off
@@ -25,6 +27,19 @@ from vectorplot.stages.walk import StageReport, Walk
 if TYPE_CHECKING:
     from vectorplot.effects.scales.coloured_scene import ColourBar
     from vectorplot.effects.scales.scaled_scene import Scaled
+
+
+@dataclass(frozen=True)
+class Paper:
+    """What a picture goes on: a page, whether it fills that, and how large a mm of its pens is there."""
+
+    page: Page
+    fit: bool
+    mm: float = 1.0
+
+    def seen_from(self, camera: Camera) -> Callable[[Scene], Callable[[Floats], Floats]]:
+        """How long a mm of pens is at points in space, for a scene of which a camera makes the picture."""
+        return lambda scene: allowed_in_space(scene, projection_of(camera, scene.bounds), self.page, self.fit, self.mm)
 
 
 @dataclass(frozen=True, eq=False)
@@ -51,6 +66,7 @@ class Subject:
 def subject_of(
     scene: object,
     camera: Camera | str | None,
+    paper: Paper,
     explain: Callable[[StageReport], None] | None,
     progress: Callable[[str, float], None] | None,
     *,
@@ -59,13 +75,13 @@ def subject_of(
     background: str | None = None,
     depth_cue: DepthCue | str | None = None,
 ) -> Subject:
-    """What a picture of anything that has a shape is of. lights, exposure, background, depth_cue: in place of those of
-    the scene.
+    """What a picture of anything that has a shape is of. paper: what it goes on; lights, exposure, background,
+    depth_cue: in place of those of the scene.
 
     Errors: as of scene_of, camera_of and scaled.
     """
     given = shown_apart(scene_of(scene))
-    chart = _chart_of(given, camera)
+    chart = _chart_of(given, camera, paper)
     given, camera = (given, camera) if chart is None else (chart.scene, chart.camera)
     given = given if background is None else replace(given, background=background)
     given = given if exposure is None else replace(given, exposure=exposure)
@@ -73,21 +89,22 @@ def subject_of(
     seamless = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(seamless)
     anchors, seen_from = label_anchors(given), camera_of(camera, seamless)
-    return Subject(_seen_part(seamless, seen_from, explain, progress), seen_from, anchors, chart)
+    return Subject(_seen_part(seamless, seen_from, paper, explain, progress), seen_from, anchors, chart)
 
 
-def _chart_of(scene: Scene, camera: Camera | str | None) -> Scaled | None:
+def _chart_of(scene: Scene, camera: Camera | str | None, paper: Paper) -> Scaled | None:
     """The scene with what its colouring and its box ask for, if it has one."""
     if scene.colouring is None and scene.box is None:
         return None
     from vectorplot.effects.scales.scaled_scene import scaled
 
-    return scaled(scene, camera)
+    return scaled(scene, camera, paper.seen_from(camera_of(camera, scene)))
 
 
 def _seen_part(
     scene: Scene,
     camera: Camera,
+    paper: Paper,
     explain: Callable[[StageReport], None] | None,
     progress: Callable[[str, float], None] | None,
 ) -> Scene:
@@ -96,7 +113,7 @@ def _seen_part(
     if walk.calls_for("cuts"):
         from vectorplot.effects.cutting.cut_scenes import cut_scene
 
-        scene = walk.run("cuts", cut_scene, scene, camera)
+        scene = walk.run("cuts", cut_scene, scene, camera, paper.seen_from(camera))
     if walk.calls_for("near and far"):
         from vectorplot.effects.cuts import between_planes
 

@@ -17,6 +17,7 @@ from vectorplot.drawing.sheets.drawing_scales import DrawingScale
 from vectorplot.drawing.sheets.sheet import Sheet
 from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
 from vectorplot.effects.cutting.cut_scenes import cut, cut_scene
+from vectorplot.effects.cutting.hatches import InSpace
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
 from vectorplot.geometry.mesh import Mesh
@@ -109,10 +110,15 @@ class _Part:
         rooms = [one.room_mm(camera) for one in self.overall if one.view == name]
         return np.asarray(np.max([np.zeros((2, 2)), *rooms], axis=0))
 
-    def shown(self, view: SheetView) -> Scene:
-        """What a view shows: the part, or what a section leaves of it."""
+    def shown(self, view: SheetView, factor: float, spacing_mm: float | None) -> Scene:
+        """What a view shows: the part, or what a section leaves of it, at a factor of the scale; spacing_mm: of
+        hatches, as of cut."""
         cuts = [section.condition for section in self.sections if section.letter == view.name]
-        return cut_scene(cut(self.scene, cuts), view.camera) if cuts else self.scene
+        return (
+            cut_scene(cut(self.scene, cuts, spacing_mm=spacing_mm), view.camera, _page_at(factor))
+            if cuts
+            else self.scene
+        )
 
     def around_sections(self, arranged: Arrangement, factor: float) -> tuple[Layer, ...]:
         """The lines of sections in other views, and their names."""
@@ -138,6 +144,7 @@ def technical_sheet(
     projection: Literal["first", "third"] = "first",
     page: Page | str = "A3",
     section: str | Iterable[str] = (),
+    cut_spacing_mm: float | None = None,
     dimensions: bool = False,
     centre_lines: bool = False,
     frame: bool = False,
@@ -171,6 +178,8 @@ def technical_sheet(
         Planes such as y=12, each of which gives a view of the part without what lies before the plane, like the main
         view of that direction: A-A, B-B, and so on. Cut faces are hatched; in a view that sees the plane edge-on a line
         with arrows shows where it is.
+    cut_spacing_mm : float, optional
+        From stroke to stroke of these hatches, 0.1 or more; where None about 2.4, on narrow faces half as much.
     dimensions : bool
         How long the whole part is along x, y and z, each in one view.
     centre_lines : bool
@@ -239,7 +248,7 @@ def technical_sheet(
         ]
         width, height = (2.0 * (view.reach_mm(factor).max(axis=0) + BORDER_MM)).tolist()
         drawn = draw(
-            together([part.shown(view), *added]),
+            together([part.shown(view, factor, cut_spacing_mm), *added]),
             replace(view.camera, height=height / factor),
             page=Page(width, height, 0.0),
             fit=False,
@@ -255,6 +264,11 @@ def technical_sheet(
     around = part.around_sections(arranged, factor)
     borders = (*(frame_layers(paper) if frame else ()), *block)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
+
+
+def _page_at(factor: float) -> Callable[[Scene], InSpace]:
+    """A page on which a unit of the world is so many mm, as cut_scene takes it."""
+    return lambda scene: lambda points: np.full(len(points), 1.0 / factor)
 
 
 def _centre_lines(scene: Scene, crease_angle_deg: float) -> tuple[Scene, ...]:

@@ -66,6 +66,16 @@ def test_short_strokes_stay_whole_and_in_order():
     assert len(dashed(Paths.empty(), 1.0, 1.0)) == 0
 
 
+@pytest.mark.parametrize(("length", "gap"), [(2.0, 2.0 / 3.0), (2.5, 2.5 / 3.0), (3.4, 1.0)])
+def test_strokes_as_long_as_a_dash_have_two_shorter_ones_and_a_gap(length, gap):
+    dash = 0.5 * (length - gap)
+    parts = parts_of(dashed(polylines([(0, 0), (length, 0)]), 2.0, 1.0))
+    assert np.concatenate(parts) == pytest.approx(np.array([(0, 0), (dash, 0), (length - dash, 0), (length, 0)]))
+    assert len(dashed(polylines([(0, 0), (1.99, 0)]), 2.0, 1.0)) == 1
+    # Chain lines stay whole until they have room for two dashes and a dot.
+    assert len(dashed(polylines([(0, 0), (length, 0)]), 2.0, 1.0, dot_mm=0.2)) == 1
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("closed", [False, True])
 def test_dashes_lie_on_their_strokes_and_have_the_right_share(closed):

@@ -14,6 +14,13 @@ CHAIN_MM = (6.0, 2.0, 0.3)
 """Dash, gap and dot of centre lines (ISO 128-20, line 04)."""
 
 
+SHORTEST = 1.0
+"""An open stroke that is so many dashes long has a gap."""
+
+WIDEST_GAP = 1.0 / 3.0
+"""Of a stroke that has room for no two whole dashes."""
+
+
 def dashed(
     paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats | None = None, *, dot_mm: float = 0.0
 ) -> Paths:
@@ -24,7 +31,8 @@ def dashed(
     by default a parallel projection; dot_mm: of the dots in the middle of gaps. There are about length / (dash + gap)
     dashes: clip to the page first.
     Errors: InputError unless the dash is positive, the gap positive or zero, and the dot no longer than the gap.
-    Degenerate: a stroke too short for two dashes stays whole; with a gap of 0 nothing changes.
+    Degenerate: an open stroke that is too short for that has two shorter dashes and a gap between them; one that is
+    shorter than a dash, or with dots has no room for two, stays whole. With a gap of 0 nothing changes.
     """
     if not (0.0 < dash_mm < np.inf and 0.0 <= gap_mm < np.inf):
         raise InputError(f"dash and gap must be lengths in mm, got {dash_mm:g} and {gap_mm:g}")
@@ -32,13 +40,17 @@ def dashed(
         raise InputError(f"a dot of {dot_mm:g} mm in a gap of {gap_mm:g} mm has no room")
     length = stroke_lengths(paths)
     many = _number_of_dashes(paths, length, dash_mm, gap_mm)
+    short = ~paths.closed & (many == 0) & (length >= SHORTEST * dash_mm) & (dot_mm == 0.0)
+    many[short] = 2
+    gap = np.where(short, np.minimum(gap_mm, WIDEST_GAP * length), gap_mm)
+    dash = np.where(short, 0.5 * (length - gap), dash_mm)
     index = np.flatnonzero(many > 0)
     if gap_mm == 0.0 or not len(index):
         return paths
     broken = chosen(paths, index)
     laps = np.where(broken.closed, np.diff(broken.offsets), 0)
     world = np.eye(4) if page_from_world is None else page_from_world
-    start, end, stroke = _dash_ends(many[index], length[index], broken.closed, (dash_mm, gap_mm, dot_mm))
+    start, end, stroke = _dash_ends(many[index], length[index], broken.closed, dash[index], gap[index], dot_mm)
     parts = parts_between(unrolled(broken, np.zeros_like(laps), laps), stroke, start, end, world)
     whole = chosen(paths, many == 0)
     order = np.argsort(np.concatenate((np.flatnonzero(many == 0), index[stroke])), kind="stable")
@@ -73,24 +85,24 @@ def _number_of_dashes(paths: Paths, length: Floats, dash_mm: float, gap_mm: floa
 
 
 def _dash_ends(
-    many: Ints, length: Floats, closed: Bools, pattern: tuple[float, float, float]
+    many: Ints, length: Floats, closed: Bools, dash_mm: Floats, gap_mm: Floats, dot_mm: float
 ) -> tuple[Floats, Floats, Ints]:
-    """Where the dashes, and the dots before them, begin and end along their strokes, and whose they are."""
-    dash_mm, gap_mm, dot_mm = pattern
+    """Where the dashes, and the dots before them, begin and end along their strokes, and whose they are; many, length,
+    closed, dash_mm, gap_mm (m,): of each stroke."""
     stroke = ragged.owner(many)
     number = ragged.place(many)
     gaps = np.where(closed, many, many - 1)
     scale = length / (many * dash_mm + gaps * gap_mm)
     # On a loop the pattern starts half a dash later and its last dash lies over the seam, half on the second lap.
     shift = np.where(closed, 0.5 * dash_mm + gap_mm, 0.0)
-    start = (number * (dash_mm + gap_mm) + shift[stroke]) * scale[stroke]
-    end = start + dash_mm * scale[stroke]
+    start = (number * (dash_mm + gap_mm)[stroke] + shift[stroke]) * scale[stroke]
+    end = start + (dash_mm * scale)[stroke]
     last = ~closed[stroke] & (number == many[stroke] - 1)
     end = np.where(last, length[stroke], end)
     if not dot_mm:
         return start, end, stroke
     dotted = np.flatnonzero(closed[stroke] | (number > 0))
-    dots = start[dotted] - 0.5 * (gap_mm + dot_mm) * scale[stroke[dotted]]
+    dots = start[dotted] - (0.5 * (gap_mm + dot_mm) * scale)[stroke[dotted]]
     order = np.argsort(np.concatenate((2 * dotted, 2 * np.arange(len(start)) + 1)), kind="stable")
     start = np.concatenate((dots, start))[order]
     end = np.concatenate((dots + dot_mm * scale[stroke[dotted]], end))[order]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -15,10 +15,13 @@ from vectorplot.effects.cutting.body_sections import Body
 from vectorplot.effects.cutting.cut_shapes import is_cut, smooth_part
 from vectorplot.effects.cutting.hatches import (
     WAYS,
+    InSpace,
     Way,
     hatch_section,
     page_hatch,
+    spacings_in_space,
     turned,
+    usual_page,
     ways_of_parts,
     without_overlaps,
 )
@@ -103,7 +106,7 @@ def _known_names(scene: Scene, items: Iterable[str]) -> tuple[str, ...]:
     return names
 
 
-def cut_scene(scene: Scene, camera: Camera | str | None = None) -> Scene:
+def cut_scene(scene: Scene, camera: Camera | str | None = None, page: Callable[[Scene], InSpace] = usual_page) -> Scene:
     """The scene after its cuts: what is left of its items, then the faces that show, and what was taken away.
 
     Parameters
@@ -112,6 +115,9 @@ def cut_scene(scene: Scene, camera: Camera | str | None = None) -> Scene:
         With its cuts.
     camera : Camera or str, optional
         Tells on which side the eye is; where None that of the scene, else default_camera.
+    page : callable
+        page(scene)(points) is how long a millimetre of the page is at points (n, 3), as an array (n,), where what is
+        left of the scene is drawn: hatches are spaced by it. Usually the scene fills a sheet of A4.
 
     Returns
     -------
@@ -157,7 +163,7 @@ def cut_scene(scene: Scene, camera: Camera | str | None = None) -> Scene:
     kept = [_kept(body, those) for body, those in zip(bodies, own, strict=True)]
     opened = [any(map(body.is_opened_by, those)) for body, those in zip(bodies, own, strict=True)]
     _tell([body.item.name for body, is_open in zip(bodies, opened, strict=True) if is_open])
-    added = _faces_of_cuts(scene, bodies, regions)
+    added = _faces_of_cuts(scene, bodies, regions, page(replace(scene, items=tuple(kept), cuts=())), seen)
     for number, (cut, region) in enumerate(zip(scene.cuts, regions, strict=True)):
         if cut.away != "gone":
             for body in bodies:
@@ -200,8 +206,10 @@ def _kept(body: Body, regions: list[HalfSpaces]) -> Item:
     return replace(item, shape=part, lines=lines, cut_by=tuple(met))
 
 
-def _faces_of_cuts(scene: Scene, bodies: list[Body], regions: list[HalfSpaces]) -> list[Item]:
-    """An item of cut faces for each body that has such."""
+def _faces_of_cuts(
+    scene: Scene, bodies: list[Body], regions: list[HalfSpaces], in_space: InSpace, camera: Camera
+) -> list[Item]:
+    """An item of cut faces for each body that has such; in_space, camera: as their hatches are seen."""
     import shapely
 
     planes = [(one, side) for one, region in enumerate(regions) for side in range(len(region.normals))]
@@ -217,26 +225,31 @@ def _faces_of_cuts(scene: Scene, bodies: list[Body], regions: list[HalfSpaces]) 
     if not faces:
         return []
     faced = [k for k in range(len(bodies)) if any(not areas[k].is_empty for areas in faces)]
-    ways = ways_of_parts([[areas[k] for k in faced] for areas in faces], nothing_beside(scene.bounds))
-    extent = float(np.ptp(scene.bounds, axis=0).max())
+    if not faced:
+        return []
+    areas = [[every[k] for k in faced] for every in faces]
+    ways = ways_of_parts(areas, nothing_beside(scene.bounds))
+    own = [[turned(scene.cuts[one], way) for way in ways] for one, _ in planes]
+    spacings = spacings_in_space(frames, areas, own, in_space, camera)
     result = []
-    for k, way in zip(faced, ways, strict=True):
-        shown = [n for n, areas in enumerate(faces) if not areas[k].is_empty]
+    for number, (k, way) in enumerate(zip(faced, ways, strict=True)):
+        shown = [n for n, every in enumerate(faces) if not every[k].is_empty]
         for count, n in enumerate(shown):
             name = f"{bodies[k].item.name} cut" + (f" {count + 1}" if count else "")
-            asked = scene.cuts[planes[n][0]]
-            for face in _face_items(bodies[k].item, name, frames[n], faces[n][k], asked, way, extent):
+            asked, spacing = scene.cuts[planes[n][0]], float(spacings[n, number])
+            for face in _face_items(bodies[k].item, name, frames[n], faces[n][k], asked, way, spacing):
                 result.append(replace(face, cut_by=tuple(_regions_of(bodies[k], scene, regions))))
     return result
 
 
-def _face_items(item: Item, name: str, frame: PlaneFrame, area: Any, cut: Cut, way: Way, extent: float) -> list[Item]:
-    """Cut faces in a plane as an item, if there are any: their edges are lines of the body."""
+def _face_items(item: Item, name: str, frame: PlaneFrame, area: Any, cut: Cut, way: Way, spacing: float) -> list[Item]:
+    """Cut faces in a plane as an item, if there are any: their edges are lines of the body; spacing: of strokes in
+    space, where the cut does not say it."""
     mesh = mesh_of_regions([(frame, area)])
     if not mesh.face_count:
         return []
     hatch = page_hatch(cut, way)
-    section = hatch_section(frame, mesh.vertices, turned(cut, way), extent) if hatch.by == "none" else None
+    section = hatch_section(frame, mesh.vertices, turned(cut, way)[0], spacing) if hatch.by == "none" else None
     lines = ("section", "cut")
     curves = NO_LINES if section is None else SurfaceLines(sections=(section,))
     colour = cut.colour or item.colour
@@ -272,7 +285,7 @@ def _away(scene: Scene, cut: Cut, body: Body, region: HalfSpaces, before: list[H
         frame = PlaneFrame.of(region, side, scene.bounds.mean(axis=0))
         area = body.face(frame, region, side, met, None)
         name = f"{item.name} moved cut" + (f" {side + 1}" if side else "")
-        for face in _face_items(item, name, frame, area, cut, WAYS[0], 1.0):
+        for face in _face_items(item, name, frame, area, cut, WAYS[0], float(np.ptp(scene.bounds, axis=0).max())):
             bare = Hatching("none")
             shown = replace(face, shape=face.mesh.reversed(), lines=(), curves=NO_LINES, hatch=bare)
             result.append(shown.moved(*shift))

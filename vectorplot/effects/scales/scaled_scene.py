@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.effects.cutting.cut_scenes import cut_scene
+from vectorplot.effects.cutting.hatches import InSpace, usual_page
 from vectorplot.effects.scales.box_axes import with_box
 from vectorplot.effects.scales.coloured_scene import ColourBar, coloured
 from vectorplot.geometry.cameras.camera import Camera
@@ -44,12 +46,12 @@ class Scaled:
         return fitted_with_room(view, page, view.image_of(points), low, high, border)
 
 
-def scaled(scene: Scene, camera: Camera | str | None) -> Scaled:
-    """The scene as a chart, after its cuts. Errors: InputError as of coloured."""
+def scaled(scene: Scene, camera: Camera | str | None, page: Callable[[Scene], InSpace] = usual_page) -> Scaled:
+    """The scene as a chart, after its cuts; page: as of cut_scene. Errors: InputError as of coloured."""
     seen_from, bar = camera_of(camera, scene), None
     if scene.colouring is not None or scene.box is not None:
         # Bands of closed bodies are open, and no cut goes through a box with ticks.
-        scene = cut_scene(scene, seen_from)
+        scene = cut_scene(scene, seen_from, page)
     if scene.colouring is not None:
         scene, bar = coloured(scene, scene.colouring)
     boxed, reach = with_box(scene, seen_from)
