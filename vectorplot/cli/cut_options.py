@@ -39,16 +39,13 @@ def _explosion(text: str) -> tuple[Point, float]:
     return found
 
 
-def cut_spacing_option(keyword: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """``--cut-spacing``, as that keyword."""
-    return click.option(
-        "--cut-spacing",
-        keyword,
-        type=at_least(0.1),
-        metavar="MM",
-        help="From stroke to stroke of hatches of cut faces, on the page.  [default: 2.4, on narrow faces 1.2]",
-    )
-
+CUT_SPACING = click.option(
+    "--cut-spacing",
+    "cut_spacing_mm",
+    type=at_least(0.1),
+    metavar="MM",
+    help="From stroke to stroke of hatches of cut faces, on the page.  [default: 2.4, on narrow faces 1.2]",
+)
 
 CUT_OPTIONS = (
     click.option(
@@ -66,7 +63,7 @@ CUT_OPTIONS = (
         help="What becomes of what is cut away: nothing, dashed outlines, or it is moved along the normal.",
     ),
     click.option("--cut-colour", metavar="COLOUR", help="Of cut faces.  [default: that of their bodies]"),
-    cut_spacing_option("cut_spacing"),
+    CUT_SPACING,
     click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
     click.option(
         "--explode", type=_explosion, metavar="AXIS,FACTOR", help="Parts moved apart along x, y, z or X,Y,Z: z,1.5."
@@ -81,7 +78,7 @@ class CutOptions:
     cut: tuple[str, ...] = ()
     cut_away: str = "gone"
     cut_colour: str | None = None
-    cut_spacing: float | None = None
+    cut_spacing_mm: float | None = None
     cut_angle: float = 45.0
     explode: tuple[Point, float] | None = None
 
@@ -97,6 +94,6 @@ class CutOptions:
 
         scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
         spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
-        hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)
+        hatched = partial(spelled, spacing_mm=self.cut_spacing_mm, angle_deg=self.cut_angle)
         cuts = tuple(hatched(text) for text in self.cut)
         return replace(scene, cuts=scene.cuts + cuts) if cuts else scene
