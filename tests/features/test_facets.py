@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 
 from vectorplot.errors import InputError
 from vectorplot.features.facet_demands import Within
 from vectorplot.features.facets import facets
+from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.surfaces.families.capped import rod
 from vectorplot.surfaces.families.cylinder import Cone
@@ -18,6 +20,7 @@ from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.graphs.graph import graph
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.trims.cut_surface import CutSurface
 
 
 def within(tolerance: float) -> Within:
@@ -137,3 +140,26 @@ def test_no_triangle_of_a_graph_with_holes_is_turned_over_and_they_end_at_the_ri
     area = 0.5 * ((b - a)[:, 0] * (c - a)[:, 1] - (b - a)[:, 1] * (c - a)[:, 0])
     assert area.min() > -1e-7
     assert abs(area.sum() - covered) < 5e-3 * covered
+
+
+@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
+@pytest.mark.parametrize("tolerance", [0.05, 0.02, 2e-3])
+def test_caps_beside_cuts_are_covered_and_nothing_of_them_is_folded_over(scale: float, tolerance: float) -> None:
+    can = rod((0.0, 0.0, 0.0), (0.0, 0.0, 2.0 * scale), scale)
+    gone = HalfSpaces(((1.0, 0.0, 0.0), (0.0, -1.0, 0.0)), (0.0, -0.8 * scale))
+    found = facets(CutSurface(can, (gone,)), within(tolerance * scale))
+    triangles = found.mesh.corners.reshape(-1, 3)
+    corners = found.mesh.vertices[triangles] / scale
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    # Of vertices on the rims the normal is that of one side only: those of the others have to be those of the cap.
+    inner, level = ~found.sharp[triangles], np.abs(area[:, 2]) > 0.9 * np.linalg.norm(area, axis=1)
+    true = np.einsum("tx,tkx->tk", area, found.normals[triangles])
+    wide = np.linalg.norm(area, axis=1) > 1e-12
+    assert (true > 0.99 * np.linalg.norm(area, axis=1)[:, None])[level & wide][inner[level & wide]].all()
+    # Half of the disc, and of what is beyond y = 0.8.
+    left = 0.5 * np.pi + 0.5 * (np.arccos(0.8) - 0.8 * 0.6)
+    for height, sign in ((0.0, -1.0), (2.0, 1.0)):
+        own = wide & level & (np.abs(corners[:, :, 2] - height) < 1e-6).all(axis=1)
+        assert (sign * area[own, 2] > 0.0).all()
+        covered = shapely.union_all(shapely.polygons(corners[own, :, :2]), grid_size=1e-9)
+        assert abs(shapely.area(covered) - left) < 2.0 * np.pi * tolerance

@@ -15,11 +15,13 @@ from vectorplot.features.parametric.holes.holes import ways_between
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.patch_nets import TOO_LONG, Patch, first_net
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
-from vectorplot.geometry.components import any_component
+from vectorplot.geometry.components import all_components, any_component
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.triangles.triangle_edges import edges_of
+from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
+from vectorplot.tolerances.of_angles import FLAT_COSINE
 
 
 @dataclass(frozen=True, eq=False)
@@ -42,7 +44,8 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_B
     where it calls for more than most triangles it is not kept. Sides that lead into a hole end at its rim, and those
     along a rim follow it; cuspidal edges lie on sides, up to their chords.
     Errors: InputError for what is no smooth surface.
-    Degenerate: triangles in holes, those without area, and those beneath which the surface jumps are left out.
+    Degenerate: triangles in holes, those without area, those beneath which the surface jumps, and, of surfaces with
+    borders, those that fold over in a plane part, where their neighbours lie over them, are left out.
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
     if is_parametrised(shape):
@@ -58,7 +61,25 @@ def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_B
 def finished(patch: Patch, net: Net) -> Facets:
     """What comes of a net on a parametrised surface that is fine enough."""
     net, turned = cut_where_normals_jump(_without_jumps(patch.surface, net), patch)
-    return _facets(net, turned | np.isin(net.vertices.places[:, 1], patch.creases))
+    sharp = turned | patch.on_crease(net.vertices.places)
+    return _facets(_without_folds(net, sharp), sharp)
+
+
+def _without_folds(net: Net, sharp: Bools) -> Net:
+    """The net without triangles that look against the only normal of all their corners: chords of lines that are bent
+    within a plane lead over the corners behind them. sharp (v,): vertices with the normal of one side only.
+
+    Where two triangles lie over a place and one beneath it looks the other way, one is left. Nets without borders keep
+    them all: of a closed body nothing is seen that looks away.
+    """
+    points, normals = net.vertices.points[net.triangles], net.vertices.normals[net.triangles]
+    area = cross(points[:, 1] - points[:, 0], points[:, 2] - points[:, 0])
+    against = dot(area[:, None], normals) <= -FLAT_COSINE * norm(area)[:, None]
+    either = sharp[net.triangles]
+    folded = all_components(against | either) & any_component(against & ~either)
+    if not folded.any() or (edges_of(net.triangles, len(sharp))[2] > 1).all():
+        return net
+    return replace(net, triangles=net.triangles[~folded])
 
 
 def _without_jumps(surface: Surface, net: Net) -> Net:

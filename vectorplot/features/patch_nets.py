@@ -58,6 +58,11 @@ class Patch:
         """The v of sharp edges."""
         return creases(self.surface)
 
+    def on_crease(self, places: Floats) -> Bools:
+        """(n,) which places (n,d) are on sharp edges: where the rim of a hole meets one, its place is next to it."""
+        off = np.abs(places[:, 1:2] - self.creases)
+        return np.asarray((off <= ON_BORDER_OF_DOMAIN * self.surface.domain.size[1]).any(axis=1), dtype=np.bool_)
+
     def surface_at(self, places: Floats) -> Surface:
         """What is asked for places (n,d)."""
         return self.surface
@@ -88,7 +93,7 @@ class Patch:
 
     def ends(self, start: Vertices, end: Vertices) -> tuple[Vertices, Vertices]:
         """The ends of sides; on the rim of a cap normals are those of the cap for sides that lead into it."""
-        sharp = [np.isin(some.places[:, 1], self.creases) for some in (start, end)]
+        sharp = [self.on_crease(some.places) for some in (start, end)]
         return self._sided(start, end, sharp[0] & ~sharp[1]), self._sided(end, start, sharp[1] & ~sharp[0])
 
     def nearer(self, edges: Edges) -> Vertices:
@@ -101,7 +106,7 @@ class Patch:
         size = np.array(self.surface.domain.size)
         first, last = self._without_poles(edges.start.places, edges.end.places)
         way = ways_between(self.surface.domain, first[:, :2], last[:, :2]) / size
-        on_crease = np.isin(first[:, 1], self.creases) & (first[:, 1] == last[:, 1])
+        on_crease = self.on_crease(first) & self.on_crease(last) & (np.abs(way[:, 1]) <= ON_BORDER_OF_DOMAIN)
         reach = CLOSE_BY * np.tile(np.where(on_crease, 0.0, np.hypot(*way.T)), shape[0])
         from_start, scale = np.zeros((len(points), 2)), np.ones(len(points))
         places, here, normals = found.places, found.points, found.normals
