@@ -162,7 +162,7 @@ def draw(
     -----
     InputWarning
         Where a picture shows so little of the scene that the tolerance cannot be kept, and what the budget did not do
-        for.
+        for; for implicit surfaces that have no points in their boxes.
 
     Notes
     -----

@@ -161,6 +161,11 @@ def paint(
         For unknown words and colours, impossible cameras, and widths and counts out of range; for a tolerance or a
         budget that is not finite and positive.
 
+    Warns
+    -----
+    InputWarning
+        For what the budget did not do; for implicit surfaces that have no points in their boxes.
+
     Notes
     -----
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off

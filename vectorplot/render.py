@@ -184,7 +184,8 @@ def render(
     Warns
     -----
     InputWarning
-        Names what the scene has and pixels do not show: patterns and refraction.
+        Names what the scene has and pixels do not show: patterns and refraction; and implicit surfaces that have no
+        points in their boxes.
 
     Notes
     -----

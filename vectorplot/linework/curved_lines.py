@@ -12,6 +12,7 @@ import numpy as np
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import Budget, line_each
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.unbounded_items import tell_of_empty_surface
 from vectorplot.scene.view import View
 from vectorplot.stages.walk import Walk
 from vectorplot.tolerances.of_extent import FINEST_CHORD_OF_EXTENT
@@ -31,7 +32,11 @@ def smooth_sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | Non
         return ()
     from vectorplot.visibility.smooth.tracing.traced import scene_sheets
 
-    return scene_sheets(scene, view, frozenset() if forms is None else forms.items)
+    sheets = scene_sheets(scene, view, frozenset() if forms is None else forms.items)
+    for sheet in sheets:
+        if not len(sheet.corners):
+            tell_of_empty_surface(scene.items[sheet.item], stacklevel=4)
+    return sheets
 
 
 def lines_and_chords(
