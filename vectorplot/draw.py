@@ -29,6 +29,7 @@ from vectorplot.scene.lines.usual_lines import with_usual_lines
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
 from vectorplot.scene.view import look
+from vectorplot.stages.argument_types import check_types
 from vectorplot.stages.around_picture import beside_bar, left_of_bar
 from vectorplot.stages.subject import subject_of
 from vectorplot.stages.walk import StageReport, Walk
@@ -183,6 +184,7 @@ def draw(
     >>> [layer.name for layer in drawing.layers if len(layer.strokes[0])]
     ['contour', 'hidden']
     """
+    check_types(locals())
     given = scene_of(scene) if lines is not None else with_usual_lines(scene_of(scene))
     chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)
