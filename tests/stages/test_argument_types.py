@@ -61,3 +61,13 @@ def test_what_a_users_function_raises_is_the_cause():
     with pytest.raises(vp.InputError, match=r"function fails fails at .*KeyError: 'depth'") as told:
         vp.graph(fails)
     assert type(told.value) is vp.InputError and isinstance(told.value.__cause__, KeyError)
+
+
+def test_vertices_and_faces_of_arrays_are_counted_as_arrays_are():
+    with pytest.raises(vp.InputError, match="face 1 names vertex 3, there are 3, counted from 0"):
+        vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 3)])
+
+
+def test_a_name_of_a_layer_that_is_nearly_known_is_guessed():
+    with pytest.raises(vp.InputError, match="did you mean 'hidden'"):
+        vp.draw(CUBE, unplotted="hiden")
