@@ -31,6 +31,7 @@ from vectorplot.scene.lines.usual_lines import with_usual_lines
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import page_of
 from vectorplot.scene.view import look
+from vectorplot.stages.argument_types import check_types
 from vectorplot.stages.around_picture import beside_bar, left_of_bar
 from vectorplot.stages.subject import Paper, subject_of
 from vectorplot.stages.walk import StageReport, Walk
@@ -164,7 +165,7 @@ def draw(
     -----
     InputWarning
         Where a picture shows so little of the scene that the tolerance cannot be kept, and what the budget did not do
-        for.
+        for; for implicit surfaces that have no points in their boxes.
 
     Notes
     -----
@@ -185,6 +186,7 @@ def draw(
     >>> [layer.name for layer in drawing.layers if len(layer.strokes[0])]
     ['contour', 'hidden']
     """
+    check_types(locals())
     given = scene_of(scene) if lines is not None else with_usual_lines(scene_of(scene))
     chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)

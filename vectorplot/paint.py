@@ -45,6 +45,7 @@ from vectorplot.shading.light.fineness.picture_fineness import picture_fineness
 from vectorplot.shading.light.painted_colours import Lighting
 from vectorplot.shading.light.painted_normals import painted_normals
 from vectorplot.shading.light.palettes import PALETTE_SIZE
+from vectorplot.stages.argument_types import check_types
 from vectorplot.stages.around_picture import beside_bar, left_of_bar, room_for_labels, titled
 from vectorplot.stages.facet_errors import outline_error
 from vectorplot.stages.subject import Paper, subject_of
@@ -161,6 +162,11 @@ def paint(
         For unknown words and colours, impossible cameras, and widths and counts out of range; for a tolerance or a
         budget that is not finite and positive.
 
+    Warns
+    -----
+    InputWarning
+        For what the budget did not do; for implicit surfaces that have no points in their boxes.
+
     Notes
     -----
     Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
@@ -179,6 +185,7 @@ def paint(
     >>> [layer.name for layer in drawing.layers]
     ['fills', 'visible', 'contour']
     """
+    check_types(locals())
     _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
     check_word("text", text, TEXT_WORDS)
     if fills == "erasing" and depth_cue_of(depth_cue) is not None:

@@ -29,6 +29,7 @@ from vectorplot.scene.placement import field_of_vision
 from vectorplot.scene.point_of_view import page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
+from vectorplot.stages.argument_types import check_types
 from vectorplot.stages.walk import StageReport, Walk
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import DRAWN, LineKind, line_kinds
@@ -102,6 +103,7 @@ def panorama(
     >>> sum(len(strokes) for layer in round_about.layers for strokes in layer.strokes) > 10
     True
     """
+    check_types(locals())
     given = scene_of(scene) if lines is not None else with_usual_lines(scene_of(scene))
     given = shown_apart(given)
     chosen, own = style_of_scene(given.inks, style)

@@ -54,6 +54,7 @@ from vectorplot.shading.raster.screen import (
 )
 from vectorplot.shading.raster.supersampling import averaged_light
 from vectorplot.shading.shadows.map_settings import MapSettings
+from vectorplot.stages.argument_types import check_types
 from vectorplot.stages.facet_errors import facet_error
 from vectorplot.stages.subject import Paper, subject_of
 from vectorplot.stages.walk import StageReport, Walk
@@ -184,7 +185,8 @@ def render(
     Warns
     -----
     InputWarning
-        Names what the scene has and pixels do not show: patterns and refraction.
+        Names what the scene has and pixels do not show: patterns and refraction; and implicit surfaces that have no
+        points in their boxes.
 
     Notes
     -----
@@ -203,6 +205,7 @@ def render(
     >>> vp.render(scene, size=(60, 40), background="#ffffff")
     <Image 'Tetrahedron': 60 x 40 pixels>
     """
+    check_types(locals())
     kinds = line_kinds(lines)
     samples = usual_samples(size) if samples is None else samples
     check_whole(columns=size[0], rows=size[1], samples=samples)

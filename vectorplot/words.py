@@ -126,11 +126,13 @@ OWN_LINE_WORDS = (*LINE_WORDS, *(kind.word for kind in _OWN_ONLY))
 trace of what was moved, and all of a thing as the ghost of what was cut away."""
 
 
-def line_words(words: str | Iterable[str], known: tuple[str, ...] = LINE_WORDS) -> tuple[str, ...]:
+def line_words(words: str | Iterable[str] | None, known: tuple[str, ...] = LINE_WORDS) -> tuple[str, ...]:
     """The kinds of lines that are named, each once: words, or one text with commas between them; ``none`` is no kind.
 
     Errors: InputError for words that are none of those known.
     """
+    if words is None:
+        raise InputError("lines: expected words or 'none', got None")
     given = words.split(",") if isinstance(words, str) else list(words)
     if len(given) == 1 and given[0].strip().lower() == "none":
         return ()
@@ -141,7 +143,7 @@ def line_words(words: str | Iterable[str], known: tuple[str, ...] = LINE_WORDS) 
     return tuple(dict.fromkeys(asked))
 
 
-def line_kinds(words: str | Iterable[str]) -> frozenset[LineKind]:
+def line_kinds(words: str | Iterable[str] | None) -> frozenset[LineKind]:
     """The kinds of lines that are named, as of line_words."""
     return frozenset(map(LineKind.from_word, line_words(words)))
 

@@ -18,10 +18,6 @@ from vectorplot.tolerances.of_values import VALUES_AGREE
 Numbers = NDArray[Any]
 
 
-class _Refused(InputError):
-    """The function itself raised something."""
-
-
 @dataclass(frozen=True, eq=False)
 class UserFunction:
     """A function of one or more parameters to one number or to vectors of so many components.
@@ -59,7 +55,7 @@ class UserFunction:
             return self.function(*parameters)
         except Exception as error:  # whatever a user's function may raise
             at = ", ".join(f"{np.ravel(p)[0]:g}" for p in parameters)
-            raise _Refused(f"{self.name} fails at ({at}): {type(error).__name__}: {error}") from error
+            raise InputError(f"{self.name} fails at ({at}): {type(error).__name__}: {error}") from error
 
     def _rows(self, result: Any, count: int) -> Numbers:
         """The result of one call with arrays as (count, components)."""
@@ -113,7 +109,9 @@ def user_function(
     single = replace(vectorised, one_at_a_time=True)
     try:
         values = vectorised(*probes)
-    except _Refused:
+    except InputError as refused:
+        if refused.__cause__ is None:
+            raise  # of what it returns
         single(*(p[:1] for p in probes))
         return _hinted(single)
     if not _agree(values, single, probes):

@@ -85,11 +85,12 @@ class Mesh(Movable["Mesh"]):
             raise InputError(f"face {int(np.argmin(np.diff(offsets))) + 1} has fewer than three corners")
         if len(corners) and (corners.min() < 0 or corners.max() >= len(vertices)):
             bad = int(np.argmax((corners < 0) | (corners >= len(vertices))))
-            face = int(np.searchsorted(offsets, bad, side="right"))
-            raise InputError(f"face {face} names vertex {int(corners[bad]) + 1}, there are {len(vertices)}")
+            face = int(np.searchsorted(offsets, bad, side="right")) - 1
+            cause = f"face {face} names vertex {int(corners[bad])}, there are {len(vertices)}, counted from 0"
+            raise InputError(cause)
         if len(vertices) and not np.isfinite(vertices.min() + vertices.max()):
             bad = int(np.argmax(~np.isfinite(vertices).all(axis=1)))
-            raise InputError(f"vertex {bad + 1} has a coordinate that is not a finite number")
+            raise InputError(f"vertex {bad}, counted from 0, has a coordinate that is not a finite number")
         for name, array in (("vertices", vertices), ("corners", corners), ("offsets", offsets)):
             object.__setattr__(self, name, array)
         if self.present is not None:

@@ -12,6 +12,7 @@ import numpy as np
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import Budget, line_each
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.unbounded_items import tell_of_empty_surface
 from vectorplot.scene.view import View
 from vectorplot.stages.walk import Walk
 from vectorplot.tolerances.of_extent import FINEST_CHORD_OF_EXTENT
@@ -25,13 +26,21 @@ if TYPE_CHECKING:
     from vectorplot.visibility.smooth.tracing.traced import TracedScene
 
 
+OF_F = "f is what is 0 on the contours, sections or other lines of the surface that are looked for"
+"""What doubts about curves f = 0 are of, for those who asked for a picture."""
+
+
 def smooth_sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | None) -> tuple[SmoothSheet, ...]:
     """The smooth surfaces of the scene that are not drawn in closed form, if it has any."""
     if not walk.calls_for("curves"):
         return ()
     from vectorplot.visibility.smooth.tracing.traced import scene_sheets
 
-    return scene_sheets(scene, view, frozenset() if forms is None else forms.items)
+    sheets = scene_sheets(scene, view, frozenset() if forms is None else forms.items)
+    for sheet in sheets:
+        if not len(sheet.corners):
+            tell_of_empty_surface(scene.items[sheet.item], stacklevel=4)
+    return sheets
 
 
 def lines_and_chords(
@@ -70,7 +79,8 @@ def lines_and_chords(
 
 def _say(doubts: Iterable[tuple[str, str]]) -> None:
     """An InputWarning for each item, or items, of which something is in doubt, given by name."""
-    for line in line_each(doubts):
+    told = ((name, f"{text} ({OF_F})" if text.startswith("f ") else text) for name, text in doubts)
+    for line in line_each(told):
         warnings.warn(line, InputWarning, stacklevel=4)
 
 

@@ -1,4 +1,4 @@
-"""Items whose surfaces run to infinity: what is shown of them ends somewhere."""
+"""Items whose surfaces run to infinity, or are empty: what is shown of them ends somewhere, or is nothing."""
 
 from __future__ import annotations
 
@@ -9,9 +9,11 @@ import numpy as np
 
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.function_surface import FunctionSurface
 from vectorplot.surfaces.graphs.graph import Graph, PolarGraph
+from vectorplot.surfaces.surface import is_implicit
 
 
 def tell_what_is_cut_off(scene: Scene) -> None:
@@ -19,6 +21,13 @@ def tell_what_is_cut_off(scene: Scene) -> None:
     for item in scene.items:
         if not isinstance(item.shape, Mesh) and (text := _cut_off(item.shape)):
             warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=3)
+
+
+def tell_of_empty_surface(item: Item, stacklevel: int) -> None:
+    """An InputWarning, with its name, for an implicit surface of which no triangles were found, unless it is cut."""
+    if is_implicit(item.shape) and not item.cut_by:
+        text = f"{item.name}: the surface has no points in its box: nothing of it is shown"
+        warnings.warn(text, InputWarning, stacklevel=stacklevel)
 
 
 def _cut_off(shape: Any) -> str:

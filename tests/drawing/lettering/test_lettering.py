@@ -10,6 +10,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.drawing.lettering.text import lettered
 from vectorplot.drawing.lettering.text_along import lettered_along
+from vectorplot.geometry import box
 
 ASCII = "".join(map(chr, range(33, 127)))
 LATIN = "".join(c for c in map(chr, range(0xC0, 0x180)) if c.isalpha())
@@ -41,10 +42,25 @@ def test_dots_of_i_and_j_give_way_to_accents() -> None:
     assert lettered("ı", size_mm=21.0).strokes.points[:, 1].max() == pytest.approx(14.0)
 
 
-@pytest.mark.parametrize("text", ["漢", "a\tb", "x\u0488", "\x07"])
+@pytest.mark.parametrize("text", ["漢", "①", "ℝ", "a\tb", "x\u0488", "\x07"])
 def test_an_unknown_character_is_one_clear_line(text: str) -> None:
     with pytest.raises(vp.InputError, match=r"^there are no strokes for the character .* \(.*U\+[0-9A-F]{4}\)$"):
         lettered(text)
+
+
+def test_fractions_and_numero_signs_keep_their_form() -> None:
+    half, number = (lettered(sign, size_mm=21.0) for sign in "½№")
+    assert half.boxes[0, 1, 0] < lettered("1/2", size_mm=21.0).boxes[0, 1, 0] and len(half) == 3
+    assert np.allclose(number.strokes.points, lettered("Nº", size_mm=21.0).strokes.points)
+
+
+@pytest.mark.parametrize("word", ["mathbb", "vec", "begin"])
+def test_words_of_formulas_without_letters_are_refused_where_letters_are_strokes(word: str) -> None:
+    label = vp.Label(f"$x \\in \\{word}{{R}}$", (0, 0, 0))
+    scene = vp.Scene((vp.Item("BOX", box((1, 1, 1))),), labels=(label,))
+    with pytest.raises(vp.InputError, match=rf"there are no strokes for \\{word} of the formula"):
+        vp.draw(scene)
+    assert vp.draw(scene, text="real").layers
 
 
 @pytest.mark.parametrize("size", [0.0, -1.0, np.nan, np.inf])

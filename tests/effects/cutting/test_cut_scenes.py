@@ -275,3 +275,12 @@ def test_files_and_the_command_say_the_spacing(tmp_path):
     ):
         with pytest.raises(vp.InputError, match=cause):
             parse_scene(f'B red box solid 4 4 2 cut "y = 2" {words}')
+
+
+@pytest.mark.parametrize(
+    ("text", "named"), [("y = 999", "y = 999"), ("x > -9, y < 9", "x > -9, y < 9"), ("x + y < 99", "0.707x")]
+)
+def test_a_cut_that_takes_everything_away_is_named(text, named):
+    cube = vp.Scene((vp.Item("cube", vp.Mesh.from_triangles(np.eye(3), [(0, 1, 2)])),))
+    with pytest.warns(vp.InputWarning, match=f"the cut .*{named}.* takes everything away"):
+        vp.draw(vp.cut(cube, text), vp.Camera((4, -5, 3)))

@@ -103,6 +103,11 @@ def test_mmcif_is_read_as_pdb_is(tmp_path):
         ("a.xyz", "1\nx\n999 0 0 0\n", "a.xyz:3: '999' is no element"),
         ("a.cif", "#\n", "a.cif: no atoms in this file"),
         ("a.pdb", "HEADER    NOTHING\nEND\n", "a.pdb: no atoms in this file"),
+        (
+            "a.pdb",
+            GLYCINE.replace("  1.420   0.000", "  1.42   0.0").replace("  1.200   0.400", "  1.2   0.4"),
+            "a.pdb:4: expected three coordinates in columns 31-38, 39-46 and 47-54, got '2.000 1.42 0.0 1'; so in 5",
+        ),
         ("a.cif", "data_x\n_cell.length_a 1\n", "a.cif: no atoms in this file"),
         ("a.cif", "loop_\n", "a.cif: no molecule: "),
     ],

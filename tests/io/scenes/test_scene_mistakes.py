@@ -52,6 +52,8 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("B box 1 1 1 box 2 2 2", "B: a second 'box'"),
         ("box 1 1 1", "expected the name of an item, got 'box'"),
         ("7 box 1 1 1", "expected the name of an item, got '7'"),
+        ('N "#c86414" box 1 1 1', "N: expected one of vertices, revolution"),
+        ('N "#c86414" box 1 1 1', 'before a colour in quotes stands the word for it: colour "#c86414"'),
         ("A vertices 0 0 0, 1 0 0, 0 1 0\nfaces 1 2 4", "A: face 1 names vertex 4, there are 3"),
         ("A vertices 0 0 0, 1 0 0, 0 1 0\nfaces 0 1 2", "A: face 1 names vertex 0, there are 3, counted from 1"),
         ("A vertices 0 0 0, 1 0 0, 0 1 0 faces 1 -2 3", "A: face 1 names vertex -2"),

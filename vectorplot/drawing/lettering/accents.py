@@ -88,6 +88,7 @@ SIDE_BY_SIDE: dict[str, tuple[str, float]] = {
     "«": ("‹‹", -4.0),
     "»": ("››", -4.0),
     "″": ("′′", -3.0),
+    "№": ("Nº", 0.0),
 }
 """Letters that are several others, and how far these are moved apart; negative: together."""
 

@@ -52,6 +52,9 @@ WIDE = 1.3
 RAISED, LOWERED = 9.5, -5.0
 """Where the line of letters that stand high or low is."""
 
+LOST = ("circle", "font", "vertical", "initial", "medial", "final", "isolated")
+"""Forms of characters that are others without them: a figure in a circle is no figure."""
+
 
 @dataclass(frozen=True)
 class Glyph:
@@ -140,7 +143,9 @@ def _letter(cluster: str) -> Glyph | None:
     if tag in ("super", "sub"):
         inner = _side_by_side(parts, 0.0)
         return inner and _smaller(inner, SMALLER, RAISED if tag == "super" else LOWERED)
-    if tag:
+    if tag == "fraction":
+        return _fraction(*parts.split("/"))
+    if tag and tag not in LOST:
         return _side_by_side(parts, 0.0)
     return _accented(parts[0], parts[1:]) if len(parts) > 1 else None
 
@@ -156,6 +161,17 @@ def _accented(base: str, marks: str) -> Glyph | None:
         strokes = moved(ABOVE[mark] if high else BELOW[mark], 0.5 * found.advance, found.top if high else 0.0)
         found = Glyph(found.advance, found.strokes + strokes)
     return found
+
+
+def _fraction(above: str, below: str) -> Glyph | None:
+    """Small figures to both sides of a slash."""
+    high, slash, low = (_side_by_side(parts, 0.0) for parts in (above, "/", below))
+    if high is None or slash is None or low is None:
+        return None
+    high, low = _smaller(high, SMALLER, RAISED), _smaller(low, SMALLER, LOWERED)
+    beside = moved(slash.strokes, high.advance, 0.0)
+    strokes = (*high.strokes, *beside, *moved(low.strokes, high.advance + slash.advance, 0.0))
+    return Glyph(high.advance + slash.advance + low.advance, strokes)
 
 
 def _side_by_side(parts: str, apart: float) -> Glyph | None:

@@ -13,7 +13,7 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import PENS
-from vectorplot.drawing.lettering.formulas import without_formulas
+from vectorplot.drawing.lettering.formulas import without_formulas_in_strokes
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.labels.label_marks import ARROW_MM, ARROW_SLOPE, MARK_MM, TICK, direction_at, marked
 from vectorplot.drawing.lettering.labels.labels_with_room import labels_with_room
@@ -58,11 +58,11 @@ class Letters:
 
 
 def _stroked(text: str, *where: Any, **how: Any) -> Lettering:
-    return lettered(without_formulas(text), *where, **how)
+    return lettered(without_formulas_in_strokes(text), *where, **how)
 
 
 def _stroked_along(text: str, *where: Any, **how: Any) -> Lettering:
-    return lettered_along(without_formulas(text), *where, **how)
+    return lettered_along(without_formulas_in_strokes(text), *where, **how)
 
 
 LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset, typeset_along)}

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from numbers import Real
 
 from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.layers import ink
@@ -97,6 +98,8 @@ def _pen_rule(target: str, value: str | float | Pen) -> PenRule:
     if isinstance(value, Pen):
         return PenRule(kind, item, value.width_mm, value.colour, value.dash_mm)
     if not isinstance(value, str):
+        if not isinstance(value, Real) or isinstance(value, bool):
+            raise InputError(f"pen {target}={value!r}: expected WIDTH, COLOUR or WIDTH:COLOUR, a number or a Pen")
         value = f"{float(value):.17g}"
     width, _, colour = value.partition(":")
     if not colour and not LENGTH.fullmatch(width):
@@ -109,6 +112,8 @@ def _pen_rule(target: str, value: str | float | Pen) -> PenRule:
 
 def _dash_rule(target: str, value: str) -> PenRule:
     kind, item = target_of(target)
+    if not isinstance(value, str):
+        raise InputError(f"dash {target}={value!r}: expected a text such as '3,1'")
     if value.strip().lower() == "none":
         return PenRule(kind, item, dash_mm=(0.0, 0.0))
     parts = value.split(",")

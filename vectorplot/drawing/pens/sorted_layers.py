@@ -96,7 +96,7 @@ def not_plotted(layers: Sequence[Layer], unplotted: Sequence[str], others: Seque
     known = (*(layer.name for layer in layers), *PENS, "frame", "background", *others)
     for name in unplotted:
         if name not in known:
-            raise unknown("unplotted", name, tuple(dict.fromkeys(layer.name for layer in layers)))
+            raise unknown("unplotted", name, tuple(dict.fromkeys(known)))
     named = {layer.name for layer in layers if layer.name.rpartition(" depth ")[0] in unplotted}.union(unplotted)
     return tuple(replace(layer, plotted=False) if layer.name in named else layer for layer in layers)
 

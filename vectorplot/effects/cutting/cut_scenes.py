@@ -6,6 +6,7 @@ import warnings
 from collections.abc import Callable, Iterable
 from dataclasses import replace
 from functools import partial
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -158,6 +159,7 @@ def cut_scene(scene: Scene, camera: Camera | str | None = None, page: Callable[[
         return scene
     seen = camera_of(camera, scene)
     regions = [cut.region(seen) for cut in scene.cuts]
+    _tell_of_nothing_left(scene, regions)
     bodies = [Body(item) for item in scene.items]
     own = [_regions_of(body, scene, regions) for body in bodies]
     kept = [_kept(body, those) for body, those in zip(bodies, own, strict=True)]
@@ -176,6 +178,16 @@ def cut_scene(scene: Scene, camera: Camera | str | None = None, page: Callable[[
 def _regions_of(body: Body, scene: Scene, regions: list[HalfSpaces]) -> list[HalfSpaces]:
     """Those of the regions, which the first cuts of a scene make, that are taken away of a body."""
     return [region for cut, region in zip(scene.cuts, regions, strict=False) if cut.is_for(body.item.name)]
+
+
+def _tell_of_nothing_left(scene: Scene, regions: list[HalfSpaces]) -> None:
+    """An InputWarning for every cut that takes away the box around the whole scene."""
+    if not scene.items:
+        return
+    corners = np.array(list(product(*scene.bounds.T)))
+    for cut, region in zip(scene.cuts, regions, strict=True):
+        if cut.away == "gone" and cut.items is None and region.is_inside(corners).all():
+            warnings.warn(f"the cut {cut.condition} takes everything away", InputWarning, 4)
 
 
 def _tell(names: list[str]) -> None:

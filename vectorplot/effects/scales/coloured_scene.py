@@ -117,7 +117,8 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     low, high = float(values.min()), float(values.max())
     levels = np.linspace(low, high, len(colours) + 1)[1:-1] if high > low else np.zeros(0)
     items: list[Item] = []
-    pens, names = [], []
+    pens: list[PenRule] = []
+    names = []
     for item, whole in zip(scene.items, given, strict=True):
         if whole is None:
             items.append(item)

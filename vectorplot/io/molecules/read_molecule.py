@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import numpy as np
@@ -14,6 +15,14 @@ from vectorplot.io.molecules.elements import elements_of, gemmi_library
 from vectorplot.io.molecules.molecule import Molecule, bonds_between
 from vectorplot.io.molecules.xyz import read_xyz
 from vectorplot.scene.extent import check_range
+
+_COORDINATES = (30, 38, 46)
+"""Where in a line of a pdb file a coordinate begins, 8 letters long."""
+
+_NUMBER = re.compile(r" *[-+]?(\d+\.?\d*|\.\d+) *")
+
+_NAMED = 5
+"""So many lines are named in an error, and how many more there are."""
 
 
 def read_molecule(path: str | os.PathLike[str]) -> Molecule:
@@ -62,8 +71,11 @@ def read_molecule(path: str | os.PathLike[str]) -> Molecule:
 def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats]:
     """The atoms of a file of the Protein Data Bank."""
     gemmi = gemmi_library()
+    by_columns = path.suffix.lower() in (".pdb", ".ent")
+    if by_columns:
+        _check_columns(path)
     try:
-        kind = gemmi.CoorFormat.Pdb if path.suffix.lower() in (".pdb", ".ent") else gemmi.CoorFormat.Mmcif
+        kind = gemmi.CoorFormat.Pdb if by_columns else gemmi.CoorFormat.Mmcif
         structure = gemmi.read_structure(os.fspath(path), format=kind)
     except (RuntimeError, ValueError, OSError) as error:
         raise InputError(f"no molecule: {error}", file=shown(path)) from None
@@ -78,3 +90,22 @@ def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats]:
     if not atoms:
         raise InputError("no atoms in this file", file=shown(path))
     return tuple(symbol for symbol, _ in atoms), np.array([place for _, place in atoms], dtype=np.float64)
+
+
+def _check_columns(path: Path) -> None:
+    """An InputError for atoms whose coordinates do not stand in their columns: gemmi
+    reads them loosely, and leaves some out."""
+    lines = path.read_text(encoding="latin-1").split("\n")
+    wrong = [
+        number
+        for number, line in enumerate(lines, start=1)
+        if line[:6].rstrip().upper() in ("ATOM", "HETATM")
+        and not all(_NUMBER.fullmatch(line[at : at + 8].rstrip("\r")) for at in _COORDINATES)
+    ]
+    if not wrong:
+        return
+    named, more = ", ".join(map(str, wrong[1:_NAMED])), len(wrong) - _NAMED
+    others = f"; so in {named}{f' and {more} lines more' if more > 0 else ''}" if named else ""
+    got = lines[wrong[0] - 1][_COORDINATES[0] : _COORDINATES[-1] + 8].strip()
+    cause = f"expected three coordinates in columns 31-38, 39-46 and 47-54, got {got!r}{others}"
+    raise InputError(cause, file=shown(path), line=wrong[0])

@@ -100,6 +100,11 @@ class Cut:
         if self.colour is not None:
             check_colour(self.colour, "cut: ")
 
+    @property
+    def condition(self) -> str:
+        """What holds for what is taken away, as text, such as y = 999 or x > 0, y < 1."""
+        return ", ".join(map(_condition, self.planes))
+
     @classmethod
     def of(
         cls,
@@ -265,3 +270,12 @@ def _linear(side: str, text: str) -> np.ndarray:
     if not side:
         raise InputError(f"cut {text!r}: expected conditions such as y = 0, x + 2y > 3 or 0 < x < 2")
     return result
+
+
+def _condition(plane: CutPlane) -> str:
+    terms = [(factor, axis) for factor, axis in zip(plane.normal, "xyz", strict=True) if factor]
+    factor, axis = terms[0]
+    if len(terms) > 1:
+        factor, axis = 1.0, " + ".join(f"{one:.3g}{letter}" for one, letter in terms)
+    sign = "=" if plane.to_eye else ">" if factor > 0.0 else "<"
+    return f"{axis} {sign} {plane.offset / factor:g}"

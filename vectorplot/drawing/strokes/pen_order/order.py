@@ -12,6 +12,7 @@ from vectorplot.drawing.strokes.pen_order.tour import greedy_tour
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through
 from vectorplot.drawing.strokes.pen_order.tour_moves import shortened
 from vectorplot.drawing.strokes.stroke_paths import chosen, directed, swapped
+from vectorplot.errors import InputError
 from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import with_points
@@ -95,6 +96,11 @@ def travel_mm(paths: Paths) -> float:
     float
         In mm; a closed stroke ends where it begins.
 
+    Raises
+    ------
+    InputError
+        For what is no Paths.
+
     Notes
     -----
     Degenerate: 0 for no stroke or one; strokes without points count as none.
@@ -108,6 +114,8 @@ def travel_mm(paths: Paths) -> float:
     >>> travel_mm(Paths(points, np.array([0, 2, 4]), open_, none, none, none, np.zeros((4, 3))))
     10.0
     """
+    if not isinstance(paths, Paths):
+        raise InputError(f"travel_mm: expected the Paths of a layer, of its strokes, got a {type(paths).__name__}")
     drawn = np.diff(paths.offsets) > 0
     first = paths.offsets[:-1][drawn]
     last = np.where(paths.closed[drawn], first, paths.offsets[1:][drawn] - 1)

@@ -11,7 +11,7 @@ from vectorplot.io.scenes.items.place_words import MODIFIERS, PLACE_WORDS
 from vectorplot.io.scenes.items.scene_item import Draft
 from vectorplot.io.scenes.items.shape_words import SHAPE_WORDS
 from vectorplot.io.scenes.scene_words import FORM_WORDS, KIND_WORDS, SCENE_WORDS
-from vectorplot.words import MATERIALS, is_alike, nearest, nearest_material
+from vectorplot.words import MATERIALS, is_alike, is_colour, nearest, nearest_material
 
 _HEADER = [*KIND_WORDS, *MATERIALS, *FORM_WORDS]
 
@@ -73,6 +73,8 @@ class ItemReader(ItemCursor):
         hint = f" (or is '{draft.name}' meant to be '{meant}'?)" if meant else ""
         if draft.name in RESERVED:
             hint = f" ('{draft.name}' is a word of the language, but none of what stands before it)"
+        if word.startswith('"') and is_colour(word.strip('"')):
+            hint = f" (before a colour in quotes stands the word for it: colour {word})"
         self.fail(f"expected one of {', '.join(KIND_WORDS)}, got {source.shown(self.at)}{hint}", draft)
 
     def _named_shape(self, draft: Draft, word: str) -> None:

@@ -14,6 +14,7 @@ from vectorplot.features.edge_splitting import Demand
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.unbounded_items import tell_of_empty_surface
 from vectorplot.shading.light.corner_normals import TrueNormals, unit
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
@@ -73,6 +74,8 @@ def _faceted_item(item: Item, found: Facets | None) -> tuple[Item, TrueNormals |
     if not found.complete:
         text = unresolved("the surface is shown by triangles that are coarser than the tolerance")
         warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=5)
+    if not found.mesh.face_count:
+        tell_of_empty_surface(item, stacklevel=6)
     normals = TrueNormals(np.nan_to_num(found.normals), found.sharp)
     return replace(without_curved_mirror(item), shape=found.mesh), normals
 
