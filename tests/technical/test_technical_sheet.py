@@ -209,3 +209,9 @@ def test_several_parts_become_the_pages_of_one_pdf(tmp_path, capsys):
     for several, name in (([], "none.pdf"), (pages, "all.svg")):
         with pytest.raises(vp.InputError, match="are the pages"):
             vp.save(several, tmp_path / name)
+
+
+def test_parts_with_y_upwards_stand():
+    """Front and back 40 wide and 20 high, from the left 10 wide."""
+    sheet = vp.technical_sheet(BRICK, views="front,left", scale="1:1", up=(0, 1, 0))
+    assert {tuple(np.round(np.ptp(one, axis=0), 6).tolist()) for one in outlines(sheet)} == {(40, 20), (10, 20)}

@@ -19,9 +19,10 @@ from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
 from vectorplot.effects.cutting.cut_scenes import cut, cut_scene
 from vectorplot.effects.cutting.hatches import InSpace
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
+from vectorplot.io.upwards import stood_up
 from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.pages.page import Page
@@ -140,6 +141,7 @@ def technical_sheet(
     scene: object,
     *,
     views: str | Iterable[str] = "front,top,left,iso",
+    up: Point | None = None,
     scale: str = "fit",
     projection: Literal["first", "third"] = "first",
     page: Page | str = "A3",
@@ -166,6 +168,9 @@ def technical_sheet(
     views : str or iterable of str
         Some of front, back, left, right, top, bottom, iso, each once; iso stands in a free corner, without hidden lines
         and dimensions.
+    up : (float, float, float), optional
+        What is upwards in the part, which is stood up so that it is along z; sections are across x, y and z of what
+        stands. Where None, z.
     scale : str
         Lengths on paper to lengths of the part, such as 1:2; fit: the largest of ISO 5455 that fits.
     projection : {"first", "third"}
@@ -226,7 +231,8 @@ def technical_sheet(
     check_word("projection", projection, ("first", "third"))
     asked = None if scale == "fit" else DrawingScale.of(scale)
     # Sheets have pens of their own.
-    given = replace(shown_apart(scene_of(scene)), inks=None)
+    given = shown_apart(scene_of(scene))
+    given = replace(given if up is None else stood_up(given, up), inks=None)
     if centre_lines:
         given = together([given, *_centre_lines(given, crease_angle_deg)])
     solid, annotations = without_annotations(given)
