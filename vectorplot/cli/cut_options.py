@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, fields, replace
 from functools import partial
 from typing import TYPE_CHECKING, Any
@@ -39,16 +39,12 @@ def _explosion(text: str) -> tuple[Point, float]:
     return found
 
 
-def cut_spacing_option(keyword: str) -> Callable[[Callable[..., None]], Callable[..., None]]:
-    """``--cut-spacing``, as that keyword."""
-    return click.option(
-        "--cut-spacing",
-        keyword,
-        type=at_least(0.1),
-        metavar="MM",
-        help="From stroke to stroke of hatches of cut faces, on the page.  [default: 2.4, on narrow faces 1.2]",
-    )
-
+CUT_SPACING = click.option(
+    "--cut-spacing",
+    type=at_least(0.1),
+    metavar="MM",
+    help="From stroke to stroke of hatches of cut faces, on the page.  [default: 2.4, on narrow faces 1.2]",
+)
 
 CUT_OPTIONS = (
     click.option(
@@ -66,7 +62,7 @@ CUT_OPTIONS = (
         help="What becomes of what is cut away: nothing, dashed outlines, or it is moved along the normal.",
     ),
     click.option("--cut-colour", metavar="COLOUR", help="Of cut faces.  [default: that of their bodies]"),
-    cut_spacing_option("cut_spacing"),
+    CUT_SPACING,
     click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
     click.option(
         "--explode", type=_explosion, metavar="AXIS,FACTOR", help="Parts moved apart along x, y, z or X,Y,Z: z,1.5."

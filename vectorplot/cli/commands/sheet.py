@@ -17,7 +17,7 @@ from vectorplot.cli.common_options import (
     format_option,
     with_options,
 )
-from vectorplot.cli.cut_options import cut_spacing_option
+from vectorplot.cli.cut_options import CUT_SPACING
 from vectorplot.cli.options import format_of, upwards
 from vectorplot.cli.picture import Source, make_pages, make_picture
 from vectorplot.cli.view_options import VIEW_WORDS
@@ -51,7 +51,7 @@ if TYPE_CHECKING:
     ),
     click.option("--page", default="A3", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm."),
     click.option("--section", multiple=True, metavar="AXIS=PLACE", help="A section view, as y=12; repeat it for more."),
-    cut_spacing_option("cut_spacing_mm"),
+    CUT_SPACING,
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
     click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
     click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
@@ -73,6 +73,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     from vectorplot.technical.technical_sheet import technical_sheet
 
     asked, upright = told.pop("sheet"), told["up"] is not None
+    told["cut_spacing_mm"] = told.pop("cut_spacing")
 
     def page(number: int, scene: Scene, report: Report) -> Drawing:
         usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
