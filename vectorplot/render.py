@@ -217,8 +217,8 @@ def render(
     threads = threads_of(jobs)
     given = scene_of(scene)
     chosen = overlaid_pens(given.inks, style, pens, dashes)
-    paper = Paper(Page(size[0] / PIXELS_PER_MM, size[1] / PIXELS_PER_MM, 0.0), fit)
-    subject = subject_of(given, camera, paper, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
+    sheet = Paper(Page(size[0] / PIXELS_PER_MM, size[1] / PIXELS_PER_MM, 0.0), fit)
+    subject = subject_of(given, camera, sheet, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
     names = tuple(item.name for item in seen.items)
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))

@@ -1,11 +1,16 @@
 import click
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.view_options import CameraOptions, PageOptions, camera_from, page_from
+from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.geometry.rotations import upright_turn
+from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import default_camera
 from vectorplot.scene.scene import Scene
@@ -24,7 +29,7 @@ def test_without_options_the_camera_is_that_of_the_scene():
 
 
 @pytest.mark.parametrize(
-    ("given", "changed"),
+    ("said", "changed"),
     [
         ({"eye": (-3.0, 4.0, 5.0)}, {"eye": (-3.0, 4.0, 5.0)}),
         ({"target": (0.0, 0.0, 0.0)}, {"target": (0.0, 0.0, 0.0)}),
@@ -35,8 +40,8 @@ def test_without_options_the_camera_is_that_of_the_scene():
         ({"parallel": True, "height": 3.0}, {"parallel": True, "height": 3.0}),
     ],
 )
-def test_options_replace_fields_one_by_one(given, changed):
-    camera = camera_from(CameraOptions(**given), WITH_CAMERA)
+def test_options_replace_fields_one_by_one(said, changed):
+    camera = camera_from(CameraOptions(**said), WITH_CAMERA)
     for name in ("eye", "target", "up", "twist_deg", "fov_deg", "parallel", "height"):
         assert getattr(camera, name) == changed.get(name, getattr(OWN, name)), name
 
@@ -131,3 +136,45 @@ def test_a_point_half_the_field_of_vision_up_is_on_the_edge_of_every_verbs_pictu
         system = pixel_system(picture_placement(view, 200, 120, fit=False))
         column, row = system.from_world(view.points_of(point[None, :3]).T)[0, :2]
         assert (column, row) == pytest.approx((99.5, 59.5 + 60.0 * -sign), abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("view", "direction", "upwards"),
+    [
+        ("front", (0, 0, 1), (0, 1, 0)),
+        ("back", (0, 0, -1), (0, 1, 0)),
+        ("left", (-1, 0, 0), (0, 1, 0)),
+        ("right", (1, 0, 0), (0, 1, 0)),
+        ("top", (0, 1, 0), (0, 0, -1)),
+        ("bottom", (0, -1, 0), (0, 0, 1)),
+        ("iso", (1, 1, 1), (0, 1, 0)),
+    ],
+)
+def test_main_views_are_of_what_stands_upright(view, direction, upwards):
+    camera = camera_from(CameraOptions(up=(0.0, 2.0, 0.0), view=view), SCENE)
+    assert np.allclose(camera.direction, np.array(direction) / np.linalg.norm(direction), atol=1e-15)
+    assert camera.up == upwards and camera.parallel
+
+
+@given(st.tuples(*3 * [st.floats(-1, 1)]).filter(lambda up: np.linalg.norm(up) > 1e-3), st.sampled_from(sorted(VIEWS)))
+def test_main_views_show_what_is_upwards_upwards_as_a_scene_that_is_stood_up_does(up, view):
+    camera, turn = Camera.view(view, up=up), upright_turn(up)
+    assert np.allclose(turn @ turn.T, np.eye(3)) and np.linalg.det(turn) > 0.0
+    assert np.allclose((0, 0, 1) @ turn, up / np.linalg.norm(up))
+    assert np.allclose(camera.axes, Camera.view(view).axes @ turn)
+
+
+@pytest.mark.parametrize("verb", ["draw", "paint", "render", "sheet", "info"])
+def test_no_direction_is_not_upwards(verb, tmp_path, capsys):
+    (tmp_path / "b.scene").write_text("B gray box 1 2 3\n")
+    out = [] if verb == "info" else ["-o", str(tmp_path / ("b.png" if verb == "render" else "b.svg"))]
+    assert run([verb, str(tmp_path / "b.scene"), *out, "--up", "0,0,0"]) == 2
+    assert "has no length: expected a direction" in capsys.readouterr().err
+    with pytest.raises(InputError, match="no length"):
+        Camera((1.0, 2.0, 3.0), up=(0.0, 0.0, 0.0))
+
+
+def test_scene_files_say_what_is_upwards_in_a_main_view():
+    scene = parse_scene("camera view front up 0 1 0\nB gray box 1 2 3")
+    assert scene.camera == Camera.view("front", up=(0.0, 1.0, 0.0))
+    assert parse_scene("camera top\nB gray box 1 2 3").camera == Camera.view("top")

@@ -12,6 +12,7 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.verbs import vectorplot
 from vectorplot.geometry import box
+from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.technical.round_edges import round_edges
 
 BRICK = vp.Item("brick", box((40, 20, 10)))
@@ -209,3 +210,32 @@ def test_several_parts_become_the_pages_of_one_pdf(tmp_path, capsys):
     for several, name in (([], "none.pdf"), (pages, "all.svg")):
         with pytest.raises(vp.InputError, match="are the pages"):
             vp.save(several, tmp_path / name)
+
+
+def test_parts_with_y_upwards_stand():
+    """Front and back 40 wide and 20 high, from the left 10 wide."""
+    sheet = vp.technical_sheet(BRICK, views="front,left", scale="1:1", up=(0, 1, 0))
+    assert {tuple(np.round(np.ptp(one, axis=0), 6).tolist()) for one in outlines(sheet)} == {(40, 20), (10, 20)}
+
+
+def test_what_places_itself_leaves_what_the_user_has_written():
+    """Dimensions of the whole stand outside of others; marks of sections keep clear of labels and numbers."""
+    told = ['dimension "20 ±0,1" from 0 0 0 to 0 0 20 offset -10 0 0 gap 1 beyond 2']
+    told += ["dimension from 0 0 0 to 80 0 0 offset 0 0 -8 gap 1 beyond 2", 'label P "Plan (1)" at 40 25 30']
+    scene = parse_scene("\n".join(["B gray box 80 50 30", *told]))
+    sheet = vp.technical_sheet(scene, dimensions=True, section="x=40", page="A4")
+    lines = [(name, points) for name, points in strokes_of(sheet, "label") if name.startswith("dimension")]
+    upright = {name: points[:, 0].min() for name, points in lines if np.ptp(points[:, 0]) < 1e-6}
+    (own,) = (x for name, x in upright.items() if name.startswith("dimension 20"))
+    assert upright["dimension 30"] == pytest.approx(own - 11.0)
+    level = sorted(points[:, 1].min() for name, points in lines if name.startswith("dimension 80"))
+    assert level[1] - level[0] > 10.0
+    boxes = np.array(
+        [(points.min(axis=0), points.max(axis=0)) for name, points in strokes_of(sheet, "label") if not name]
+    )
+    line = np.concatenate([np.linspace(*points[[0, -1]], 50) for _, points in strokes_of(sheet, "cutting line")])
+    assert not ((line[:, None] > boxes[:, 0]) & (line[:, None] < boxes[:, 1])).all(axis=2).any()
+    large = np.ptp(boxes[:, :, 1], axis=1) > 4.9
+    marks, letters = boxes[large], boxes[~large & (np.ptp(boxes[:, :, 1], axis=1) > 2.0)]
+    meet = (marks[:, None, 0] < letters[:, 1]) & (marks[:, None, 1] > letters[:, 0])
+    assert len(marks) >= 4 and len(letters) > 20 and not meet.all(axis=2).any()

@@ -41,7 +41,6 @@ def _explosion(text: str) -> tuple[Point, float]:
 
 CUT_SPACING = click.option(
     "--cut-spacing",
-    "cut_spacing_mm",
     type=at_least(0.1),
     metavar="MM",
     help="From stroke to stroke of hatches of cut faces, on the page.  [default: 2.4, on narrow faces 1.2]",
@@ -78,7 +77,7 @@ class CutOptions:
     cut: tuple[str, ...] = ()
     cut_away: str = "gone"
     cut_colour: str | None = None
-    cut_spacing_mm: float | None = None
+    cut_spacing: float | None = None
     cut_angle: float = 45.0
     explode: tuple[Point, float] | None = None
 
@@ -94,6 +93,6 @@ class CutOptions:
 
         scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
         spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
-        hatched = partial(spelled, spacing_mm=self.cut_spacing_mm, angle_deg=self.cut_angle)
+        hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)
         cuts = tuple(hatched(text) for text in self.cut)
         return replace(scene, cuts=scene.cuts + cuts) if cuts else scene

@@ -86,6 +86,14 @@ def direction(text: str) -> tuple[float, float, float]:
     return (x, y, z)
 
 
+def upwards(text: str) -> tuple[float, float, float]:
+    """A direction that has a length."""
+    found = direction(text)
+    if not any(found):
+        raise click.BadParameter(f"{text!r} has no length: expected a direction such as y or 0,1,0")
+    return found
+
+
 def numbers(text: str) -> tuple[float, ...]:
     """Positive finite numbers with commas between them, such as 16,32,64."""
     positive = between(0.0, math.inf)

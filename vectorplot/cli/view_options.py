@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import at_least, between, chosen, direction, exclusive, length, number, page_size, point
+from vectorplot.cli.options import at_least, between, chosen, exclusive, length, number, page_size, point, upwards
 
 if TYPE_CHECKING:
     from vectorplot.geometry.cameras.camera import Camera, Point
@@ -24,7 +24,7 @@ VIEW_WORDS = ("front", "back", "left", "right", "top", "bottom", "iso")
 CAMERA_OPTIONS = (
     click.option("--eye", type=point, metavar="X,Y,Z", help="Where one looks from."),
     click.option("--target", type=point, metavar="X,Y,Z", help="What one looks at."),
-    click.option("--up", type=direction, metavar="X,Y,Z", help="Up in the picture, or x, y, z (default: z)."),
+    click.option("--up", type=upwards, metavar="X,Y,Z", help="What is upwards, or x, y, z (default: z)."),
     click.option("--twist", type=number, metavar="DEG", help="Turn of the camera about its principal ray."),
     click.option("--fov", type=between(0.0, 180.0), metavar="DEG", help="Full angle over the picture height."),
     click.option("--parallel", is_flag=True, help="Parallel projection along eye - target."),
@@ -34,7 +34,9 @@ CAMERA_OPTIONS = (
     click.option("--near", type=between(0.0, math.inf), metavar="D", help="What is nearer to the eye is cut off."),
     click.option("--far", type=between(0.0, math.inf), metavar="D", help="What is farther from the eye is cut off."),
     click.option(
-        "--view", type=click.Choice(VIEW_WORDS), help="A main view in place of --eye, parallel unless --fov is given."
+        "--view",
+        type=click.Choice(VIEW_WORDS),
+        help="A main view of what stands along --up in place of --eye, parallel unless --fov is given.",
     ),
 )
 
@@ -120,10 +122,10 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
     from vectorplot.geometry.cameras.lens import lens_advice
     from vectorplot.scene.point_of_view import default_camera
 
-    upright = options.up if options.up is not None and any(options.up) else (0.0, 0.0, 1.0)
+    upright = chosen(options.up, (0.0, 0.0, 1.0))
     base = scene.camera or default_camera(scene, upright)
     if options.view is not None:
-        named = Camera.view(options.view, target=chosen(options.target, base.target), distance=base.distance)
+        named = Camera.view(options.view, chosen(options.target, base.target), base.distance, upright)
         height = base.height if base.parallel else None
         base = replace(named, fov_deg=base.fov_deg, height=height, near=base.near, far=base.far)
     parallel = options.parallel or (base.parallel and options.fov is None)
@@ -133,7 +135,7 @@ def camera_from(options: CameraOptions, scene: Scene) -> Camera:
         base,
         eye=chosen(options.eye, base.eye),
         target=chosen(options.target, base.target),
-        up=chosen(options.up, base.up),
+        up=base.up if options.view is not None else chosen(options.up, base.up),
         twist_deg=chosen(options.twist, base.twist_deg),
         fov_deg=chosen(options.fov, base.fov_deg),
         parallel=parallel,

@@ -323,3 +323,17 @@ def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:
         turn = float(np.arctan2(m[0, 1], m[0, 0])) - gamma
         alpha = turn if m[2, 2] > 0.0 else -turn
     return float(np.pi - (np.pi - alpha) % (2.0 * np.pi)), beta, gamma
+
+
+def upright_turn(up: ArrayLike) -> Floats:
+    """The rotation that takes the z-axis to a direction on the shortest way, exact where that is an axis.
+
+    up: (3,) not zero. Acts on points as rows. Degenerate: straight down it turns about the x-axis.
+    """
+    x, y, z = (normalize(np.asarray(up, dtype=np.float64)) + 0.0).tolist()
+    level = x * x + y * y
+    if level == 0.0:
+        return np.diag([1.0, np.sign(z), np.sign(z)])
+    share = 1.0 / (1.0 + z) if z > 0.0 else (1.0 - z) / level
+    mixed = -share * x * y
+    return np.array([(1.0 - share * x * x, mixed, -x), (mixed, 1.0 - share * y * y, -y), (x, y, z)])

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.rotations import rotation_about
+from vectorplot.geometry.rotations import upright_turn
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.scene.scene import Scene
 
@@ -42,9 +42,7 @@ def stood_up(scene: Scene, up: ArrayLike) -> Scene:
     length = float(np.linalg.norm(way))
     if not 0.0 < length < np.inf:
         raise InputError("up: expected a direction")
-    x, y, z = (way / length).tolist()
-    # About an axis that lies level; of those for what stands on its head any will do.
-    axis = (y, -x, 0.0) if x or y else (1.0, 0.0, 0.0)
     matrix = np.eye(4)
-    matrix[:3, :3] = rotation_about(axis, np.arctan2(np.hypot(x, y), z)).T
+    # Columns: the way back of points as rows.
+    matrix[:3, :3] = upright_turn(way)
     return scene.transformed(matrix)

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
-from vectorplot.geometry.vectors import cross, normalize
+from vectorplot.geometry.rotations import upright_turn
+from vectorplot.geometry.vectors import normalize
 from vectorplot.scene.pages.fitted_pages import FittedPage, PageOfWidth, fitted_page, page_of_width
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.pages.paper import FIT, length_mm, sheet_size
@@ -27,10 +30,7 @@ def camera_around(bounds: Floats, up: Point = (0.0, 0.0, 1.0)) -> Camera:
     """The same, of a scene with these bounds (2,3)."""
     low, high = bounds
     centre, size = (low + high) / 2.0, math.dist(low, high)
-    above = normalize(up)
-    # Without a direction upwards, or with x upwards, something has to be the right.
-    front = cross((1.0, 0.0, 0.0) if abs(above[0]) < 0.9 else (0.0, -1.0, 0.0), above)
-    direction = normalize(0.45 * cross(above, normalize(front)) + 0.8 * normalize(front) + 0.45 * above)
+    direction = normalize(np.array([0.45, -0.8, 0.45]) @ upright_turn(up))
     eye = centre + direction * 2.2 * (size if size > 0.0 else 1.0)
     return Camera(eye=tuple(eye.tolist()), target=tuple(centre.tolist()))
 

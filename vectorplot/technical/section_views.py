@@ -15,6 +15,8 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.drawing.lettering.scene_labels import HALO_MM
 from vectorplot.drawing.lettering.text import lettered
 from vectorplot.drawing.sheets.page_strokes import page_strokes
 from vectorplot.drawing.strokes.dashes import CHAIN_MM, dashed
@@ -39,6 +41,9 @@ LETTERS_MM = 5.0
 
 ROOM_MM = 14.0
 """What a cutting line needs on each side of the part, and the letters over a section view."""
+
+CLEAR_MM = 15.0
+"""Letters within so much of a cutting line are between its ends, and those so far beside a name are below it."""
 
 THIN, WIDE = Pen(0.25), Pen(0.7)
 
@@ -66,12 +71,20 @@ class SheetSection:
         return np.tile(np.where(np.abs(camera.axes[:2, self.axis]) > math.sqrt(0.5), 0.5, 1.0) * ROOM_MM, (2, 1))
 
     def line_layers(
-        self, camera: Camera, sight: Camera, bounds: Floats, middle: tuple[float, float], factor: float, room: Floats
+        self,
+        camera: Camera,
+        sight: Camera,
+        bounds: Floats,
+        middle: tuple[float, float],
+        factor: float,
+        room: Floats,
+        written: Floats,
     ) -> tuple[Layer, ...]:
         """Layers with its line, arrows and letters in a view that sees its plane edge-on.
 
         sight: the camera of the section; bounds (2,3): of the part, whose middle is at a place on the page; factor: mm
-        on paper for a unit of the world; room (2,2): what is already beside the part, in mm.
+        on paper for a unit of the world; room (2,2): what is already beside the part, in mm; written (b,2,2): the boxes
+        of letters in the view, outside of which its ends are, and before which its line is interrupted.
         """
         across = camera.axes[:2]
         normal = across[:, self.axis]
@@ -80,6 +93,10 @@ class SheetSection:
         centre, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
         place = np.array(middle) + factor * (self.offset - centre[self.axis]) * normal
         reaches = factor * float(along @ (np.abs(across) @ half)) + BEYOND_MM + room @ along
+        beside = (written - place) @ np.where(along > 0.5, 0.0, 1.0)
+        near = (beside.min(axis=1) < CLEAR_MM) & (beside.max(axis=1) > -CLEAR_MM)
+        far = ((written - place) @ along)[near]
+        reaches = np.maximum(reaches, [_beyond(-far, reaches[0]), _beyond(far, reaches[1])])
         sides = list(zip((-1.0, 1.0), reaches.tolist(), strict=True))
         ends = [place + sign * reach * along for sign, reach in sides]
         inner = [place + sign * (reach - WIDE_MM) * along for sign, reach in sides]
@@ -91,16 +108,27 @@ class SheetSection:
             heads.append(np.array([end - ARROW_MM * way, end, back + wing, back - wing, end]))
             at = end - (ARROW_MM + 0.8 * LETTERS_MM) * way
             letters += _letters(self.letter, at)
+        line = dashed(page_strokes([np.array(inner)]), *CHAIN_MM[:2], dot_mm=CHAIN_MM[2])
+        boxes = np.stack([written[:, [0, 1, 1, 0], 0], written[:, [0, 0, 1, 1], 1]], axis=-1)
         return (
-            Layer("cutting line", THIN, (dashed(page_strokes([np.array(inner)]), *CHAIN_MM[:2], dot_mm=CHAIN_MM[2]),)),
+            Layer("cutting line", THIN, (outside_boxes(line, grown(boxes, HALO_MM), np.eye(4)),)),
             Layer("cutting ends", WIDE, (page_strokes([np.array(pair) for pair in zip(inner, ends, strict=True)]),)),
             Layer("label", PENS["label"], (page_strokes([*heads, *letters]),)),
         )
 
-    def name_layer(self, top: tuple[float, float]) -> Layer:
-        """A layer with its name, above the middle of the top of its view."""
-        text = _letters(f"{self.letter}-{self.letter}", np.add(top, (0.0, 0.4 * ROOM_MM)))
+    def name_layer(self, top: tuple[float, float], written: Floats) -> Layer:
+        """A layer with its name, above the middle of the top of its view, and of the boxes (b,2,2) of letters there."""
+        under = written[(np.abs(written[:, :, 0] - top[0]) < CLEAR_MM).any(axis=1), 1, 1]
+        text = _letters(f"{self.letter}-{self.letter}", np.array([top[0], under.max(initial=top[1]) + 0.4 * ROOM_MM]))
         return Layer("label", PENS["label"], (page_strokes(text),))
+
+
+def _beyond(far: Floats, reach: float) -> float:
+    """How far a cutting line goes that would go so far: beyond boxes from and to (b,2) along it that its end would be
+    in."""
+    ends = far.max(axis=1)
+    # Its arrows and letters are no higher than the room beyond the part.
+    return float(ends[ends > reach - WIDE_MM - BEYOND_MM].max(initial=reach - WIDE_MM - HALO_MM)) + WIDE_MM + HALO_MM
 
 
 def sections_of(asked: str | Iterable[str], names: Sequence[str], bounds: Floats) -> tuple[SheetSection, ...]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -19,9 +19,10 @@ from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
 from vectorplot.effects.cutting.cut_scenes import cut, cut_scene
 from vectorplot.effects.cutting.hatches import InSpace
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
+from vectorplot.io.upwards import stood_up
 from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.pages.page import Page
@@ -38,6 +39,7 @@ from vectorplot.technical.view_annotations import (
     overall_dimensions,
     views_of,
     without_annotations,
+    written_on,
 )
 from vectorplot.tolerances.of_extent import SAME_PLANE_OF_EXTENT
 from vectorplot.words import check_word, unknown
@@ -100,6 +102,7 @@ class _Part:
                 world = np.maximum(world, [-places.min(axis=0), places.max(axis=0)])
             # Cutting lines end outside of dimensions.
             mm = np.maximum(TEXT_MM if beside else 0.0, self.overall_room_mm(name, camera))
+            mm = mm + (TEXT_MM if self.scene.labels else 0.0)
             rooms = [one.line_room_mm(camera) for one in self.sections if one.told_in(self.names) == name]
             rooms += [np.array([(0.0, 0.0), (0.0, ROOM_MM)]) for one in self.sections if one.letter == name]
             found.append(SheetView(name, camera, cells[name], world, mm + np.max([np.zeros((2, 2)), *rooms], axis=0)))
@@ -120,19 +123,19 @@ class _Part:
             else self.scene
         )
 
-    def around_sections(self, arranged: Arrangement, factor: float) -> tuple[Layer, ...]:
-        """The lines of sections in other views, and their names."""
+    def around_sections(self, arranged: Arrangement, factor: float, written: Mapping[str, Floats]) -> tuple[Layer, ...]:
+        """The lines of sections in other views, and their names; written: the boxes (b,2,2) of letters in each view."""
         views = {view.name: (view, place) for view, place in zip(arranged.views, arranged.middles(factor), strict=True)}
         found: list[Layer] = []
         for section in self.sections:
             view, (x, y) = views[section.letter]
-            top = factor * float(view.world[1, 1])
-            found.append(section.name_layer((x, y + top)))
+            top = y + factor * float(view.world[1, 1])
+            found.append(section.name_layer((x, top), written[view.name]))
             name = section.told_in(self.names)
             if name is not None:
                 other, place = views[name]
                 room = self.overall_room_mm(name, other.camera)
-                found += section.line_layers(other.camera, view.camera, self.bounds, place, factor, room)
+                found += section.line_layers(other.camera, view.camera, self.bounds, place, factor, room, written[name])
         return tuple(found)
 
 
@@ -140,6 +143,7 @@ def technical_sheet(
     scene: object,
     *,
     views: str | Iterable[str] = "front,top,left,iso",
+    up: Point | None = None,
     scale: str = "fit",
     projection: Literal["first", "third"] = "first",
     page: Page | str = "A3",
@@ -166,6 +170,9 @@ def technical_sheet(
     views : str or iterable of str
         Some of front, back, left, right, top, bottom, iso, each once; iso stands in a free corner, without hidden lines
         and dimensions.
+    up : (float, float, float), optional
+        What is upwards in the part, which is stood up so that it is along z; sections are across x, y and z of what
+        stands. Where None, z.
     scale : str
         Lengths on paper to lengths of the part, such as 1:2; fit: the largest of ISO 5455 that fits.
     projection : {"first", "third"}
@@ -226,7 +233,8 @@ def technical_sheet(
     check_word("projection", projection, ("first", "third"))
     asked = None if scale == "fit" else DrawingScale.of(scale)
     # Sheets have pens of their own.
-    given = replace(shown_apart(scene_of(scene)), inks=None)
+    given = shown_apart(scene_of(scene))
+    given = replace(given if up is None else stood_up(given, up), inks=None)
     if centre_lines:
         given = together([given, *_centre_lines(given, crease_angle_deg)])
     solid, annotations = without_annotations(given)
@@ -241,10 +249,13 @@ def technical_sheet(
     block = TitleBlock(title, author, date, sheet, str(chosen), name, projection).layers(drawing_space(paper, frame))
     done = Sheet(paper, f"{title}, {chosen}" if title else str(chosen))
     notes = part.notes()
+    written: dict[str, Floats] = {}
     for number, (view, (x, y)) in enumerate(zip(arranged.views, arranged.middles(factor), strict=True)):
         added = [one.scene for one in notes[number]]
         added += [
-            one.annotation(view.camera, part.bounds, factor).scene for one in part.overall if one.view == view.name
+            one.annotation(view.camera, part.bounds, factor, view.world).scene
+            for one in part.overall
+            if one.view == view.name
         ]
         width, height = (2.0 * (view.reach_mm(factor).max(axis=0) + BORDER_MM)).tolist()
         drawn = draw(
@@ -260,8 +271,10 @@ def technical_sheet(
             progress=progress,
             explain=explain,
         )
-        done = done.place(drawn, x - 0.5 * width, y - 0.5 * height)
-    around = part.around_sections(arranged, factor)
+        corner = (x - 0.5 * width, y - 0.5 * height)
+        written[view.name] = written_on(drawn) + corner
+        done = done.place(drawn, *corner)
+    around = part.around_sections(arranged, factor, written)
     borders = (*(frame_layers(paper) if frame else ()), *block)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
 

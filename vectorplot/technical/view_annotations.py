@@ -9,6 +9,8 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.lettering.scene_labels import NO_ITEM
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import annotation_points, is_annotation
@@ -48,6 +50,17 @@ class Annotation:
         seen = self.points @ camera.axes.T
         zero = ZERO_OF_EXTENT * extent
         return bool(np.ptp(seen[:, 2]) <= zero and np.ptp(seen[:, :2], axis=0).max() > zero)
+
+
+def written_on(drawing: Drawing) -> Floats:
+    """(b,2,2) the boxes of the letters of a drawing, and of arrowheads: smallest and largest coordinates."""
+    found = [np.zeros((0, 2, 2))]
+    for paths in (paths for layer in drawing.layers if layer.name == "label" for paths in layer.strokes):
+        first = paths.offsets[:-1][np.diff(paths.offsets) > 0]
+        if len(first):
+            ends = [extreme.reduceat(paths.points, first, axis=0) for extreme in (np.minimum, np.maximum)]
+            found.append(np.stack(ends, axis=1)[paths.item[np.diff(paths.offsets) > 0] == NO_ITEM])
+    return np.concatenate(found)
 
 
 def without_annotations(scene: Scene) -> tuple[Scene, tuple[Annotation, ...]]:
@@ -93,8 +106,9 @@ class OverallDimension:
         room[0, 1 if self.is_level(camera) else 0] = OFFSET_MM + TEXT_MM
         return room
 
-    def annotation(self, camera: Camera, bounds: Floats, factor: float) -> Annotation:
-        """It, where a unit of the world is so many mm on paper, beside bounds (2,3)."""
+    def annotation(self, camera: Camera, bounds: Floats, factor: float, world: Floats) -> Annotation:
+        """It, where a unit of the world is so many mm on paper, beside bounds (2,3), and beyond all else that reaches
+        so far, world (2,2), from the middle of these."""
         right, up, back = camera.axes
         middle, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
         low, high = (middle + sign * half[self.axis] * np.eye(3)[self.axis] for sign in (-1.0, 1.0))
@@ -105,7 +119,9 @@ class OverallDimension:
         ends = [point + nearest + beside for point in (low, high)]
         along = right if level else up
         start, end = sorted(ends, key=lambda point: float(point @ along))
-        off = -(up if level else right) * OFFSET_MM / factor
+        outwards = up if level else right
+        others = float(world[0, 1 if level else 0]) - float(np.abs(outwards) @ half)
+        off = -outwards * (max(others, 0.0) + OFFSET_MM / factor)
         gap, beyond = GAP_MM / factor, BEYOND_MM / factor
         return Annotation(dimension(start, end, off, gap=gap, beyond=beyond))
 

@@ -129,3 +129,17 @@ def test_a_text_along_a_curve_is_never_upside_down() -> None:
 def test_a_text_along_nothing_is_refused(path: list[tuple[float, float]]) -> None:
     with pytest.raises(vp.InputError, match="the curve has no length"):
         lettered_along("A", path)
+
+
+@pytest.mark.parametrize("lean_deg", [-14.0, -1.0, 0.0, 1.0, 14.0])
+@pytest.mark.parametrize("way", [-1.0, 1.0])
+def test_nearly_upright_texts_along_lines_are_read_from_the_right(lean_deg, way):
+    up = np.array([np.sin(np.radians(lean_deg)), np.cos(np.radians(lean_deg))])
+    middles = lettered_along("20", 15.0 * way * np.array([-up, up])).boxes.mean(axis=1)
+    across, along = np.diff(middles, axis=0)[0]
+    assert across * up[1] == pytest.approx(along * up[0], abs=1e-9)
+    assert middles[1, 1] > middles[0, 1]
+    # Others begin on the left, as always.
+    slanted = np.array([np.sin(np.radians(17.0)), -np.cos(np.radians(17.0))])
+    middles = lettered_along("20", 15.0 * way * np.array([-slanted, slanted])).boxes.mean(axis=1)
+    assert middles[1, 0] > middles[0, 0]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import click
 
-from vectorplot.cli.options import direction
+from vectorplot.cli.options import upwards
 from vectorplot.cli.progress import told_warnings
 from vectorplot.errors import printable
 
 
 @click.command(short_help="Say what a scene or mesh file holds.")
 @click.argument("files", type=click.Path(), nargs=-1, required=True, metavar="FILE...")
-@click.option("--up", type=direction, metavar="X,Y,Z", help="What is upwards, or x, y, z: sizes are of what stands so.")
+@click.option("--up", type=upwards, metavar="X,Y,Z", help="What is upwards, or x, y, z: sizes are of what stands so.")
 @click.option("--quiet", "-q", is_flag=True, help="No warnings.")
 def info(files: tuple[str, ...], up: tuple[float, float, float] | None, quiet: bool) -> None:
     """Say what the files hold: counts, whether it is closed and convex, its size, and what is wrong with it."""

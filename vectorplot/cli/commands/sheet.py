@@ -18,7 +18,7 @@ from vectorplot.cli.common_options import (
     with_options,
 )
 from vectorplot.cli.cut_options import CUT_SPACING
-from vectorplot.cli.options import format_of
+from vectorplot.cli.options import format_of, upwards
 from vectorplot.cli.picture import Source, make_pages, make_picture
 from vectorplot.cli.view_options import VIEW_WORDS
 
@@ -36,6 +36,7 @@ if TYPE_CHECKING:
     click.option(
         "--views", default="front,top,left,iso", metavar="VIEW,...", help=f"Some of {', '.join(VIEW_WORDS)}; each once."
     ),
+    click.option("--up", type=upwards, metavar="X,Y,Z", help="What is upwards, or x, y, z (default: z)."),
     click.option(
         "--scale",
         default="fit",
@@ -71,7 +72,8 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     """
     from vectorplot.technical.technical_sheet import technical_sheet
 
-    asked = told.pop("sheet")
+    asked, upright = told.pop("sheet"), told["up"] is not None
+    told["cut_spacing_mm"] = told.pop("cut_spacing")
 
     def page(number: int, scene: Scene, report: Report) -> Drawing:
         usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
@@ -82,6 +84,6 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     if len(scene_file) > 1:
         if written != "pdf":
             raise click.UsageError("several INPUTs become the pages of a PDF: OUT must end in .pdf")
-        make_pages([Source((one,)) for one in scene_file], out, page, quiet=quiet, explain=explain)
+        make_pages([Source((one,), upright=upright) for one in scene_file], out, page, quiet=quiet, explain=explain)
         return
-    make_picture(Source(scene_file), out, written, partial(page, 0), quiet=quiet, explain=explain)
+    make_picture(Source(scene_file, upright=upright), out, written, partial(page, 0), quiet=quiet, explain=explain)

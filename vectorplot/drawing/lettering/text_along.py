@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -32,6 +33,9 @@ BACK = 6
 
 NEAREST = 0.2
 """Letters along a curve may stand so far in each other's boxes, which are larger than they, in heights of capitals."""
+
+STEEP_SINE = 0.26
+"""Texts that are less than 15 degrees from upright are all read from the right (ISO 129), whichever way they lean."""
 
 STEP, MOST_STEPS = 0.05, 120
 """By such steps, in heights of capitals, letters go on along a curve until they stand clear, by so many at most."""
@@ -67,7 +71,7 @@ def lettered_along(
     Returns
     -------
     Lettering
-        In mm; a text that would be upside down runs along the curve the other way.
+        In mm; a text that would be upside down, or nearly upright downwards, runs along the curve the other way.
 
     Raises
     ------
@@ -173,7 +177,8 @@ def _course(
     length = float(advance.sum())
     begin, end = (at * whole + part * length for part in (-ALIGNED[align], 1.0 - ALIGNED[align]))
     (from_, to), _ = _along(points, np.array([begin, end]))
-    if to[0] < from_[0]:
+    across, upwards = (to - from_).tolist()
+    if upwards < 0.0 if abs(across) < STEEP_SINE * math.hypot(across, upwards) else across < 0.0:
         points, begin = points[::-1], whole - end
     middle = begin + np.cumsum(advance) - 0.5 * advance
     down = {"base": 0.0, "middle": 0.5 * size_mm, "top": size_mm}[level] - off_mm

@@ -158,7 +158,7 @@ def stroke_axes(frame: PlaneFrame, angle_deg: float) -> Floats:
     level -= normal * float(normal @ level)
     level /= np.linalg.norm(level)
     upward, angle = np.cross(normal, level), np.radians(angle_deg)
-    return np.cos(angle) * np.stack([level, upward]) + np.sin(angle) * np.stack([upward, -level])
+    return np.asarray(np.cos(angle) * np.stack([level, upward]) + np.sin(angle) * np.stack([upward, -level]))
 
 
 def hatch_section(frame: PlaneFrame, points: Floats, angle_deg: float, spacing: float) -> Section:

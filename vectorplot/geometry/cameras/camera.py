@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.lens import field_of_vision_deg
-from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z
+from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z, upright_turn
 from vectorplot.tolerances.of_angles import NO_AZIMUTH_SINE, SAME_DIRECTION_SINE, VERTICAL_SINE
 
 Point = tuple[float, float, float]
@@ -54,8 +54,8 @@ class Camera:
     Raises
     ------
     InputError
-        For an eye in the target, an up vector along the view, a field of vision outside 0 to 180 degrees, a height that
-        is not positive, planes that leave nothing, and numbers that are not finite.
+        For an eye in the target, an up vector without length or along the view, a field of vision outside 0 to 180
+        degrees, a height that is not positive, planes that leave nothing, and numbers that are not finite.
 
     Notes
     -----
@@ -104,7 +104,7 @@ class Camera:
         if self.eye == self.target or not self.distance > 0.0:
             raise InputError("camera: the eye is in the target")
         if self.up is not None:
-            length = float(np.linalg.norm(self.up))
+            length = float(np.linalg.norm(_direction_upwards(self.up)))
             across = np.linalg.norm(np.cross(self.up, self.direction))
             if not across > SAME_DIRECTION_SINE * length:
                 raise InputError("camera: the up vector lies along the view")
@@ -248,7 +248,9 @@ class Camera:
         return cls(eye, target, twist_deg=twist_deg, fov_deg=field_of_vision_deg(focal_length_mm))
 
     @classmethod
-    def view(cls, name: str, target: Point = (0.0, 0.0, 0.0), distance: float = 1.0) -> Camera:
+    def view(
+        cls, name: str, target: Point = (0.0, 0.0, 0.0), distance: float = 1.0, up: Point = (0.0, 0.0, 1.0)
+    ) -> Camera:
         """A main view (front, back, left, right, top, bottom) or iso: a parallel projection.
 
         Parameters
@@ -259,6 +261,9 @@ class Camera:
             In world coordinates.
         distance : float
             From the eye to the target, in world units.
+        up : (float, float, float)
+            Along what things stand upright: with y the front is where z is largest, with z where y is smallest. Views
+            are turned with it on the shortest way from z.
 
         Returns
         -------
@@ -283,7 +288,16 @@ class Camera:
         """
         if name not in VIEWS:
             raise InputError(f"view {name!r}: expected one of {', '.join(VIEWS)}")
-        direction, up = VIEWS[name]
-        ray = np.array(direction) * (distance / np.linalg.norm(direction))
+        turn = upright_turn(_direction_upwards(up))
+        direction, upwards = (np.array(one) @ turn for one in VIEWS[name])
+        ray = direction * (distance / np.linalg.norm(direction))
+        x, y, z = (upwards + 0.0).tolist()
         eye = (target[0] + ray[0], target[1] + ray[1], target[2] + ray[2])
-        return cls(eye=eye, target=target, up=up, parallel=True)
+        return cls(eye=eye, target=target, up=(x, y, z), parallel=True)
+
+
+def _direction_upwards(up: Point) -> Point:
+    """An up vector, as it is. Errors: InputError for one without length."""
+    if not any(up):
+        raise InputError("camera: the up vector has no length: expected a direction such as 0,1,0")
+    return up

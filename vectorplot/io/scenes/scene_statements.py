@@ -66,7 +66,8 @@ def read_camera(words: Words, at: int) -> tuple[Camera, int]:
     try:
         if view is None:
             return Camera(**given), at
-        main = Camera.view(view, target=given.pop("target", (0.0, 0.0, 0.0)))
+        upright = {name: given.pop(name) for name in ("target", "up") if name in given}
+        main = Camera.view(view, **upright)
         return replace(main, **given), at
     except InputError as error:
         words.fail(start, error.cause)
