@@ -54,6 +54,7 @@ from vectorplot.shading.raster.screen import (
 )
 from vectorplot.shading.raster.supersampling import averaged_light
 from vectorplot.shading.shadows.map_settings import MapSettings
+from vectorplot.stages.around_picture import tell_what_leaves_page
 from vectorplot.stages.facet_errors import facet_error
 from vectorplot.stages.subject import subject_of
 from vectorplot.stages.walk import StageReport, Walk
@@ -262,6 +263,7 @@ def render(
         from vectorplot.rendering.lines_over_pixels import with_blanks, with_lines
 
         labels = walk.run("labels", ruler.labels, subject.anchors, found, mm=samples * PIXELS_PER_MM)
+        tell_what_leaves_page(labels)
         found = found and labels.interrupted(found, placement.page_from_world)
         letters = scaled_pen(over.letters(Pen(LETTER_PIXELS / PIXELS_PER_MM)), samples * PIXELS_PER_MM)
         pixels = with_lines(with_blanks(pixels, labels.blanks(paper)), labels.strokes, letters)

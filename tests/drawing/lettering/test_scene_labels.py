@@ -206,3 +206,43 @@ def test_a_label_along_a_curve_that_is_seen_end_on_stands_beside_it(letter: str)
     assert written[0].points.shape == written[1].points.shape
     width, height = np.ptp(written[1].points, axis=0)
     assert width > height or len(letter) == 1
+
+
+@pytest.mark.parametrize("text", ["strokes", "real"])
+@pytest.mark.parametrize("vertex", range(8))
+def test_labels_beside_the_edge_of_the_page_stay_on_it(vertex: int, text: str) -> None:
+    labels = (vp.Label("a name that is almost as wide as the page", vp.AtVertex("CUBE", vertex), size_mm=2.5),)
+    page = vp.Page(100, 80, 5)
+    drawing = vp.draw(replace(labelled(), labels=labels), page=page, hidden="solid", text=text)
+    (layer,) = (layer for layer in drawing.layers if layer.name == "label")
+    found = layer.strokes[0].points if text == "strokes" else layer.texts[0].points
+    room = 0.0 if text == "strokes" else 0.5 * layer.texts[0].room_mm
+    left = found[:, 0] - (0.0 if text == "strokes" else layer.texts[0].anchor * layer.texts[0].room_mm)
+    assert left.min() >= 0.5 and (left + 2.0 * room).max() <= 99.5
+    assert found[:, 1].min() >= 0.5 and found[:, 1].max() <= 79.5
+
+
+@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
+def test_labels_that_cannot_be_kept_on_the_page_are_told_once(verb: str) -> None:
+    wide = "a name that is much wider than the page of the picture"
+    labels = (
+        vp.Label(wide, (2, 2, 2), "long"),
+        vp.Label("told where", vp.AtVertex("CUBE", 6), "placed", 12.0, "right"),
+        vp.Label("Figure", vp.OnPage(99, 2), place="centre"),
+        vp.Label("Text", vp.OnPage(0, 2), place="centre"),
+        vp.Label("fits", (2, 0, 2)),
+    )
+    scene = replace(labelled(), labels=labels)
+    with pytest.warns(vp.InputWarning) as told:
+        if verb == "render":
+            vp.render(scene, size=(378, 302), samples=1)
+        else:
+            getattr(vp, verb)(scene, page=PAGE)
+    (one,) = (str(warning.message) for warning in told)
+    assert one == "label long, label placed, label Figure and 1 more: letters leave the page"
+
+
+def test_sheets_that_are_cut_to_their_picture_have_room_for_labels_and_nothing_is_told(recwarn) -> None:  # type: ignore[no-untyped-def]
+    labels = (vp.Label("told where to stand", vp.AtVertex("CUBE", 6), "placed", 12.0, "right"),)
+    assert vp.draw(replace(labelled(), labels=labels), page="fit").width_mm > 250.0
+    assert not recwarn.list

@@ -71,11 +71,12 @@ LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset
 @dataclass(frozen=True, eq=False)
 class SceneLabels:
     """Labels on the page: letters, leaders and marks as strokes, letters of a font as texts; boxes (b,4,2) before which
-    the lines of the drawing end."""
+    the lines of the drawing end; off_page: the names of those whose letters leave the page."""
 
     strokes: Paths
     texts: Texts
     boxes: Floats
+    off_page: tuple[str, ...] = ()
 
     def __len__(self) -> int:
         return len(self.boxes)
@@ -161,7 +162,8 @@ def labels_on_page(
     boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[k].boxes for k in some)])
     faint = [int(seen.hidden_by[k]) if ways[k] == "dashed" else 0 for k in some]
     written = Texts.joined([set_[k].texts.hidden(by) for k, by in zip(some, faint, strict=True)])
-    return SceneLabels(concatenated(tuple(parts)), written, grown(boxes, HALO_MM * mm))
+    off_page = tuple(label.name for k, label in zip(some, labels, strict=True) if _leaves(page, set_[k].boxes))
+    return SceneLabels(concatenated(tuple(parts)), written, grown(boxes, HALO_MM * mm), off_page)
 
 
 def with_letters(labels: SceneLabels, letters: Sequence[Lettering], placement: Placement, mm: float) -> SceneLabels:
@@ -171,10 +173,11 @@ def with_letters(labels: SceneLabels, letters: Sequence[Lettering], placement: P
         return labels
     strokes = label_paths([line for text in free for line in _lines(text)], 0, placement)
     boxes = grown(np.concatenate([text.boxes for text in free]), HALO_MM * mm)
-    return SceneLabels(
-        concatenated((labels.strokes, strokes)),
-        Texts.joined([labels.texts, *(text.texts for text in free)]),
-        np.concatenate([labels.boxes, boxes]),
+    return replace(
+        labels,
+        strokes=concatenated((labels.strokes, strokes)),
+        texts=Texts.joined([labels.texts, *(text.texts for text in free)]),
+        boxes=np.concatenate([labels.boxes, boxes]),
     )
 
 
@@ -182,6 +185,11 @@ def _overlap(boxes: Floats, others: Floats) -> bool:
     """Whether bounds of any of boxes (b,4,2) overlap those of others (c,4,2)."""
     low, high = boxes.min(axis=1)[:, None], boxes.max(axis=1)[:, None]
     return bool(((low < others.max(axis=1)) & (high > others.min(axis=1))).all(axis=2).any())
+
+
+def _leaves(page: Floats, boxes: Floats) -> bool:
+    """Whether corners of boxes (b,4,2) are off the page, given by its corners (2,2)."""
+    return bool(((boxes < page[0]) | (boxes > page[1])).any())
 
 
 def _asked(label: Label) -> str:

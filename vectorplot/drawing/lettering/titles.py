@@ -21,6 +21,9 @@ SIZES_MM = (5.0, 2.5)
 BESIDE = 1.5
 """From the letters of a title to the frame beside them, in heights of capitals."""
 
+EDGE_MM = 0.5
+"""Letters of a title keep away from the edge of the page so far."""
+
 
 def with_title(
     layers: tuple[Layer, ...],
@@ -64,7 +67,8 @@ def _title(letters: Letters, title: str, width: float, margin: float) -> Letteri
         raise InputError(f"title: {error.cause}") from None
     if float(np.ptp(text.bounds, axis=0)[0]) > width:
         raise InputError("the title is wider than the page")
-    return text
+    # Letters may reach below a narrow margin.
+    return text.moved(np.array([0.0, max(EDGE_MM - float(text.bounds[0, 1]), 0.0)]))
 
 
 def _ring(width: float, height: float, inset: float) -> Floats:
