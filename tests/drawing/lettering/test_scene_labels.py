@@ -15,7 +15,7 @@ from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.geometry import box
 from vectorplot.save import FORMATS, write
 from vectorplot.scene import look
-from vectorplot.surfaces import Sphere, Torus
+from vectorplot.surfaces import Cylinder, Sphere, Torus
 from vectorplot.testing.rays.sight import visible_by_rays
 from vectorplot.visibility import points_hidden_by, project_faces
 
@@ -169,6 +169,28 @@ def test_vertices_seen_exactly_through_edges_are_hidden() -> None:
     view = look(vp.Scene((CUBE,)), vp.Camera((5, 5, 5), (1, 1, 1), parallel=True))
     corners = view.points_of(np.array([(0.0, 0, 0), (2, 2, 2), (2, 0, 0), (1, 1, 2)]))
     assert points_hidden_by(vp.Scene((CUBE,)), view, project_faces(view), corners).tolist() == [1, 0, 0, 0]
+
+
+@pytest.mark.parametrize("away", [0.0, 2.0**17])
+@pytest.mark.parametrize("shape", ["cube", "cylinder", "sphere"])
+def test_what_lies_on_the_border_of_what_is_before_it_is_not_hidden(shape: str, away: float) -> None:
+    bodies = {"cube": box((2, 2, 2)), "cylinder": Cylinder(1.0, 0.0, 2.0), "sphere": Sphere(1.0, (0.0, 0.0, 1.0))}
+    at = (1.0, 1.0, 0.0) if shape == "cube" else (0.0, 0.0, 0.0)
+    scene = vp.Scene((vp.Item("BODY", bodies[shape]).moved(away, 0, 0),))
+    view = look(scene, vp.Camera.view("front"))
+    offsets = [(0, 0, 2), (0, 2, 2), (0, 0, 0), (0, 0.5, 1), (0, 5, 2), (0, 5, 0), (0, 5, 1.9), (0, 5, 2.1)]
+    points = view.points_of(np.array(offsets) + at + (away, 0, 0))
+    found = points_hidden_by(scene, view, project_faces(view), points).tolist()
+    assert found == [0, 0, 0, 1, 0, 0, 1, 0]
+
+
+def test_a_name_in_a_face_that_is_seen_edge_on_is_shown() -> None:
+    labels = (vp.Label("A", (1, 1, 2)), vp.Label("C", (0, 0, 2)))
+    shown, both = (
+        letters(vp.draw(replace(labelled(), labels=labels, camera=None), "front", page=PAGE, hidden=hidden))
+        for hidden in ("none", "dashed")
+    )
+    assert (both.hidden_by == 0).all() and len(shown) == len(both)
 
 
 def test_what_lies_in_boxes_is_cut_away_and_nothing_else() -> None:
