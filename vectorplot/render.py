@@ -70,8 +70,8 @@ SIZE = (800, 600)
 AROUND_BOX = 0.02
 """Part of a picture that stays free on each side of a box with its numbers."""
 
-LETTER_PIXELS = 1.25
-"""The width of the strokes of letters."""
+LETTER_PIXELS, FAINT = 1.25, 0.5
+"""The width of the strokes of letters, and part of it that those of what is hidden have."""
 
 FACET_PIXELS = 0.2
 """Triangles are off a smooth surface by no more than this part of a pixel."""
@@ -267,6 +267,7 @@ def render(
         found = found and labels.interrupted(found, placement.page_from_world)
         letters = scaled_pen(over.letters(Pen(LETTER_PIXELS / PIXELS_PER_MM)), samples * PIXELS_PER_MM)
         pixels = with_lines(with_blanks(pixels, labels.blanks(paper)), labels.strokes, letters)
+        pixels = with_lines(pixels, labels.faint, scaled_pen(letters, FAINT))
     if found is not None:
         from vectorplot.rendering.lines_over_pixels import with_layers
 

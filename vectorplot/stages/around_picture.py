@@ -70,7 +70,7 @@ def room_for_labels(
         return layers, placement
     from vectorplot.drawing.lettering.room_for_labels import with_room
 
-    return with_room(layers, placement, labels.boxes)
+    return with_room(layers, placement, labels.every_box)
 
 
 def tell_what_leaves_page(labels: SceneLabels) -> None:

@@ -12,6 +12,7 @@ import vectorplot as vp
 from vectorplot.curves import Circle, Line
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.geometry import box
 from vectorplot.save import FORMATS, write
 from vectorplot.scene import look
@@ -37,8 +38,15 @@ def letters(drawing: vp.Drawing) -> Paths:
     return layer.strokes[0]
 
 
+def both_letters(drawing: vp.Drawing) -> tuple[Paths, Paths]:
+    """The letters of what is visible, and those of what is hidden, which stand on the layer of hidden lines."""
+    (hidden,) = (layer for layer in drawing.layers if layer.name == "hidden")
+    assert hidden.pen.width_mm < 0.2
+    return letters(drawing), hidden.strokes[-1]
+
+
 def lines(drawing: vp.Drawing) -> shapely.MultiLineString:
-    paths = [p for layer in drawing.layers if layer.name != "label" for p in layer.strokes]
+    paths = [chosen(p, p.item >= 0) for layer in drawing.layers if layer.name != "label" for p in layer.strokes]
     found = [p.points[a:b][[*range(b - a), *([0] if c else [])]] for p in paths for a, b, c in strokes(p)]
     return shapely.MultiLineString([line for line in found if len(line) > 1])
 
@@ -51,9 +59,10 @@ def strokes(paths: Paths) -> list[tuple[int, int, bool]]:
 def test_labels_are_hidden_with_what_they_name() -> None:
     plain = letters(vp.draw(labelled(), page=PAGE))
     every = letters(vp.draw(labelled(hidden="solid"), page=PAGE))
-    dashed = letters(vp.draw(labelled(), page=PAGE, hidden="dashed"))
+    shown, faint = both_letters(vp.draw(labelled(), page=PAGE, hidden="dashed"))
     assert (plain.hidden_by == 0).all() and (every.hidden_by > 0).sum() >= 1
-    assert len(dashed) > len(every) > len(plain) > 0
+    assert (shown.hidden_by == 0).all() and (faint.hidden_by > 0).all() and len(faint) > 0
+    assert len(shown) + len(faint) == len(every) > len(plain) > 0
     assert (plain.kind == vp.LineKind.LABEL).all()
     hidden = every.points[np.repeat(every.hidden_by, np.diff(every.offsets)) > 0]
     assert len(hidden) and (np.ptp(hidden, axis=0) < 5.0).all()
@@ -191,6 +200,44 @@ def test_a_name_in_a_face_that_is_seen_edge_on_is_shown() -> None:
         for hidden in ("none", "dashed")
     )
     assert (both.hidden_by == 0).all() and len(shown) == len(both)
+
+
+@pytest.mark.parametrize("layers", ["kind", "object", "colour"])
+def test_hidden_letters_are_whole_and_leave_visible_lines_whole(layers: str) -> None:
+    def drawn(*labels: vp.Label) -> vp.Drawing:
+        scene = replace(labelled(), labels=labels)
+        return vp.draw(scene, page=PAGE, hidden="dashed", layers=layers)  # type: ignore[arg-type]
+
+    # One of them stands on visible lines, the other one on hidden ones.
+    hidden = [vp.Label("MMMM", (0, 1.9, 0.1), place="centre"), vp.Label("M", (0, 2, 0), "two", place="centre")]
+    bare, named = drawn(), drawn(*hidden)
+    solid = drawn(*(replace(label, hidden="solid") for label in hidden))
+    shown, faint = both_letters(named)
+    assert len(shown) == 0 and len(faint) == len(letters(solid))
+    lengths = []
+    for drawing in (bare, named, solid):
+        every = [paths for layer in drawing.layers if layer.name != "label" for paths in layer.strokes]
+        visible, behind = (
+            sum(
+                np.hypot(*np.diff(paths.points[a:b], axis=0).T).sum()
+                for paths in every
+                for (a, b, _), by, kind in zip(strokes(paths), paths.hidden_by, paths.kind, strict=True)
+                if (by > 0) == is_hidden and kind != vp.LineKind.LABEL
+            )
+            for is_hidden in (False, True)
+        )
+        lengths.append((visible, behind))
+    (whole, behind), (kept, fewer), (cut, _) = lengths
+    assert kept == pytest.approx(whole) and cut < whole - 1.0 and fewer < behind - 1.0
+
+
+def test_what_is_hidden_in_painted_pictures_has_thin_letters_too() -> None:
+    drawing = vp.paint(labelled(hidden="dashed"), page=PAGE)
+    shown, faint = both_letters(drawing)
+    assert (shown.hidden_by == 0).all() and (faint.hidden_by > 0).all() and len(faint) > 0
+    images = [vp.render(labelled(hidden=hidden), size=(200, 160)).pixels for hidden in ("none", "dashed", "solid")]
+    ink = [int((255 - image.astype(int)).sum()) for image in images]
+    assert ink[0] != ink[1] != ink[2]
 
 
 def test_what_lies_in_boxes_is_cut_away_and_nothing_else() -> None:
