@@ -15,7 +15,7 @@ from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.formulas import without_formulas
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.labels.label_marks import ARROW_MM, ARROW_SLOPE, MARK_MM, TICK, direction_at, marked
-from vectorplot.drawing.lettering.labels.labels_with_room import labels_with_room
+from vectorplot.drawing.lettering.labels.labels_with_room import labels_with_room, ticks_with_room
 from vectorplot.drawing.lettering.labels.seen_labels import SeenLabels
 from vectorplot.drawing.lettering.placing import places
 from vectorplot.drawing.lettering.text import Lettering, lettered, typeset
@@ -137,7 +137,7 @@ def labels_on_page(
     in units of the page.
     Errors: InputError, with the label's name, for a character without strokes.
     """
-    letters = LETTERS[text]
+    letters, seen = LETTERS[text], ticks_with_room(seen, placement, mm)
     ways = [label.hidden or hidden for label in seen.anchors.labels]
     some = [k for k, way in enumerate(ways) if not seen.hidden_by[k] or way != "none"]
     some = labels_with_room(seen, some, mm)
