@@ -232,7 +232,8 @@ def _side(middle: Floats, size: Floats, point: Floats) -> float:
 def _named(seen: SeenLabels, number: int, mm: float) -> Floats:
     """(2,) the point on the page that a label stands at or beside."""
     at = seen.anchors.labels[number].at
-    return seen.points[number] + mm * np.array(at.middle_mm) if isinstance(at, BesidePoint) else seen.points[number]
+    beside = at.middle_mm if isinstance(at, BesidePoint) else (0.0, 0.0)
+    return np.asarray(seen.points[number] + mm * np.array(beside))
 
 
 def _set(letters: Letters, label: Label, mm: float) -> Lettering:

@@ -74,4 +74,4 @@ def _beginning(seen: SeenLabels, number: int, placement: Placement) -> Floats:
     assert course is not None
     points = projection.points_of(course)
     ahead = projection.depth_of(points) > projection.near
-    return placement.on_page(projection.image_of(points.compress(ahead, axis=1)[:, :1]))[0]
+    return np.asarray(placement.on_page(projection.image_of(points.compress(ahead, axis=1)[:, :1]))[0])
