@@ -55,6 +55,7 @@ from vectorplot.shading.raster.screen import (
 from vectorplot.shading.raster.supersampling import averaged_light
 from vectorplot.shading.shadows.map_settings import MapSettings
 from vectorplot.stages.argument_types import check_types
+from vectorplot.stages.around_picture import tell_what_leaves_page
 from vectorplot.stages.facet_errors import facet_error
 from vectorplot.stages.subject import Paper, subject_of
 from vectorplot.stages.walk import StageReport, Walk
@@ -70,8 +71,8 @@ SIZE = (800, 600)
 AROUND_BOX = 0.02
 """Part of a picture that stays free on each side of a box with its numbers."""
 
-LETTER_PIXELS = 1.25
-"""The width of the strokes of letters."""
+LETTER_PIXELS, FAINT = 1.25, 0.5
+"""The width of the strokes of letters, and part of it that those of what is hidden have."""
 
 FACET_PIXELS = 0.2
 """Triangles are off a smooth surface by no more than this part of a pixel."""
@@ -266,9 +267,11 @@ def render(
         from vectorplot.rendering.lines_over_pixels import with_blanks, with_lines
 
         labels = walk.run("labels", ruler.labels, subject.anchors, found, mm=samples * PIXELS_PER_MM)
+        tell_what_leaves_page(labels)
         found = found and labels.interrupted(found, placement.page_from_world)
         letters = scaled_pen(over.letters(Pen(LETTER_PIXELS / PIXELS_PER_MM)), samples * PIXELS_PER_MM)
         pixels = with_lines(with_blanks(pixels, labels.blanks(paper)), labels.strokes, letters)
+        pixels = with_lines(pixels, labels.faint, scaled_pen(letters, FAINT))
     if found is not None:
         from vectorplot.rendering.lines_over_pixels import with_layers
 

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import warnings
 from typing import TYPE_CHECKING
 
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.layers import FRAME_PEN
+from vectorplot.errors import InputWarning
 from vectorplot.scene.pages.fitted_pages import FittedPage
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement
@@ -13,6 +15,9 @@ from vectorplot.scene.placement import Placement
 if TYPE_CHECKING:
     from vectorplot.drawing.lettering.scene_labels import SceneLabels
     from vectorplot.effects.scales.coloured_scene import ColourBar
+
+MOST_NAMES = 3
+"""So many labels are named in a warning."""
 
 
 def left_of_bar(sheet: Page, bar: ColourBar | None) -> tuple[Page, float]:
@@ -58,9 +63,20 @@ def titled(
 def room_for_labels(
     layers: tuple[Layer, ...], placement: Placement, labels: SceneLabels, sheet: Page
 ) -> tuple[tuple[Layer, ...], Placement]:
-    """The layers of a drawing, and their place, on a sheet that, where it is cut to size, has room for labels too."""
+    """The layers of a drawing, and their place, on a sheet that, where it is cut to size, has room for labels too; on
+    another one an InputWarning for those that leave it."""
     if not isinstance(sheet, FittedPage):
+        tell_what_leaves_page(labels)
         return layers, placement
     from vectorplot.drawing.lettering.room_for_labels import with_room
 
-    return with_room(layers, placement, labels.boxes)
+    return with_room(layers, placement, labels.every_box)
+
+
+def tell_what_leaves_page(labels: SceneLabels) -> None:
+    """An InputWarning that names the labels whose letters leave the page, if there are any."""
+    names = labels.off_page
+    if names:
+        more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+        said = ", ".join(f"label {name}" for name in names[:MOST_NAMES])
+        warnings.warn(f"{said}{more}: letters leave the page", InputWarning, stacklevel=4)

@@ -64,6 +64,10 @@ TOUCHING_OF_EXTENT = 1e-7
 """A sheet less than this in front of a point is one that the point lies on, or touches: places of events are known to
 the square root of the rounding where curves touch."""
 
+AROUND_OF_EXTENT = 1e-6
+"""A point lies on the border of what hides it where that does not hide all places so far beside it: ten times as far as
+what counts as touching."""
+
 ON_SURFACE = 1e-7
 """A ray test takes a point no further from a surface than this part of the extent for one on it."""
 

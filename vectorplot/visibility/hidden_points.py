@@ -12,9 +12,12 @@ from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.placement import box_corners
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_extent import TOUCHING_OF_EXTENT
+from vectorplot.tolerances.of_extent import AROUND_OF_EXTENT, TOUCHING_OF_EXTENT
 from vectorplot.visibility.polyhedra.occluders import face_occluders
 from vectorplot.visibility.projected_faces import ProjectedFaces
+
+AROUND, ASKEW = 16, 0.1
+"""What hides a point hides so many around it in the image, the first of them in a direction that few edges have."""
 
 
 def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Floats) -> Ints:
@@ -38,8 +41,8 @@ def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Fl
 
     Notes
     -----
-    What touches a point does not hide it; what ends exactly before it in the image does: so nothing is seen through the
-    edges between the faces of a body.
+    What touches a point does not hide it, and neither does an item on the border of which it lies in the image, as of
+    lines; edges between faces are no border where the item goes on on both sides: nothing is seen through them.
 
     Examples
     --------
@@ -52,9 +55,21 @@ def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Fl
     >>> visibility.points_hidden_by(cube, view, visibility.project_faces(view), points).tolist()
     [0, 1]
     """
-    items = len(scene.items)
-    hides = _by_faces(view, faces, points, items) | _by_sheets(scene, view, points, items)
+    hides = _by_items(scene, view, faces, points)
+    covered = np.flatnonzero(hides.any(axis=1))
+    if len(covered):
+        angle = ASKEW + np.arange(AROUND) * (2.0 * np.pi / AROUND)
+        ring = AROUND_OF_EXTENT * np.stack([np.cos(angle), np.sin(angle), np.zeros(AROUND)])
+        around = (points[:, covered, None] + ring[:, None]).reshape(3, -1)
+        beside = _by_items(scene, view, faces, around).reshape(len(covered), AROUND, -1)
+        hides[covered] &= beside.all(axis=1)
     return np.asarray(hides.sum(axis=1), dtype=np.intp)
+
+
+def _by_items(scene: Scene, view: View, faces: ProjectedFaces, points: Floats) -> Bools:
+    """(n, items) which items hide points; what ends exactly before a point in the image does."""
+    items = len(scene.items)
+    return _by_faces(view, faces, points, items) | _by_sheets(scene, view, points, items)
 
 
 def _by_faces(view: View, faces: ProjectedFaces, points: Floats, items: int) -> Bools:

@@ -12,10 +12,11 @@ import vectorplot as vp
 from vectorplot.curves import Circle, Line
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.geometry import box
 from vectorplot.save import FORMATS, write
 from vectorplot.scene import look
-from vectorplot.surfaces import Sphere, Torus
+from vectorplot.surfaces import Cylinder, Sphere, Torus
 from vectorplot.testing.rays.sight import visible_by_rays
 from vectorplot.visibility import points_hidden_by, project_faces
 
@@ -37,8 +38,15 @@ def letters(drawing: vp.Drawing) -> Paths:
     return layer.strokes[0]
 
 
+def both_letters(drawing: vp.Drawing) -> tuple[Paths, Paths]:
+    """The letters of what is visible, and those of what is hidden, which stand on the layer of hidden lines."""
+    (hidden,) = (layer for layer in drawing.layers if layer.name == "hidden")
+    assert hidden.pen.width_mm < 0.2
+    return letters(drawing), hidden.strokes[-1]
+
+
 def lines(drawing: vp.Drawing) -> shapely.MultiLineString:
-    paths = [p for layer in drawing.layers if layer.name != "label" for p in layer.strokes]
+    paths = [chosen(p, p.item >= 0) for layer in drawing.layers if layer.name != "label" for p in layer.strokes]
     found = [p.points[a:b][[*range(b - a), *([0] if c else [])]] for p in paths for a, b, c in strokes(p)]
     return shapely.MultiLineString([line for line in found if len(line) > 1])
 
@@ -51,9 +59,10 @@ def strokes(paths: Paths) -> list[tuple[int, int, bool]]:
 def test_labels_are_hidden_with_what_they_name() -> None:
     plain = letters(vp.draw(labelled(), page=PAGE))
     every = letters(vp.draw(labelled(hidden="solid"), page=PAGE))
-    dashed = letters(vp.draw(labelled(), page=PAGE, hidden="dashed"))
+    shown, faint = both_letters(vp.draw(labelled(), page=PAGE, hidden="dashed"))
     assert (plain.hidden_by == 0).all() and (every.hidden_by > 0).sum() >= 1
-    assert len(dashed) > len(every) > len(plain) > 0
+    assert (shown.hidden_by == 0).all() and (faint.hidden_by > 0).all() and len(faint) > 0
+    assert len(shown) + len(faint) == len(every) > len(plain) > 0
     assert (plain.kind == vp.LineKind.LABEL).all()
     hidden = every.points[np.repeat(every.hidden_by, np.diff(every.offsets)) > 0]
     assert len(hidden) and (np.ptp(hidden, axis=0) < 5.0).all()
@@ -171,6 +180,66 @@ def test_vertices_seen_exactly_through_edges_are_hidden() -> None:
     assert points_hidden_by(vp.Scene((CUBE,)), view, project_faces(view), corners).tolist() == [1, 0, 0, 0]
 
 
+@pytest.mark.parametrize("away", [0.0, 2.0**17])
+@pytest.mark.parametrize("shape", ["cube", "cylinder", "sphere"])
+def test_what_lies_on_the_border_of_what_is_before_it_is_not_hidden(shape: str, away: float) -> None:
+    bodies = {"cube": box((2, 2, 2)), "cylinder": Cylinder(1.0, 0.0, 2.0), "sphere": Sphere(1.0, (0.0, 0.0, 1.0))}
+    at = (1.0, 1.0, 0.0) if shape == "cube" else (0.0, 0.0, 0.0)
+    scene = vp.Scene((vp.Item("BODY", bodies[shape]).moved(away, 0, 0),))
+    view = look(scene, vp.Camera.view("front"))
+    offsets = [(0, 0, 2), (0, 2, 2), (0, 0, 0), (0, 0.5, 1), (0, 5, 2), (0, 5, 0), (0, 5, 1.9), (0, 5, 2.1)]
+    points = view.points_of(np.array(offsets) + at + (away, 0, 0))
+    found = points_hidden_by(scene, view, project_faces(view), points).tolist()
+    assert found == [0, 0, 0, 1, 0, 0, 1, 0]
+
+
+def test_a_name_in_a_face_that_is_seen_edge_on_is_shown() -> None:
+    labels = (vp.Label("A", (1, 1, 2)), vp.Label("C", (0, 0, 2)))
+    shown, both = (
+        letters(vp.draw(replace(labelled(), labels=labels, camera=None), "front", page=PAGE, hidden=hidden))
+        for hidden in ("none", "dashed")
+    )
+    assert (both.hidden_by == 0).all() and len(shown) == len(both)
+
+
+@pytest.mark.parametrize("layers", ["kind", "object", "colour"])
+def test_hidden_letters_are_whole_and_leave_visible_lines_whole(layers: str) -> None:
+    def drawn(*labels: vp.Label) -> vp.Drawing:
+        scene = replace(labelled(), labels=labels)
+        return vp.draw(scene, page=PAGE, hidden="dashed", layers=layers)  # type: ignore[arg-type]
+
+    # One of them stands on visible lines, the other one on hidden ones.
+    hidden = [vp.Label("MMMM", (0, 1.9, 0.1), place="centre"), vp.Label("M", (0, 2, 0), "two", place="centre")]
+    bare, named = drawn(), drawn(*hidden)
+    solid = drawn(*(replace(label, hidden="solid") for label in hidden))
+    shown, faint = both_letters(named)
+    assert len(shown) == 0 and len(faint) == len(letters(solid))
+    lengths = []
+    for drawing in (bare, named, solid):
+        every = [paths for layer in drawing.layers if layer.name != "label" for paths in layer.strokes]
+        visible, behind = (
+            sum(
+                np.hypot(*np.diff(paths.points[a:b], axis=0).T).sum()
+                for paths in every
+                for (a, b, _), by, kind in zip(strokes(paths), paths.hidden_by, paths.kind, strict=True)
+                if (by > 0) == is_hidden and kind != vp.LineKind.LABEL
+            )
+            for is_hidden in (False, True)
+        )
+        lengths.append((visible, behind))
+    (whole, behind), (kept, fewer), (cut, _) = lengths
+    assert kept == pytest.approx(whole) and cut < whole - 1.0 and fewer < behind - 1.0
+
+
+def test_what_is_hidden_in_painted_pictures_has_thin_letters_too() -> None:
+    drawing = vp.paint(labelled(hidden="dashed"), page=PAGE)
+    shown, faint = both_letters(drawing)
+    assert (shown.hidden_by == 0).all() and (faint.hidden_by > 0).all() and len(faint) > 0
+    images = [vp.render(labelled(hidden=hidden), size=(200, 160)).pixels for hidden in ("none", "dashed", "solid")]
+    ink = [int((255 - image.astype(int)).sum()) for image in images]
+    assert ink[0] != ink[1] != ink[2]
+
+
 def test_what_lies_in_boxes_is_cut_away_and_nothing_else() -> None:
     rng = np.random.default_rng(5)
     sizes = rng.integers(0, 6, 60)
@@ -206,3 +275,43 @@ def test_a_label_along_a_curve_that_is_seen_end_on_stands_beside_it(letter: str)
     assert written[0].points.shape == written[1].points.shape
     width, height = np.ptp(written[1].points, axis=0)
     assert width > height or len(letter) == 1
+
+
+@pytest.mark.parametrize("text", ["strokes", "real"])
+@pytest.mark.parametrize("vertex", range(8))
+def test_labels_beside_the_edge_of_the_page_stay_on_it(vertex: int, text: str) -> None:
+    labels = (vp.Label("a name that is almost as wide as the page", vp.AtVertex("CUBE", vertex), size_mm=2.5),)
+    page = vp.Page(100, 80, 5)
+    drawing = vp.draw(replace(labelled(), labels=labels), page=page, hidden="solid", text=text)
+    (layer,) = (layer for layer in drawing.layers if layer.name == "label")
+    found = layer.strokes[0].points if text == "strokes" else layer.texts[0].points
+    room = 0.0 if text == "strokes" else 0.5 * layer.texts[0].room_mm
+    left = found[:, 0] - (0.0 if text == "strokes" else layer.texts[0].anchor * layer.texts[0].room_mm)
+    assert left.min() >= 0.5 and (left + 2.0 * room).max() <= 99.5
+    assert found[:, 1].min() >= 0.5 and found[:, 1].max() <= 79.5
+
+
+@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
+def test_labels_that_cannot_be_kept_on_the_page_are_told_once(verb: str) -> None:
+    wide = "a name that is much wider than the page of the picture"
+    labels = (
+        vp.Label(wide, (2, 2, 2), "long"),
+        vp.Label("told where", vp.AtVertex("CUBE", 6), "placed", 12.0, "right"),
+        vp.Label("Figure", vp.OnPage(99, 2), place="centre"),
+        vp.Label("Text", vp.OnPage(0, 2), place="centre"),
+        vp.Label("fits", (2, 0, 2)),
+    )
+    scene = replace(labelled(), labels=labels)
+    with pytest.warns(vp.InputWarning) as told:
+        if verb == "render":
+            vp.render(scene, size=(378, 302), samples=1)
+        else:
+            getattr(vp, verb)(scene, page=PAGE)
+    (one,) = (str(warning.message) for warning in told)
+    assert one == "label long, label placed, label Figure and 1 more: letters leave the page"
+
+
+def test_sheets_that_are_cut_to_their_picture_have_room_for_labels_and_nothing_is_told(recwarn) -> None:  # type: ignore[no-untyped-def]
+    labels = (vp.Label("told where to stand", vp.AtVertex("CUBE", 6), "placed", 12.0, "right"),)
+    assert vp.draw(replace(labelled(), labels=labels), page="fit").width_mm > 250.0
+    assert not recwarn.list

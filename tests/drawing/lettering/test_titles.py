@@ -65,3 +65,9 @@ def test_the_command_has_them_too(verb: str, tmp_path) -> None:  # type: ignore[
     scene.write_text("CUBE red box solid 2 2 2", encoding="utf-8")
     done = CliRunner().invoke(vectorplot, [verb, str(scene), "--title", "Cube", "--frame", "-o", str(out)])
     assert done.exit_code == 0 and " frame" in out.read_text(encoding="utf-8")
+
+
+@pytest.mark.parametrize("margin", [0.0, 1.0, 3.0, 4.0])
+def test_no_letter_of_a_title_reaches_over_the_edge(margin: float) -> None:
+    (paths,) = vp.draw(CUBE, page=vp.Page(80, 60, margin), title="gyp gyp").layers[-1].strokes
+    assert paths.points[:, 1].min() >= 0.5 - 1e-9

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
+import shapely
 
 import vectorplot as vp
 from vectorplot import io
@@ -84,3 +87,36 @@ def test_scene_files_keep_them() -> None:
 def test_what_cannot_be_drawn_is_refused(wrong) -> None:  # type: ignore[no-untyped-def]
     with pytest.raises(vp.InputError):
         wrong()
+
+
+@pytest.mark.parametrize(("view", "end_on"), [("front", "y"), ("top", "z"), ("right", "x")])
+def test_axes_that_are_seen_end_on_have_a_name_and_no_numbers(view: str, end_on: str) -> None:
+    names = {"x": ("1", "2"), "y": ("3", "6"), "z": ("4", "8")}
+    lengths = {"x": 3.0, "y": 9.0, "z": 12.0}
+    steps = {"x": 1.0, "y": 3.0, "z": 4.0}
+    scenes = [only_axis(vp.axes(lengths[axis], ticks=steps[axis]), axis) for axis in "xyz"]
+    drawing = vp.draw(scenes, view, page="A5", text="real")
+    said = [text for layer in drawing.layers for texts in layer.texts for text in texts.strings]
+    expected = ["x", "y", "z", *(number for axis in "xyz" if axis != end_on for number in names[axis])]
+    assert sorted(said) == sorted(expected)
+
+
+@pytest.mark.parametrize("step", [1.0, 0.5, 0.1, 0.02])
+def test_numbers_at_ticks_that_are_close_are_left_out(step: float) -> None:
+    drawing = vp.draw(vp.axes(6.0, ticks=step), vp.Camera.view("iso"), page="A6")
+    (paths,) = [p for layer in drawing.layers if layer.name == "label" for p in layer.strokes if (p.item < 0).any()]
+    parts = [paths.points[a:b] for a, b in zip(paths.offsets[:-1], paths.offsets[1:], strict=True)]
+    texts = vp.draw(vp.axes(6.0, ticks=step), vp.Camera.view("iso"), page="A6", text="real").layers[-1].texts[0]
+    rooms = [
+        shapely.box(x - a * w, y, x - a * w + w, y + h)
+        for (x, y), a, w, h in zip(texts.points, texts.anchor, texts.room_mm, texts.size_mm, strict=True)
+    ]
+    assert not any(one.intersects(other) for one, other in combinations(rooms, 2))
+    assert len(rooms) >= 9 and len(parts) < 500
+
+
+def only_axis(scene: vp.Scene, axis: str) -> vp.Scene:
+    name = f"axis {axis}"
+    items = tuple(item for item in scene.items if item.name == name)
+    labels = tuple(label for label in scene.labels if isinstance(label.at, vp.OnCurve) and label.at.item == name)
+    return vp.Scene(items, labels=labels)

@@ -30,9 +30,10 @@ has a leader."""
 ON_A_RING = 16
 """Directions in which a label is tried on every ring but the first."""
 
-CROSSED, FAR, INWARD, TAKEN, OFF_PAGE = 2.0, 2.0, 0.5, 100.0, 1000.0
+CROSSED, FAR, INWARD, MOVED, TAKEN, OFF_PAGE = 2.0, 2.0, 0.5, 0.3, 100.0, 1000.0
 """What counts against a place: strokes in it, for each height of a capital of their length; every ring; that it lies
-towards the middle of the picture; another label or its point there; that it leaves the page."""
+towards the middle of the picture; that it was moved onto the page; another label, its point or the own one there; that
+it leaves the page."""
 
 PREFERRED = 0.02
 """What counts against each place more than against the one before it in the order of directions: so there are no
@@ -85,19 +86,23 @@ def places(
     counts = [len(one) for one in tried]
     every = np.concatenate([np.zeros((0, 3)), *tried])
     label = np.repeat(np.arange(len(tried)), counts)
-    boxes = np.stack([every[:, :2] - 0.5 * sizes[label], every[:, :2] + 0.5 * sizes[label]], axis=1)
+    fixed = np.array([word != "auto" for word in asked], dtype=np.bool_)
+    middles = np.where(fixed[label, None], every[:, :2], _onto(page, every[:, :2], sizes[label], gap[label]))
+    moved = (middles != every[:, :2]).any(axis=1)
+    boxes = np.stack([middles - 0.5 * sizes[label], middles + 0.5 * sizes[label]], axis=1)
     lengths = StrokeLengths.of(start, end, CELL * float(height.min(initial=np.inf)) if len(height) else 1.0)
     weight = CROSSED / height[label]
     against = weight * lengths.at_least(boxes) + FAR * every[:, 2]
     against += OFF_PAGE * ((boxes[:, 0] < page[0]) | (boxes[:, 1] > page[1])).any(axis=1)
-    against += INWARD * _inward(every[:, :2], anchors[label], middle)
+    against += INWARD * _inward(middles, anchors[label], middle)
+    own = ((boxes[:, 0] < anchors[label]) & (boxes[:, 1] > anchors[label])).all(axis=1)
+    against += moved * (MOVED + TAKEN * own)
     # The points of other labels are not covered.
     against += TAKEN * _covered(boxes, anchors, label)
     first = np.concatenate([[0], np.cumsum(counts)])
     chosen = np.zeros(len(tried), dtype=np.intp)
     count, occupied = len(taken), np.concatenate([taken, np.zeros((len(tried), 2, 2))])
     # Labels that were told where to stand come first.
-    fixed = np.array([word != "auto" for word in asked], dtype=np.bool_)
     for number in np.argsort(~fixed, kind="stable").tolist():
         mine = slice(int(first[number]), int(first[number + 1]))
         cost = against[mine] + PREFERRED * np.arange(counts[number])
@@ -107,7 +112,7 @@ def places(
         count += 1
     far = np.flatnonzero(every[chosen, 2] > 0.0)
     feet = np.clip(anchors[far], boxes[chosen[far], 0], boxes[chosen[far], 1])
-    return Places(every[chosen, :2], np.stack([anchors[far], feet], axis=1), far.tolist())
+    return Places(middles[chosen], np.stack([anchors[far], feet], axis=1), far.tolist())
 
 
 def _tried(anchor: Floats, size: Floats, height: float, gap: float, asked: str) -> Floats:
@@ -124,6 +129,13 @@ def _tried(anchor: Floats, size: Floats, height: float, gap: float, asked: str) 
         middle = anchor + _beside(way, size, gap + distance * height)
         found.append(np.column_stack([middle, np.full(len(way), ring)]))
     return np.concatenate(found)
+
+
+def _onto(page: Floats, middles: Floats, sizes: Floats, gap: Floats) -> Floats:
+    """(c,2) middles of boxes, moved so that these are a gap away from the edges of the page; as they are across or
+    upwards where it has no room for them."""
+    low, high = page[0] + 0.5 * sizes + gap[:, None], page[1] - 0.5 * sizes - gap[:, None]
+    return np.where(low <= high, np.clip(middles, low, np.maximum(low, high)), middles)
 
 
 def _beside(way: Floats, size: Floats, gap: float) -> Floats:

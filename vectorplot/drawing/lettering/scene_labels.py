@@ -16,12 +16,11 @@ from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.formulas import without_formulas_in_strokes
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
 from vectorplot.drawing.lettering.labels.label_marks import ARROW_MM, ARROW_SLOPE, MARK_MM, TICK, direction_at, marked
-from vectorplot.drawing.lettering.labels.labels_with_room import labels_with_room
+from vectorplot.drawing.lettering.labels.labels_with_room import labels_with_room, ticks_with_room
 from vectorplot.drawing.lettering.labels.seen_labels import SeenLabels
 from vectorplot.drawing.lettering.placing import places
 from vectorplot.drawing.lettering.text import Lettering, lettered, typeset
 from vectorplot.drawing.lettering.text_along import lettered_along, typeset_along
-from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.drawing.texts import Texts
@@ -37,9 +36,6 @@ HALO_MM = 0.6
 
 GAP = 0.4
 """From a point to the letters beside it, in heights of capitals."""
-
-DASH = (0.25, 0.15)
-"""Dash and gap of the letters of what is hidden, in heights of capitals."""
 
 NO_ITEM = -1
 """Strokes of labels belong to no item."""
@@ -71,19 +67,32 @@ LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset
 
 @dataclass(frozen=True, eq=False)
 class SceneLabels:
-    """Labels on the page: letters, leaders and marks as strokes, letters of a font as texts; boxes (b,4,2) before which
-    the lines of the drawing end."""
+    """Labels on the page: letters, leaders and marks as strokes, those of what is hidden apart as faint; letters of a
+    font as texts; boxes (b,4,2) before which the lines of the drawing end, faint_boxes (c,4,2) before which only
+    hidden ones do; off_page: the names of those whose letters leave the page."""
 
     strokes: Paths
+    faint: Paths
     texts: Texts
     boxes: Floats
+    faint_boxes: Floats
+    off_page: tuple[str, ...] = ()
 
     def __len__(self) -> int:
-        return len(self.boxes)
+        return len(self.boxes) + len(self.faint_boxes)
+
+    @property
+    def every_box(self) -> Floats:
+        """(b+c,4,2) all boxes."""
+        return np.concatenate([self.boxes, self.faint_boxes])
 
     def interrupted(self, strokes: Paths, page_from_world: Floats) -> Paths:
         """The strokes of a drawing without what lies behind the letters."""
-        return outside_boxes(strokes, self.boxes, page_from_world)
+        whole = outside_boxes(strokes, self.boxes, page_from_world)
+        if not len(self.faint_boxes):
+            return whole
+        hidden = outside_boxes(chosen(whole, whole.hidden_by > 0), self.faint_boxes, page_from_world)
+        return concatenated((chosen(whole, whole.hidden_by == 0), hidden))
 
     def blanks(self, colour: Colours) -> Fills:
         """Polygons in the colour (1,3) of the paper under the letters: fills end before these, as lines do."""
@@ -98,23 +107,36 @@ class SceneLabels:
         page_from_world: Floats,
         pen: Pen = PENS["label"],
     ) -> tuple[Layer, ...]:
-        """The layers of a drawing, and one of the labels; by_kind: it has its number among the layers by kind.
+        """The layers of a drawing, and one of the labels; by_kind: it has its number among the layers by kind. Faint
+        letters are on the layer of hidden lines.
 
         longest_mm: longer strokes leave in parts; pen: of the letters.
         """
-        strokes = self.strokes if longest_mm is None else split_long(self.strokes, longest_mm, page_from_world)
+        strokes, faint = (
+            some if longest_mm is None else split_long(some, longest_mm, page_from_world)
+            for some in (self.strokes, self.faint)
+        )
         marks = (strokes, self.texts) if len(self.texts) else (strokes,)
         names = [layer.name for layer in layers]
-        if "label" in names:
-            at = names.index("label")
-            return (*layers[:at], replace(layers[at], marks=(*layers[at].marks, *marks)), *layers[at + 1 :])
-        label = Layer("label", pen, marks)
-        if not by_kind:
-            return (*layers, label)
-        before = (*PENS,)[: (*PENS,).index("label")]
-        kinds = len(list(takewhile(lambda pair: pair[0].startswith(pair[1]), zip(names, before, strict=False))))
-        empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in before[kinds:])
-        return (*layers[:kinds], *empty, label, *layers[kinds:])
+        if "label" not in names:
+            layers = _with_label_layer(layers, Layer("label", pen, ()), by_kind)
+        if len(faint) and "hidden" not in names:
+            at = [layer.name for layer in layers].index("label")
+            hidden = Layer("hidden", replace(PENS["hidden"], colour=pen.colour), ())
+            layers = (*layers[:at], hidden, *layers[at:])
+        more = {"label": marks, "hidden": (faint,) if len(faint) else ()}
+        return tuple(replace(layer, marks=(*layer.marks, *more.get(layer.name, ()))) for layer in layers)
+
+
+def _with_label_layer(layers: tuple[Layer, ...], label: Layer, by_kind: bool) -> tuple[Layer, ...]:
+    """The layers and that of the labels: with its number among the kinds, or behind the others."""
+    if not by_kind:
+        return (*layers, label)
+    before = (*PENS,)[: (*PENS,).index("label")]
+    alike = takewhile(lambda pair: pair[0].name.startswith(pair[1]), zip(layers, before, strict=False))
+    kinds = len(list(alike))
+    empty = (Layer(name, PENS[name], (Paths.empty(),)) for name in before[kinds:])
+    return (*layers[:kinds], *empty, label, *layers[kinds:])
 
 
 def labels_on_page(
@@ -127,7 +149,7 @@ def labels_on_page(
     in units of the page.
     Errors: InputError, with the label's name, for a character without strokes.
     """
-    letters = LETTERS[text]
+    letters, seen = LETTERS[text], ticks_with_room(seen, placement, mm)
     ways = [label.hidden or hidden for label in seen.anchors.labels]
     some = [k for k, way in enumerate(ways) if not seen.hidden_by[k] or way != "none"]
     some = labels_with_room(seen, some, mm)
@@ -155,31 +177,36 @@ def labels_on_page(
             text_, texts=text_.texts.anchored(_side(found.middles[number], sizes[number], seen.points[k]))
         )
     leaders = {beside[of]: line for of, line in zip(found.label, found.leaders, strict=True)}
+    faint = [bool(seen.hidden_by[k]) and ways[k] == "dashed" for k in some]
     parts = []
     for k, label in zip(some, labels, strict=True):
         way = direction_at(seen, k, placement) if label.mark in ("arrow", "tick") else np.zeros(2)
         lines = [*_lines(set_[k]), *marked(label, seen.points[k], way, mm), *([leaders[k]] if k in leaders else [])]
-        made = label_paths(lines, int(seen.hidden_by[k]), placement)
-        if seen.hidden_by[k] and ways[k] == "dashed":
-            made = dashed(made, DASH[0] * label.size_mm * mm, DASH[1] * label.size_mm * mm)
-        parts.append(made)
-    boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[k].boxes for k in some)])
-    faint = [int(seen.hidden_by[k]) if ways[k] == "dashed" else 0 for k in some]
-    written = Texts.joined([set_[k].texts.hidden(by) for k, by in zip(some, faint, strict=True)])
-    return SceneLabels(concatenated(tuple(parts)), written, grown(boxes, HALO_MM * mm))
+        parts.append(label_paths(lines, int(seen.hidden_by[k]), placement))
+    both = []
+    for wanted in (False, True):
+        own = [n for n, is_faint in enumerate(faint) if is_faint is wanted]
+        boxes = np.concatenate([np.zeros((0, 4, 2)), *(set_[some[n]].boxes for n in own)])
+        both.append((concatenated((Paths.empty(), *(parts[n] for n in own))), grown(boxes, HALO_MM * mm)))
+    (shown, boxes), (hidden_, faint_boxes) = both
+    by = [int(seen.hidden_by[k]) if is_faint else 0 for k, is_faint in zip(some, faint, strict=True)]
+    written = Texts.joined([set_[k].texts.hidden(count) for k, count in zip(some, by, strict=True)])
+    off_page = tuple(label.name for k, label in zip(some, labels, strict=True) if _leaves(page, set_[k].boxes))
+    return SceneLabels(shown, hidden_, written, boxes, faint_boxes, off_page)
 
 
 def with_letters(labels: SceneLabels, letters: Sequence[Lettering], placement: Placement, mm: float) -> SceneLabels:
     """Labels, and more letters that stand on lines, those that would stand in a label left out."""
-    free = [text for text in letters if not _overlap(text.boxes, labels.boxes)]
+    free = [text for text in letters if not _overlap(text.boxes, labels.every_box)]
     if not free:
         return labels
     strokes = label_paths([line for text in free for line in _lines(text)], 0, placement)
     boxes = grown(np.concatenate([text.boxes for text in free]), HALO_MM * mm)
-    return SceneLabels(
-        concatenated((labels.strokes, strokes)),
-        Texts.joined([labels.texts, *(text.texts for text in free)]),
-        np.concatenate([labels.boxes, boxes]),
+    return replace(
+        labels,
+        strokes=concatenated((labels.strokes, strokes)),
+        texts=Texts.joined([labels.texts, *(text.texts for text in free)]),
+        boxes=np.concatenate([labels.boxes, boxes]),
     )
 
 
@@ -187,6 +214,11 @@ def _overlap(boxes: Floats, others: Floats) -> bool:
     """Whether bounds of any of boxes (b,4,2) overlap those of others (c,4,2)."""
     low, high = boxes.min(axis=1)[:, None], boxes.max(axis=1)[:, None]
     return bool(((low < others.max(axis=1)) & (high > others.min(axis=1))).all(axis=2).any())
+
+
+def _leaves(page: Floats, boxes: Floats) -> bool:
+    """Whether corners of boxes (b,4,2) are off the page, given by its corners (2,2)."""
+    return bool(((boxes < page[0]) | (boxes > page[1])).any())
 
 
 def _asked(label: Label) -> str:
@@ -212,7 +244,8 @@ def _side(middle: Floats, size: Floats, point: Floats) -> float:
 def _named(seen: SeenLabels, number: int, mm: float) -> Floats:
     """(2,) the point on the page that a label stands at or beside."""
     at = seen.anchors.labels[number].at
-    return seen.points[number] + mm * np.array(at.middle_mm) if isinstance(at, BesidePoint) else seen.points[number]
+    beside = at.middle_mm if isinstance(at, BesidePoint) else (0.0, 0.0)
+    return np.asarray(seen.points[number] + mm * np.array(beside))
 
 
 def _set(letters: Letters, label: Label, mm: float) -> Lettering:

@@ -26,6 +26,9 @@ PART = 0.9
 BESIDE = 1.5
 """From the letters of a title to the frame beside them, in heights of capitals."""
 
+EDGE_MM = 0.5
+"""Letters of a title keep away from the edge of the page so far."""
+
 
 def with_title(
     layers: tuple[Layer, ...],
@@ -77,21 +80,21 @@ def _title(letters: Letters, title: str, width: float, margin: float) -> Letteri
         return letters.plain(text, (0.5 * width, 0.5 * margin), size_mm=size, align="centre", level="middle")
 
     try:
-        text = set_in(title, largest)
-        if _wide(text) <= PART * width:
-            return text
-        size = largest * PART * width / _wide(text)
-        if size >= smallest:
-            return set_in(title, size)
-        lines = _lines(letters, title, PART * width)
-        text = set_in("\n".join(lines), smallest)
+        lines, text = [title], set_in(title, largest)
+        size = largest * PART * width / max(_wide(text), PART * width)
+        if smallest <= size < largest:
+            text = set_in(title, size)
+        elif size < smallest:
+            lines = _lines(letters, title, PART * width)
+            text = set_in("\n".join(lines), smallest)
     except InputError as error:
         raise InputError(f"title: {error.cause}") from None
     if _wide(text) > width:
         raise InputError("the title is wider than the page")
-    if _height(lines) > margin:
+    if len(lines) > 1 and _height(lines) > margin:
         raise InputError(f"the title takes {len(lines)} lines: a margin of {margin:g} mm has no room for them")
-    return text
+    # Letters may reach below a narrow margin.
+    return text.moved(np.array([0.0, max(EDGE_MM - float(text.bounds[0, 1]), 0.0)]))
 
 
 def _lines(letters: Letters, title: str, width: float) -> list[str]:

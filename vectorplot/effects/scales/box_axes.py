@@ -110,7 +110,7 @@ def _labels(
     out.
     """
     middle = 0.5 * (sides[0] + sides[1])
-    names, alone, found = [], [], []
+    names, alone, found = list[Label](), list[Label](), list[Label]()
     edges = [_edge(axis, projection, sides, far, near) for axis in range(3)]
     longest = max(edge.length for edge in edges)
     for axis, (edge, along) in enumerate(zip(edges, numbers, strict=True)):

@@ -174,8 +174,8 @@ class Label:
         or centre, on it; auto: where the fewest lines are, with a leader if that is some way off. Along a curve above,
         below or centre, where auto means centre: on the curve, which is interrupted.
     hidden : {"none", "dashed", "solid"}, optional
-        What becomes of it where something hides what it names: it is left out, its letters are dashed, or as they are;
-        what becomes of hidden lines where nothing is said.
+        What becomes of it where something hides what it names: it is left out; where dashed its letters are thin, and
+        end hidden lines alone; or it is as it is. What becomes of hidden lines where nothing is said.
     mark : {"none", "dot", "cross", "arrow", "tick"}
         What is drawn at the point: at a point of a curve also an arrowhead that points on, at its beginning out of it,
         or a tick across it.

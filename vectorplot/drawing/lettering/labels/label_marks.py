@@ -32,7 +32,12 @@ def direction_at(seen: SeenLabels, number: int, placement: Placement) -> Floats:
 
 
 def marked(label: Label, point: Floats, way: Floats, mm: float) -> list[Floats]:
-    """The strokes of the mark at the point of a label, where a curve has the direction way."""
+    """The strokes of the mark at the point of a label, where a curve has the direction way.
+
+    Degenerate: no arrowheads and no ticks where the curve is seen end-on, way is zero.
+    """
+    if label.mark in ("arrow", "tick") and not way.any():
+        return []
     size, left = MARK_MM * mm, np.array([-way[1], way[0]])
     if label.mark == "tick":
         return [np.stack([point - TICK * size * left, point + TICK * size * left])]

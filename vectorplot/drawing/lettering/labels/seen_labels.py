@@ -24,6 +24,12 @@ class SeenLabels:
     points: Floats
     hidden_by: Ints
 
+    def chosen(self, which: Ints) -> SeenLabels:
+        """Some of them, in this order."""
+        given = self.anchors
+        labels, courses = (tuple(row[k] for k in which.tolist()) for row in (given.labels, given.courses))
+        return SeenLabels(LabelAnchors(labels, given.points[which], courses), self.points[which], self.hidden_by[which])
+
 
 def seen_labels(
     scene: Scene, view: View, faces: ProjectedFaces, placement: Placement, anchors: LabelAnchors, wires: bool, mm: float
@@ -50,8 +56,4 @@ def seen_labels(
     page = placement.page
     with np.errstate(invalid="ignore"):
         shown = ((found >= 0.0) & (found <= (page.width_mm, page.height_mm))).all(axis=1)
-    some = np.flatnonzero(shown | on_page)
-    kept = LabelAnchors(
-        tuple(anchors.labels[k] for k in some), anchors.points[some], tuple(anchors.courses[k] for k in some)
-    )
-    return SeenLabels(kept, found[some], hidden[some])
+    return SeenLabels(anchors, found, hidden).chosen(np.flatnonzero(shown | on_page))
