@@ -6,6 +6,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.geometry import box
+from vectorplot.scene import Cut
 
 
 def hatches(drawing: vp.Drawing) -> np.ndarray:
@@ -75,3 +76,9 @@ def test_sheets_take_the_spacing_that_is_asked_for(tmp_path):
     sheet = vp.technical_sheet(vp.Item("P", box((12, 8, 6))), section="x=6", scale="2:1", cut_spacing_mm=1.5)
     assert spacings(hatches(sheet)) == pytest.approx(1.5, abs=1e-6)
     assert len(out.read_text()) > 1000
+
+
+def test_planes_of_cuts_that_another_cut_leaves_no_face_are_hatched_nowhere():
+    cuts = tuple(Cut.of(cut) for cut in ("x > 2, y < 1", "2x - y + 2z > 3"))
+    drawing = vp.draw(vp.Scene((vp.Item("A", box((4, 4, 2))),), cuts=cuts), vp.Camera((7, -11, 8)), page="A6")
+    assert len(hatches(drawing)) > 4

@@ -126,9 +126,8 @@ def spacings_in_space(
 
     areas = np.array(faces, dtype=object)
     shown = ~shapely.is_empty(areas)
-    middle = np.nan_to_num(
-        np.stack([shapely.get_x(shapely.centroid(areas)), shapely.get_y(shapely.centroid(areas))], -1)
-    )
+    middle = np.zeros((*shown.shape, 2))
+    middle[shown] = np.nan_to_num(shapely.get_coordinates(shapely.centroid(areas[shown])))
     points = np.stack([frame.points(places) for frame, places in zip(frames, middle, strict=True)])
     mm = in_space(points.reshape(-1, 3)).reshape(shown.shape)
     length = np.where(shown, shapely.length(areas), 1.0)
