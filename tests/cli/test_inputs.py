@@ -134,7 +134,12 @@ def test_what_is_wrong_on_standard_input_is_one_line(tmp_path, piped, capsys, da
     assert not (tmp_path / "x.svg").exists()
 
 
-def test_standard_input_is_of_one_picture(tmp_path, piped, capsys):
+@pytest.mark.parametrize(
+    "words", [["draw", "-o", "out/"], ["contact-sheet", "-o", "x.pdf", "--vary", "style=plain,book"]]
+)
+def test_standard_input_is_of_one_picture(tmp_path, piped, capsys, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
     piped(b"cube red box 1 2 3")
-    assert run(["draw", "-", "-o", f"{tmp_path}/out/"]) == 2
+    assert run([*words, "-"]) == 2
     assert "standard input is of one picture" in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())

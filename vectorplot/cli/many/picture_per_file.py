@@ -54,8 +54,6 @@ def make_pictures(
         raise click.UsageError("--explain is of one picture: OUT must be a file")
     if params.get("text") == "latex":
         raise click.UsageError("--text latex is of one picture: OUT must be a file")
-    if "-" in params["scene_file"]:
-        raise click.UsageError("standard input is of one picture: OUT must be a file")
     workers = WorkerOptions.of(params)
     written = params["format_"] or formats[0]
     # Workers are as many as there is room for: threads of theirs would only be in each other's way.
@@ -69,7 +67,10 @@ def make_pictures(
 
 
 def inputs_of(named: Sequence[str]) -> tuple[str, ...]:
-    """The files that are named, and in place of a folder those in it that hold shapes, by name; each once."""
+    """The files that are named, and in place of a folder those in it that hold shapes, by name; each once. Bad usage
+    for standard input, which can be read once."""
+    if "-" in named:
+        raise click.UsageError("standard input is of one picture, not of many")
     found: dict[str, None] = {}
     for name in named:
         if Path(name).is_dir():
