@@ -170,7 +170,7 @@ def _merge_rings(link: Ints, order: Ints, node: Ints) -> None:
         take = ((chosen[of_a] == number) & is_ring[of_a]) | ((chosen[of_c] == number) & is_ring[of_c])
         a, c = a[take], c[take]
         claims = np.stack((a, link[a], c, link[c]))
-        # In no order: of a chain of meetings, each sharing ends with the next, a third takes place and not only the first.
+        # In no order: of a chain of meetings, each sharing ends with the next, a third takes place, not only the first.
         rank = np.arange(len(a), dtype=np.uint64) * _GOLDEN
         owner = np.full(len(link) + 1, np.iinfo(np.uint64).max)  # the last one for -1
         np.minimum.at(owner, claims.ravel(), np.tile(rank, 4))
