@@ -100,16 +100,17 @@ def _nearest_along_curves(spots: Places, other: Ints, layer: Ints, curves: Curve
 def curves_through(spots: Places, layer: Ints) -> Curves:
     """Orders of the places, layer (n,) ascending after layer, along Morton's curve, which keeps near places together
     whatever their density; and along the same curve shifted by a third and by two, since every curve separates some
-    neighbours (Chan)."""
+    neighbours (Chan). Of so few places that every pair is looked at one order is all that is asked for."""
+    shifts = _SHIFTS if len(spots) > ALL_PAIRS else _SHIFTS[:1]
     low = complex(spots.real.min(), spots.imag.min())
     unit = (spots - low) / (extent(spots) or 1.0)
     if layer[0] == layer[-1]:
-        return tuple(radix_order(_morton(unit + shift), _CODE_BITS) for shift in _SHIFTS)
+        return tuple(radix_order(_morton(unit + shift), _CODE_BITS) for shift in shifts)
     rank = np.zeros(len(spots), dtype=np.uint64)
     np.cumsum(layer[1:] != layer[:-1], out=rank[1:])
     bits = _CODE_BITS + int(rank[-1]).bit_length()
     rank <<= np.uint64(_CODE_BITS)
-    return tuple(radix_order(rank | _morton(unit + shift), bits) for shift in _SHIFTS)
+    return tuple(radix_order(rank | _morton(unit + shift), bits) for shift in shifts)
 
 
 def _morton(unit: Places) -> ShortKeys:
