@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.exact.radix import ShortKeys, radix_order
-from vectorplot.geometry.chunks import mapped, slices
+from vectorplot.geometry.chunks import mapped, slices, threads, workers
 
 Places = NDArray[np.complex128]
 Curves = tuple[Ints, ...]
@@ -89,9 +89,10 @@ def _nearest_along_curves(spots: Places, other: Ints, layer: Ints, curves: Curve
 
     nearest = np.full(len(spots), np.inf)
     pairs = []
-    for own, least, *found in mapped(of_part, product(curves, slices(len(spots), ENDS_AT_ONCE))):
-        nearest[own] = np.minimum(nearest.take(own), least)
-        pairs.append(found)
+    with threads(workers(len(spots))):
+        for own, least, *found in mapped(of_part, product(curves, slices(len(spots), ENDS_AT_ONCE))):
+            nearest[own] = np.minimum(nearest.take(own), least)
+            pairs.append(found)
     one, two, apart = (np.concatenate(column) for column in zip(*pairs, strict=True))
     both = np.flatnonzero((apart == nearest.take(one)) & (apart == nearest.take(two)) & (apart < np.inf))
     return one.take(both), two.take(both), nearest
