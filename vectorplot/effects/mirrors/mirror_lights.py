@@ -76,7 +76,8 @@ def mirror_light(
     for number, double in enumerate(doubles):
         lit = _through_windows(view, mirrors, double, number, projected)
         if len(lit):
-            dark = in_shadows(view, lit, convex_decals(view, _obscured(view, mirrors, double), everywhere))
+            obscured = _obscured(view, mirrors, double, lit.face)
+            dark = in_shadows(view, lit, convex_decals(view, obscured, everywhere))
             nothing = np.zeros(len(dark), dtype=np.intp)
             found += [lit, replace(dark, light=nothing - 1, grade=nothing, lacking=nothing)]
     return joined_decals(*found)
@@ -124,17 +125,19 @@ def _window_volumes(view: View, mirrors: Mirrors, plane: int, window: Ints, syst
     return PlaneBundles(np.insert(planes_of(normal, start), last, front, axis=1), offsets + np.arange(len(offsets)))
 
 
-def _obscured(view: View, mirrors: Mirrors, double: LightDouble) -> Decals:
-    """The shadows that the scene before a mirror and its double behind it cast in the light of a double."""
+def _obscured(view: View, mirrors: Mirrors, double: LightDouble, lit: Ints) -> Decals:
+    """The shadows that the scene before a mirror and its double behind it cast in the light of a double, on those faces
+    of the view that it gets to."""
     height = mirrors.heights(double.plane, view.points)
     # Light leaves through the mirror, which in a body is not above its plane, and of an open thing is.
     pane = np.zeros(view.face_count, dtype=np.bool_)
     pane[mirrors.face[mirrors.plane == double.plane]] = True
     before, source = _casting_half(view, height, pane, view)
     behind, _ = _casting_half(view, height, pane, doubled(view, mirrors, double.plane))
-    shadows = shadow_decals(joined_views(before, behind), [double.light])
-    ours = np.flatnonzero(shadows.face < before.face_count)
-    shadows = shadows.of(ours)
+    both = joined_views(before, behind)
+    receivers = np.zeros(both.face_count, dtype=np.bool_)
+    receivers[: len(source)] = np.isin(source, lit)
+    shadows = shadow_decals(both, [double.light], receivers=receivers)
     return replace(shadows, face=source[shadows.face])
 
 
