@@ -70,11 +70,15 @@ def mirror_light(
     Source: Glaeser, section 6.4: the reflected light is obscured by the reflected objects.
     """
     projected = project_faces(view) if projected is None else projected
-    found = []
+    found: list[Decals] = []
+    planes, seen = FacePlanes.of(view), drawn_faces(view, projected)
     # They are what shadows of the scene's own lights are clipped with.
     everywhere = np.ones(view.face_count, dtype=np.bool_)
     for number, double in enumerate(doubles):
-        lit = _through_windows(view, mirrors, double, number, projected)
+        system = light_system(view, double.light)
+        facing = system.facing(planes, view.tolerance)
+        face = seen[facing[seen] * projected.facing[seen] > 0]
+        lit = _through_windows(view, mirrors, double, number, system, face)
         if len(lit):
             obscured = _obscured(view, mirrors, double, lit.face)
             dark = in_shadows(view, lit, convex_decals(view, obscured, everywhere))
@@ -84,13 +88,9 @@ def mirror_light(
 
 
 def _through_windows(
-    view: View, mirrors: Mirrors, double: LightDouble, number: int, projected: ProjectedFaces
+    view: View, mirrors: Mirrors, double: LightDouble, number: int, system: LightSystem, face: Ints
 ) -> Decals:
     """The parts of faces before a mirror that the double of a light shines on through its windows."""
-    system = light_system(view, double.light)
-    facing = system.facing(FacePlanes.of(view), view.tolerance)
-    seen = drawn_faces(view, projected)
-    face = seen[facing[seen] * projected.facing[seen] > 0]
     window = mirrors.face[mirrors.plane == double.plane]
     corner, offsets = ragged.take(view.offsets, face)
     polygon, bundle = (grid.ravel() for grid in np.meshgrid(np.arange(len(face)), np.arange(len(window))))
