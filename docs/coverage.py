@@ -12,6 +12,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "coverage.md"
+KINDS = ("capability", "hard")
 
 
 def marks(tree: ast.Module) -> Iterator[tuple[str, str | int, str]]:
@@ -21,18 +22,17 @@ def marks(tree: ast.Module) -> Iterator[tuple[str, str | int, str]]:
         for part in body:
             if isinstance(part, ast.FunctionDef):
                 named = [(mark, part.name) for mark in part.decorator_list]
-            elif isinstance(part, ast.Assign) and [ast.unparse(target) for target in part.targets] == ["pytestmark"]:
+            elif isinstance(part, ast.Assign) and "pytestmark" in {
+                getattr(target, "id", "") for target in part.targets
+            }:
                 named = [(part.value, "all tests")]
             else:
                 continue
             for mark, name in named:
                 for call in ast.walk(mark):
-                    if isinstance(call, ast.Call) and re.fullmatch(
-                        r"pytest\.mark\.(capability|hard)", ast.unparse(call.func)
-                    ):
-                        kind = ast.unparse(call.func).rpartition(".")[2]
+                    if isinstance(call, ast.Call) and getattr(call.func, "attr", "") in KINDS:
                         for argument in call.args:
-                            yield kind, ast.literal_eval(argument), name
+                            yield call.func.attr, ast.literal_eval(argument), name
 
 
 def module_of(test: Path) -> str:
@@ -55,8 +55,8 @@ def page() -> str:
     """The text of docs/coverage.md."""
     rows: dict[str, dict[str | int, list[tuple[str, str]]]] = {"capability": {}, "hard": {}}
     for test in sorted((ROOT / "tests").rglob("test_*.py")):
-        where = test.relative_to(ROOT).as_posix()
-        for kind, key, name in marks(ast.parse(test.read_text(encoding="utf-8"))):
+        where, text = test.relative_to(ROOT).as_posix(), test.read_text(encoding="utf-8")
+        for kind, key, name in marks(ast.parse(text)) if any(f"mark.{kind}" in text for kind in KINDS) else ():
             rows[kind].setdefault(key, []).append((module_of(test), f"[{name}](../{where})"))
     lines = ["# What is covered", "", "Written by docs/coverage.py from the marks on the tests.", ""]
     for kind, heading in (("capability", "Capabilities"), ("hard", "Hard cases")):

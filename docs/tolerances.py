@@ -6,6 +6,7 @@ Run it after changing a tolerance: ``python docs/tolerances.py``. A test compare
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import cache
@@ -15,6 +16,7 @@ ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "vectorplot"
 TABLE = PACKAGE / "tolerances"
 PAGE = ROOT / "docs" / "tolerances.md"
+IMPORT = re.compile(r"^from vectorplot\.tolerances\.\w+ import (?:\([^)]*\)|.*$)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -50,11 +52,10 @@ def uses() -> dict[str, list[str]]:
     """The files of the package that import each name of the table."""
     found: dict[str, list[str]] = {}
     for path in sorted(PACKAGE.rglob("*.py")):
-        text = path.read_text(encoding="utf-8")
-        for node in ast.parse(text).body if "vectorplot.tolerances." in text else ():
-            if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("vectorplot.tolerances."):
-                for alias in node.names:
-                    found.setdefault(alias.name, []).append(path.relative_to(ROOT).as_posix())
+        for statement in IMPORT.findall(path.read_text(encoding="utf-8")):
+            # Parsed alone: whole files take two hundred times as long.
+            for alias in ast.parse(statement).body[0].names:
+                found.setdefault(alias.name, []).append(path.relative_to(ROOT).as_posix())
     return found
 
 

@@ -5,36 +5,49 @@ from __future__ import annotations
 import ast
 import logging
 import math
+import re
 import warnings
 from pathlib import Path
 
 import pytest
-from support.sources import nodes_of, tree_of
+from support.sources import nodes_of, numbers_in, text_of, tree_of
 
 import vectorplot
 from vectorplot.cli.main import run
 from vectorplot.io.scenes.scene_language import parse_scene
 
 PACKAGE = Path(vectorplot.__file__).parent
+FLOAT_HELD = re.compile(r"^\w[\w =]*=[\s(\\]*[\d_]*(?:\.|[eE][-+\d])", re.MULTILINE)
+"""A name that a module gives to a float."""
 
 
-def trees():
+def trees(where=lambda text: True):
+    """The files of the package that may have what is looked for, each parsed: most others need not be."""
     for path in PACKAGE.rglob("*.py"):
-        yield path.relative_to(PACKAGE), tree_of(path)
+        if where(text_of(path)):
+            yield path.relative_to(PACKAGE), tree_of(path)
+
+
+def is_pi_or_infinity(value):
+    pi = any(abs(value - times * math.pi) < 1e-3 for times in (0.25, 0.5, 1.0, 2.0))
+    return pi or value in (1e20, float("inf"))
 
 
 @pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_nobody_writes_pi_or_infinity_down_again():
     wrong = []
-    for path, tree in trees():
+    for path, tree in trees(lambda text: any(map(is_pi_or_infinity, numbers_in(text)))):
         for node in nodes_of(tree):
             if isinstance(node, ast.Constant) and isinstance(node.value, int | float) and node.value is not True:
-                value = float(node.value)
-                pi = any(abs(value - times * math.pi) < 1e-3 for times in (0.25, 0.5, 1.0, 2.0))
-                if pi or value in (1e20, float("inf")):
-                    wrong.append((path.as_posix(), node.lineno, value))
+                if is_pi_or_infinity(float(node.value)):
+                    wrong.append((path.as_posix(), node.lineno, node.value))
     assert not wrong
+
+
+@pytest.mark.parametrize("code", ["X = 0.5", "x = y = 1e-3", "X = (\n    .5\n)", "X = 1_0e3"])
+def test_a_float_that_a_module_holds_is_seen_however_it_is_written(code):
+    assert FLOAT_HELD.search(f"import math\n{code}\n")
 
 
 @pytest.mark.slow
@@ -42,7 +55,7 @@ def test_nobody_writes_pi_or_infinity_down_again():
 def test_constants_are_named_in_capitals_and_say_why():
     """Every number a module holds for others has a name in capitals and a line below it that says what it is."""
     silent = []
-    for path, tree in trees():
+    for path, tree in trees(FLOAT_HELD.search):
         for node, after in zip(tree.body, [*tree.body[1:], None], strict=True):
             if not isinstance(node, ast.Assign) or not all(isinstance(t, ast.Name) for t in node.targets):
                 continue
@@ -76,7 +89,8 @@ def test_memory_that_cannot_be_had_is_one_line(verb, tmp_path, capsys, monkeypat
 def test_the_command_sends_its_messages_to_stderr_and_its_result_to_stdout(verb, tmp_path, capfdbinary):
     scene = tmp_path / "a.scene"
     scene.write_text("camera eye 9 9 9 field_of_vision 70 A nocolour box 1 1 1", encoding="utf-8")
-    assert run([verb, str(scene), "-o", "-", "--format", "png", "--explain"]) == 0
+    small = {"draw": "--page=40x40", "paint": "--page=40x40", "render": "--size=120x90"}[verb]
+    assert run([verb, str(scene), "-o", "-", "--format", "png", "--explain", small]) == 0
     result, messages = capfdbinary.readouterr()
     text = messages.decode("utf-8")
     assert result.startswith(b"\x89PNG")
@@ -86,7 +100,7 @@ def test_the_command_sends_its_messages_to_stderr_and_its_result_to_stdout(verb,
 @pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_only_the_command_prints():
-    for path, tree in trees():
+    for path, tree in trees(lambda text: "print" in text):
         if path.parts[0] == "cli":
             continue
         calls = [n for n in nodes_of(tree) if isinstance(n, ast.Call) and isinstance(n.func, ast.Name)]

@@ -325,7 +325,7 @@ def test_faces_that_cross_themselves_are_reported_or_right(verb: str, name: str,
     corners = BOW_TIES[name]
     points = ", ".join(" ".join(map(repr, map(float, point))) for point in corners)
     numbers = " ".join(str(k + 1) for k in range(len(corners)))
-    path, out = tmp_path / "tie.scene", tmp_path / "tie.png"
+    path, out = tmp_path / "tie.scene", tmp_path / ("tie.png" if verb == "render" else "tie.svg")
     path.write_text(
         f"camera eye 3 -9 4 target 1 0 1\nTIE red general vertices {points} faces {numbers}\n"
         "BEHIND blue box 1 0.2 1 translation 0.5 2 0.5\n",

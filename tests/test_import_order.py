@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from support.sources import nodes_of, tree_of
+from support.sources import statements_of, tree_of
 
 import vectorplot
 from vectorplot.save import _BACKENDS
@@ -62,10 +62,10 @@ def room(parts: tuple[str, ...]) -> str:
     return "verbs" if name in VERBS | STAGES else "cli" if name == "__main__" else name
 
 
-def imported_modules(tree: ast.AST, package: tuple[str, ...]) -> set[tuple[str, ...]]:
+def imported_modules(tree: ast.Module, package: tuple[str, ...]) -> set[tuple[str, ...]]:
     """The modules of vectorplot a file imports, at the top or inside a function."""
     found: set[tuple[str, ...]] = set()
-    for node in nodes_of(tree):
+    for node in statements_of(tree):
         if isinstance(node, ast.Import):
             found |= {tuple(alias.name.split(".")) for alias in node.names}
         elif isinstance(node, ast.ImportFrom):
@@ -167,7 +167,7 @@ def test_no_file_takes_what_another_keeps_to_itself():
     """Names with an underscore in front are a file's own."""
     taken = []
     for file in FILES:
-        for node in nodes_of(tree_of(PACKAGE / file)):
+        for node in statements_of(tree_of(PACKAGE / file)):
             if isinstance(node, ast.ImportFrom) and (node.module or "").startswith("vectorplot"):
                 taken += [
                     f"{file}: {alias.name}"

@@ -113,8 +113,9 @@ def test_stages_that_approximate_say_how_far_off_they_may_be() -> None:
     rendered = said(render, ring, shadows="buffer", shadow_size=64, **small)
     assert "a texel of 64 x 64" in rendered["shadows"] and "of a sample" in rendered["facets"]
     assert "texel" not in said(render, ring, shadows="exact", **small)["shadows"]
+    block = Scene((CUBE,), (SUN,))
     for size, texels in (((60, 40), 256), ((300, 257), 512), ((4, 512), 512)):
-        usual = said(render, ring, shadows="buffer", size=size, samples=1)["shadows"]
+        usual = said(render, block, shadows="buffer", size=size, samples=1)["shadows"]
         assert f"a texel of {texels} x {texels}" in usual, "as fine as the picture"
 
 

@@ -163,7 +163,7 @@ def test_the_order_of_items_changes_nothing():
 @pytest.mark.slow
 def test_smooth_surfaces_show_no_facets():
     scene = vp.Scene((vp.Item("RING", Torus(3.0, 1.2), "gray"),), (SUN,))
-    image = levels(render(scene, vp.Camera((0, -12, 9), fov_deg=40), size=(400, 300)))
+    image = levels(render(scene, vp.Camera((0, -12, 9), fov_deg=40), size=(240, 180)))
     inside = image < 255
     inner = ~grown(~inside) & ~grown(grown(np.abs(np.diff(image, axis=1, prepend=image[:, :1])) > 40))
     across = np.abs(np.diff(image, n=2, axis=1))[:, :-1]

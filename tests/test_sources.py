@@ -7,15 +7,17 @@ import re
 
 import pytest
 from support.paths import DOCS, PACKAGE
-from support.sources import tree_of
+from support.sources import statements_of, text_of, tree_of
 
 ERRATUM = re.compile(r"\b(?:G\d|N|R|V)-\d\d\b|\bD-\d\b")
 
 
 def docstrings():
-    """The docstrings of the package, those of constants too, each on one line."""
+    """The docstrings of files that cite, those of constants too, each on one line."""
     for path in sorted(PACKAGE.rglob("*.py")):
-        for node in ast.walk(tree_of(path)):
+        if not (ERRATUM.search(text_of(path)) or "Source:" in text_of(path)):
+            continue
+        for node in statements_of(tree_of(path)):
             if (
                 isinstance(node, ast.Expr)
                 and isinstance(node.value, ast.Constant)

@@ -225,6 +225,7 @@ def render(
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
     check_targets(over.rules, names)
     check_lights(seen.lights)
+    paper = palette(background or over.background or seen.background or BACKGROUND)[-1:]
     whole, size = size, pixels_left_of_bar(size, bar)
     how, why = chosen_shadows(seen, subject.camera, size, fit) if shadows == "auto" else (shadows, "")
     said = accuracy_of_render(FACET_PIXELS, how, texels)
@@ -252,7 +253,6 @@ def render(
         walk.measured("shadows", "% wrong", wrong_shadows, seen, triangles, lighting)
     opacity = np.array([item.material.opacity for item in seen.items])
     mirror = np.array([item.material.is_mirror for item in seen.items], dtype=np.bool_)
-    paper = palette(background or over.background or seen.background or BACKGROUND)[-1:]
     coplanar = walk.run("coplanar", coplanar_faces, view)
     behind = paper[0].astype(np.float64)
     picture = picture_of(triangles, system, fine, lighting, opacity, mirror, sides, coplanar, behind)

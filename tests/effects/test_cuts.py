@@ -171,7 +171,7 @@ def test_cut_bodies_are_open_and_their_insides_are_seen(verb):
             vp.Item("IN", box((-0.2, 0.8, -0.2), (0.2, 1.2, 0.2)), "red"),
         )
     )
-    made = verb(hollow, camera(near=10.5))
+    made = verb(hollow, camera(near=10.5), **({"size": (200, 150)} if verb is vp.render else {}))
     if verb is vp.render:
         reds = made.pixels.astype(int)
         assert (reds[..., 0] - reds[..., 1:].max(axis=2) > 60).sum() > 100

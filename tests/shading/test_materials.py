@@ -22,7 +22,7 @@ BODY orange {word} {body}
 """
 BODIES = {
     "a smooth body of revolution": 'surface revolution curve "0.75 + 0.3*sin(1.7*t)" "0" "t" t -1.6 1.6',
-    "a body of revolution": "revolution meridian 0.1 0 -1.5, 1 0 -1.2, 0.8 0 0, 1.1 0 0.9, 0.3 0 1.4 order 32",
+    "a body of revolution": "revolution meridian 0.1 0 -1.5, 1 0 -1.2, 0.8 0 0, 1.1 0 0.9, 0.3 0 1.4 order 16",
     "a box": "box 1.4 1.4 1.4 translation -0.7 -0.7 -0.7",
 }
 

@@ -82,9 +82,9 @@ def test_shadow_buffers_agree_with_exact_shadows_and_larger_ones_more(seed, ligh
     _, facing = stopped(points, corners, places, normals, light)
     wrong = [
         (shadow_buffer(light, points, corners, size=size).blocks(places, normals) != exact)[facing].mean()
-        for size in (128, 512, 2048)
+        for size in (128, 256, 1024)
     ]
-    assert wrong[2] < 0.006
+    assert wrong[2] < 0.004
     assert wrong[0] > wrong[1] > wrong[2] or wrong[0] < 1e-4
 
 
@@ -260,8 +260,8 @@ def unscaled(system, depth):
 )
 def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
     points, corners = field()
-    found, places, normals = visible(points, corners, FIELD_CAMERA, 320, 240)
-    region = seen_region(raster_system(FIELD_CAMERA, 320, 240), 320, 240, bounds(points))
+    found, places, normals = visible(points, corners, FIELD_CAMERA, 200, 150)
+    region = seen_region(raster_system(FIELD_CAMERA, 200, 150), 200, 150, bounds(points))
     exact = blocked_exactly(light, places, found.triangle, points, corners)
     _, facing = stopped(points, corners, places, normals, light)
     distance = np.linalg.norm(places - FIELD_CAMERA.eye, axis=1)
@@ -274,7 +274,7 @@ def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
         coarse = shadow_buffer(light, points, corners, size=256, frame=frame, region=region)
         bad = coarse.blocks(places, normals) != exact
         wrong[frame] = (bad[near & facing].mean(), bad[facing].mean())
-    plain = shadow_buffer(light, points, corners, size=3000).blocks(places, normals)
+    plain = shadow_buffer(light, points, corners, size=2048).blocks(places, normals)
     assert (shadows["trapezoid"] == plain)[facing].mean() > 0.98
     assert texels["trapezoid"] > 8.0 * texels["standard"]
     assert texels["trapezoid"] > 4.0 * texels["box"] >= 4.0 * texels["standard"]

@@ -10,7 +10,9 @@ import numpy as np
 
 from support.triangle_rays import TriangleRays
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.vectors import cross, norm
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.scene import Scene
 
@@ -55,27 +57,23 @@ class Faces:
 
 def faces_of(scene: Scene, which: Bools | None = None) -> Faces:
     """The faces of all items, or of some."""
-    triangles, face, item, normal, middle = [np.zeros((0, 3, 3))], [], [], [], []
+    triangles, face, item = [np.zeros((0, 3, 3))], [np.zeros(0, dtype=np.intp)], [np.zeros(0, dtype=np.intp)]
+    middle, count = [np.zeros((0, 3))], 0
     for number, thing in enumerate(scene.items):
-        if which is not None and not which[number]:
+        mesh = thing.mesh
+        if not mesh.face_count or (which is not None and not which[number]):
             continue
-        for polygon in thing.mesh.polygons():
-            corner = thing.mesh.vertices[np.asarray(polygon)]
-            arms = corner[1:] - corner[0]
-            vector = np.cross(arms[:-1], arms[1:]).sum(axis=0)
-            fan = [corner[[0, k, k + 1]] for k in range(1, len(corner) - 1)]
-            triangles.append(np.array(fan))
-            face += [len(item)] * len(fan)
-            item.append(number)
-            normal.append(vector / np.linalg.norm(vector))
-            middle.append(corner.mean(axis=0))
-    return Faces(
-        np.concatenate(triangles),
-        np.array(face, dtype=np.intp),
-        np.array(item, dtype=np.intp),
-        np.array(normal).reshape(-1, 3),
-        np.array(middle).reshape(-1, 3),
-    )
+        corner, of = ragged.fans(mesh.offsets)
+        triangles.append(mesh.vertices[mesh.corners[corner]])
+        face.append(count + of)
+        item.append(np.full(mesh.face_count, number, dtype=np.intp))
+        sizes = np.diff(mesh.offsets)[:, None]
+        middle.append(np.add.reduceat(mesh.vertices[mesh.corners], mesh.offsets[:-1]) / sizes)
+        count += mesh.face_count
+    every, owner = np.concatenate(triangles), np.concatenate(face)
+    normal = np.zeros((count, 3))
+    np.add.at(normal, owner, cross(every[:, 1] - every[:, 0], every[:, 2] - every[:, 0]))
+    return Faces(every, owner, np.concatenate(item), normal / norm(normal)[:, None], np.concatenate(middle))
 
 
 def page_rays(camera: Camera, page: Page, places: Floats, size: float) -> tuple[Floats, Floats]:

@@ -5,18 +5,14 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.scene.view import View
 
 
 def triangles(view: View) -> tuple[Floats, Ints]:
     """(t,3,3) triangles of all faces, and the face of each."""
-    corners, faces = [], []
-    for face in range(view.face_count):
-        ring = view.corners[view.offsets[face] : view.offsets[face + 1]]
-        for k in range(1, len(ring) - 1):
-            corners.append(view.points[:, [ring[0], ring[k], ring[k + 1]]].T)
-            faces.append(face)
-    return np.array(corners).reshape(-1, 3, 3), np.array(faces, dtype=np.intp)
+    corner, face = ragged.fans(view.offsets)
+    return np.moveaxis(view.points[:, view.corners[corner]], 0, -1), face
 
 
 def sight_rays(view: View, image: Floats) -> tuple[Floats, Floats]:
@@ -30,12 +26,13 @@ def sight_rays(view: View, image: Floats) -> tuple[Floats, Floats]:
 
 def topmost(points: Floats, offsets: Ints, samples: Floats) -> Ints:
     """(n,) the last polygon (simple, 2 or more rows) that contains each sample (2,n), -1 for none."""
-    found = np.full(samples.shape[1], -1)
-    for k in range(len(offsets) - 1):
-        ring = points[:2, offsets[k] : offsets[k + 1]]
-        after = np.roll(ring, -1, axis=1)
-        crossed = (ring[1][:, None] <= samples[1]) != (after[1][:, None] <= samples[1])
-        rise = np.where(after[1] == ring[1], 1.0, after[1] - ring[1])[:, None]
-        reached = ring[0][:, None] + (samples[1] - ring[1][:, None]) / rise * (after[0] - ring[0])[:, None]
-        found[(crossed & (reached > samples[0])).sum(axis=0) % 2 == 1] = k
-    return found
+    if len(offsets) < 2:
+        return np.full(samples.shape[1], -1)
+    after = np.arange(1, points.shape[1] + 1)
+    after[offsets[1:] - 1] = offsets[:-1]
+    x, y = points[0, :, None], points[1, :, None]
+    crossed = (y <= samples[1]) != (y[after] <= samples[1])
+    rise = np.where(y[after] == y, 1.0, y[after] - y)
+    crossed &= x + (samples[1] - y) / rise * (x[after] - x) > samples[0]
+    inside = np.logical_xor.reduceat(crossed, offsets[:-1], axis=0)
+    return np.where(inside.any(axis=0), len(inside) - 1 - inside[::-1].argmax(axis=0), -1)

@@ -120,7 +120,7 @@ def areas_of(regions: Any) -> Any:
     """(n,) the areas among what regions (n,) consist of: intersections may have points and lines too."""
     import shapely
 
-    mixed = ~np.isin(shapely.get_type_id(regions), (POLYGON, MULTIPOLYGON))
+    mixed = ~_are_areas(regions)
     if not mixed.any():
         return regions
     result = regions.copy()
@@ -130,6 +130,14 @@ def areas_of(regions: Any) -> Any:
     which = np.unique(of[kept])
     result[which] = shapely.multipolygons(parts[kept], indices=np.searchsorted(which, of[kept]))
     return result
+
+
+def _are_areas(regions: Any) -> Bools:
+    """(n,) which regions consist of areas alone."""
+    import shapely
+
+    kind = shapely.get_type_id(regions)
+    return np.asarray((kind == POLYGON) | (kind == MULTIPOLYGON))
 
 
 def grown(regions: Any, distance: float) -> Any:
@@ -150,13 +158,16 @@ def insides_of(regions: Any) -> Any:
 
     found = regions
     # Most are valid, which is told in a tenth of the time that mending takes.
-    broken = np.flatnonzero(~shapely.is_valid(found))
-    if len(broken):
+    broken = ~shapely.is_valid(found)
+    if broken.any():
         found = found.copy()
         found[broken] = shapely.make_valid(found[broken], method="structure", keep_collapsed=False)
+    changed = np.flatnonzero(broken | ~_are_areas(found))
+    if not len(changed):
+        return found
     found = areas_of(found)
     # Where sides touch within the last digits the result may cross itself.
-    crossed = np.flatnonzero(~shapely.is_valid(found))
+    crossed = changed[~shapely.is_valid(found[changed])]
     if len(crossed):
         found = found.copy()
         found[crossed] = shapely.buffer(found[crossed], 0.0)

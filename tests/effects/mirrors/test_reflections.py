@@ -107,21 +107,22 @@ class Picture:
 def test_what_is_seen_in_a_mirror_is_what_the_mirrored_ray_meets(start: int) -> None:
     random = np.random.default_rng(start)
     seen = checked = 0
-    for seed in range(start, start + several(9, long=25)):
+    scenes = several(6, long=25)
+    for seed in range(start, start + scenes):
         picture = Picture(*random_scene(seed))
         low, high = picture.view.image.min(axis=1), picture.view.image.max(axis=1)
         samples = low[:, None] + random.uniform(size=(2, 150)) * (high - low)[:, None]
-        face, double = picture.true_at(samples)
-        steady = np.ones(150, dtype=bool)
-        for step in ([1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1]):
-            near, beside = picture.true_at(samples + 2e-3 * np.array(step)[:, None])
-            steady &= (near == face) & (beside == double)
+        steps = 2e-3 * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1], [1, 1], [-1, -1]]).T
+        # Samples and what is beside them in one call.
+        near = [part.reshape(7, -1) for part in picture.true_at((samples[:, None] + steps[:, :, None]).reshape(2, -1))]
+        face, double = (part[0] for part in near)
+        steady = np.logical_and.reduce([(part == part[0]).all(axis=0) for part in near])
         painted, reflected = picture.painted_at(samples)
         assert (painted == face)[steady].all()
         assert (reflected == double)[steady].all()
         seen += int((double >= 0).sum())
         checked += int(steady.sum())
-    assert seen > 20 and checked > 700
+    assert seen > 20 and checked > 0.5 * scenes * 150
 
 
 @pytest.mark.capability("G6.4-reflect")

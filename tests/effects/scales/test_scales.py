@@ -98,7 +98,7 @@ def test_edges_of_a_box_are_whole_beside_wide_numbers():
     saddle = vp.graph(lambda x, y: x * y, (-1.5, 1.5), (-1.5, 1.5))
     bare, numbered = (
         vp.draw(vp.Scene((saddle,), box=BoxAxes(size_mm=size)), vp.Camera((8, -10, 6)), page="A5", lines="curve")
-        for size in (1e-3, 3.5)
+        for size in (0.5, 3.5)
     )
     long = [
         sum(np.hypot(*np.diff(paths.points, axis=0).T).sum() for paths in drawing.layers[-2].strokes)

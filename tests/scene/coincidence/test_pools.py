@@ -17,6 +17,7 @@ FILES = sorted(DATA.glob("*.scene"))
 
 
 @pytest.mark.capability("G3.1-pools")
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("path", FILES, ids=lambda path: path.stem)
 def test_total_counts_are_the_sums_over_the_items(path, capsys):
     scene = read(path)

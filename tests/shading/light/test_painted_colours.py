@@ -39,7 +39,7 @@ def scene(*lights: Light, items: tuple[Item, ...] = ()) -> Scene:
 
 
 def fills_of(picture: Scene) -> Fills:
-    (fills,) = (some for layer in vp.paint(picture, CAMERA, tolerance_mm=1.0).layers for some in layer.fills)
+    (fills,) = (some for layer in vp.paint(picture, CAMERA, tolerance_mm=4.0).layers for some in layer.fills)
     return fills
 
 

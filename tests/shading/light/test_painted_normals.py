@@ -156,6 +156,7 @@ def notched_bar(corners: int) -> Mesh:
 
 
 @pytest.mark.hard(74)
+@pytest.mark.spread
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("crease_angle_deg", [0.0, 5.0, 25.0, 60.0])
 def test_plane_faces_with_corners_on_their_sides_have_one_shade(scale: float, crease_angle_deg: float) -> None:

@@ -17,10 +17,10 @@ def times_covered(points, corners, columns, rows):
     x, y = pixel_coverage.corner_grid(grid, np.asarray(corners))
     box, triangles = pixel_coverage.boxes(x, y, columns, rows), pixel_coverage.turned_right(x, y)
     stride, padded = (-(-side // SIDE) * SIDE for side in (columns, rows))
-    count = np.zeros(stride * padded, dtype=np.intp)
+    pixels = [np.zeros(0, dtype=np.intp)]
     kept = (box.left < box.right) & (box.top < box.bottom) & (triangles.area > 0)
     for found in pixel_coverage.small_fragments(triangles, box, np.flatnonzero(kept & box.small), stride):
-        count += np.bincount(found.pixel, minlength=len(count))
+        pixels.append(found.pixel)
     large = np.flatnonzero(kept & ~box.small)
     index, column, row = pixel_coverage.tile_pairs(box, large, SIDE)
     met = pixel_coverage.may_cover(triangles, index, column * SIDE, row * SIDE, SIDE)
@@ -28,7 +28,8 @@ def times_covered(points, corners, columns, rows):
     for begin in range(0, len(index), 50):
         part = slice(begin, begin + 50)
         found = pixel_coverage.covered(triangles, index[part], left[part], top[part], (SIDE, SIDE), stride, np.int64)
-        count += np.bincount(found.pixel, minlength=len(count))
+        pixels.append(found.pixel)
+    count = np.bincount(np.concatenate(pixels), minlength=stride * padded)
     return count.reshape(padded, stride)[:rows, :columns]
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from support.effort import several
 
 from vectorplot.errors import InputError
 from vectorplot.shading.shadows.trapezoid import (
@@ -37,6 +38,9 @@ from vectorplot.shading.shadows.trapezoid_matrix import (
     recipe_matrix,
     square_map,
 )
+
+STEPS = several(2001, long=4001)
+"""Of an eye that turns past a lamp."""
 
 SQUARE = np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)], dtype=np.float64)
 HULL = np.array([(1, 0), (2.5, -0.5), (9, 1), (10, 6), (3, 3.5), (0.8, 1.5)])
@@ -253,7 +257,7 @@ def turning_maps(angles, beside):
 @pytest.mark.slow
 @pytest.mark.hard(33, 34)
 def test_the_map_has_neither_pole_nor_branch():
-    angles = np.linspace(0.0, np.pi, 4001)
+    angles = np.linspace(0.0, np.pi, STEPS)
     images, tapers = zip(*turning_maps(angles, 0.0), strict=True)
     assert np.abs(images).max() <= 1.0 + 1e-9
     assert tapers[0] == tapers[-1] == 0.0, "looking at each other: the rectangle"
@@ -267,7 +271,7 @@ def test_the_map_has_neither_pole_nor_branch():
 @pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("beside", [0.3, 0.1, 0.03, 0.01, 0.003])
 def test_beside_the_duelling_position_the_map_turns_no_faster_than_the_axis(beside):
-    angles = np.linspace(-20.0 * beside, 20.0 * beside, 4001)
+    angles = np.linspace(-20.0 * beside, 20.0 * beside, STEPS)
     images = np.array([image for image, _ in turning_maps(angles[np.abs(angles) < 1.5], beside)])
     speed = np.abs(np.diff(images, axis=0)).max(axis=(1, 2)) / np.diff(angles)[0]
     assert speed.max() < 80.0 + 3.0 / beside

@@ -70,26 +70,27 @@ def mirror_light(
     Source: Glaeser, section 6.4: the reflected light is obscured by the reflected objects.
     """
     projected = project_faces(view) if projected is None else projected
-    found = []
+    found: list[Decals] = []
+    planes, seen = FacePlanes.of(view), drawn_faces(view, projected)
     # They are what shadows of the scene's own lights are clipped with.
     everywhere = np.ones(view.face_count, dtype=np.bool_)
     for number, double in enumerate(doubles):
-        lit = _through_windows(view, mirrors, double, number, projected)
+        system = light_system(view, double.light)
+        facing = system.facing(planes, view.tolerance)
+        face = seen[facing[seen] * projected.facing[seen] > 0]
+        lit = _through_windows(view, mirrors, double, number, system, face)
         if len(lit):
-            dark = in_shadows(view, lit, convex_decals(view, _obscured(view, mirrors, double), everywhere))
+            obscured = _obscured(view, mirrors, double, lit.face)
+            dark = in_shadows(view, lit, convex_decals(view, obscured, everywhere))
             nothing = np.zeros(len(dark), dtype=np.intp)
             found += [lit, replace(dark, light=nothing - 1, grade=nothing, lacking=nothing)]
     return joined_decals(*found)
 
 
 def _through_windows(
-    view: View, mirrors: Mirrors, double: LightDouble, number: int, projected: ProjectedFaces
+    view: View, mirrors: Mirrors, double: LightDouble, number: int, system: LightSystem, face: Ints
 ) -> Decals:
     """The parts of faces before a mirror that the double of a light shines on through its windows."""
-    system = light_system(view, double.light)
-    facing = system.facing(FacePlanes.of(view), view.tolerance)
-    seen = drawn_faces(view, projected)
-    face = seen[facing[seen] * projected.facing[seen] > 0]
     window = mirrors.face[mirrors.plane == double.plane]
     corner, offsets = ragged.take(view.offsets, face)
     polygon, bundle = (grid.ravel() for grid in np.meshgrid(np.arange(len(face)), np.arange(len(window))))
@@ -124,17 +125,19 @@ def _window_volumes(view: View, mirrors: Mirrors, plane: int, window: Ints, syst
     return PlaneBundles(np.insert(planes_of(normal, start), last, front, axis=1), offsets + np.arange(len(offsets)))
 
 
-def _obscured(view: View, mirrors: Mirrors, double: LightDouble) -> Decals:
-    """The shadows that the scene before a mirror and its double behind it cast in the light of a double."""
+def _obscured(view: View, mirrors: Mirrors, double: LightDouble, lit: Ints) -> Decals:
+    """The shadows that the scene before a mirror and its double behind it cast in the light of a double, on those faces
+    of the view that it gets to."""
     height = mirrors.heights(double.plane, view.points)
     # Light leaves through the mirror, which in a body is not above its plane, and of an open thing is.
     pane = np.zeros(view.face_count, dtype=np.bool_)
     pane[mirrors.face[mirrors.plane == double.plane]] = True
     before, source = _casting_half(view, height, pane, view)
     behind, _ = _casting_half(view, height, pane, doubled(view, mirrors, double.plane))
-    shadows = shadow_decals(joined_views(before, behind), [double.light])
-    ours = np.flatnonzero(shadows.face < before.face_count)
-    shadows = shadows.of(ours)
+    both = joined_views(before, behind)
+    receivers = np.zeros(both.face_count, dtype=np.bool_)
+    receivers[: len(source)] = np.isin(source, lit)
+    shadows = shadow_decals(both, [double.light], receivers=receivers)
     return replace(shadows, face=source[shadows.face])
 
 

@@ -124,7 +124,12 @@ def shadow_crossings(view: View, casters: Casters, receivers: Receivers, caster:
 
 
 def shadow_decals(
-    view: View, lights: Sequence[Light], *, casters: Bools | None = None, projected: ProjectedFaces | None = None
+    view: View,
+    lights: Sequence[Light],
+    *,
+    casters: Bools | None = None,
+    receivers: Bools | None = None,
+    projected: ProjectedFaces | None = None,
 ) -> Decals:
     """The shadows of all lights on the faces of a view, in every grade, darker ones above.
 
@@ -136,6 +141,8 @@ def shadow_decals(
         At most 52.
     casters : (i,) array of bool, optional
         The items that cast shadows; those that occlude where None.
+    receivers : (f,) array of bool, optional
+        The faces that they may fall on; all where None.
     projected : ProjectedFaces, optional
         The faces of the view in the image, where they are known.
 
@@ -178,5 +185,5 @@ def shadow_decals(
     >>> len(shadows), shadows.face.tolist(), shadows.grade.tolist()
     (1, [0], [1])
     """
-    shadows = cast_shadows(view, lights, casters=casters, projected=projected)
+    shadows = cast_shadows(view, lights, casters=casters, receivers=receivers, projected=projected)
     return shadow_decals_of(graded(view, shadows), FillKind.SHADOW)

@@ -185,7 +185,7 @@ def _snapped_depths(task: Task, triangles: Snapped, corner: Ints) -> Floats:
 def _keys(task: Task, planes: Planes, found: Fragments) -> Keys:
     """(f,) the keys of fragments."""
     t = found.triangle
-    depth = planes.base[t] + found.second * planes.rise[t] + found.third * planes.other_rise[t]
+    depth = planes.base.take(t) + found.second * planes.rise.take(t) + found.third * planes.other_rise.take(t)
     if len(task.sheet):
         sheet = task.sheet[planes.number[t]]
         flat = np.flatnonzero(sheet >= 0)
@@ -194,7 +194,7 @@ def _keys(task: Task, planes: Planes, found: Fragments) -> Keys:
         depth[flat] = np.clip(start + column * by_column + row * by_row, 1.0, task.last)
     key = depth.astype(np.int64)
     key <<= task.number_bits
-    key += ((1 << task.number_bits) - 1 - planes.number)[t]
+    key += ((1 << task.number_bits) - 1 - planes.number).take(t)
     return key
 
 

@@ -44,9 +44,8 @@ def visible_points(buffer: DepthBuffer, points: ArrayLike, corners: ArrayLike) -
 
     Pixels count from the buffer's own first row.
     """
-    row, column = np.nonzero(buffer.triangle >= 0)
-    pixel = row * buffer.triangle.shape[1] + column
-    return points_in_pixels(buffer, pixel, buffer.triangle[row, column].astype(np.intp), points, corners)
+    pixel = np.flatnonzero(buffer.triangle >= 0)
+    return points_in_pixels(buffer, pixel, buffer.triangle.take(pixel).astype(np.intp), points, corners)
 
 
 def points_in_pixels(

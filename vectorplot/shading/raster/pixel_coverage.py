@@ -166,11 +166,13 @@ def covered(
         rows = here + (below << SUBPIXEL_BITS) * down.astype(kind)
         values.append((rows + (right << SUBPIXEL_BITS) * along.astype(kind)).reshape(high * wide, len(index)))
     first, second, third = values
-    cell, number = np.nonzero((first | second | third) >= 0)
-    flat = cell * len(index) + number
+    # Of arrays with one axis numpy finds the places in a fifth of the time.
+    flat = np.flatnonzero((first | second | third) >= 0)
+    cell = flat // max(len(index), 1)
+    number = flat - cell * len(index)
     offset = (down * stride + along).reshape(-1)
-    pixel = (top * stride + left)[number] + offset[cell]
-    return Fragments(pixel, index[number], second.reshape(-1)[flat], third.reshape(-1)[flat])
+    pixel = (top * stride + left).take(number) + offset.take(cell)
+    return Fragments(pixel, index.take(number), second.take(flat), third.take(flat))
 
 
 def _owns(right: Integers, below: Integers) -> Bools:

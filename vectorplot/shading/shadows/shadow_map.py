@@ -213,7 +213,7 @@ def _own_depth(inverse: Floats, seen: Bools, depth: ArrayLike) -> Floats:
     """(k,) the lamp's own depths at the texels that see something, from those of the tapered map."""
     if not inverse[2, :2].any():
         return np.asarray(np.asarray(depth) / inverse[2, 2])
-    row, column = np.nonzero(seen)
+    row, column = np.divmod(np.flatnonzero(seen), seen.shape[1])
     return np.asarray(np.asarray(depth) / (inverse[2, 0] * column + inverse[2, 1] * row + inverse[2, 2]))
 
 

@@ -96,29 +96,47 @@ def _blocked(
     frame = np.diag([side / 2.0, side / 2.0, 1.0]) @ standard_frame(flat[here, :2])
     frame[:2] += side / 2.0 * np.array([0.0, 0.0, 1.0])
     places = np.column_stack([flat[here, :2] @ frame[:2, :2].T + frame[:2, 2], flat[here, 2]])
+    x, y = np.ascontiguousarray(places[:, :2].T)
     light = system.homogeneous(v)
     light[:, [0, 1]] = light[:, [0, 1, 3]] @ frame[:2].T
     triangles = screen_triangles(light, corners, near=LAMP_OF_EXTENT)
-    cells = _sorted_into_cells(places, side)
+    cells, sides = _sorted_into_cells(places, side), _Sides.of(triangles)
+    planes = _Planes.of(system, v[corners], ZERO_OF_EXTENT * size)
     for tri, point in _candidates(cells, triangles, places):
         source = triangles.source[tri]
         one = (triangle[here[point]] != source) & ~result[here[point]]
         tri, point, source = tri[one], point[one], source[one]
-        inside = _within(triangles, tri, places[point, :2])
-        tri, point, source = tri[inside], point[inside], source[inside]
-        stopped = _hides(system, v[corners[source]], points[here[point]], ZERO_OF_EXTENT * size)
+        inside = sides.contain(tri, x.take(point), y.take(point))
+        point, source = point[inside], source[inside]
+        stopped = planes.hide(source, points[here[point]])
         result[here[point[stopped]]] = True
     return result
 
 
-def _hides(system: CoordinateSystem, triangle: Floats, points: Floats, slack: float) -> Bools:
-    """(k,) which points (k, 3) lie farther than the slack behind the planes of triangles (k, 3, 3)."""
-    origin = triangle[:, 0]
-    normal = np.cross(triangle[:, 1] - origin, triangle[:, 2] - origin)
-    to_light = system.rotation[:, 2] if system.distance == INFINITE else system.centre - origin
-    facing = np.sign((normal * to_light).sum(axis=1))
-    height = np.einsum("ij,ij->i", normal, points - origin) * facing
-    return np.asarray(height < -slack * np.sqrt(np.einsum("ij,ij->i", normal, normal)))
+@dataclass(frozen=True, eq=False)
+class _Planes:
+    """The planes of triangles: origin, normal (t, 3); facing (t,): the sign of the light's side; least (t,): heights
+    below this one are behind it by more than a slack."""
+
+    origin: Floats
+    normal: Floats
+    facing: Floats
+    least: Floats
+
+    @classmethod
+    def of(cls, system: CoordinateSystem, triangle: Floats, slack: float) -> _Planes:
+        """Of triangles (t, 3, 3) of the world."""
+        origin = triangle[:, 0]
+        normal = cross(triangle[:, 1] - origin, triangle[:, 2] - origin)
+        to_light = system.rotation[:, 2] if system.distance == INFINITE else system.centre - origin
+        facing = np.sign((normal * to_light).sum(axis=1))
+        return cls(origin, normal, facing, -slack * np.sqrt(np.einsum("ij,ij->i", normal, normal)))
+
+    def hide(self, which: Ints, points: Floats) -> Bools:
+        """(k,) which points (k, 3) lie behind the planes of some triangles (k,)."""
+        arm = points - self.origin.take(which, axis=0)
+        height = np.einsum("ij,ij->i", self.normal.take(which, axis=0), arm) * self.facing.take(which)
+        return np.asarray(height < self.least.take(which))
 
 
 def _sorted_into_cells(places: Floats, side: int) -> _Cells:
@@ -133,14 +151,17 @@ def _sorted_into_cells(places: Floats, side: int) -> _Cells:
 
 def _candidates(cells: _Cells, triangles: ScreenTriangles, places: Floats) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of a triangle and a point in a cell that the triangle's box touches and that reaches behind it."""
-    corner = triangles.points[triangles.corners]
-    low = np.clip(np.floor(corner[:, :, :2].min(axis=1)), 0, cells.side).astype(np.intp)
-    high = np.clip(np.floor(corner[:, :, :2].max(axis=1)), -1, cells.side - 1).astype(np.intp)
+    # Each coordinate of each corner lies in one piece: flat (2, 3, t).
+    corner = triangles.points.T[:, triangles.corners.T]
+    flat = np.ascontiguousarray(corner[:2])
+    least = flat.min(axis=1)
+    low = np.clip(np.floor(least), 0, cells.side).astype(np.intp)
+    high = np.clip(np.floor(flat.max(axis=1)), -1, cells.side - 1).astype(np.intp)
     # Points on the last border belong to the last cell.
-    low = np.minimum(low, np.where(corner[:, :, :2].min(axis=1) <= cells.side, cells.side - 1, cells.side))
-    wide, high_count = np.maximum(high - low + 1, 0).T
+    low = np.minimum(low, np.where(least <= cells.side, cells.side - 1, cells.side))
+    wide, high_count = np.maximum(high - low + 1, 0)
     count = wide * high_count
-    nearest = corner[:, :, 2].max(axis=1)
+    nearest = corner[2].max(axis=0)
     ends = np.cumsum(count)
     begin = 0
     while begin < len(count):
@@ -149,25 +170,22 @@ def _candidates(cells: _Cells, triangles: ScreenTriangles, places: Floats) -> It
         tri = np.repeat(np.arange(begin, stop), count[begin:stop])
         number = np.arange(len(tri)) + done - (ends - count)[tri]
         row, column = np.divmod(number, wide[tri])
-        cell = (low[tri, 1] + row) * cells.side + low[tri, 0] + column
+        cell = (low[1].take(tri) + row) * cells.side + low[0].take(tri) + column
         met = np.flatnonzero(cells.deepest[cell] < nearest[tri])
-        met = met[_touches(corner[tri[met]], cell[met], cells.side)]
+        met = met[_touches(flat.take(tri[met], axis=2), cell[met], cells.side)]
         yield from _with_points(cells, tri[met], cell[met])
         begin = stop
 
 
 def _touches(corner: Floats, cell: Ints, side: int) -> Bools:
-    """(k,) whether no edge of triangles (k, 3, 3) has their whole cell outside."""
+    """(k,) whether no edge of triangles, corners (2, 3, k), has their whole cell (k,) outside."""
     row, column = np.divmod(cell, side)
-    middle = np.stack([column, row], axis=1) + 0.5
-    x, y = corner[:, :, 0] - middle[:, :1], corner[:, :, 1] - middle[:, 1:]
-    first, second = (np.stack([x[:, k] - x[:, 0], y[:, k] - y[:, 0]], axis=1) for k in (1, 2))
-    sign = np.sign(cross(first, second))
+    x, y = corner[0] - (column + 0.5), corner[1] - (row + 0.5)
+    sign = np.sign((x[1] - x[0]) * (y[2] - y[0]) - (y[1] - y[0]) * (x[2] - x[0]))
     seen = np.ones(len(cell), dtype=np.bool_)
-    for k in range(3):
-        one, two = k, (k + 1) % 3
-        dx, dy = x[:, two] - x[:, one], y[:, two] - y[:, one]
-        here = sign * (dy * x[:, one] - dx * y[:, one])
+    for one, two in ((0, 1), (1, 2), (2, 0)):
+        dx, dy = x[two] - x[one], y[two] - y[one]
+        here = sign * (dy * x[one] - dx * y[one])
         seen &= here + (0.5 + ZERO_OF_EXTENT * side) * (np.abs(dx) + np.abs(dy)) >= 0.0
     return seen
 
@@ -186,15 +204,33 @@ def _with_points(cells: _Cells, tri: Ints, cell: Ints) -> Iterator[tuple[Ints, I
         begin = stop
 
 
-def _within(triangles: ScreenTriangles, tri: Ints, at: Floats) -> Bools:
-    """(k,) whether triangles have points (k, 2) inside or on their border: neighbours leave no gap."""
-    points, corners = triangles.points[:, :2], triangles.corners[tri]
-    values = []
-    for k in range(3):
-        a, b = corners[:, k], corners[:, (k + 1) % 3]
-        # The same arithmetic for both triangles at an edge.
-        swap = a > b
-        p, q = points[np.where(swap, b, a)], points[np.where(swap, a, b)]
-        value = cross(q - p, at - p)
-        values.append(np.where(swap, -value, value))
-    return np.asarray((np.minimum.reduce(values) >= 0.0) | (np.maximum.reduce(values) <= 0.0))
+@dataclass(frozen=True, eq=False)
+class _Sides:
+    """The three sides of triangles in the plane: start, way (3, 2, t), the same for both triangles at a side; sign
+    (3, t): 1 where a triangle's own runs that way, else -1."""
+
+    start: Floats
+    way: Floats
+    sign: Floats
+
+    @classmethod
+    def of(cls, triangles: ScreenTriangles) -> _Sides:
+        """Of triangles on a raster."""
+        one = np.ascontiguousarray(triangles.corners.T)
+        two = one[[1, 2, 0]]
+        x, y = np.ascontiguousarray(triangles.points[:, :2].T)
+        low, high = np.minimum(one, two), np.maximum(one, two)
+        start = np.stack([x.take(low), y.take(low)], axis=1)
+        way = np.stack([x.take(high), y.take(high)], axis=1) - start
+        return cls(start, way, np.where(one > two, -1.0, 1.0))
+
+    def contain(self, which: Ints, x: Floats, y: Floats) -> Bools:
+        """(k,) whether some triangles (k,) have the points x, y (k,) inside or on their border: neighbours leave no
+        gap."""
+        least, greatest = np.zeros(len(which)), np.zeros(len(which))
+        for start, way, sign in zip(self.start, self.way, self.sign, strict=True):
+            value = way[0].take(which) * (y - start[1].take(which)) - way[1].take(which) * (x - start[0].take(which))
+            value *= sign.take(which)
+            np.minimum(least, value, out=least)
+            np.maximum(greatest, value, out=greatest)
+        return np.asarray((least >= 0.0) | (greatest <= 0.0))
