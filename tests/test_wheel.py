@@ -36,11 +36,14 @@ def goes_into_wheels(path: Path) -> bool:
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
-    """A folder with what a wheel brings, and nothing else of the checkout."""
+    """A folder with what a wheel brings, compiled as far as the checkout is, and nothing else of it."""
     place = tmp_path_factory.mktemp("installed")
     for path in filter(goes_into_wheels, package_files()):
-        (place / path).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(ROOT / path, place / path)
+        compiled = Path(importlib.util.cache_from_source(str(path)))
+        (place / compiled).parent.mkdir(parents=True, exist_ok=True)
+        for file in filter(Path.is_file, (ROOT / path, ROOT / compiled)):
+            # With its time, by which Python tells whether what is compiled is of this source.
+            shutil.copy2(file, place / file.relative_to(ROOT))
     return place
 
 
