@@ -109,10 +109,10 @@ def test_every_format_is_written_the_same_to_a_file_and_to_stdout(
 
 
 @pytest.mark.slow
-def test_through_a_pipe_come_the_same_bytes_and_no_word(plain: Path) -> None:
-    out = plain.parent / "out.png"
-    assert run(["paint", str(plain), "-o", str(out)]) == 0
-    piped = shell("paint", plain, "-o", "-", "--format", "png")
+def test_through_a_pipe_come_the_same_bytes_and_no_word(cube: Path) -> None:
+    out = cube.parent / "out.png"
+    assert run(["paint", str(cube), "-o", str(out)]) == 0
+    piped = shell("paint", cube, "-o", "-", "--format", "png")
     assert (piped.returncode, piped.stderr) == (0, b"")
     assert piped.stdout == out.read_bytes()
 
