@@ -325,7 +325,7 @@ def test_one_finger_turns_and_two_move_and_enlarge(opened):
 
 def test_a_film_plays_in_the_mode_of_the_page_until_somebody_turns_the_scene(opened, file):
     scene = Source(file).scene(None)
-    turning = Animation(lambda time: scene.items[0].turned("z", 90.0 * time), frames=5, fps=50.0, mode="shading")
+    turning = Animation(lambda time: scene.items[0].turned("z", 90.0 * time), frames=5, fps=15.0, mode="shading")
     other = Served(file, lambda scene: animate(turning))
     try:
         page = opened(other.address)
