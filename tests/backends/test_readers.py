@@ -29,7 +29,7 @@ def ghostscript(file, *options) -> np.ndarray:
     return grey_of_pgm(run("gs", *GHOSTSCRIPT, "-sDEVICE=pgmraw", "-sOutputFile=%stdout", *options, file))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def ours(sample) -> np.ndarray:
     return grey_of_png(png_bytes(sample, dpi=DPI))
 

@@ -38,6 +38,10 @@ PANE blue transparent opacity 0.4 box solid 0.1 1.5 1.5 translation 2.5 -1 0
 """
 
 
+LIT = ("page", "camera", "light", "FLOOR", "POST")
+"""What lines of the scene begin with that light, shadow and shade need."""
+
+
 @pytest.fixture
 def plain(tmp_path: Path) -> Path:
     """A scene for what does not depend on what is painted."""
@@ -155,7 +159,9 @@ def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path) -> None
 
 
 @pytest.mark.slow
-def test_options_of_light_shadow_and_shade(scene: Path) -> None:
+def test_options_of_light_shadow_and_shade(tmp_path: Path) -> None:
+    scene = tmp_path / "lit.scene"
+    scene.write_text("".join(line for line in SCENE.splitlines(True) if line.split()[0] in LIT), encoding="utf-8")
     assert "shadow" not in kinds(fills(scene, "--shadows", "none"))
     assert "shadow_border" in kinds(fills(scene, "--aura", "1.5"))
     own, other = fills(scene), fills(scene, "--lights", "-3,-4,5,0.9", "--lights", "1,-2,9")
