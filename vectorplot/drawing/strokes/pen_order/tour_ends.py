@@ -100,7 +100,9 @@ def _nearest_along_curves(spots: Places, other: Ints, layer: Ints, curves: Curve
 def curves_through(spots: Places, layer: Ints) -> Curves:
     """Orders of the places, layer (n,) ascending after layer, along Morton's curve, which keeps near places together
     whatever their density; and along the same curve shifted by a third and by two, since every curve separates some
-    neighbours (Chan)."""
+    neighbours (Chan). Of so few that every pair is looked at, the order in which they are given."""
+    if len(spots) <= ALL_PAIRS:
+        return (np.arange(len(spots)),)
     low = complex(spots.real.min(), spots.imag.min())
     unit = (spots - low) / (extent(spots) or 1.0)
     if layer[0] == layer[-1]:
