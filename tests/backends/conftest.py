@@ -23,6 +23,6 @@ def sample() -> Drawing:
     )
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def empty() -> Drawing:
     return drawing_of(Paths.empty())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import re
@@ -10,6 +11,7 @@ import signal
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
+from contextlib import redirect_stderr
 from pathlib import Path
 
 import numpy as np
@@ -55,6 +57,17 @@ def scene(tmp_path: Path) -> Path:
     path = tmp_path / "some.scene"
     path.write_text(SCENE, encoding="utf-8")
     return path
+
+
+@pytest.fixture(scope="module")
+def explained(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """The SVG file that the command makes of the scene, and what it says of the stages."""
+    scene = tmp_path_factory.mktemp("explained") / "some.scene"
+    scene.write_text(SCENE, encoding="utf-8")
+    out = scene.with_suffix(".svg")
+    with redirect_stderr(io.StringIO()) as said:
+        assert run(["paint", str(scene), "-o", str(out), "--explain"]) == 0
+    return out, said.getvalue()
 
 
 @pytest.fixture(scope="module")
@@ -146,9 +159,8 @@ def test_readers_of_each_format_show_the_picture_of_the_png(word: str, painted: 
 
 
 @pytest.mark.slow
-def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path) -> None:
-    out = scene.parent / "out.svg"
-    assert run(["paint", str(scene), "-o", str(out)]) == 0
+def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path, explained: tuple[Path, str]) -> None:
+    out, _ = explained
     tree = ET.parse(out)
     assert tree.getroot().tag.endswith("svg")
     text = out.read_text(encoding="utf-8")
@@ -209,9 +221,8 @@ def test_fills_for_pens_and_lines_on_top(cube: Path) -> None:
 
 
 @pytest.mark.slow
-def test_explain_prints_each_stage_with_its_time(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["paint", str(scene), "-o", str(scene.parent / "a.svg"), "--explain"]) == 0
-    lines = capsys.readouterr().err.splitlines()
+def test_explain_prints_each_stage_with_its_time(explained: tuple[Path, str]) -> None:
+    lines = explained[1].splitlines()
     names = [re.split(r"\s{2,}", line)[0] for line in lines[1:-1]]
     assert names[0] == "read" and names[-1] == "write"
     wanted = ["look", "faces", "order", "transparent sheets", "shades", "shadows", "mirror light"]
