@@ -45,9 +45,7 @@ ALL = frozenset(map(LineKind.from_word, DRAWN))
 """The kinds of lines that are drawn if nothing else is asked for."""
 
 
-def chords_seen(
-    scene: Scene, camera: Camera, *, kinds: frozenset[LineKind] = ALL, tolerance: float = 5e-5
-) -> Chords:
+def chords_seen(scene: Scene, camera: Camera, *, kinds: frozenset[LineKind] = ALL, tolerance: float = 5e-5) -> Chords:
     """The chords of some kinds with their counts. tolerance: of chords, as a part of half the scene's extent."""
     view = look(scene, camera)
     faces = project_faces(view)
