@@ -143,14 +143,17 @@ def test_visible_lines_are_the_lines_hidden_by_nothing(case):
         assert length_of(plain, kind) == pytest.approx(length_of(drawing, kind), rel=1e-3)
 
 
+@cache
+def seen_heap(scale, shift):
+    """What is seen of a heap of some size somewhere."""
+    return draw(heap(3, False, scale, shift)[0], camera_of(3, 9.0, False, scale, shift), curves="polyline")
+
+
 @pytest.mark.parametrize(
     ("scale", "shift"), [(1e-6, 0.0), (1e6, 0.0), (1.0, 1e6), pytest.param(1e-3, -5.0, marks=pytest.mark.slow)]
 )
 def test_neither_size_nor_place_changes_anything(scale, shift):
-    one, two = (
-        draw(heap(3, False, *how)[0], camera_of(3, 9.0, False, *how), curves="polyline")
-        for how in ((1.0, 0.0), (scale, shift))
-    )
+    one, two = seen_heap(1.0, 0.0), seen_heap(scale, shift)
     for kind in (LineKind.CONTOUR, LineKind.CREASE, LineKind.PARAMETER):
         assert length_of(one, kind) == pytest.approx(length_of(two, kind), rel=1e-6)
 
