@@ -78,19 +78,20 @@ def strokes_of(drawing):
 
 def samples(drawing, bodies):
     """Points of what is drawn, on bodies or straight lines, and by how many items they are said to be hidden."""
-    points, counts = [], []
+    points, counts, smooth = [], [], []
+    part = np.linspace(0.0, 1.0, 7)[1:-1, None, None]
     for paths, k in strokes_of(drawing):
         own = paths.points3d[paths.offsets[k] : paths.offsets[k + 1]]
-        part = np.linspace(0.0, 1.0, 7)[1:-1, None, None]
         straight = len(own) == 2 or not paths.smooth[k]
         inner = (own[:-1] * (1.0 - part) + own[1:] * part).reshape(-1, 3) if straight else own[1:-1]
-        if paths.smooth[k]:
-            # Points of chords are off their curves.
-            off = [off_surface(body, (inner - body.centre) @ np.linalg.inv(body.frame)) for body in bodies]
-            inner = inner[np.min(off, axis=0) < 1e-9]
         points.append(inner)
         counts += [paths.hidden_by[k]] * len(inner)
-    return np.concatenate(points), np.array(counts)
+        smooth += [paths.smooth[k]] * len(inner)
+    points = np.concatenate(points)
+    off = [off_surface(body, (points - body.centre) @ np.linalg.inv(body.frame)) for body in bodies]
+    # Points of chords are off their curves.
+    on = ~np.array(smooth) | (np.min(off, axis=0) < 1e-9)
+    return points[on], np.array(counts)[on]
 
 
 def forms_of(scene, camera):
