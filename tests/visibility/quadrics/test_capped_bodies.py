@@ -208,7 +208,7 @@ def test_bodies_lie_to_the_side_of_their_traced_outlines_that_is_said(eye, paral
     item = Item("can", Capped(Frustum(0.6, 1.1, 1.5)) if eye[0] else Capped(Cylinder(1.0, 0.0, 2.0)))
     view = look(Scene((item,)), Camera(eye, (0, 0, 0.5), parallel=parallel))
     sheets = scene_sheets(Scene((item,)), view)
-    traced = traced_scene(Scene((item,)), view, sheets, frozenset({LineKind.CONTOUR}), view.tolerance)
+    traced = traced_scene(Scene((item,)), view, sheets, frozenset({LineKind.CONTOUR}), 1e-4)
     none = np.zeros(0, dtype=np.intp)
     lines = whole_lines_and_chords(traced, straight_lines(np.zeros((3, 0)), np.zeros((3, 0)), none, none, none))
     start, end = view.image_of(lines.start), view.image_of(lines.end)
