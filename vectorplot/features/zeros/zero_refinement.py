@@ -18,15 +18,6 @@ from vectorplot.tolerances.of_parameters import DOT_OF_DOMAIN, REPEATED_OF_DOMAI
 FIRST_STEP = 0.01
 """Part of the way along which a zero is looked for, to its slope."""
 
-AT_ONCE = 64
-"""Places at which ways into holes are looked at in one step, at least one on each: few take as long as one."""
-
-MOST_PARTS = 16
-"""A way is divided into no more parts in one step."""
-
-HALVINGS = 48
-"""Into two to the power of so many parts a way into a hole is divided in the end: to the rounding of what is on it."""
-
 Positions = Callable[[Floats, Floats, Ints], Floats]
 """Takes arrays u, v (k,) and the numbers of the functions whose parameters they are to (k, 2 or 3)."""
 
@@ -136,7 +127,7 @@ def up_to_holes(field: ScalarFields, end: Floats, before: Floats, reach: Floats,
     """(k,3) where the curve that arrives at end (k,3) from before (k,3) enters a hole of f, within reach (k,2) cells of
     size; and whether it goes on at all.
 
-    The way into the hole is divided until it is known to rounding; at each step points are brought onto the curve.
+    The way into the hole is halved until it is known to rounding; at each step the point is brought onto the curve.
     """
     way = (end - before)[:, :2] / reach
     length = np.sqrt((way * way).sum(axis=1, keepdims=True))
@@ -144,19 +135,12 @@ def up_to_holes(field: ScalarFields, end: Floats, before: Floats, reach: Floats,
     across = from_components(-way[:, 1], way[:, 0]) * reach
     way = way * reach
     low, high = np.zeros(len(end)), np.full(len(end), 2.0)
-    best, every = end.copy(), np.arange(len(end))
-    parts = int(np.clip(AT_ONCE // max(len(end), 1), 2, MOST_PARTS))
-    inner = np.arange(1, parts)[:, None] / parts
-    for _ in range(int(np.ceil(HALVINGS / np.log2(parts))) if len(end) else 0):
-        tried = low + inner * (high - low)
-        at, part = np.tile(every, parts - 1), tried.reshape(-1, 1)
-        there, on = onto_curve(field, moved(end[at], part * way[at]), across[at] * part, zero)
-        on = on.reshape(tried.shape)
-        led = np.where(on.all(axis=0), parts - 1, np.argmin(on, axis=0))
-        goes = np.flatnonzero(led)
-        best[goes] = there.reshape(*tried.shape, 3)[led[goes] - 1, goes]
-        nodes = np.concatenate([low[None], tried, high[None]])
-        low, high = nodes[led, every], nodes[led + 1, every]
+    best = end.copy()
+    for _ in range(48):
+        middle = (low + high) / 2.0
+        there, on = onto_curve(field, moved(end, middle[:, None] * way), across * middle[:, None], zero)
+        best[on] = there[on]
+        low, high = np.where(on, middle, low), np.where(on, high, middle)
     return best, np.asarray(low > 0.0, dtype=np.bool_)
 
 
