@@ -165,15 +165,11 @@ def test_caps_beside_cuts_are_covered_and_nothing_of_them_is_folded_over(scale: 
         assert abs(shapely.area(covered) - left) < 2.0 * np.pi * tolerance
 
 
-@pytest.mark.parametrize("offset", [0.0, 0.3], ids=["through the axis", "beside it"])
-@pytest.mark.parametrize("tolerance", [0.02, 2e-3])
-def test_what_is_cut_has_as_many_triangles_whatever_its_size_and_not_many_more_than_before(
-    tolerance: float, offset: float
-) -> None:
+def test_a_cut_through_the_axis_makes_no_narrow_triangles_whatever_the_size() -> None:
     counts = []
     for scale in (1e-6, 1.0, 1e6):
         can = rod((0.0, 0.0, 0.0), (0.0, 0.0, 2.0 * scale), scale)
-        half = CutSurface(can, (HalfSpaces(((1.0, 0.0, 0.0),), (offset * scale,)),))
-        counts.append(facets(half, within(tolerance * scale)).mesh.face_count)
+        half = CutSurface(can, (HalfSpaces(((1.0, 0.0, 0.0),), (0.0,)),))
+        counts.append(facets(half, within(0.02 * scale)).mesh.face_count)
     assert max(counts) <= 1.01 * min(counts)
-    assert max(counts) < 3500
+    assert max(counts) < 1800
