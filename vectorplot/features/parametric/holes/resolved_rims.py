@@ -74,7 +74,8 @@ def resolved(surface: Surface, places: Floats, triangles: Ints, known: Bools) ->
         middle = np.full(len(edges), -1)
         middle[split] = len(places) + np.arange(len(new))
         places, known = np.concatenate([places, new]), np.append(known, is_known(surface, new))
-        triangles, part_of = divided(triangles, middle[sides], places)
+        # Which diagonal is shorter is told in parts of the domain: the units of u and of v have nothing in common.
+        triangles, part_of = divided(triangles, middle[sides], places / surface.domain.size)
         of, near = of[part_of], near[part_of]
     return Resolved(places, np.concatenate([rest, triangles]), known, np.concatenate([rest_of, of]))
 
