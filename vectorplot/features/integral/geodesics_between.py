@@ -148,12 +148,12 @@ def geodesics_between(
             f"{MOST_EXTENTS * size:g}"
         )
     chart = charts(surface)
-    points = surface.points(*chart.within(places).T)
+    points = surface.points(*chart.within(places))
     if not norm(points[1] - points[0]) > ONE_GEODESIC_OF_EXTENT * size:
         raise InputError("geodesics between two places: start and end are the same point")
     flow = JacobiFlow(surface, chart, size)
     shooting = _Shooting(flow, places[0], places[1], (size, large))
-    at_pole = (chart.inside(places[:1]) != chart.within(places[:1])).any()
+    at_pole = np.not_equal(chart.inside(places[:1]), chart.within(places[:1])).any()
     if at_pole or not np.isfinite(shooting.frame).all():
         raise InputError("geodesics between two places: the surface has no tangent plane where they start")
     # Those that are short are shorter than all others: where these are enough the others are not looked for.
@@ -236,9 +236,9 @@ class _Shooting:
         states = runs.states(step, part)
         surface, chart = self.flow.surface, self.flow.charts
         places = chart.parameters(runs.leaps.chart[step], states[:, :2])
-        sites = Sites(surface, *chart.inside(places).T)
-        goal = surface.points(*chart.within(self.end[None]).T)
-        way = goal - surface.points(*chart.within(places).T)
+        sites = Sites(surface, *chart.inside(places))
+        goal = surface.points(*chart.within(self.end[None]))
+        way = goal - surface.points(*chart.within(places))
         tangents = states[:, 2:5]
         left = np.nan_to_num(dot(way, cross(sites.normals, tangents)))
         return norm(way), dot(way, tangents), left, states[:, 5] * self.extent[0] / NEIGHBOURS_COUNT

@@ -55,7 +55,7 @@ class Ground:
     def where(self, places: Floats) -> Floats:
         """(k,6) the points at u and v (k,2), and the normals there, as long as the distance: the two sides of a thin
         shape are far from each other."""
-        sites = Sites(self.surface, *self.charts.inside(places).T)
+        sites = Sites(self.surface, *self.charts.inside(places))
         return np.concatenate([sites.points, self.apart * np.nan_to_num(sites.normals)], axis=1)
 
     def on_one_sheet(self, one: Floats, two: Floats, reach: float) -> Bools:
@@ -65,7 +65,7 @@ class Ground:
             parts = [slice(first, first + PAIRS_AT_ONCE) for first in bounds]
             return np.concatenate([self.on_one_sheet(one[part], two[part], reach) for part in parts])
         way = self.charts.near_to(two, one) - one
-        stops = [self.surface.points(*self.charts.within(one + part * way).T) for part in ON_THE_WAY]
+        stops = [self.surface.points(*self.charts.within(one + part * way)) for part in ON_THE_WAY]
         long = sum((norm(b - a) for a, b in pairwise(stops)), np.zeros(len(one)))
         return np.asarray(long <= DIRECT * reach)
 
