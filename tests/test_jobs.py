@@ -48,7 +48,7 @@ def test_renderings(shadows):
 @pytest.mark.slow
 def test_hatching_that_flows():
     hatch = vp.Hatching("tone", along="slope")
-    made = {write(vp.draw(bumpy_icosphere(2), jobs=jobs, hatch=hatch, page="A6"), "json") for jobs in MANY}
+    made = {write(vp.draw(bumpy_icosphere(2), jobs=jobs, hatch=hatch, page="64x64"), "json") for jobs in MANY}
     assert len(made) == 1
 
 
