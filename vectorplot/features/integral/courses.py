@@ -27,9 +27,11 @@ def running_on(
     around = charts.round_poles(chart)
     if len(around):
         # Round a pole, u may run through more than a half of its period within one step.
-        own, to, last = steps.some(around), np.broadcast_to(part, len(chart))[around], before[around]
-        for share in np.linspace(0.0, 1.0, PARTS + 1)[1:]:
-            last = charts.near_to(charts.parameters(chart[around], own.at(share * to)[:, :2]), last)
+        to, last, every = np.broadcast_to(part, len(chart))[around], before[around], np.tile(around, PARTS)
+        shares = np.linspace(0.0, 1.0, PARTS + 1)[1:, None] * to
+        stops = charts.parameters(chart[every], steps.some(every).at(shares.ravel())[:, :2])
+        for stop in stops.reshape(PARTS, -1, 2):
+            last = charts.near_to(stop, last)
         result[around] = last
     return result
 
