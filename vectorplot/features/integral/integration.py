@@ -70,7 +70,8 @@ class Accuracy:
     >>> from vectorplot import features, surfaces
     >>> rough, fine = features.Accuracy(1e-4), features.Accuracy(1e-7)
     >>> ball, field = surfaces.Sphere(), features.loxodromes(1.0)
-    >>> ends = [features.integral_curves(ball, field, [(0, 0)], accuracy=a).points[-1] for a in (rough, fine)]
+    >>> runs = [features.integral_curves(ball, field, [(0, 0)], length=1.5, accuracy=each) for each in (rough, fine)]
+    >>> ends = [run.points[-1] for run in runs]
     >>> bool(np.allclose(*ends, atol=1e-3))
     True
     """
