@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -124,6 +125,17 @@ class Courses:
         with np.errstate(all="ignore"):
             part = (along - self.ends[step] + length) / length
         return step, np.clip(np.nan_to_num(part), 0.0, 1.0)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Courses]) -> Courses:
+        """The ways of all points of at least one, which one flow led."""
+        sizes, closed, stalled, spent = (
+            np.concatenate(each)
+            for each in zip(*((np.diff(p.offsets), p.closed, p.stalled, p.spent) for p in parts), strict=True)
+        )
+        leaps = replace(records.joined([part.leaps for part in parts]), row=ragged.owner(sizes))
+        steps = records.joined([part.steps for part in parts])
+        return cls(parts[0].flow, leaps, steps, ragged.offsets(sizes), closed, stalled, spent)
 
     def some(self, rows: Ints) -> Courses:
         """The ways of some of the points."""
