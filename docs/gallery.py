@@ -40,6 +40,7 @@ LOOK_AT = {
     "mixed": "A polyhedron and smooth surfaces pierce one another; each hides what is behind it.",
     "patterns": "Each polygon lies in the coordinates of its face; what is on a face that turns away is not drawn.",
     "pencil": "A cone of order 45 on a cylinder, cut with a hexagonal prism: the sides end in arcs of hyperbolas.",
+    "plate": "Rims of holes are circles; through the large one their other side is seen, through the small ones not.",
     "plotted_town": "Walls, shadows and panes of one pen: tone by hatching, windows by grid and ring, a street name.",
     "pool": "The floor seems raised by the water, and the pole bent; drawn, both are where they are.",
     "pyramid": "The book's example of an object with a convex outline; it is open above, and one looks inside.",
@@ -59,7 +60,7 @@ LOOK_AT = {
 }
 """What a scene shows, in a sentence."""
 
-PAINTED = frozenset("capped cubes interpenetrating mirror patterns pencil pool shadows table three_bars town".split())
+PAINTED = {*"capped cubes interpenetrating mirror patterns pencil plate pool shadows table three_bars town".split()}
 """The scenes that are painted as well."""
 
 TOLERANCE_MM = 0.2
@@ -91,8 +92,7 @@ def run_example(path: Path, folder: Path, width: int | None = None) -> list[Path
 
     Scripts whose pictures of pixels have any width are run with this one, if one is given.
     """
-    own = folder / path.stem
-    own.mkdir()
+    (own := folder / path.stem).mkdir()
     main = module(path).main
     main(own, **({} if width is None or "width" not in signature(main).parameters else {"width": width}))
     return sorted(own.iterdir())

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import subprocess
+from dataclasses import replace
 from itertools import chain
 
 import numpy as np
@@ -14,6 +15,7 @@ from vectorplot.cli.verbs import vectorplot
 from vectorplot.geometry import box
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.technical.round_edges import round_edges
+from vectorplot.testing import assert_drawings_equal
 
 BRICK = vp.Item("brick", box((40, 20, 10)))
 
@@ -115,6 +117,17 @@ def test_a_frame_has_zones_and_the_block_its_words(tmp_path):
         vp.technical_sheet(BRICK, title="W" * 200)
     with pytest.raises(vp.InputError, match="title block"):
         vp.technical_sheet(BRICK, title="\u4e00")
+
+
+def test_a_scene_has_its_title_in_the_block_unless_another_is_asked_for_or_it_has_no_room():
+    scene = vp.Scene((BRICK,), title="Brick of a wall")
+    titled, other, none = vp.technical_sheet(scene), vp.technical_sheet(scene, title="Stone"), vp.technical_sheet(BRICK)
+    assert (titled.title, other.title, none.title) == ("Brick of a wall, 2:1", "Stone, 2:1", "2:1")
+    assert_drawings_equal(titled, vp.technical_sheet(BRICK, title=scene.title))
+    for title in ("W" * 200, "\u4e00"):
+        untitled = vp.technical_sheet(replace(scene, title=title))
+        assert untitled.title == f"{title}, 2:1"
+        assert_drawings_equal(replace(untitled, title=none.title), none)
 
 
 @pytest.mark.parametrize("suffix", ["svg", "ps", "pdf", "dxf", "tex", "png"])

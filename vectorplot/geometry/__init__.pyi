@@ -1,6 +1,7 @@
 from . import ragged
 from .bodies.bodies_of_revolution import revolution
-from .bodies.solids import box, has_convex_outline, placed, polyhedron, prism
+from .bodies.prisms import prism, regular_polygon
+from .bodies.solids import box, has_convex_outline, placed, polyhedron
 from .budget import Budget, budget_of
 from .cameras.camera import Camera
 from .cameras.collineation import collineate, project, uncollineate, unproject
@@ -12,13 +13,8 @@ from .clipping.clip_windows import Box, Window, region_codes
 from .clipping.clipped_lines import ClippedLines, clip_and_draw, clip_lines_2d, clip_lines_3d
 from .clipping.clipped_polygons import Polygons, clip_polygons_2d, clip_polygons_3d, cut_polygons
 from .convex.convex_hulls import convex_hull, hull_mesh
-from .convex.convex_parts import (
-    convex_polygon_parts,
-    convex_prism_parts,
-    convex_revolution_parts,
-    is_convex_polygon,
-    split_faces,
-)
+from .convex.convex_parts import convex_prism_parts, convex_revolution_parts, split_faces
+from .convex.convex_polygons import convex_polygon_parts, is_convex_polygon
 from .convex.intersect_polyhedra import cut_body, polyhedron_intersection
 from .convex.polygon_clipping import clipped_by_convex, inside_convex
 from .convex.separating_planes import (
@@ -151,6 +147,7 @@ __all__ = [
     "projection_of",
     "ragged",
     "region_codes",
+    "regular_polygon",
     "revolution",
     "rotated_about_line",
     "rotation_about",

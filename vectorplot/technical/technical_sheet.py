@@ -152,7 +152,7 @@ def technical_sheet(
     dimensions: bool = False,
     centre_lines: bool = False,
     frame: bool = False,
-    title: str = "",
+    title: str | None = None,
     author: str = "",
     date: str = "",
     sheet: str = "1",
@@ -193,7 +193,9 @@ def technical_sheet(
         Of bores, shafts and whatever else has edges in circles across x, y or z, polyhedra only.
     frame : bool
         The border of the drawing space, with centring marks and zones, and a wider margin at the left.
-    title, author, date, sheet : str
+    title : str, optional
+        Letters in the title block; where None those of the scene, if they have room and strokes there.
+    author, date, sheet : str
         Letters in the title block.
     crease_angle_deg : float
         As of draw.
@@ -246,8 +248,12 @@ def technical_sheet(
     chosen = _scale(asked, arranged, paper)
     factor = chosen.factor
     name = page.strip().split()[0].upper() if isinstance(page, str) else f"{paper.width_mm:g}x{paper.height_mm:g}"
-    block = TitleBlock(title, author, date, sheet, str(chosen), name, projection).layers(drawing_space(paper, frame))
-    done = Sheet(paper, f"{title}, {chosen}" if title else str(chosen))
+    said = given.title if title is None else title
+    block = TitleBlock(said, author, date, sheet, str(chosen), name, projection)
+    space = drawing_space(paper, frame)
+    # A title that nobody asked for here may be too long, or in letters without strokes.
+    layers = block.layers(space) if title is not None else _titled_if_possible(block, space)
+    done = Sheet(paper, f"{said}, {chosen}" if said else str(chosen))
     notes = part.notes()
     written: dict[str, Floats] = {}
     for number, (view, (x, y)) in enumerate(zip(arranged.views, arranged.middles(factor), strict=True)):
@@ -275,8 +281,16 @@ def technical_sheet(
         written[view.name] = written_on(drawn) + corner
         done = done.place(drawn, *corner)
     around = part.around_sections(arranged, factor, written)
-    borders = (*(frame_layers(paper) if frame else ()), *block)
+    borders = (*(frame_layers(paper) if frame else ()), *layers)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
+
+
+def _titled_if_possible(block: TitleBlock, space: Floats) -> tuple[Layer, ...]:
+    """The layers of a title block, without its title where that cannot be written there."""
+    try:
+        return block.layers(space)
+    except InputError:
+        return replace(block, title="").layers(space)
 
 
 def _page_at(factor: float) -> Callable[[Scene], InSpace]:

@@ -1,4 +1,4 @@
-"""Boxes, prisms, polyhedra by their faces."""
+"""Boxes, polyhedra by their faces."""
 
 from __future__ import annotations
 
@@ -7,7 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.errors import InputError, InputWarning
+from vectorplot.errors import InputError
+from vectorplot.geometry.bodies.prisms import prism
 from vectorplot.geometry.bodies.solids import (
     BOTTOM,
     TOP,
@@ -15,14 +16,11 @@ from vectorplot.geometry.bodies.solids import (
     has_convex_outline,
     placed,
     polyhedron,
-    prism,
     turned_outwards,
 )
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import body_record, mesh_edges
 from vectorplot.geometry.repair.winding import is_closed_oriented
-
-SWEEP = [[0, 2, 0], [0, -1.4, 0], [0, -2, 0.6], [0, -2, 1.2], [0, -1.4, 1.6], [0, 2, 1.6]]
 
 lengths = st.floats(0.01, 100).flatmap(lambda x: st.sampled_from([x, -x]))
 
@@ -97,46 +95,6 @@ def test_a_placement_that_is_not_finite_is_refused_by_boxes_and_meshes_alike(whi
         box((8, 8, 8), placement=placement)
     with pytest.raises(InputError, match="finite"), np.errstate(over="ignore", invalid="ignore"):
         placed(box((8, 8, 8)), placement)
-
-
-@pytest.mark.capability("G3.5-translation")
-def test_tv17_translational_sweep():
-    body = prism(SWEEP, [-4.5, 0, 0])
-    record = body_record(body)
-    assert (record.vertex_count, record.edge_count, record.face_count) == (12, 18, 8)
-    assert np.linalg.norm(body.area_vectors[-1]) / 2 == pytest.approx(6.1, rel=1e-14)
-    assert record.volume == pytest.approx(27.45, rel=1e-14)
-    assert record.area == pytest.approx(59.7633727663249, rel=1e-14)
-
-
-@pytest.mark.capability("G3.5-translation")
-def test_a_base_listed_the_other_way_round_gives_the_same_body():
-    forward, backward = prism(SWEEP, [-4.5, 0, 0]), prism(SWEEP[::-1], [-4.5, 0, 0])
-    for body in (forward, backward):
-        assert is_closed_oriented(body)
-        assert body_record(body).volume == pytest.approx(27.45, rel=1e-14)
-        assert np.allclose(body.face_normals[-1], [-1, 0, 0])
-        assert np.allclose(body.face_normals[-2], [1, 0, 0])
-
-
-@pytest.mark.parametrize(
-    ("base", "vector"),
-    [
-        ([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [1, 2, 0]),
-        ([[0, 0, 0], [1, 0, 0]], [0, 0, 1]),
-        ([[0, 0, 0], [1, 0, 0], [2, 0, 0]], [0, 0, 1]),
-        ([[0, 0, 0], [1, 0, 0], [1, 1, np.nan]], [0, 0, 1]),
-        ([[0, 0, 0], [1, 0, 0], [1, 1, 0]], [0, 0, 0]),
-    ],
-)
-def test_a_prism_without_volume_is_refused(base, vector):
-    with pytest.raises(InputError):
-        prism(base, vector)
-
-
-def test_a_base_out_of_its_plane_is_said():
-    with pytest.warns(InputWarning, match="one plane"):
-        prism([[0, 0, 0], [1, 0, 0], [1, 1, 0.2], [0, 1, 0]], [0, 0, 1])
 
 
 @pytest.mark.capability("G3.2-orient")

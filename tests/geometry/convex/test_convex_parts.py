@@ -8,17 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.effort import examples
 
-from vectorplot.errors import InputError
 from vectorplot.geometry.bodies.bodies_of_revolution import revolution
-from vectorplot.geometry.bodies.solids import has_convex_outline, prism
-from vectorplot.geometry.convex.convex_parts import (
-    convex_polygon_parts,
-    convex_prism_parts,
-    convex_revolution_parts,
-    is_convex_polygon,
-    signed_area,
-    split_faces,
-)
+from vectorplot.geometry.bodies.prisms import prism
+from vectorplot.geometry.bodies.solids import has_convex_outline
+from vectorplot.geometry.convex.convex_parts import convex_prism_parts, convex_revolution_parts, split_faces
+from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, is_convex_polygon, signed_area
 from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.geometry.repair.winding import is_closed_oriented
 
@@ -59,20 +53,6 @@ def test_areas_of_the_parts_of_a_star_add_up(radii, backwards):
     assert all(is_convex_polygon(star[part]) for part in parts)
     base = np.column_stack([star, np.zeros(len(star))])
     check(convex_prism_parts(base[::-1] if backwards else base, [0, 0, 1]), signed_area(star))
-
-
-def test_a_polygon_with_a_hole():
-    outer = np.array([[0.0, 0], [4, 0], [4, 4], [0, 4]])
-    hole = np.array([[1.0, 1], [1, 3], [3, 3], [3, 1]])
-    both = np.concatenate([outer, hole])
-    parts = convex_polygon_parts(outer, [hole])
-    assert sum(signed_area(both[part]) for part in parts) == pytest.approx(12)
-    assert len(parts) <= 8 and all(is_convex_polygon(both[part]) for part in parts)
-
-
-def test_a_polygon_that_crosses_itself_is_refused():
-    with pytest.raises(InputError, match="crosses"):
-        convex_polygon_parts([[0, 0], [2, 2], [2, 0], [0, 2], [-1, 1]])
 
 
 WAVES = [[1, 0, 0], [3, 0, 1], [1, 0, 2], [3, 0, 3]]

@@ -11,7 +11,8 @@ from support.effort import examples
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.bodies.bodies_of_revolution import revolution
-from vectorplot.geometry.bodies.solids import box, has_convex_outline, prism
+from vectorplot.geometry.bodies.prisms import prism
+from vectorplot.geometry.bodies.solids import box, has_convex_outline
 from vectorplot.geometry.convex.intersect_polyhedra import cut_face, polyhedron_intersection
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import body_record, face_constants

@@ -105,6 +105,17 @@ def test_tv17_translational_sweep():
     assert body_record(item.shape).volume == pytest.approx(27.45, rel=1e-14)
 
 
+def test_bores_and_cutouts_go_through_a_slab_and_stand_where_it_does():
+    slab = "A translation base_points 0 0 0, 9 0 0, 9 9 0, 0 9 0 trans_vector 0 0 2"
+    text = f"{slab} bore 2 2 0 1, 7 2 0 1 cutout 2 6 0, 3 6 0, 3 8 0 bore 6 6 0 2 cutout 4 3 0, 5 3 0, 5 4 0 scale 2"
+    body = one(text).shape
+    round_area = 24 * np.sin(2 * np.pi / 48)
+    assert is_closed_oriented(body)
+    assert body_record(body).volume == pytest.approx(16 * (81 - (1 + 1 + 4) * round_area - 1 - 0.5), rel=1e-9)
+    assert body.face_sizes.tolist().count(4) >= 4 + 3 * 48 + 6
+    assert one(f"{slab} bore 2 2 0 1").shape.bounds.tolist() == one(slab).shape.bounds.tolist()
+
+
 @pytest.mark.capability("G3.L-box")
 def test_box_of_the_book():
     item = one("BOX gray box hollow 3 3 1 +bottom")

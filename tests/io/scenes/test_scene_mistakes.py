@@ -11,6 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.io.scenes import scene_language
 from vectorplot.io.scenes.scene_language import parse_scene, read_scene
 
+SLAB = "T translation base_points 0 0 0, 9 0 0, 9 9 0, 0 9 0 trans_vector 0 0 1"
 CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
 
 
@@ -71,6 +72,13 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ),
         ("T translation base_points 0 0 0, 1 0 0, 0 1 0 trans_vector 1 1 0", "T: trans_vector lies in the plane"),
         ("T translation base_points 0 0 0, 1 0 0, 0 1 0", "T: expected 'trans_vector', got the end"),
+        (f"{SLAB} bore 5 5 0", "T: expected a number for a centre and a radius of the bore, got the end"),
+        (f"{SLAB} bore 5 5 0 0", "T: a bore of radius 0: expected more than 0"),
+        (f"{SLAB} bore 5 5 0 1, 8 8 0 2", "T: hole 2 reaches to the outline of the base"),
+        (f"{SLAB} bore 3 3 0 1, 4 4 0 1", "T: holes 1 and 2 meet"),
+        (f"{SLAB} cutout 3 3 1, 4 3 0, 4 4 0", "T: hole 1 and the base do not lie in one plane"),
+        (f"{SLAB} cutout 3 3 0, 4 3", "T: expected a number for a point of the cutout, got the end"),
+        ("B box 1 1 1 bore 0 0 0 1", "B: is a 'box' already, 'bore' does not fit"),
         (CONE + "\nP intersection CONE, PRISM", "<text>:2: P: expected the name of an item before it, got 'PRISM'"),
         ("A box 1 1 1 B box 1 1 1 translation 5 0 0 P intersection A, B", "P: A and B have no volume in common"),
         ("B box 1 1 1 patterns polygon A red 0 0, 1 0, 0 1", "B: patterns: expected 'face' and its number"),

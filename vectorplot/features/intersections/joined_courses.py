@@ -212,12 +212,9 @@ def doubts_about(all_: Joined) -> tuple[str, ...]:
     areas = int((all_.touching.bends == 0.0).all(axis=1).sum())
     lines = len(all_.touching) - areas
     texts = [
-        (
-            areas > MOST_ALONE,
-            f"the surfaces coincide in an area: {areas} places of it are given, no curve is drawn there",
-        ),
+        (areas > MOST_ALONE, "the surfaces coincide in an area: no curve is drawn there"),
         (0 < areas <= MOST_ALONE, f"the surfaces touch with equal curvatures at {areas} places: curves may be missing"),
-        (lines > 0, f"the surfaces touch along a line: {lines} places of it are given"),
+        (lines > 0, "the surfaces touch along a line and do not cross there: none is drawn"),
         (
             all_.close > 0,
             f"two curves run too close for the triangles at {all_.close} places: ask for more columns and rows",

@@ -35,8 +35,8 @@ def doubts_of_one(
         (missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),
         (
             beads > 0,
-            f"branches nearer to each other than the resolution: {beads} places are given; ask for a finer one",
+            "branches nearer to each other than the resolution are given as points of them; ask for a finer one",
         ),
-        (line > 0, f"f touches zero along a line without changing its sign: {line} places of it are given"),
+        (line > 0, "f touches zero along a line without changing its sign: points of it are given, no curve"),
     ]
     return tuple(text for said, text in texts if said)

@@ -1,8 +1,7 @@
-"""Solids as meshes: boxes, prisms, and polyhedra given by their faces."""
+"""Solids as meshes: boxes, and polyhedra given by their faces."""
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Collection, Sequence
 from functools import cache
 from math import isfinite
@@ -11,10 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.errors import InputError, InputWarning
+from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.tolerances.of_extent import FLAT_OF_EXTENT, ZERO_OF_EXTENT
-from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
+from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 BOTTOM, TOP = "bottom", "top"
 BOTH_CAPS = (BOTTOM, TOP)
@@ -125,90 +124,6 @@ def placed(mesh: Mesh, placement: Sequence[float]) -> Mesh:
     if tuple(placement) == IDENTITY:
         return mesh
     return mesh.transformed(np.array([*placement, 0.0, 0.0, 0.0, 1.0]).reshape(4, 4))
-
-
-def prism(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = BOTH_CAPS) -> Mesh:
-    """The body that a planar polygon sweeps when it is moved along a vector.
-
-    Parameters
-    ----------
-    base_points : (b, 3) array_like of float
-        The base; one that runs clockwise about the vector is turned round.
-    vector : (3,) array_like of float
-        From the base to the top.
-    caps : collection of {"bottom", "top"}
-        Which of them are present.
-
-    Returns
-    -------
-    Mesh
-        2b vertices (the base, then the top), 3b edges; faces: the b sides in the order of the edges of the base, then
-        bottom and top.
-
-    Raises
-    ------
-    InputError
-        For fewer than three points, points that are not finite, a vector in the plane of the base.
-
-    Warns
-    -----
-    InputWarning
-        For a base that is not planar; it is used all the same.
-
-    Notes
-    -----
-    Source: Glaeser, section 3.5.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.prism([(0, 0, 0), (1, 0, 0), (0, 1, 0)], (0, 0, 2)).polygons()
-    [[0, 1, 4, 3], [1, 2, 5, 4], [2, 0, 3, 5], [2, 1, 0], [3, 4, 5]]
-    """
-    body = swept_polygon(base_points, vector, caps=caps)
-    if not is_planar(base_points):
-        warnings.warn(NOT_PLANAR, InputWarning, stacklevel=2)
-    return body
-
-
-NOT_PLANAR = "base_points do not lie in one plane"
-"""What is said of a base that is not planar."""
-
-
-def is_planar(points: ArrayLike) -> bool:
-    """Whether the corners of a polygon, points (b,3), lie in one plane, but for a millionth of its extent."""
-    corners = np.asarray(points, dtype=np.float64)
-    arm, extent = corners - corners[0], float(np.ptp(corners, axis=0).max())
-    area = np.cross(arm, np.roll(arm, -1, axis=0)).sum(axis=0)
-    return not np.abs(arm @ area).max() > FLAT_OF_EXTENT * extent * float(np.linalg.norm(area))
-
-
-def swept_polygon(base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = BOTH_CAPS) -> Mesh:
-    """The body that prism makes, whether its base is planar or not, without a word about it. Errors: as of prism."""
-    base = checked_points(base_points, "base_points")
-    step = np.asarray(vector, dtype=np.float64)
-    if len(base) < 3:
-        raise InputError(f"a base needs at least three points, not {len(base)}")
-    if step.shape != (3,) or not np.isfinite(step).all():
-        raise InputError("trans_vector must be three finite numbers")
-    arm = base - base[0]
-    extent = max(float(np.ptp(base, axis=0).max()), LEAST_DIVISOR)
-    area = np.cross(arm, np.roll(arm, -1, axis=0)).sum(axis=0)
-    size = float(np.linalg.norm(area))
-    height = float(area @ step)
-    if (
-        not abs(height) > ZERO_OF_EXTENT * size * float(np.linalg.norm(step))
-        or not size > ZERO_OF_EXTENT * extent * extent
-    ):
-        raise InputError("trans_vector lies in the plane of the base, or the base has no area")
-    count = len(base)
-    here = np.arange(count)
-    there = np.roll(here, -1)
-    sides = np.stack([here, there, there + count, here + count], axis=1)
-    corners = np.concatenate([sides.reshape(-1), here[::-1], here + count])
-    offsets = np.concatenate([np.arange(0, 4 * count + 1, 4), [5 * count, 6 * count]])
-    body = Mesh(np.concatenate([base, base + step]), corners, offsets, presence(count + 2, caps, BOTH_CAPS))
-    return body if height > 0.0 else body.reversed()
 
 
 def checked_points(points: ArrayLike, word: str) -> Floats:

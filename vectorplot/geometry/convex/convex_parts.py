@@ -1,138 +1,20 @@
-"""Non-convex polygons, prisms and bodies of revolution as unions of convex parts."""
+"""Prisms and bodies of revolution that are not convex, and faces, as unions of convex parts."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.errors import InputError
+from vectorplot.arrays import Bools, Floats
 from vectorplot.geometry.bodies.bodies_of_revolution import FULL_TURN, HALF_TURN, revolution
-from vectorplot.geometry.bodies.solids import checked_points, polyhedron, prism
+from vectorplot.geometry.bodies.prisms import prism
+from vectorplot.geometry.bodies.solids import checked_points, polyhedron
+from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, flattened, signed_area
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
-
-
-def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) -> list[Ints]:
-    """Convex polygons that together cover a plane polygon.
-
-    Parameters
-    ----------
-    outline : (n, 2) array_like of float
-        Counter-clockwise.
-    holes : sequence of (k, 2) array_like of float
-        Clockwise.
-
-    Returns
-    -------
-    list of (m,) array of int
-        Numbers of points, counter-clockwise; the points are numbered through, the outline first.
-
-    Raises
-    ------
-    InputError
-        For an outline that crosses itself.
-
-    Notes
-    -----
-    The parts are triangles of a constrained Delaunay triangulation, joined over the diagonals that convexity does not
-    need.
-
-    Degenerate: a convex outline without holes is its own part.
-
-    Source: Glaeser, section 3.5; the joining is that of Hertel and Mehlhorn.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> angle = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-    >>> [len(part) for part in geometry.convex_polygon_parts(angle)]
-    [4, 4]
-    """
-    rings = [np.asarray(ring, dtype=np.float64).reshape(-1, 2) for ring in (outline, *holes)]
-    if not len(rings) > 1 and is_convex_polygon(rings[0]):
-        return [np.arange(len(rings[0]))]
-    points = np.concatenate(rings)
-    return _joined(points, _triangles(points, rings))
-
-
-def is_convex_polygon(points: Floats) -> bool:
-    """Whether a polygon turns left or goes straight on at every corner, and once round in all.
-
-    Parameters
-    ----------
-    points : (n, 2) array of float
-        The corners.
-
-    Returns
-    -------
-    bool
-        False for a convex polygon that runs clockwise.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
-    >>> geometry.is_convex_polygon(square), geometry.is_convex_polygon(square[::-1])
-    (True, False)
-    """
-    sides = np.roll(points, -1, axis=0) - points
-    after = np.roll(sides, -1, axis=0)
-    turn = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
-    zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
-    angles = np.arctan2(turn, np.einsum("ij,ij->i", sides, after))
-    return bool((turn >= -zero).all() and abs(angles.sum() - 2.0 * np.pi) < 1.0)
-
-
-def _triangles(points: Floats, rings: list[Floats]) -> Ints:
-    """(t,3) counter-clockwise triangles of a polygon with holes, as point numbers."""
-    import shapely
-
-    polygon = shapely.Polygon(rings[0], rings[1:])
-    if not polygon.is_valid:
-        raise InputError("a polygon crosses itself")
-    pieces = shapely.get_parts(shapely.constrained_delaunay_triangles(polygon))
-    corners = shapely.get_coordinates(pieces).reshape(-1, 4, 2)[:, :3].reshape(-1, 2)
-    both, number = np.unique(np.concatenate([points, corners]), axis=0, return_inverse=True)
-    first = np.full(len(both), -1, dtype=np.intp)
-    first[number[: len(points)]] = np.arange(len(points))
-    triangles = first[number[len(points) :]].reshape(-1, 3)
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    clockwise = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) < (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    triangles[clockwise] = triangles[clockwise, ::-1]
-    return triangles
-
-
-def _joined(points: Floats, triangles: Ints) -> list[Ints]:
-    """The triangles joined to convex polygons, diagonal by diagonal."""
-    polygons: dict[int, list[int]] = dict(enumerate(triangles.tolist()))
-    owner = {(p[k - 1], p[k]): number for number, p in polygons.items() for k in range(3)}
-    zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
-    flat = points.tolist()
-
-    def bends_left(a: int, b: int, c: int) -> bool:
-        (ax, ay), (bx, by), (cx, cy) = flat[a], flat[b], flat[c]
-        return bool((bx - ax) * (cy - by) - (by - ay) * (cx - bx) >= -zero)
-
-    for a, b in list(owner):
-        left, right = owner.get((a, b)), owner.get((b, a))
-        if left is None or right is None or left == right:
-            continue
-        p, q = polygons[left], polygons[right]
-        i, j = p.index(b), q.index(a)
-        # The left polygon from b round to a, then the right one between a and b.
-        whole = p[i:] + p[:i] + (q[j:] + q[:j])[1:-1]
-        k = len(p) - 1
-        if bends_left(whole[k - 1], whole[k], whole[k + 1]) and bends_left(whole[-1], whole[0], whole[1]):
-            polygons[left] = whole
-            del polygons[right], owner[a, b], owner[b, a]
-            for n in range(len(whole)):
-                owner[whole[n - 1], whole[n]] = left
-    return [np.array(polygon, dtype=np.intp) for polygon in polygons.values()]
 
 
 def convex_prism_parts(base_points: ArrayLike, vector: ArrayLike) -> list[Mesh]:
@@ -171,34 +53,9 @@ def convex_prism_parts(base_points: ArrayLike, vector: ArrayLike) -> list[Mesh]:
     count = len(whole.vertices) // 2
     base, step = whole.vertices[:count], whole.vertices[count] - whole.vertices[0]
     normal = whole.area_vectors[-1]
-    flat, turned = _flattened(base, normal)
+    flat, turned = flattened(base, normal)
     parts = convex_polygon_parts(flat)
     return [prism(base[turned[part]], step) for part in parts]
-
-
-def _flattened(points: Floats, normal: Floats) -> tuple[Floats, Ints]:
-    """(n,2) a planar polygon in its plane, counter-clockwise about the normal, and the numbers (n,) of its points."""
-    x, y = plane_axes(normal)
-    flat = (points - points[0]) @ np.stack([x, y], axis=1)
-    numbers = np.arange(len(points))
-    if signed_area(flat) < 0.0:
-        flat, numbers = flat[::-1], numbers[::-1]
-    return flat, numbers
-
-
-def plane_axes(normal: Floats) -> tuple[Floats, Floats]:
-    """Two unit vectors that span the plane across a normal; right-handed with it."""
-    x = np.cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
-    x = x / np.linalg.norm(x)
-    y = np.cross(normal, x)
-    return x, y / np.linalg.norm(y)
-
-
-def signed_area(points: Floats) -> float:
-    """Area of a polygon (n,2), positive if it runs counter-clockwise."""
-    arm = points - points[0]
-    after = np.roll(arm, -1, axis=0)
-    return 0.5 * float((arm[:, 0] * after[:, 1] - arm[:, 1] * after[:, 0]).sum())
 
 
 def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float = FULL_TURN) -> list[Mesh]:
@@ -335,7 +192,7 @@ def split_faces(mesh: Mesh, chosen: Bools) -> Mesh:
     faces = [polygons[k] for k in numbers]
     for k in np.flatnonzero(chosen).tolist():
         polygon = np.array(polygons[k])
-        flat, order = _flattened(mesh.vertices[polygon], mesh.area_vectors[k])
+        flat, order = flattened(mesh.vertices[polygon], mesh.area_vectors[k])
         parts = convex_polygon_parts(flat)
         faces.extend(polygon[order[part]].tolist() for part in parts)
         numbers.extend([k] * len(parts))

@@ -9,7 +9,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.bodies.solids import has_convex_outline, zero_distance
-from vectorplot.geometry.convex.convex_parts import convex_polygon_parts, plane_axes, signed_area, split_faces
+from vectorplot.geometry.convex.convex_parts import split_faces
+from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, plane_axes, signed_area
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.winding import is_closed_oriented
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT

@@ -40,6 +40,7 @@ ITEM_WORDS = (
         "rot_angle",
     ),
     *("meridian", "order", "translation", "base_points", "trans_vector", "box", "intersection", "rotation", "patterns"),
+    *("cutout", "bore"),
     *("lines", "occludes", "group", "scale", "matrix", "surface", "curve", "parameter_lines", "isophotes", "sections"),
     *("level_lines", "slices", "surface_curve", "smooth_lines", "smooth_contours", "isophote_edges", "detail"),
     *("hatch", "mesh", "grid", "ring"),

@@ -5,6 +5,7 @@ from hypothesis import strategies as st
 from support.effort import examples
 from support.sample_paths import pieces
 
+from vectorplot.drawing.strokes.pen_order import touching
 from vectorplot.drawing.strokes.pen_order.order import pen_ordered, travel_mm
 from vectorplot.drawing.strokes.pen_order.touching import trails
 
@@ -55,6 +56,14 @@ def test_a_figure_with_two_odd_nodes_is_drawn_without_lifting_the_pen():
 
 def test_two_stars_take_no_more_than_linked_one_by_one():
     assert ordered_travel(np.concatenate((rays(300), rays(200, (150.0, 150.0))))) < 1000.0
+
+
+def test_strokes_to_and_fro_between_two_places_are_linked_in_a_few_rounds(monkeypatch):
+    # Each two of them are a ring, and each ring meets the next one.
+    rounds, parts = [], touching._parts
+    monkeypatch.setattr(touching, "_parts", lambda *of: rounds.append(None) or parts(*of))
+    assert ordered_travel(np.tile([[(5.0, 5.0), (8.0, 5.0)]], (2000, 1, 1))) == 0.0
+    assert len(rounds) < 40
 
 
 NODE = st.tuples(st.integers(0, 4), st.integers(0, 4))

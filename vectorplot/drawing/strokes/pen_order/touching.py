@@ -22,6 +22,8 @@ from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 # Rounds in which jumps exchange partners.
 _EXCHANGES = 100
+# Multiples of this, the golden section of all numbers, are in no order.
+_GOLDEN = np.uint64(0x9E3779B97F4A7C15)
 
 
 def trails(ends: Places, spread: Places, layer: Ints) -> Ints:
@@ -164,14 +166,15 @@ def _merge_rings(link: Ints, order: Ints, node: Ints) -> None:
         chosen = np.full(len(trail), len(a), dtype=np.intp)
         np.minimum.at(chosen, of_a, number)
         np.minimum.at(chosen, of_c, number)
-        # The first meetings of rings make a forest; of those that share ends the first ones take place.
+        # The first meetings of rings make a forest; of those that share ends some take place.
         take = ((chosen[of_a] == number) & is_ring[of_a]) | ((chosen[of_c] == number) & is_ring[of_c])
         a, c = a[take], c[take]
         claims = np.stack((a, link[a], c, link[c]))
-        number = np.arange(len(a))
-        owner = np.full(len(link) + 1, len(number), dtype=np.intp)  # the last one for -1
-        np.minimum.at(owner, claims.ravel(), np.tile(number, 4))
-        a, b, c, d = claims[:, np.all((owner[claims] == number) | (claims < 0), axis=0)]
+        # In no order: of a chain of meetings, each sharing ends with the next, a third takes place, not only the first.
+        rank = np.arange(len(a), dtype=np.uint64) * _GOLDEN
+        owner = np.full(len(link) + 1, np.iinfo(np.uint64).max)  # the last one for -1
+        np.minimum.at(owner, claims.ravel(), np.tile(rank, 4))
+        a, b, c, d = claims[:, np.all((owner[claims] == rank) | (claims < 0), axis=0)]
         _change_partners(link, a, b, c, d)
 
 

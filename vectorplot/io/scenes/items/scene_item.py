@@ -12,17 +12,15 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.bodies.bodies_of_revolution import FULL_TURN, revolution
+from vectorplot.geometry.bodies.prisms import NOT_PLANAR, area_vector, is_planar, regular_polygon, swept_polygon
 from vectorplot.geometry.bodies.solids import (
     BOTH_CAPS,
     BOTTOM,
     IDENTITY,
-    NOT_PLANAR,
     TOP,
     box,
     has_convex_outline,
-    is_planar,
     placed,
-    swept_polygon,
     turned_outwards,
 )
 from vectorplot.geometry.convex.intersect_polyhedra import polyhedron_intersection
@@ -39,6 +37,9 @@ from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 
 _NORMAL = Material()
+
+BORE_ORDER = 48
+"""How many sides a bore has."""
 
 NEEDED = {
     "vertices": ("vertices", "faces"),
@@ -75,6 +76,8 @@ class Draft:
     meridian: list[list[float]] | None = None
     base_points: list[list[float]] | None = None
     trans_vector: list[float] | None = None
+    cutouts: tuple[list[list[float]], ...] = ()
+    bores: tuple[tuple[float, ...], ...] = ()
     vertices: list[list[float]] | None = None
     faces: list[list[int]] | None = None
     edges: list[list[int]] | None = None
@@ -241,10 +244,22 @@ def _revolution(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
 
 def _translation(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
     base = np.array(draft.base_points).T
-    body = swept_polygon(base, np.array(draft.trans_vector), caps=draft.caps)
+    body = swept_polygon(base, np.array(draft.trans_vector), caps=draft.caps, holes=_holes(draft, base))
     if not is_planar(base):
         _warn(draft, words, NOT_PLANAR)
     return placed(body, draft.placement)
+
+
+def _holes(draft: Draft, base: Floats) -> list[Floats]:
+    """(h,3) the corners of each hole through a prism over a base, in its plane."""
+    normal = area_vector(base)
+    if not normal.any():
+        return []
+    for *_, radius in draft.bores:
+        if not radius > 0.0:
+            raise InputError(f"a bore of radius {radius:g}: expected more than 0")
+    round_ones = [regular_polygon(BORE_ORDER, r, centre=(x, y, z), normal=normal) for x, y, z, r in draft.bores]
+    return [*(np.array(cutout).T for cutout in draft.cutouts), *round_ones]
 
 
 def _intersection(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:

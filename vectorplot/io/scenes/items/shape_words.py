@@ -68,6 +68,18 @@ def _read_vector(reader: ItemCursor, draft: Draft) -> None:
     draft.trans_vector, reader.at = reader.source.numbers(reader.at, 3, draft.owner, "trans_vector")
 
 
+def _read_cutout(reader: ItemCursor, draft: Draft) -> None:
+    reader.kind(draft, "translation")
+    cutout, reader.at = reader.source.points(reader.at + 1, 3, draft.owner, "a point of the cutout")
+    draft.cutouts = (*draft.cutouts, cutout)
+
+
+def _read_bores(reader: ItemCursor, draft: Draft) -> None:
+    reader.kind(draft, "translation")
+    columns, reader.at = reader.source.points(reader.at + 1, 4, draft.owner, "a centre and a radius of the bore")
+    draft.bores = (*draft.bores, *zip(*columns, strict=True))
+
+
 def _read_surface(reader: ItemCursor, draft: Draft) -> None:
     from vectorplot.io.scenes.scene_surface import read_surface
 
@@ -163,6 +175,8 @@ SHAPE_WORDS: dict[str, Callable[[ItemCursor, Draft], None]] = {
     "translation": _read_translation,
     "base_points": _read_base,
     "trans_vector": _read_vector,
+    "cutout": _read_cutout,
+    "bore": _read_bores,
     "box": _read_box,
     "intersection": _read_intersection,
     "surface": _read_surface,
