@@ -277,7 +277,7 @@ def _on_creases(patch: Patch, places: Floats) -> Floats:
 
 def _with_sides(triangles: Ints) -> Ints:
     """The triangles without those that have one corner twice."""
-    return triangles[(triangles != np.roll(triangles, -1, axis=1)).all(axis=1)]
+    return np.asarray(triangles[(triangles != np.roll(triangles, -1, axis=1)).all(axis=1)])
 
 
 def _with_poles(places: Floats, triangles: Ints, found: Sequence[Pole]) -> Ints:
