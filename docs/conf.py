@@ -10,6 +10,7 @@ from jinja2 import BaseLoader
 from jinja2.sandbox import SandboxedEnvironment
 from numpydoc import docscrape_sphinx
 from sphinx.application import Sphinx
+from sphinx.pycode.parser import Parser
 
 ROOMS = (
     "geometry curves surfaces features scene io visibility shading drawing effects animation textbook backends "
@@ -33,6 +34,7 @@ myst_enable_extensions = ["colon_fence"]
 numpydoc_show_class_members = False
 autodoc_member_order = "alphabetical"
 autodoc_typehints = "none"
+autodoc_use_type_comments = False
 
 
 CONTENTS = {
@@ -95,6 +97,9 @@ def setup(app: Sphinx) -> None:
 
     # Numpydoc makes an environment for each of a thousand docstrings, and compiles its one template in each anew.
     docscrape_sphinx.SandboxedEnvironment = environment
+    # Sphinx looks for the lines on which names are defined, which only pages that show the sources tell of, in two
+    # thirds of the time that it reads a module in.
+    Parser.parse_definition = lambda parser: None
     app.connect("builder-inited", reference)
     app.connect("source-read", without_links_outside)
     app.connect("source-read", with_contents)

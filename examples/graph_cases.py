@@ -6,7 +6,6 @@ yellower it is here; the red dot is the eye. Source: Glaeser, section 5.4, figur
 """
 
 import sys
-from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -65,17 +64,14 @@ def in_order(grid: vp.Item, eye: tuple[float, float, float], order: np.ndarray) 
     corners = view.corners.reshape(-1, 3)[order].ravel()
     points, inverse = view.image[:, corners].T, -1.0 / view.depth[corners]
     sample = np.random.default_rng(1).uniform(points.min(axis=0), points.max(axis=0), (200, 2))
-    nearest = np.full(len(sample), -np.inf)
-    for start, end in pairwise(range(0, len(points) + 1, 3)):
-        ring = points[start:end]
-        along, arm = np.roll(ring, -1, axis=0) - ring, sample[:, None] - ring
-        side = along[:, 0] * arm[..., 1] - along[:, 1] * arm[..., 0]
-        over = np.flatnonzero((side > 1e-9).all(axis=1) | (side < -1e-9).all(axis=1))
-        if len(over):
-            plane = np.linalg.solve(np.column_stack([ring, np.ones(3)]), -inverse[start:end])
-            height = np.column_stack([sample[over], np.ones(len(over))]) @ plane
-            assert (height >= nearest[over] - 1e-9).all(), "what is painted over something else is nearer"
-            nearest[over] = height
+    rings = points.reshape(-1, 3, 2)
+    along, arm = np.roll(rings, -1, axis=1) - rings, sample[:, None, None] - rings
+    side = along[..., 0] * arm[..., 1] - along[..., 1] * arm[..., 0]
+    at, over = np.nonzero((side > 1e-9).all(axis=2) | (side < -1e-9).all(axis=2))
+    corners = np.concatenate([rings, np.ones((len(rings), 3, 1))], axis=2)[over]
+    planes = np.linalg.solve(corners, -inverse.reshape(-1, 3, 1)[over])[..., 0]
+    height = (np.column_stack([sample[at], np.ones(len(at))]) * planes).sum(axis=1)
+    assert (np.diff(height)[np.diff(at) == 0] >= -1e-9).all(), "what is painted over something else is nearer"
 
 
 if __name__ == "__main__":

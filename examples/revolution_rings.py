@@ -11,9 +11,11 @@ from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
+import shapely
 
 import vectorplot as vp
 from vectorplot.drawing import Fills
+from vectorplot.geometry.regions import polygons_of
 from vectorplot.scene import look
 from vectorplot.shading import face_colours, face_shades, view_lights
 from vectorplot.textbook import ring_order, sliced_meridian
@@ -38,12 +40,10 @@ def rings() -> vp.Mesh:
 
 def on_top(fills: Fills, points: np.ndarray) -> np.ndarray:
     """The last polygon painted over each of some points, -1 for none."""
+    faces = polygons_of(fills.points.T, fills.offsets)
+    number, over = shapely.STRtree(shapely.points(points)).query(faces, predicate="contains_properly")
     top = np.full(len(points), -1)
-    for number, (start, end) in enumerate(pairwise(fills.offsets)):
-        corners = fills.points[start:end]
-        along, arm = np.roll(corners, -1, axis=0) - corners, points[:, None] - corners
-        side = along[:, 0] * arm[..., 1] - along[:, 1] * arm[..., 0]
-        top[(side > 0).all(axis=1) | (side < 0).all(axis=1)] = number
+    np.maximum.at(top, over, number)
     return top
 
 

@@ -70,7 +70,7 @@ def main(folder: Path) -> None:
     groups = {"below": [], "front": [], "back": [], "above": []}
     for polygon, at in zip(polygons, band, strict=True):
         there = np.add(polygon, (0, 0, lift[at]))
-        towards = np.cross(there[1] - there[0], there[-1] - there[0]) @ (eye - there[0]) < 0
+        towards = np.linalg.det([there[1] - there[0], there[-1] - there[0], eye - there[0]]) < 0
         groups[("below", "front" if towards else "back", "above")[at]].append(there)
     assert groups["front"] and groups["back"], "a slice has ribbons of both kinds"
     tints = {"below": CREAM, "front": "#efae84", "back": "#8fb6d6", "above": CREAM}

@@ -19,10 +19,11 @@ def main(folder: Path) -> None:
     animation = vp.read_animation(ROOT / "data" / "pencil.anim", scene)
     once = vp.Animation(animation.motion, frames=16, fps=8, loop=True)
     film = vp.animate(once, mode="lines", page="120x90", lines="contour,crease", crease_angle_deg=40)
-    vp.save(film, folder / "turning_pencil.svg")
+    frames = list(film)
+    vp.save_frames(frames, folder / "turning_pencil.svg", fps=film.fps)
 
     # The target stays in the middle of the page.
-    places = np.array([drawing.page_from_world @ (-5.6, 4.4, -3, 1) for drawing in film])
+    places = np.array([drawing.page_from_world @ (-5.6, 4.4, -3, 1) for drawing in frames])
     assert np.allclose(places[:, :2] / places[:, 3:], (60, 45))
     text = (folder / "turning_pencil.svg").read_text(encoding="utf-8")
     assert text.count("<animate ") == len(film) == 16

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import os
 import re
 import shlex
 import shutil
@@ -53,10 +54,16 @@ FILES = {
 """What readers are asked to write."""
 
 
+@pytest.fixture(scope="module")
+def data(tmp_path_factory):
+    """The data, copied once for all commands."""
+    return shutil.copytree(ROOT / "data", tmp_path_factory.mktemp("checkout") / "data")
+
+
 @pytest.fixture
-def checkout(tmp_path, monkeypatch):
+def checkout(data, tmp_path, monkeypatch):
     """A folder with the data, which one may write into."""
-    shutil.copytree(ROOT / "data", tmp_path / "data")
+    shutil.copytree(data, tmp_path / "data", copy_function=os.link)
     for name, text in FILES.items():
         (tmp_path / name).write_text(text, encoding="utf-8")
     monkeypatch.chdir(tmp_path)

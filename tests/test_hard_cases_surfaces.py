@@ -22,11 +22,14 @@ pytestmark = pytest.mark.filterwarnings("ignore:SURFACE. f :vectorplot.errors.In
 """Where a surface has no normal its contour may be in doubt; the drawing says so."""
 
 SQUARE = Domain(-1.0, 1.0, -1.0, 1.0)
+OUTLINES = "contour,boundary"
 
 
-def drawn(surface: object, camera: vp.Camera, hidden: str = "solid") -> tuple[vp.Scene, Drawing]:
+def drawn(
+    surface: object, camera: vp.Camera, hidden: str = "solid", lines: str | None = None
+) -> tuple[vp.Scene, Drawing]:
     scene = vp.Scene((vp.Item("SURFACE", surface, curves=vp.SurfaceLines(7, 7)),))
-    return scene, vp.draw(scene, camera, page=vp.Page(100, 100, 5), hidden=hidden)
+    return scene, vp.draw(scene, camera, page=vp.Page(100, 100, 5), hidden=hidden, lines=lines)
 
 
 def ends_of(curves: list[np.ndarray]) -> np.ndarray:
@@ -70,7 +73,7 @@ def test_the_visible_contour_of_a_torus_ends_in_its_cusps(slant: float) -> None:
     # The pen may leave out the tip of a hidden one: on the page it is no further than this from the next point.
     assert all(distance(knots(drawing), on_page(drawing, cusp)) < 1e-4 for cusp in cusps)
     # Those on this side of the axis are seen: there the contour ends, and nothing of it is seen beyond.
-    seen = drawn(Torus(3.0, 1.0), camera, "none")[1]
+    seen = drawn(Torus(3.0, 1.0), camera, "none", "contour")[1]
     visible = curves_in_space(seen, kind="contour")
     ends = ends_of([curve for curve in visible if np.linalg.norm(curve[0] - curve[-1]) > 1e-6])
     images = np.array([on_page(seen, end) for end in ends])
@@ -87,7 +90,7 @@ def test_the_double_line_of_an_umbrella_is_drawn_up_to_its_pinch_point(eye: tupl
     # x^2 = y^2 z: both halves meet in the z axis, from the pinch point in the origin upwards. None of these eyes is in
     # the plane of the axis and a ruling that is drawn: such a one is drawn over what is hidden behind it.
     umbrella = surface_of_function(lambda u, v: (u * v, u, v * v), SQUARE)
-    _, drawing = drawn(umbrella, vp.Camera(eye, (0.0, 0.0, 0.5)))
+    _, drawing = drawn(umbrella, vp.Camera(eye, (0.0, 0.0, 0.5)), lines=f"{OUTLINES},intersection")
     lines = curves_in_space(drawing, kind="intersection")
     points = np.concatenate(lines)
     assert np.abs(points[:, :2]).max() < 1e-9
@@ -100,7 +103,7 @@ def test_the_double_line_of_an_umbrella_is_drawn_up_to_its_pinch_point(eye: tupl
 @pytest.mark.hard(49)
 def test_the_cuspidal_edge_of_a_swallowtail_keeps_its_cusp() -> None:
     tail = surface_of_function(lambda u, v: ((3.0 * v * v + u) * v * v, (4.0 * v * v + 2.0 * u) * v, u), SQUARE)
-    _, drawing = drawn(tail, vp.Camera((6.0, -5.0, 4.0)))
+    _, drawing = drawn(tail, vp.Camera((6.0, -5.0, 4.0)), lines=f"{OUTLINES},crease")
     edge = curves_in_space(drawing, kind="crease")
     points = np.concatenate(edge)
     # The edge is (-3 v^4, -8 v^3, -6 v^2), down to the border at u = -1.

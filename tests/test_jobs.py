@@ -1,5 +1,7 @@
 """On however many threads a picture is made, it is the same to the last bit."""
 
+from functools import cache
+
 import pytest
 
 import vectorplot as vp
@@ -12,6 +14,7 @@ LAMP = vp.Light((6.0, -5.0, 8.0))
 MANY = (1, 5)
 
 
+@cache
 def scenes():
     small = vp.Scene((vp.Item("ball", Sphere(1.0)), vp.Item("lump", bumpy_icosphere(3))), lights=(LAMP,))
     return {"boxes": rotated_boxes(400), "lump": vp.Scene((vp.Item("lump", bumpy_icosphere(6)),)), "both": small}
@@ -48,7 +51,7 @@ def test_renderings(shadows):
 @pytest.mark.slow
 def test_hatching_that_flows():
     hatch = vp.Hatching("tone", along="slope")
-    made = {write(vp.draw(bumpy_icosphere(2), jobs=jobs, hatch=hatch, page="A6"), "json") for jobs in MANY}
+    made = {write(vp.draw(bumpy_icosphere(2), jobs=jobs, hatch=hatch, page="64x64"), "json") for jobs in MANY}
     assert len(made) == 1
 
 

@@ -36,11 +36,14 @@ def goes_into_wheels(path: Path) -> bool:
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
-    """A folder with what a wheel brings, and nothing else of the checkout."""
+    """A folder with what a wheel brings, compiled as far as the checkout is, and nothing else of it."""
     place = tmp_path_factory.mktemp("installed")
     for path in filter(goes_into_wheels, package_files()):
-        (place / path).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(ROOT / path, place / path)
+        compiled = Path(importlib.util.cache_from_source(str(path)))
+        (place / compiled).parent.mkdir(parents=True, exist_ok=True)
+        for file in filter(Path.is_file, (ROOT / path, ROOT / compiled)):
+            # With its time, by which Python tells whether what is compiled is of this source.
+            shutil.copy2(file, place / file.relative_to(ROOT))
     return place
 
 
@@ -58,38 +61,48 @@ def test_a_wheel_holds_every_file_of_the_package():
     assert SETTINGS["tool"]["setuptools"]["packages"]["find"]["include"] == ["vectorplot*"]
 
 
-@pytest.mark.slow
-def test_the_installed_command_works_in_any_folder(installed, tmp_path):
-    (tmp_path / "a folder").mkdir()
-    folder = tmp_path / "a folder"
+WORDS = [
+    ["draw", "table.scene", "-o", "table.svg"],
+    ["paint", "table.scene", "-o", "table.pdf"],
+    ["render", "table.scene", "-o", "table.png", "--size", "40x30"],
+    ["info", "table.scene"],
+]
+
+WORK = (
+    "import importlib, pkgutil, vectorplot as vp, vectorplot.testing as testing\n"
+    "from vectorplot.cli.main import run\n"
+    f"print(*(run(words) for words in {WORDS}))\n"
+    "print(vp.__file__)\n"
+    "[getattr(vp, name) for name in vp.__all__], [getattr(testing, name) for name in testing.__all__]\n"
+    "names = [found.name for found in pkgutil.walk_packages(vp.__path__, 'vectorplot.')]\n"
+    "[importlib.import_module(name) for name in names if not name.endswith('__main__')]\n"
+)
+"""The command, several times, and then every module: in one process, as to begin takes longer than to draw."""
+
+
+@pytest.fixture(scope="module")
+def worked(installed, tmp_path_factory):
+    """A folder in which the installed files have done this work, and the process."""
+    folder = tmp_path_factory.mktemp("worked") / "a folder"
+    folder.mkdir()
     shutil.copy(ROOT / "data" / "table.scene", folder / "table.scene")
-    words = [
-        ["draw", "table.scene", "-o", "table.svg"],
-        ["paint", "table.scene", "-o", "table.pdf"],
-        ["render", "table.scene", "-o", "table.png", "--size", "40x30"],
-        ["info", "table.scene"],
-    ]
-    # One after the other in one process: to begin takes longer than to draw.
-    code = f"from vectorplot.cli.main import run\nfor words in {words}: assert run(words) == 0, words"
-    for command in (["-c", code], ["-m", "vectorplot", "--help"]):
-        result = run(installed, folder, *command)
-        assert (result.returncode, result.stderr) == (0, ""), command
-    assert "Usage:" in result.stdout
-    assert all((folder / each[3]).stat().st_size > 100 for each in words[:3])
+    return folder, run(installed, folder, "-c", WORK)
 
 
 @pytest.mark.slow
-def test_every_installed_module_is_found_and_imported(installed, tmp_path):
-    code = (
-        "import importlib, pkgutil, vectorplot as vp, vectorplot.testing as testing\n"
-        "print(vp.__file__)\n"
-        "[getattr(vp, name) for name in vp.__all__], [getattr(testing, name) for name in testing.__all__]\n"
-        "names = [found.name for found in pkgutil.walk_packages(vp.__path__, 'vectorplot.')]\n"
-        "[importlib.import_module(name) for name in names if not name.endswith('__main__')]\n"
-    )
-    result = run(installed, tmp_path, "-c", code)
+def test_the_installed_command_works_in_any_folder(installed, worked):
+    folder, result = worked
+    assert result.stderr == "" and result.stdout.splitlines()[-2] == "0 0 0 0"
+    assert all((folder / each[3]).stat().st_size > 100 for each in WORDS[:3])
+    told = run(installed, folder, "-m", "vectorplot", "--help")
+    assert (told.returncode, told.stderr) == (0, "") and "Usage:" in told.stdout
+
+
+@pytest.mark.slow
+def test_every_installed_module_is_found_and_imported(installed, worked):
+    _, result = worked
     assert (result.returncode, result.stderr) == (0, "")
-    assert Path(result.stdout.strip()).is_relative_to(installed)
+    assert Path(result.stdout.splitlines()[-1]).is_relative_to(installed)
 
 
 def test_the_entry_point_leads_to_the_command():

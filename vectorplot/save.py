@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import secrets
 from collections.abc import Callable, Sequence
 from importlib import import_module
 from pathlib import Path
@@ -206,7 +205,7 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
 
 def _replace(target: Path, content: bytes) -> None:
     # Its name is known before it is there, so that whatever stops the work leaves none behind.
-    beside = target.parent / f".vectorplot-{secrets.token_hex(8)}.part"
+    beside = target.parent / f".vectorplot-{os.urandom(8).hex()}.part"
     try:
         with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, 0o600), "wb") as file:
             file.write(content)

@@ -9,7 +9,7 @@ from support.backend_samples import drawing_of, paths_of
 from vectorplot.drawing.drawing import Drawing, Paths
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def sample() -> Drawing:
     """A fan of lines, a closed star and a curve that leaves the page, on three layers."""
     angle = np.linspace(0.0, np.pi / 2, 12)
@@ -23,6 +23,6 @@ def sample() -> Drawing:
     )
 
 
-@pytest.fixture
+@pytest.fixture(scope="session")
 def empty() -> Drawing:
     return drawing_of(Paths.empty())

@@ -51,7 +51,7 @@ FULL = np.linspace(0, 2 * np.pi, 201)[:-1]
 T = np.linspace(0, 1, 1001)
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def curved() -> Drawing:
     """Ellipses and arcs of them, a loop that is none, a wave that leaves the page; straight strokes between them."""
     loop = ellipse(FULL) + 4 * np.column_stack((np.cos(3 * FULL), np.sin(2 * FULL)))
@@ -65,7 +65,7 @@ def as_polylines(drawing: Drawing) -> Drawing:
     return replace(drawing, layers=tuple(replace(layer, marks=layer.strokes) for layer in drawing.layers))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def ours(curved) -> np.ndarray:
     """The picture of the polylines."""
     return grey_of_png(png_bytes(as_polylines(curved), dpi=DPI))

@@ -29,7 +29,7 @@ def ghostscript(file, *options) -> np.ndarray:
     return grey_of_pgm(run("gs", *GHOSTSCRIPT, "-sDEVICE=pgmraw", "-sOutputFile=%stdout", *options, file))
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def ours(sample) -> np.ndarray:
     return grey_of_png(png_bytes(sample, dpi=DPI))
 
@@ -72,6 +72,16 @@ def test_the_comparison_sees_a_shift_a_missing_line_and_a_wrong_width(sample, ou
             assert_same_picture(ours, wrong)
 
 
+@pytest.fixture(scope="module")
+def vpype_told(empty, sample, tmp_path_factory) -> list[str]:
+    """What the command of vpype tells of the empty drawing, and then, when it has read it too, of the other one."""
+    files = [tmp_path_factory.mktemp("vpype") / f"{number}.svg" for number in range(2)]
+    for drawing, file in zip((empty, sample), files, strict=True):
+        save(drawing, file)
+    told = run("vpype", "read", files[0], "stat", "read", files[1], "stat").decode()
+    return told.split("= Stats =")[1:]
+
+
 def picture(drawing) -> np.ndarray:
     return grey_of_png(png_bytes(drawing, dpi=DPI))
 
@@ -101,9 +111,8 @@ def test_vpype_reads_layers_lengths_pens_and_page(sample, tmp_path):
 
 @pytest.mark.slow
 @pytest.mark.capability("G4.X-plotter")
-def test_the_command_of_vpype_reads_and_counts(sample, tmp_path):
-    save(sample, tmp_path / "a.svg")
-    report = run("vpype", "read", tmp_path / "a.svg", "stat").decode()
+def test_the_command_of_vpype_reads_and_counts(vpype_told):
+    report = vpype_told[1]
     assert len(re.findall(r"(?m)^Layer \d+$", report)) == 3
     assert "Path count: 12" in report
 
@@ -111,7 +120,7 @@ def test_the_command_of_vpype_reads_and_counts(sample, tmp_path):
 @pytest.mark.slow
 @pytest.mark.hard(55)
 @pytest.mark.parametrize("format", FORMATS)
-def test_readers_open_an_empty_drawing(empty, tmp_path, format):
+def test_readers_open_an_empty_drawing(empty, tmp_path, format, request):
     file = tmp_path / f"a.{format}"
     save(empty, file)
     if format in ("ps", "eps"):
@@ -120,7 +129,7 @@ def test_readers_open_an_empty_drawing(empty, tmp_path, format):
         assert grey_of_pgm(run("pdftoppm", "-r", DPI, file)).min() == 1.0
     elif format == "svg":
         assert grey_of_png(run("rsvg-convert", "-b", "white", file)).min() == 1.0
-        assert "Layer count: 0" in run("vpype", "read", file, "stat").decode()
+        assert "Layer count: 0" in request.getfixturevalue("vpype_told")[0]
     elif format == "png":
         assert grey_of_png(file.read_bytes()).min() == 1.0
 

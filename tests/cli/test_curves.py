@@ -4,15 +4,16 @@ import json
 
 import numpy as np
 import pytest
-from support.paths import DATA
 
 from vectorplot.cli.main import run
 
-TORUS = DATA / "torus.scene"
+RING = "page A5 landscape camera eye 8 -16 11 target 0 0 0 field_of_vision 26\n"
+RING += "RING surface torus 3 1 parameter_lines 6 4\n"
 
 
 def drawn(tmp_path, name, *options):
-    assert run(["draw", str(TORUS), "-o", str(tmp_path / name), "--quiet", *options]) == 0
+    (tmp_path / "ring.scene").write_text(RING, encoding="utf-8")
+    assert run(["draw", str(tmp_path / "ring.scene"), "-o", str(tmp_path / name), "--quiet", *options]) == 0
     return (tmp_path / name).read_text(encoding="utf-8")
 
 
@@ -40,5 +41,5 @@ def test_a_coarser_tolerance_makes_a_smaller_file(tmp_path):
 
 
 def test_an_unknown_kind_of_curves_is_bad_usage(tmp_path, capsys):
-    assert run(["draw", str(TORUS), "-o", str(tmp_path / "a.svg"), "--curves", "wavy"]) == 2
+    assert run(["draw", "ring.scene", "-o", str(tmp_path / "a.svg"), "--curves", "wavy"]) == 2
     assert "wavy" in capsys.readouterr().err

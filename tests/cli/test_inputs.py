@@ -22,9 +22,12 @@ def die(tmp_path):
     return path
 
 
-@pytest.mark.parametrize(("verb", "out"), [("draw", "x.json"), ("paint", "x.svg"), ("render", "x.png")])
-def test_several_inputs_are_one_picture(cube, die, tmp_path, verb, out, capsys):
-    assert run([verb, str(cube), str(die), "-o", str(tmp_path / out)]) == 0
+@pytest.mark.parametrize(
+    ("verb", "out", "options"),
+    [("draw", "x.json", []), ("paint", "x.svg", []), ("render", "x.png", ["--size", "80x60"])],
+)
+def test_several_inputs_are_one_picture(cube, die, tmp_path, verb, out, options, capsys):
+    assert run([verb, str(cube), str(die), "-o", str(tmp_path / out), *options]) == 0
     assert (tmp_path / out).stat().st_size > 100
     if verb == "draw":
         assert vp.read(tmp_path / out).items == ("cube", "cube 2")
@@ -100,12 +103,15 @@ def piped(monkeypatch):
     return pipe
 
 
-@pytest.mark.parametrize(("verb", "suffix"), [("draw", "svg"), ("paint", "json"), ("render", "png"), ("sheet", "pdf")])
-def test_a_scene_on_standard_input_makes_the_picture_of_its_file(die, tmp_path, piped, verb, suffix):
+@pytest.mark.parametrize(
+    ("verb", "suffix", "options"),
+    [("draw", "svg", []), ("paint", "json", []), ("render", "png", ["--size", "80x60"]), ("sheet", "pdf", [])],
+)
+def test_a_scene_on_standard_input_makes_the_picture_of_its_file(die, tmp_path, piped, verb, suffix, options):
     one, other = tmp_path / f"one.{suffix}", tmp_path / f"other.{suffix}"
     piped(b"\xef\xbb\xbf" + die.read_bytes())
-    assert run([verb, "-", "-o", str(one)]) == 0
-    assert run([verb, str(die), "-o", str(other)]) == 0
+    assert run([verb, "-", "-o", str(one), *options]) == 0
+    assert run([verb, str(die), "-o", str(other), *options]) == 0
     assert one.read_bytes().replace(b"standard input", b"die") == other.read_bytes()
 
 

@@ -302,9 +302,9 @@ def test_help_is_fast():
         spent = os.times()
         return spent.children_user + spent.children_system
 
-    times = []
-    for _ in range(3):
+    def seconds() -> float:
         start = children()
         shell("--help")
-        times.append(children() - start)
-    assert min(times) < 0.5
+        return children() - start
+
+    assert any(seconds() < 0.5 for _ in range(3))

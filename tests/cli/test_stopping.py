@@ -31,7 +31,7 @@ CUBE blue box 2 2 2 translation -1 -1 0 patterns face 6 polygon SPOT red 0 0, 0.
 GLASS transparent refraction 1.4 box 1 1 1 translation 1.2 -2 0
 MIRROR mirror box 0.1 3 3 translation -2.5 -1 0
 """
-PLAIN = SCENE.split("GLASS")[0]
+PLAIN = "CUBE blue box 2 2 2 translation -1 -1 0\n"
 BALL = "BALL red surface sphere 0.6 translation 0 0 2.7\n"
 
 COMMANDS = [
@@ -194,7 +194,7 @@ def limited(code: str, arguments: list[str], **more) -> subprocess.CompletedProc
 def test_a_disk_that_fills_up_leaves_the_old_file(words, place):
     place.write_text(PLAIN, encoding="utf-8")
     arguments, out = command(place, words)
-    result = limited("resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))", arguments)
+    result = limited("resource.setrlimit(resource.RLIMIT_FSIZE, (300, 300))", arguments)
     assert result.returncode == 1
     assert result.stderr.decode().splitlines() == [f"vectorplot: {out}: {os.strerror(27)}"]
     assert_untouched(out, place)

@@ -7,7 +7,7 @@ import pytest
 import shapely
 from support.effort import several
 
-from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.backends.cairo.surfaces import drawing_pixels
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.flattened import MARGIN_MM, flattened
 from vectorplot.drawing.painted_fills import Overlay, stacked
@@ -136,7 +136,6 @@ FINER = 4
 @pytest.mark.parametrize("height", [0.0, 0.4])
 def test_no_light_between_faces_in_the_shadow(height: float, opacity: float) -> None:
     from scipy.ndimage import maximum_filter, minimum_filter
-    from support.backend_samples import grey_of_png
 
     material = Material("transparent", opacity) if opacity < 1.0 else Material()
     roof = Item("ROOF", box((-2.2, -2.2, 3.0), (2.2, 2.2, 3.3)), material=material)
@@ -146,8 +145,8 @@ def test_no_light_between_faces_in_the_shadow(height: float, opacity: float) -> 
         # Borders of shaded triangles are drawn in more than one way. On even ones floor, shadow and roof are each
         # rounded by half a level.
         limit = 8.0 if height > 0.0 else 1.5
-        found = 255.0 * grey_of_png(png_bytes(drawing, dpi=dpi))
-        fine = 255.0 * grey_of_png(png_bytes(drawing, dpi=FINER * dpi))
+        found = drawing_pixels(drawing, dpi=dpi).mean(axis=2)
+        fine = drawing_pixels(drawing, dpi=FINER * dpi).mean(axis=2)
         rows, columns = np.minimum(found.shape, np.array(fine.shape) // FINER)
         truth = fine[: FINER * rows, : FINER * columns].reshape(rows, FINER, columns, FINER).mean(axis=(1, 3))
         even = (maximum_filter(truth, 3) - minimum_filter(truth, 3) <= 8.0) & (truth < 200.0)

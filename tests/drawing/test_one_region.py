@@ -6,10 +6,9 @@ import numpy as np
 import pytest
 import shapely
 from scipy.ndimage import maximum_filter, minimum_filter
-from support.backend_samples import grey_of_png
 
 import vectorplot as vp
-from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.backends.cairo.surfaces import drawing_pixels
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.regions import polygons_of
@@ -66,7 +65,7 @@ def test_shadows_on_planes_in_pieces_are_those_on_whole_planes(lights: tuple[vp.
     whole, fills = painted(boxes(0), *lights)
     pieces, cut = painted(boxes(5), *lights)
     assert len(cut) <= 2 * len(fills)
-    one, other = (255.0 * grey_of_png(png_bytes(drawing, dpi=300)) for drawing in (whole, pieces))
+    one, other = (drawing_pixels(drawing, dpi=300).mean(axis=2) for drawing in (whole, pieces))
     # Borders of two colours may be stroked by the one or by the other: inside of them nothing differs, no line is seen.
     inside = maximum_filter(one, 7) - minimum_filter(one, 7) <= 2.0
     assert inside.mean() > 0.8 and np.abs(one - other)[inside].max() <= 2.0

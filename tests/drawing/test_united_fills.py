@@ -14,7 +14,7 @@ from vectorplot.shading import palette
 from vectorplot.surfaces import Sphere
 
 CAMERA = vp.Camera((0.0, -9.0, 2.0), (0.0, 0.0, 0.0))
-STEPS, PAGE = 6, vp.Page(70, 50, 5)
+STEPS, TOLERANCE_MM, PAGE = 6, 0.06, vp.Page(70, 50, 5)
 
 
 @pytest.fixture(scope="module")
@@ -26,8 +26,8 @@ def seen():
             vp.Item("C", box((4.0, 0.2, 0.3)).moved(-2.0, -0.1, 0.2), "green"),
         )
     )
-    painted = vp.paint(scene, CAMERA, page=PAGE, tolerance_mm=border_tolerance_mm(0.02, STEPS))
-    visible = vp.paint(scene, CAMERA, page=PAGE, fills="visible", palette=STEPS)
+    painted = vp.paint(scene, CAMERA, page=PAGE, tolerance_mm=border_tolerance_mm(TOLERANCE_MM, STEPS))
+    visible = vp.paint(scene, CAMERA, page=PAGE, fills="visible", palette=STEPS, tolerance_mm=TOLERANCE_MM)
     return [picture.layers[0].fills[0] for picture in (painted, visible)]
 
 

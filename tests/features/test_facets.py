@@ -163,3 +163,13 @@ def test_caps_beside_cuts_are_covered_and_nothing_of_them_is_folded_over(scale: 
         assert (sign * area[own, 2] > 0.0).all()
         covered = shapely.union_all(shapely.polygons(corners[own, :, :2]), grid_size=1e-9)
         assert abs(shapely.area(covered) - left) < 2.0 * np.pi * tolerance
+
+
+def test_a_cut_through_the_axis_makes_no_narrow_triangles_whatever_the_size() -> None:
+    counts = []
+    for scale in (1e-6, 1.0, 1e6):
+        can = rod((0.0, 0.0, 0.0), (0.0, 0.0, 2.0 * scale), scale)
+        half = CutSurface(can, (HalfSpaces(((1.0, 0.0, 0.0),), (0.0,)),))
+        counts.append(facets(half, within(0.02 * scale)).mesh.face_count)
+    assert max(counts) <= 1.01 * min(counts)
+    assert max(counts) < 1800

@@ -40,7 +40,7 @@ def mixed():
 
 def test_each_is_to_the_last_bit_what_it_is_alone():
     shapes = mixed()
-    demands = [Coarse((0.004 + 0.003 * k,)) for k in range(len(shapes))]
+    demands = [Coarse((0.01 + 0.003 * k,)) for k in range(len(shapes))]
     found = facets_of_all(shapes, demands.__getitem__, USUAL.facets)
     assert all(same(f, facets(s, d)) for f, s, d in zip(found, shapes, demands, strict=True))
 

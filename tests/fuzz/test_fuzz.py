@@ -16,14 +16,15 @@ from fuzz.fuzz_oracle import FILES, TARGETS, VERBS, attack, finding, judged
 from fuzz.fuzz_scenes import formula_text, scene_bytes
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from support.effort import examples, several
 
 from vectorplot.io.read_file import read
 
 COUNTS = {**dict.fromkeys(TARGETS, 250), "formula": 600, "draw": 16, "paint": 12, "render": 20, "info": 100}
-"""How many files of its stream each target gets in the normal tests."""
+"""How many files of its stream each target gets by hand, and two fifths of them at every change."""
 
 SHRINKING = settings(
-    max_examples=25,
+    max_examples=examples(60),
     deadline=None,
     derandomize=True,
     database=None,
@@ -35,7 +36,7 @@ SHRINKING = settings(
 @pytest.mark.hard(53)
 @pytest.mark.parametrize("target", TARGETS)
 def test_hostile_input_gives_one_line_or_a_result(tmp_path: Path, target: str) -> None:
-    for number in range(COUNTS[target]):
+    for number in range(several(2 * COUNTS[target] // 5, long=COUNTS[target])):
         found, data, suffix, _ = attack(target, f"test {number}", tmp_path)
         assert found is None, f"{target}, 'test {number}', .{suffix}: {data[:2000]!r}\n{found.story}"
 

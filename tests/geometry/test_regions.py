@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 import shapely
+from support.effort import several
 
 from vectorplot.geometry.regions import unions
 
@@ -14,11 +15,12 @@ from vectorplot.geometry.regions import unions
 @pytest.mark.parametrize("grid", [None, 1e-9])
 def test_polygons_that_cross_themselves_are_united_with_all_that_is_in_them(grid: float | None) -> None:
     random = np.random.default_rng(5)
-    middle, one, two = random.uniform(-1.0, 1.0, (3, 2000, 2))
-    one, two, back = 0.2 * one, 0.2 * two, random.uniform(0.1, 1.0, (2000, 1))
+    count = 8 * several(60, long=250)
+    middle, one, two = random.uniform(-1.0, 1.0, (3, count, 2))
+    one, two, back = 0.2 * one, 0.2 * two, random.uniform(0.1, 1.0, (count, 1))
     # Bows: two triangles with a common corner, run through in one go.
     bows = shapely.polygons(np.stack([middle + one, middle - back * one, middle - back * two, middle + two], axis=1))
-    group = np.repeat(np.arange(8), 250)
+    group = np.repeat(np.arange(8), count // 8)
     found = unions(bows, group, grid)
     wings = [np.stack([middle, middle + side * one, middle + side * two], axis=1) for side in (1.0, -back)]
     for number, region in enumerate(found):

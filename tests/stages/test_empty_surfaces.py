@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from functools import partial
 
 import pytest
 
@@ -12,7 +13,9 @@ from vectorplot.surfaces import implicit_of_function
 BOX = [(-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)]
 
 
-@pytest.mark.parametrize("verb", [vp.draw, vp.paint, vp.render])
+@pytest.mark.parametrize(
+    "verb", [vp.draw, vp.paint, partial(vp.render, size=(40, 30))], ids=["draw", "paint", "render"]
+)
 def test_a_surface_without_points_is_told(verb):
     nothing = vp.Item("NIX", implicit_of_function(lambda x, y, z: x**2 + y**2 + z**2 + 1.0, BOX))
     with pytest.warns(vp.InputWarning, match="NIX: the surface has no points in its box: nothing of it is shown"):

@@ -6,16 +6,20 @@ import warnings
 from functools import partial
 from pathlib import Path
 
+import numpy as np
+
 import vectorplot as vp
 from vectorplot.batch import Task, fingerprint
-from vectorplot.geometry import box
+from vectorplot.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.save import write
 
 
 def frame(number: int) -> bytes:
-    """A box, seen from one place after another."""
-    eye = (9.0, 3.0 + 0.25 * number, 5.0)
-    return write(vp.draw(box((1, 2, 3)), vp.Camera(eye), page="60x60"), "svg")
+    """A line, in one place after another: workers are soon ready for it."""
+    none = np.zeros(1, dtype=np.intp)
+    ends = np.array([(1.0, 1.0 + 0.25 * number), (50.0, 30.0)])
+    line = Paths(ends, np.array([0, 2]), none > 0, none, none, none, np.zeros((2, 3)))
+    return write(Drawing(60.0, 60.0, (Layer("visible", Pen(), (line,)),)), "svg")
 
 
 def slow_frame(number: int, seconds: float) -> bytes:

@@ -38,7 +38,7 @@ def page_of(*marks: Fills | Paths, width=60.0, height=40.0, **other) -> Drawing:
 
 def rgb(data: bytes) -> Picture:
     """Red, green and blue from 0 to 255, row 0 on top."""
-    return np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).astype(np.int64)
+    return np.asarray(Image.open(io.BytesIO(data)).convert("RGB")).astype(np.int16)
 
 
 FORMATS = ("png", "svg", "pdf", "ps", "eps")
@@ -49,12 +49,12 @@ def pictures(drawing: Drawing, folder, dpi=300, formats=FORMATS) -> dict[str, Pi
     for suffix in formats:
         if suffix != "png":
             save(drawing, folder / f"a.{suffix}")
-    gs = ("-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-dGraphicsAlphaBits=4", "-sDEVICE=png16m", f"-r{dpi}")
+    gs = ("-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-dGraphicsAlphaBits=4", "-sDEVICE=ppmraw", f"-r{dpi}")
     own = rgb(png_bytes(drawing, dpi))
     size = f"-g{own.shape[1]}x{own.shape[0]}"
     readers = {
         "svg": ("rsvg-convert", "-d", dpi, "-p", dpi, "-b", "white", folder / "a.svg"),
-        "pdf": ("pdftoppm", "-r", dpi, "-png", folder / "a.pdf"),
+        "pdf": ("pdftoppm", "-r", dpi, folder / "a.pdf"),
         "ps": ("gs", *gs, size, "-dFIXEDMEDIA", "-sOutputFile=%stdout", folder / "a.ps"),
         "eps": ("gs", *gs, size, "-dFIXEDMEDIA", "-sOutputFile=%stdout", folder / "a.eps"),
     }

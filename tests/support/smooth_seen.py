@@ -41,9 +41,12 @@ class Chords:
         return np.bincount(key, weights=self.length, minlength=16 * len(LineKind)).reshape(-1, 16)
 
 
-def chords_seen(scene: Scene, camera: Camera, *, tolerance: float = 5e-5) -> Chords:
-    """All chords with their counts. tolerance: of chords, as a part of half the scene's extent."""
-    kinds = frozenset(map(LineKind.from_word, DRAWN))
+ALL = frozenset(map(LineKind.from_word, DRAWN))
+"""The kinds of lines that are drawn if nothing else is asked for."""
+
+
+def chords_seen(scene: Scene, camera: Camera, *, kinds: frozenset[LineKind] = ALL, tolerance: float = 5e-5) -> Chords:
+    """The chords of some kinds with their counts. tolerance: of chords, as a part of half the scene's extent."""
     view = look(scene, camera)
     faces = project_faces(view)
     solid = solid_items(view, faces)

@@ -59,8 +59,8 @@ def can_along_its_axis(angle: float) -> float:
 def line_beside_an_apex(offset: float) -> float:
     """How much is hidden of a line beside the axis of a cone of height 2, from the height of its apex down 1."""
     scene = vp.Scene((item("CONE", Cone(0.5, -2.0, 0.0)), item("LINE", Line((offset, 0.0, -1.0), (0.0, 0.0, 2.0)))))
-    lines = drawn(vp.draw(scene, vp.Camera((9.0, -14.0, 7.0), parallel=True), hidden="solid")).of(1)
-    return lines.hidden.length
+    camera = vp.Camera((9.0, -14.0, 7.0), parallel=True)
+    return drawn(vp.draw(scene, camera, lines="contour,curve", hidden="solid")).of(1).hidden.length
 
 
 def cusps_of_a_torus(slant: float) -> float:

@@ -57,12 +57,17 @@ def far_off(shift: float) -> float:
     return apart(strokes(1.0, shift), strokes(1.0, 0.0))
 
 
+@cache
+def strokes_from(distance: float, parallel: bool) -> list[np.ndarray]:
+    """The visible lines of the room on the page, from an eye at some distance."""
+    eye = np.array([5.0, -7.0, 4.0]) / np.linalg.norm([5.0, -7.0, 4.0])
+    camera = vp.Camera(tuple(distance * eye), (0, 0, 0), parallel=parallel)
+    return list(drawn(vp.draw(room(1.0, 0.0), camera, page=PAGE, curves="polyline")).page)
+
+
 def far_eye(nearness: float) -> float:
     """How many mm a picture from far away is off the parallel one; nearness: one over the distance."""
-    scene = room(1.0, 0.0)
-    eye = np.array([5.0, -7.0, 4.0]) / np.linalg.norm([5.0, -7.0, 4.0])
-    cameras = (vp.Camera(tuple(eye / nearness), (0, 0, 0)), vp.Camera(tuple(10.0 * eye), (0, 0, 0), parallel=True))
-    return apart(*(list(drawn(vp.draw(scene, camera, page=PAGE, curves="polyline")).page) for camera in cameras))
+    return apart(strokes_from(1.0 / nearness, False), strokes_from(10.0, True))
 
 
 def upright(angle: float) -> float:

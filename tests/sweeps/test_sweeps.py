@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.effort import several
 from sweeps.all_sweeps import SWEEPS
 from sweeps.sweep import Sweep
 
-FEW = 3
+FEW = several(2, long=4)
 """Values of each sweep that are tried with the other tests; docs/stability.py tries all."""
 
 

@@ -134,8 +134,8 @@ def test_a_scene_has_its_title_in_the_block_unless_another_is_asked_for_or_it_ha
 def test_the_command_writes_every_format(suffix, tmp_path):
     scene = tmp_path / "brick.scene"
     scene.write_text("BRICK gray box solid 40 20 10\n")
-    told = ["sheet", str(scene), "-o", str(tmp_path / f"s.{suffix}"), "--scale", "1:1", "--frame", "--dimensions"]
-    vectorplot(told, standalone_mode=False)
+    asked = ["--scale", "1:1", "--views", "front", "--page", "A5", "--frame", "--dimensions"]
+    vectorplot(["sheet", str(scene), "-o", str(tmp_path / f"s.{suffix}"), *asked], standalone_mode=False)
     assert (tmp_path / f"s.{suffix}").stat().st_size > 1000
 
 

@@ -39,7 +39,8 @@ def scene(file):
 
 @pytest.mark.capability("G4.4-interactive")
 @pytest.mark.parametrize("keys", ["w", "haaX", "hoT", "j1", "s", "ced4", "cz", "hEE" + "e" * 40])
-def test_the_command_makes_what_is_seen(keys, scene, file, tmp_path):
+def test_the_command_makes_what_is_seen(keys, scene, file, tmp_path, monkeypatch):
+    monkeypatch.setattr("vectorplot.viewer.pictures.PIXELS_HIGH", 90)
     state = replace(first_state(scene), crease_angle_deg=40.0, spacing_mm=1.5, hatch="tone")
     for key in keys:
         state = pressed(state, key)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from support.effort import several
 
 from vectorplot.draw import draw
 from vectorplot.geometry.cameras.camera import Camera
@@ -42,7 +43,7 @@ def seen(text: str, way: tuple[float, float, float], parallel: bool) -> tuple[Sc
 def test_curves_in_which_sheets_meet_go_through_third_ones(name: str, parallel: bool) -> None:
     scene, camera = seen(PAIRS[name], (0.3, -0.5, 0.8), parallel)
     drawing = draw(scene, camera, hidden="dashed", lines=(*OUTLINES, "intersection"))
-    assert assert_drawing_is_right(drawing, scene, camera, samples=400) > 200
+    assert assert_drawing_is_right(drawing, scene, camera, samples=several(200, long=400)) > 100
 
 
 @pytest.mark.slow
@@ -50,4 +51,4 @@ def test_curves_in_which_sheets_meet_go_through_third_ones(name: str, parallel: 
 def test_outlines_go_through_sheets_whose_meetings_nobody_draws(way: tuple[float, float, float]) -> None:
     scene, camera = seen(BENT, way, parallel=False)
     drawing = draw(scene, camera, hidden="dashed", lines=OUTLINES)
-    assert assert_drawing_is_right(drawing, scene, camera, samples=600) > 300
+    assert assert_drawing_is_right(drawing, scene, camera, samples=several(200, long=600)) > 100

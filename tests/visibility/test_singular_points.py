@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from support.dense_rays import DenseRays
 from support.drawn import drawn
+from support.effort import several
 from support.singular_scenes import eyes, lines_through, singular_surfaces, turned
 from support.smooth_seen import chords_seen
 
@@ -33,11 +34,10 @@ def compared(rays: DenseRays, scene: Scene, camera: Camera, samples: int) -> int
     """How many points of curves agree with rays; an AssertionError where some do not."""
     with warnings.catch_warnings():
         warnings.simplefilter("ignore", InputWarning)
-        chords = chords_seen(scene, camera)
-    kept = np.flatnonzero(chords.kind == LineKind.CURVE)
-    length = chords.length[kept]
+        chords = chords_seen(scene, camera, kinds=frozenset({LineKind.CURVE}))
+    length = chords.length
     random = np.random.default_rng(samples)
-    chosen, share = random.choice(kept, samples, p=length / length.sum()), random.random((samples, 1))
+    chosen, share = random.choice(len(length), samples, p=length / length.sum()), random.random((samples, 1))
     points = chords.start[chosen] + share * (chords.end[chosen] - chords.start[chosen])
     hidden, sure = rays.hidden(scene.items[0].shape, camera, points)
     wrong = np.flatnonzero(sure & (hidden != (chords.hidden_by[chosen] > 0)))
@@ -79,7 +79,9 @@ def test_wherever_a_cone_stands_and_whatever_its_size(size: float, seed: int) ->
     matrix = size * np.linalg.qr(random.normal(size=(3, 3)))[0]
     rays = rays_of("cone")
     scene = turned(lines_through("cone", SURFACES["cone"], 8, seed), matrix, 1e3 * size * random.normal(size=3))
-    assert sum(compared(rays, scene, camera, 600) for camera in eyes(scene, 2, seed)) > 900
+    # From an eye and in parallel in turn, or both ways.
+    cameras = eyes(scene, 2, seed) if several(1, long=2) == 2 else eyes(scene, 2, seed)[seed % 2 :][:1]
+    assert sum(compared(rays, scene, camera, 600) for camera in cameras) > 450 * len(cameras)
 
 
 @pytest.mark.slow
@@ -88,7 +90,7 @@ def test_the_axis_of_a_cone_is_hidden_up_to_its_apex_from_every_side() -> None:
     axis = Item("AXIS", Line.through((0.0, 0.0, 0.0), (0.0, 0.0, 5.0)), lines=("curve",))
     scene = Scene((Item("CONE", Cone.standing(2.0, 4.0)), axis))
     for eye, parallel in (((9.0, -14.0, 7.0), True), ((-5.0, 11.0, 4.0), False), ((0.0, -20.0, 9.0), True)):
-        drawing = draw(scene, Camera(eye, (0.0, 0.0, 2.0), parallel=parallel))
+        drawing = draw(scene, Camera(eye, (0.0, 0.0, 2.0), parallel=parallel), lines="contour,boundary,curve")
         height = drawn(drawing).of(1).world[..., 2]
         assert np.isclose(height.min(), 4.0, atol=1e-6) and np.isclose(height.max(), 5.0), (eye, parallel, height)
 
@@ -97,6 +99,6 @@ def test_the_axis_of_a_cone_is_hidden_up_to_its_apex_from_every_side() -> None:
 @pytest.mark.hard(48)
 def test_the_contour_of_an_umbrella_is_one_to_its_pinch_point() -> None:
     scene = Scene((Item("UMBRELLA", SURFACES["Whitney umbrella"].surface),))
-    chords = chords_seen(scene, Camera((3.0, 4.0, -6.0), (0.0, 0.0, 0.3)))
-    hidden = chords.hidden_by[chords.kind == LineKind.CONTOUR]
+    eye = Camera((3.0, 4.0, -6.0), (0.0, 0.0, 0.3))
+    hidden = chords_seen(scene, eye, kinds=frozenset({LineKind.CONTOUR})).hidden_by
     assert np.count_nonzero(np.diff(hidden)) <= 4

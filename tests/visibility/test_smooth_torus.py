@@ -15,7 +15,7 @@ from vectorplot.surfaces.families.torus import Torus
 TOLERANCE = 5e-5
 """Of the chords, as a part of half the scene's extent; what is no longer need not be drawn."""
 
-DIRECTIONS = several(8, long=400)
+DIRECTIONS = several(4, long=400)
 """Each view has twenty curves and about eighty runs, whose ends are all compared: a few show events of each sort."""
 
 

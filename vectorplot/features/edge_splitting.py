@@ -23,6 +23,9 @@ from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
 LOOKS = (0.25, 0.5, 0.75)
 """Where sides are compared with the surface, and where they cross a fold. Smaller details may be missed."""
 
+MIDDLE = LOOKS.index(0.5)
+"""Which of the looks is in the middle of a side, where it is split if it crosses no fold."""
+
 ROUNDS = 40
 """Times that triangles are divided at most: what jumps is never fine enough."""
 
@@ -298,11 +301,12 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
     start, end = between.ends(start, end)
     count = len(start.points)
     looks = _looks(start, end, border, between)
-    values = np.stack([demand.folds(some.points, some.normals) for some in (start, *looks, end)], axis=1)
-    root, number = _roots(start, end, values, border, between, demand)
+    along = start.joined(looks).joined(end)
+    values = demand.folds(along.points, along.normals)
+    values = values.reshape(len(values), len(LOOKS) + 2, count)
+    root, number, at_root = _roots(start, end, values, border, between, demand)
     t = np.stack([*(np.full(count, t) for t in LOOKS), root])
-    looks.append(between(start, end, root, border))
-    at = Vertices(*(np.stack(some) for some in zip(*((v.places, v.points, v.normals) for v in looks), strict=True)))
+    at = _with_roots(looks, number, at_root)
     on = np.abs(values[:, [0, -1]]) <= ON
     over = np.abs(values[:, 1:-1])
     # A side that only touches a fold has it near by, on one of its triangles.
@@ -338,13 +342,23 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
     return np.stack((worst, as_border, part))
 
 
-def _looks(start: Vertices, end: Vertices, border: Bools, between: Between) -> list[Vertices]:
-    """The vertices at each of LOOKS, asked for as one: a few take as long as many."""
-    count = len(start.points)
-    every = np.tile(np.arange(count), len(LOOKS))
-    found = between(start.some(every), end.some(every), np.repeat(LOOKS, count), border[every])
-    rows = (some.reshape(len(LOOKS), count, -1) for some in (found.places, found.points, found.normals))
-    return [Vertices(*look) for look in zip(*rows, strict=True)]
+def _looks(start: Vertices, end: Vertices, border: Bools, between: Between) -> Vertices:
+    """(k*n,) the vertices over n sides at the first of LOOKS, then those at the next one, asked for as one: a few take
+    as long as many."""
+    every = np.tile(np.arange(len(start.points)), len(LOOKS))
+    t = np.repeat(LOOKS, len(start.points))
+    return between(start.some(every), end.some(every), t, border[every])
+
+
+def _with_roots(looks: Vertices, number: Ints, at_root: Vertices) -> Vertices:
+    """(k+1,n) the vertices over n sides at each of LOOKS (k*n,), and behind them those at the root, of sides with the
+    number of a fold; of others that in the middle once more."""
+    rows = (some.reshape(len(LOOKS), len(number), -1) for some in (looks.places, looks.points, looks.normals))
+    found = Vertices(*(np.concatenate((some, some[MIDDLE : MIDDLE + 1])) for some in rows))
+    crossed = np.flatnonzero(number != NONE)
+    found.places[-1, crossed], found.points[-1, crossed] = at_root.places, at_root.points
+    found.normals[-1, crossed] = at_root.normals
+    return found
 
 
 def _bulging(edges: Edges, hole: Ints) -> Edges:
@@ -360,8 +374,9 @@ def _bulging(edges: Edges, hole: Ints) -> Edges:
 
 def _roots(
     start: Vertices, end: Vertices, values: Floats, border: Bools, between: Between, demand: Demand
-) -> tuple[Floats, Ints]:
-    """(n,) the part of each side at which it crosses a fold, and the number of the fold; 0.5 and NONE for most.
+) -> tuple[Floats, Ints, Vertices]:
+    """(n,) the part of each side at which it crosses a fold, and the number of the fold; 0.5 and NONE for most; and the
+    vertices there, of the others.
 
     values (s,k,n): the functions of folds at the ends and the looks between them.
     """
@@ -371,7 +386,7 @@ def _roots(
         crossed = (values[:, 1:] * values[:, :-1] < 0.0).reshape(-1, count)
     which = np.flatnonzero(crossed.any(axis=0)) if len(crossed) else np.zeros(0, dtype=np.intp)
     if not len(which):
-        return part, number
+        return part, number, start.some(which)
     fold, step = np.divmod(np.argmax(crossed[:, which], axis=0), values.shape[1] - 1)
     nodes = np.array((0.0, *LOOKS, 1.0))
     low, high = nodes[step], nodes[step + 1]
@@ -387,7 +402,7 @@ def _roots(
         low, high = np.where(before, t, low), np.where(before, high, t)
     good = (t > NEAR) & (t < 1.0 - NEAR)
     part[which[good]], number[which[good]] = t[good], fold[good]
-    return part, number
+    return part, number, found.some(good)
 
 
 def _rim(start: Vertices, end: Vertices, border: Bools, between: Between) -> Floats:

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import Edges, Net, Vertices
 from vectorplot.features.implicit.implicit_sides import BOXED, sides_of
-from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_mesh
+from vectorplot.features.implicit.polygonize import onto_surface, polygonized, settled_from
 from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines, singular_lines, usual_gradient
 from vectorplot.features.implicit.singular.singular_set import led_into_singular_set
 from vectorplot.features.patch_nets import HALF
@@ -27,7 +27,7 @@ def level_net(surface: ImplicitSurface) -> Level:
     mesh = polygonized(surface, IMPLICIT_CELLS)
     lines = singular_lines(surface, mesh)
     if not len(lines):
-        mesh = settled_mesh(surface, IMPLICIT_CELLS)[0]
+        mesh = settled_from(surface, mesh, IMPLICIT_CELLS)[0]
     return Level(surface, led_into_singular_set(surface, mesh, lines), lines)
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
@@ -12,8 +12,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.edge_splitting import LOOKS, NONE, Demand, Edges, Net, Vertices
 from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
 from vectorplot.features.parametric.holes.holes import beside_rim_chords, in_domain, is_known, ways_between
-from vectorplot.features.parametric.poles import Pole
-from vectorplot.features.tessellation import UNEVEN, grid_numbers
+from vectorplot.features.parametric.poles import Pole, poles
+from vectorplot.features.tessellation import UNEVEN, seam_numbers
 from vectorplot.features.zeros.grid_triangulation import triangulate_surface
 from vectorplot.geometry.components import all_components, all_finite, any_component
 from vectorplot.geometry.vectors import cross, dot, norm
@@ -166,8 +166,13 @@ class Patch:
         return found
 
     def _ways(self, places: Floats) -> tuple[Floats, Floats, Floats]:
-        """The first ones of the places (t,3,3) of corners, and the ways (t,2) from there to the two others."""
-        first, *others = np.moveaxis(places[:, :, :2], 1, 0)
+        """The first ones of the places (t,3,d) of corners, and the ways (t,2) from there to the two others; a corner at
+        a pole is straight before the next one."""
+        corners = places[:, :, :2].copy()
+        for pole in self.poles:
+            at_pole, along = corners[:, :, pole.axis] == pole.place, corners[:, :, 1 - pole.axis]
+            corners[:, :, 1 - pole.axis] = np.where(at_pole, np.roll(along, -1, axis=1), along)
+        first, *others = np.moveaxis(corners, 1, 0)
         one, two = (ways_between(self.surface.domain, first, other) for other in others)
         return first, one, two
 
@@ -246,16 +251,46 @@ def grid_net(surface: Surface, columns: int, rows: int) -> Net:
     v = np.sort(np.concatenate([v[~near.any(axis=1)], sharp]))
     rows = len(v) - 1
     places = _on_grid(u, v).reshape(-1, 3)
-    number = grid_numbers(surface, columns, rows).ravel()
+    number = seam_numbers(domain, columns, rows).ravel()
     vertices = patch.at(places)
     grid = vertices.points.reshape(columns + 1, rows + 1, 3)
     cut, _ = triangulate_surface(grid, closed_u=domain.closed_u, closed_v=domain.closed_v)
-    triangles = number[cut]
-    triangles = triangles[(triangles != np.roll(triangles, -1, axis=1)).all(axis=1)]
-    holed = cut_at_holes(surface, places[:, :2], triangles, vertices.known)
+    holed = cut_at_holes(surface, places[:, :2], _with_sides(number[cut]), vertices.known)
     new = np.column_stack([holed.places[len(places) :], np.full(len(holed.places) - len(places), ON_RIM)])
     vertices.places[holed.on_rim[: len(places)], 2] = ON_RIM
-    return Net(vertices.joined(patch.at(_wrapped(domain, new))), holed.triangles)
+    vertices = vertices.joined(patch.at(_on_creases(patch, _wrapped(domain, new))))
+    return Net(vertices, _with_poles(vertices.places, holed.triangles, poles(surface)))
+
+
+def _on_creases(patch: Patch, places: Floats) -> Floats:
+    """Places on rims, those next to sharp edges on them: what lies along one from there has the normals of one side all
+    the way, or it is not seen how far they turn."""
+    row = np.flatnonzero(patch.on_crease(places))
+    if not len(row):
+        return places
+    moved = places[row]
+    moved[:, 1] = patch.creases[np.argmin(np.abs(moved[:, 1:2] - patch.creases), axis=1)]
+    known = is_known(patch.surface_at(moved), moved[:, :2])
+    places[row[known]] = moved[known]
+    return places
+
+
+def _with_sides(triangles: Ints) -> Ints:
+    """The triangles without those that have one corner twice."""
+    return triangles[(triangles != np.roll(triangles, -1, axis=1)).all(axis=1)]
+
+
+def _with_poles(places: Floats, triangles: Ints, found: Sequence[Pole]) -> Ints:
+    """The triangles (t,3) of places (n,3) with one vertex at each pole. (Holes are cut before: the ways from a pole to
+    the corners of its triangles are straight in a domain where each has its own end there.)"""
+    for pole in found:
+        at_pole = (places[:, pole.axis] == pole.place)[triangles]
+        if at_pole.any():
+            corners = triangles[at_pole]
+            first = corners.min()
+            places[first, 2] = places[corners, 2].max()
+            triangles = np.where(at_pole, first, triangles)
+    return _with_sides(triangles)
 
 
 def _uneven(lines: Floats, seed: int) -> Floats:

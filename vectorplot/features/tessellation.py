@@ -222,14 +222,19 @@ def _uneven_grid(domain: Domain, columns: int, rows: int) -> Floats:
     return result
 
 
-def grid_numbers(surface: Surface, columns: int, rows: int) -> Ints:
-    """(columns+1, rows+1) numbers of grid points; on seams and at poles several are one point."""
-    domain = surface.domain
+def seam_numbers(domain: Domain, columns: int, rows: int) -> Ints:
+    """(columns+1, rows+1) numbers of grid points; on seams two are one point."""
     number = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)
     if domain.closed_u:
         number[-1] = number[0]
     if domain.closed_v:
         number[:, -1] = number[:, 0]
+    return number
+
+
+def grid_numbers(surface: Surface, columns: int, rows: int) -> Ints:
+    """(columns+1, rows+1) numbers of grid points; on seams and at poles several are one point."""
+    number = seam_numbers(surface.domain, columns, rows)
     for pole in poles(surface):
         border = np.moveaxis(number, pole.axis, 0)[0 if pole.inwards > 0.0 else -1]
         border[:] = border[0]

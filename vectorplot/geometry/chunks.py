@@ -11,14 +11,16 @@ from __future__ import annotations
 import os
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
-from concurrent.futures import Future, ThreadPoolExecutor
 from contextlib import contextmanager
 from contextvars import ContextVar, copy_context
 from itertools import chain, islice
 from threading import Lock
-from typing import TypeVar
+from typing import TYPE_CHECKING, TypeVar
 
 from vectorplot.errors import InputError
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -64,6 +66,8 @@ def mapped(function: Callable[[T], R], chunks: Iterable[T]) -> Iterator[R]:
     if len(first) < 2:
         yield from map(function, chain(first, chunks))
         return
+    from concurrent.futures import ThreadPoolExecutor
+
     waiting: deque[Future[R]] = deque()
     pool, share = ThreadPoolExecutor(count), _Share(count)
     try:

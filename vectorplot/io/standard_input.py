@@ -9,7 +9,6 @@ from pathlib import Path
 from vectorplot.errors import InputError
 from vectorplot.io.foreign import foreign_kind
 from vectorplot.io.read_file import read
-from vectorplot.io.scenes.scene_language import MAX_FILE_BYTES, parse_scene
 from vectorplot.scene.scene import Scene
 
 STANDARD_INPUT = "-"
@@ -27,6 +26,8 @@ def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
     """
     if name != STANDARD_INPUT:
         return read(name, exaggeration=exaggeration)
+    from vectorplot.io.scenes.scene_language import MAX_FILE_BYTES, parse_scene
+
     if exaggeration is not None:
         raise InputError("heights are exaggerated of terrains only (asc, xyz)", file=_NAME)
     data = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)

@@ -192,7 +192,7 @@ def _normals(item: Item, curves: SurfaceCurves | MeshCurves, at: Ints) -> Floats
         return normals / norm(normals)[:, None]
     assert is_parametrised(item.shape)
     places = np.stack([curves.u[index[at]], curves.v[index[at]]], axis=1)
-    return Sites(item.shape, *charts(item.shape).inside(places).T).normals
+    return Sites(item.shape, *charts(item.shape).inside(places)).normals
 
 
 def on_page(points: Floats, ways: Floats, page_from_world: Floats) -> Floats:

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import dot, norm
@@ -15,6 +16,10 @@ from vectorplot.testing.curve_points import Curves, points_of, polylines_of
 from vectorplot.tolerances.of_extent import DISTANCE_ACCURACY
 
 PAIRS = 1 << 20
+
+NEAR = 0.75
+"""Part of a distance that is not looked into within which a segment is taken that is near but not the nearest: the rest
+is for the lengths of pieces, which are halved until they are as short."""
 
 
 class Worst(NamedTuple):
@@ -132,11 +137,15 @@ class Tree:
         self.half = 0.5 * float((long / count).max())
         self.tree: Any = cKDTree(ends[self.owner, 0] * (1.0 - share) + ends[self.owner, 1] * share)
 
-    def nearest(self, points: Floats, floor: float) -> tuple[Floats, Ints]:
+    def nearest(self, points: Floats, floor: float, tried: Sequence[Ints] = ()) -> tuple[Floats, Ints]:
         """(n,) distance of points from the nearest segment, and its index; where the distance from some segment is no
-        larger than floor, that one may do."""
+        larger than floor, that one may do. tried: segments (n,) that are looked at first and may do where they are
+        nearer still."""
         distance, segment = np.full(len(points), np.inf), np.zeros(len(points), dtype=np.intp)
-        left, count = np.arange(len(points)), 2
+        for by in tried:
+            far = to_segments(points, self.ends[by])
+            segment, distance = np.where(far < distance, by, segment), np.minimum(far, distance)
+        left, count = np.flatnonzero(distance > NEAR * floor), 2
         while len(left):
             count = min(count, len(self.owner))
             sure = np.zeros(len(left), dtype=np.bool_)
@@ -177,11 +186,11 @@ def furthest(segments: Segments, others: Segments, accuracy: float, enough: floa
     tree = Tree(others.ends)
     best = Worst(0.0, segments.ends[0, 0], int(segments.curve[0]), 0.0, which)
 
-    def looked(owner: Ints, share: Floats, seen: Worst) -> tuple[Seen, Worst]:
+    def looked(owner: Ints, share: Floats, seen: Worst, tried: Sequence[Ints] = ()) -> tuple[Seen, Worst]:
         points = _along(segments.ends[owner], share)
         # Half the accuracy is for distances that are not looked into, half for pieces that are not halved.
         floor = max(seen.distance + 0.5 * accuracy, enough)
-        distance, by = tree.nearest(points, floor)
+        distance, by = tree.nearest(points, floor, tried)
         k = int(np.argmax(distance))
         if distance[k] > floor:
             s = owner[k]
@@ -203,8 +212,8 @@ def furthest(segments: Segments, others: Segments, accuracy: float, enough: floa
         all_[last] = own
     high = high._replace(share=np.ones(len(owner)))
     while len(owner):
-        middle, best = looked(owner, 0.5 * (low.share + high.share), best)
-        open_ = _bound(others.ends, low, middle, high) > max(best.distance + accuracy, enough)
+        middle, best = looked(owner, 0.5 * (low.share + high.share), best, (low.by, high.by))
+        open_ = _beyond(max(best.distance + accuracy, enough), others.ends, low, middle, high)
         low, middle, high = low.rows(open_), middle.rows(open_), high.rows(open_)
         owner = np.tile(owner[open_], 2)
         low, high = low.and_(middle), middle.and_(high)
@@ -220,7 +229,7 @@ class Seen(NamedTuple):
     distance: Floats
     by: Ints
 
-    def rows(self, kept: Bools) -> Seen:
+    def rows(self, kept: Ints) -> Seen:
         """Some of them."""
         return Seen(self.share[kept], self.points[kept], self.distance[kept], self.by[kept])
 
@@ -229,13 +238,14 @@ class Seen(NamedTuple):
         return Seen(*(np.concatenate(pair) for pair in zip(self, more, strict=True)))
 
 
-def _bound(others: Floats, low: Seen, middle: Seen, high: Seen) -> Floats:
-    """(n,) upper bounds for the distance of pieces from low to high."""
-    p, q = low.points, high.points
-    bound = 0.5 * (low.distance + high.distance + norm(q - p))
+def _beyond(limit: float, others: Floats, low: Seen, middle: Seen, high: Seen) -> Ints:
+    """Which pieces from low to high may be farther away than the limit, by all that is known of them."""
+    found = np.flatnonzero(0.5 * (low.distance + high.distance + norm(high.points - low.points)) > limit)
     for by in (low.by, middle.by, high.by):
-        bound = np.minimum(bound, np.maximum(to_segments(p, others[by]), to_segments(q, others[by])))
-    return np.asarray(bound)
+        one = others[by[found]]
+        far = np.maximum(to_segments(low.points[found], one), to_segments(high.points[found], one))
+        found = found[far > limit]
+    return found
 
 
 def _along(ends: Floats, share: Floats) -> Floats:

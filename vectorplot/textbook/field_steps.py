@@ -126,7 +126,7 @@ def _curves(surface: Surface, field: TangentField, starts: ArrayLike, length: fl
     flow = FieldFlow(surface, charts(surface), field)
     domain = surface.domain
     low, high = (domain.u_start, domain.v_start), (domain.u_end, domain.v_end)
-    tangents = field.tangents(Sites(surface, *flow.charts.inside(at).T))[0]
+    tangents = field.tangents(Sites(surface, *flow.charts.inside(at)))[0]
     found = np.full((len(at), steps + 1, 2), np.nan)
     on = np.arange(len(at))
     for number in range(steps + 1):

@@ -42,7 +42,7 @@ def furthest(chords, others):
 
 @pytest.mark.parametrize("name", ["pencil", "curves", "torus"])
 def test_every_stroke_is_where_it_was_drawn(name):
-    drawing = vp.draw(vp.read(f"data/{name}.scene"), hidden="solid")
+    drawing = vp.draw(vp.read(f"data/{name}.scene"), hidden="solid", page=vp.Page(90, 64, 4))
     document = read_back(drawing)
     corner = document.modelspace().dxf.extmax
     assert document.units == ezdxf.units.MM and corner.isclose((drawing.width_mm, drawing.height_mm, 0.0))

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import subprocess
 
 import numpy as np
@@ -10,7 +9,8 @@ import pytest
 from PIL import Image
 
 import vectorplot as vp
-from vectorplot.backends import png_bytes, tikz_bytes
+from vectorplot.backends import tikz_bytes
+from vectorplot.backends.cairo.surfaces import drawing_pixels
 from vectorplot.errors import InputError
 
 DOCUMENT = (
@@ -26,15 +26,15 @@ def set_by_latex(drawing, folder):
     (folder / "document.tex").write_text(DOCUMENT % (drawing.width_mm, drawing.height_mm), encoding="ascii")
     latex = ["pdflatex", "-interaction=batchmode", "-halt-on-error", "document.tex"]
     subprocess.run(latex, cwd=folder, check=True, capture_output=True, timeout=120)
-    poppler = ["pdftoppm", "-r", "150", "-png", "-singlefile", "document.pdf", "page"]
+    poppler = ["pdftoppm", "-r", "150", "-singlefile", "document.pdf", "page"]
     subprocess.run(poppler, cwd=folder, check=True, timeout=60)
     log = (folder / "document.log").read_text(encoding="latin-1")
-    return np.asarray(Image.open(folder / "page.png").convert("RGB")).astype(int), log
+    return np.asarray(Image.open(folder / "page.ppm")).astype(int), log
 
 
 def like_ours(drawing, seen):
     """The part of pixels that differ much from our own."""
-    ours = np.asarray(Image.open(io.BytesIO(png_bytes(drawing))).convert("RGB")).astype(int)
+    ours = drawing_pixels(drawing).astype(int)
     height, width = min(ours.shape[0], seen.shape[0]), min(ours.shape[1], seen.shape[1])
     assert max(abs(ours.shape[k] - seen.shape[k]) for k in range(2)) <= 1
     return float((np.abs(ours[:height, :width] - seen[:height, :width]).max(axis=2) > 128).mean())
@@ -54,7 +54,7 @@ def test_latex_sets_filled_polygons_and_what_is_seen_through_them(tmp_path):
     )
     glass = vp.Material("transparent", opacity=0.4)
     scene = vp.Scene((vp.Item("A", box, "red"), vp.Item("B", box.moved(0.5, -0.5, 0.2), "blue", material=glass)))
-    drawing = vp.paint(scene, vp.Camera((6, -9, 5), (1, 0, 1)))
+    drawing = vp.paint(scene, vp.Camera((6, -9, 5), (1, 0, 1)), page=vp.Page(100, 80, 5))
     seen, _ = set_by_latex(drawing, tmp_path)
     assert like_ours(drawing, seen) < 2e-4
     assert len(np.unique(seen @ (1 << 16, 1 << 8, 1))) > 8

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
 import re
@@ -10,6 +11,7 @@ import signal
 import subprocess
 import sys
 import xml.etree.ElementTree as ET
+from contextlib import redirect_stderr
 from pathlib import Path
 
 import numpy as np
@@ -38,6 +40,10 @@ PANE blue transparent opacity 0.4 box solid 0.1 1.5 1.5 translation 2.5 -1 0
 """
 
 
+LIT = ("page", "camera", "light", "FLOOR", "POST")
+"""What lines of the scene begin with that light, shadow and shade need."""
+
+
 @pytest.fixture
 def plain(tmp_path: Path) -> Path:
     """A scene for what does not depend on what is painted."""
@@ -51,6 +57,17 @@ def scene(tmp_path: Path) -> Path:
     path = tmp_path / "some.scene"
     path.write_text(SCENE, encoding="utf-8")
     return path
+
+
+@pytest.fixture(scope="module")
+def explained(tmp_path_factory: pytest.TempPathFactory) -> tuple[Path, str]:
+    """The SVG file that the command makes of the scene, and what it says of the stages."""
+    scene = tmp_path_factory.mktemp("explained") / "some.scene"
+    scene.write_text(SCENE, encoding="utf-8")
+    out = scene.with_suffix(".svg")
+    with redirect_stderr(io.StringIO()) as said:
+        assert run(["paint", str(scene), "-o", str(out), "--explain"]) == 0
+    return out, said.getvalue()
 
 
 @pytest.fixture(scope="module")
@@ -109,10 +126,10 @@ def test_every_format_is_written_the_same_to_a_file_and_to_stdout(
 
 
 @pytest.mark.slow
-def test_through_a_pipe_come_the_same_bytes_and_no_word(plain: Path) -> None:
-    out = plain.parent / "out.png"
-    assert run(["paint", str(plain), "-o", str(out)]) == 0
-    piped = shell("paint", plain, "-o", "-", "--format", "png")
+def test_through_a_pipe_come_the_same_bytes_and_no_word(cube: Path) -> None:
+    out = cube.parent / "out.png"
+    assert run(["paint", str(cube), "-o", str(out)]) == 0
+    piped = shell("paint", cube, "-o", "-", "--format", "png")
     assert (piped.returncode, piped.stderr) == (0, b"")
     assert piped.stdout == out.read_bytes()
 
@@ -142,9 +159,8 @@ def test_readers_of_each_format_show_the_picture_of_the_png(word: str, painted: 
 
 
 @pytest.mark.slow
-def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path) -> None:
-    out = scene.parent / "out.svg"
-    assert run(["paint", str(scene), "-o", str(out)]) == 0
+def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path, explained: tuple[Path, str]) -> None:
+    out, _ = explained
     tree = ET.parse(out)
     assert tree.getroot().tag.endswith("svg")
     text = out.read_text(encoding="utf-8")
@@ -155,7 +171,9 @@ def test_svg_and_json_can_be_parsed_and_hold_finite_numbers(scene: Path) -> None
 
 
 @pytest.mark.slow
-def test_options_of_light_shadow_and_shade(scene: Path) -> None:
+def test_options_of_light_shadow_and_shade(tmp_path: Path) -> None:
+    scene = tmp_path / "lit.scene"
+    scene.write_text("".join(line for line in SCENE.splitlines(True) if line.split()[0] in LIT), encoding="utf-8")
     assert "shadow" not in kinds(fills(scene, "--shadows", "none"))
     assert "shadow_border" in kinds(fills(scene, "--aura", "1.5"))
     own, other = fills(scene), fills(scene, "--lights", "-3,-4,5,0.9", "--lights", "1,-2,9")
@@ -203,9 +221,8 @@ def test_fills_for_pens_and_lines_on_top(cube: Path) -> None:
 
 
 @pytest.mark.slow
-def test_explain_prints_each_stage_with_its_time(scene: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    assert run(["paint", str(scene), "-o", str(scene.parent / "a.svg"), "--explain"]) == 0
-    lines = capsys.readouterr().err.splitlines()
+def test_explain_prints_each_stage_with_its_time(explained: tuple[Path, str]) -> None:
+    lines = explained[1].splitlines()
     names = [re.split(r"\s{2,}", line)[0] for line in lines[1:-1]]
     assert names[0] == "read" and names[-1] == "write"
     wanted = ["look", "faces", "order", "transparent sheets", "shades", "shadows", "mirror light"]

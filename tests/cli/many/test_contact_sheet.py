@@ -55,7 +55,7 @@ def test_names_say_what_each_drawing_shows(dice):
 def test_long_names_stand_in_smaller_letters_or_in_several_lines(dice):
     name = "a scene with a name as long as names of scenes can ever be in folders of people who like them.scene"
     (dice / "dice" / name).write_text(SCENE.format(2), encoding="utf-8")
-    varied = ["--vary", "style=plain,book", "--vary", "hatch=none,tone", "--cell", "60x50"]
+    varied = ["--vary", "style=plain,book", "--vary", "view=front,iso", "--cell", "60x50"]
     found, bare = sheet(*varied), sheet(*varied, "--no-names")
     assert len(found["strokes"]) > len(bare["strokes"]) + 12 * 30
 

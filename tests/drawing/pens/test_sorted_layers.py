@@ -14,10 +14,11 @@ HILL = replace(
     vp.graph(lambda x, y: x * y, name="HILL"),
     curves=vp.SurfaceLines(sections=(vp.Section((0.0, 0.0, 1.0), (0.2,), index=True),)),
 )
-CUBE = vp.Item("CUBE", box((1, 1, 1)), hatch=None)
+CUBE = vp.Item("CUBE", box((1, 1, 1)).moved(1.2, 0, 0), hatch=None)
 TONE = {"hatch": vp.Hatching("tone", 2.0)}
 
 
+@pytest.mark.spread
 @pytest.mark.parametrize("labels", [(), (vp.Label("I", (1, 1, 1)),)], ids=["bare", "labelled"])
 @pytest.mark.parametrize(
     "how",

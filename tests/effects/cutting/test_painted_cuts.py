@@ -90,7 +90,7 @@ def colours(fills: Fills, item: int) -> Floats:
 def test_faces_of_cuts_have_the_shade_that_they_have_where_every_plane_has_one(body: str, place: str) -> None:
     scene, camera = cut_scene_of(body, place)
     # Of round bodies there are enough faces.
-    fine = 0.2 if body in ROUND else 0.02
+    fine = 0.5 if body in ROUND else 0.02
     smooth, flat = (
         vp.paint(scene, camera, page=PAGE, smooth=smooth, shadows="none", tolerance_mm=fine).layers[0].fills[0]
         for smooth in (True, False)

@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from support.effort import several
 
 import vectorplot as vp
 from vectorplot.drawing.drawing import CurvedStrokes
@@ -114,7 +115,7 @@ def test_files_say_it_and_rays_see_it(camera: vp.Camera, where: str) -> None:
     arc = np.linspace(0, 2, 2001)
     whole += np.linalg.norm(np.diff(TORUS.points(arc, np.ones_like(arc)), axis=0), axis=1).sum()
     assert seen + hidden == pytest.approx(whole, rel=2e-3) and min(seen, hidden) > 5
-    assert_drawing_is_right(first, scene, camera, samples=200)
+    assert_drawing_is_right(first, scene, camera, samples=several(70, long=200))
     assert on_curve(vp.draw(scene, camera, lines=("contour",))) == (0.0, 0.0)
 
 

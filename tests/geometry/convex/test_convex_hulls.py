@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial import ConvexHull
+from support.effort import several
 
 from vectorplot.errors import InputError
 from vectorplot.exact.predicates import orient2d
@@ -17,7 +18,8 @@ from vectorplot.geometry.convex.convex_hulls import convex_hull, convex_hulls, h
 @pytest.mark.capability("G6.1-hull2d")
 def test_hulls_of_random_points_are_those_of_scipy_in_one_call():
     random = np.random.default_rng(1)
-    sets = [random.normal(size=(int(random.integers(3, 60)), 3)) * random.uniform(0.01, 9) for _ in range(300)]
+    sizes = (int(random.integers(3, 60)) for _ in range(several(80, long=300)))
+    sets = [random.normal(size=(size, 3)) * random.uniform(0.01, 9) for size in sizes]
     offsets = np.cumsum([0, *map(len, sets)])
     corner, ends = convex_hulls(np.concatenate(sets), offsets)
     for k, points in enumerate(sets):

@@ -172,7 +172,7 @@ def test_balls_and_rods_are_named_after_their_atoms_and_touch():
 def test_every_verb_shows_a_molecule(tmp_path):
     path = written(tmp_path, "water.xyz", WATER)
     scene = vp.read(path)
-    drawing = vp.draw(scene, vp.Camera((3, -4, 9)), tolerance_mm=0.5)
+    drawing = vp.draw(scene, vp.Camera((3, -4, 9)), page="60x60", tolerance_mm=0.5)
     assert {"contour", "intersection"} <= {layer.name for layer in drawing.layers}
     assert vp.paint(scene, vp.Camera((3, -4, 9)), page="40x40", tolerance_mm=0.5).layers
     assert vp.render(scene, vp.Camera((3, -4, 9)), size=(60, 40)).pixels.std() > 5.0

@@ -351,7 +351,7 @@ def test_objects_that_are_no_polyhedra_have_words_too():
             'FREE surface function "u" "v" "u*v" u 0 1 v 0 1',
             "HILL surface landscape heights 0 1 0, 1 3 1, 0 1 0 x 0 2 y 0 2 akima",
             "LAND terrain heights 0 1 0, 1 3 1, 0 1 0",
-            "LOAF surface torus 3 1 slices z 12",
+            "LOAF surface torus 3 1 slices z 5",
             "BALL surface sphere 2",
             "WIRE curve akima 0 0 0, 1 0 1, 2 1 0, 3 3 1, 4 0 0",
         ]
@@ -359,5 +359,5 @@ def test_objects_that_are_no_polyhedra_have_words_too():
     scene = parse_scene(text)
     assert [item.name for item in scene.items] == [line.split()[0] for line in text.splitlines()]
     for item in scene.items:
-        lines = vp.draw(vp.Scene((item,)), camera=vp.Camera((9.0, -12.0, 8.0)), tolerance_mm=0.2)
+        lines = vp.draw(vp.Scene((item,)), camera=vp.Camera((9.0, -12.0, 8.0)), page="60x60", tolerance_mm=0.2)
         assert sum(len(paths) for layer in lines.layers for paths in layer.strokes), item.name

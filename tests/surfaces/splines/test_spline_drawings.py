@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from scipy.spatial import cKDTree
+from support.effort import several
 
 import vectorplot as vp
 from vectorplot.curves import AkimaSpline, BSpline, CubicSpline, PlacedCurve, spline_curve
@@ -43,7 +44,7 @@ def test_lines_of_spline_surfaces_are_hidden_where_rays_say_so(surface, parallel
     lines = vp.SurfaceLines(5, 4, isophotes=(0.3,))
     scene = vp.Scene((vp.Item("A", surface, curves=lines),), (vp.Light((1, -2, 3), parallel=True),))
     drawing = vp.draw(scene, camera, hidden="solid")
-    assert_drawing_is_right(drawing, scene, camera, samples=300)
+    assert_drawing_is_right(drawing, scene, camera, samples=several(100, long=300))
     for line in curves_in_space(drawing, kind="contour"):
         assert_on_surface([line], surface, tolerance=1e-9)
 

@@ -62,23 +62,22 @@ def _farthest_first(where: Floats, starts: Ints, sizes: Ints) -> Ints:
     share = ragged.place(taken) / np.maximum(taken - 1, 1)[of]
     some = where[starts[of] + np.rint(share * (sizes[of] - 1)).astype(np.intp)]
     first = ragged.starts(taken)
-    away, left = np.full(len(some), np.inf), np.ones(count, dtype=np.bool_)
+    away = np.full(len(some), np.inf)
     order = np.zeros(count, dtype=np.intp)
     line, every = int(np.argmax(sizes)), cKDTree(some)
     for turn in range(count):
         order[turn] = line
-        left[line] = False
-        rest = left[of]
-        own = cKDTree(some[first[line] : first[line] + taken[line]])
+        own = slice(first[line], first[line] + taken[line])
+        # Lines that have had their turn are nearer to themselves than any is to others.
+        away[own] = -1.0
+        tree = cKDTree(some[own])
         if turn < FIRST_ONES:
-            away[rest] = np.minimum(away[rest], own.query(some[rest], workers=workers(len(some)))[0])
+            away = np.minimum(away, tree.query(some, workers=workers(len(some)))[0])
         else:
             # What is nearer to lines before than to this one is not asked.
-            reach = float(away.max(where=rest, initial=0.0))
-            pairs = own.sparse_distance_matrix(every, reach, output_type="ndarray")
+            pairs = tree.sparse_distance_matrix(every, max(float(away.max()), 0.0), output_type="ndarray")
             np.minimum.at(away, pairs["j"], pairs["v"])
-        mean = np.add.reduceat(np.where(rest, away, 0.0), first) / taken
-        line = int(np.argmax(np.where(left, mean, -1.0)))
+        line = int(np.argmax(np.add.reduceat(away, first) / taken))
     return order
 
 

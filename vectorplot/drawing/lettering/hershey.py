@@ -5,6 +5,7 @@ from __future__ import annotations
 import unicodedata
 from dataclasses import dataclass
 from functools import cache
+from typing import Any
 
 from vectorplot.drawing.lettering.accents import (
     ABOVE,
@@ -39,6 +40,13 @@ ALPHABETS = (
     ("symbolic", "ς§†‡", "vijk"),
 )
 """Fonts, the characters taken from each, and the letters that stand for these there."""
+
+_PLACES = {
+    character: (font, letter)
+    for font, characters, letters in ALPHABETS
+    for character, letter in zip(characters, letters, strict=True)
+}
+"""The font of each character that is taken from one, and its letter there."""
 
 SMALLER = 0.6
 """The size of letters that stand high or low, of others."""
@@ -103,39 +111,41 @@ def room_of(cluster: str) -> Glyph:
 
 
 @cache
-def _fonts() -> dict[str, Glyph]:
-    """All letters that are taken from fonts as they are."""
+def _font(name: str) -> dict[str, Any]:
+    """The letters of a font: to unpack one takes as long as to draw many small pictures."""
     from HersheyFonts import HersheyFonts
 
-    found = {" ": Glyph(12.0, ())}
-    for name, characters, letters in ALPHABETS:
-        font = HersheyFonts()
-        font.load_default_font(name)
-        drawn = font.all_glyphs
-        for character, letter in zip(characters, letters, strict=True):
-            one = drawn[letter]
-            found[character] = Glyph(
-                float(one.char_width),
-                tuple(tuple((x - one.left_offset, BASE_LINE - y) for x, y in stroke) for stroke in one.strokes),
-            )
-    found["э"] = _smaller(found["Э"], 2.0 / 3.0, 0.0)
-    for character, (advance, strokes) in SHAPES.items():
-        found[character] = Glyph(advance, moved(strokes, 0.5 * advance, 0.0))
-    return found
+    font = HersheyFonts()
+    font.load_default_font(name)
+    return dict(font.all_glyphs)
+
+
+def _of_a_font(character: str) -> Glyph:
+    """A character that is taken from a font as it is."""
+    font, letter = _PLACES[character]
+    one = _font(font)[letter]
+    strokes = tuple(tuple((x - one.left_offset, BASE_LINE - y) for x, y in stroke) for stroke in one.strokes)
+    return Glyph(float(one.char_width), strokes)
 
 
 @cache
 def _letter(cluster: str) -> Glyph | None:
-    fonts = _fonts()
-    if cluster in fonts:
-        return fonts[cluster]
+    if cluster == " ":
+        return Glyph(12.0, ())
+    if cluster in SHAPES:
+        advance, strokes = SHAPES[cluster]
+        return Glyph(advance, moved(strokes, 0.5 * advance, 0.0))
+    if cluster == "э":
+        return _smaller(_of_a_font("Э"), 2.0 / 3.0, 0.0)
+    if cluster in _PLACES:
+        return _of_a_font(cluster)
     if cluster in SAME:
         return _letter(SAME[cluster])
     if cluster in SIDE_BY_SIDE:
         return _side_by_side(*SIDE_BY_SIDE[cluster])
     if cluster in THROUGH:
         base, strokes = THROUGH[cluster]
-        found = fonts[base]
+        found = _of_a_font(base)
         # A letter without its dot is what reaches no higher than small letters do.
         body = found.strokes if strokes else tuple(s for s in found.strokes if min(y for _, y in s) < DOTS)
         return Glyph(found.advance, (*body, *moved(strokes, 0.5 * found.advance, 0.0)))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
+from vectorplot.features.implicit.polygonize import polygonized, settled_from
 from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines, singular_lines
 from vectorplot.features.implicit.singular.singular_set import led_into_lines
 from vectorplot.geometry.mesh import Mesh
@@ -98,7 +98,7 @@ def mesh_with_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines, 
     """
     doubts: tuple[str, ...] = ()
     if not len(lines):
-        mesh, doubts = settled_mesh(surface, cells)
+        mesh, doubts = settled_from(surface, mesh, cells)
     led, on_line = led_into_lines(surface, mesh, lines)
     return ImplicitMesh(led, on_line, lines, doubts)
 

@@ -131,7 +131,12 @@ def settled_mesh(surface: ImplicitSurface, cells: int = 64) -> tuple[Mesh, tuple
 
     Errors: as for `polygonized`.
     """
-    coarse, fine = polygonized(surface, max(2, cells // 2)), polygonized(surface, cells)
+    return settled_from(surface, polygonized(surface, cells), cells)
+
+
+def settled_from(surface: ImplicitSurface, fine: Mesh, cells: int) -> tuple[Mesh, tuple[str, ...]]:
+    """As `settled_mesh`, of a surface that is polygonised with so many cells already, as a mesh."""
+    coarse = polygonized(surface, max(2, cells // 2))
     while _connection(coarse) != _connection(fine):
         cells *= 2
         if cells > FINEST:

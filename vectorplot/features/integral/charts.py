@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -20,6 +21,8 @@ NEAR, FAR = 0.08, 0.12
 
 MAIN = -1
 """The chart of the parameters themselves."""
+
+NO_CHARTS = np.zeros(0, dtype=np.intp)
 
 
 def check_parametrised(surface: object) -> None:
@@ -45,52 +48,56 @@ class Charts:
     start: Floats
     period: Floats
 
+    def round_poles(self, chart: Ints) -> Ints:
+        """Which of charts (k,) are not the parameters themselves."""
+        return (chart != MAIN).nonzero()[0] if len(self.axis) else NO_CHARTS
+
     def parameters(self, chart: Ints, at: Floats) -> Floats:
         """(k,2) u and v, those round poles of one period only; chart (k,), at (k,2)."""
-        result = at.copy()
-        near = np.flatnonzero(chart != MAIN)
-        if len(near):
-            c, p = chart[near], at[near]
-            axis = self.axis[c]
-            rho = np.hypot(p[:, 0], p[:, 1])
-            turn = np.arctan2(p[:, 1], p[:, 0]) / (2.0 * np.pi)
-            result[near, axis] = self.place[c] + self.inwards[c] * rho
-            result[near, 1 - axis] = self.start[c] + self.period[c] * turn
+        near = self.round_poles(chart)
+        if not len(near):
+            return at
+        result, c, p = at.copy(), chart[near], at[near]
+        axis = self.axis[c]
+        rho = np.hypot(p[:, 0], p[:, 1])
+        turn = np.arctan2(p[:, 1], p[:, 0]) / (2.0 * np.pi)
+        result[near, axis] = self.place[c] + self.inwards[c] * rho
+        result[near, 1 - axis] = self.start[c] + self.period[c] * turn
         return result
 
     def coordinates(self, chart: Ints, places: Floats) -> Floats:
         """(k,2) the coordinates in charts (k,) of u and v (k,2)."""
+        near = self.round_poles(chart)
+        if not len(near):
+            return places
         result = places.copy()
-        near = np.flatnonzero(chart != MAIN)
-        if len(near):
-            c, p = chart[near], places[near]
-            rho, theta = self._polar(c, p)
-            result[near] = from_components(rho * np.cos(theta), rho * np.sin(theta))
+        rho, theta = self._polar(chart[near], *places[near].T)
+        result[near] = from_components(rho * np.cos(theta), rho * np.sin(theta))
         return result
 
-    def rates(self, chart: Ints, places: Floats, steps: Floats) -> Floats:
-        """(k,2) how coordinates change where u and v (k,2) change by steps (k,2)."""
-        result = steps.copy()
-        near = np.flatnonzero(chart != MAIN)
+    def rates(self, chart: Ints, u: Floats, v: Floats, du: Floats, dv: Floats) -> Floats:
+        """(k,2) how coordinates change where u and v (k,) change by du and dv (k,)."""
+        result = from_components(du, dv)
+        near = self.round_poles(chart)
         if len(near):
-            c, p, d = chart[near], places[near], steps[near]
-            rho, theta = self._polar(c, p)
-            along, turn = self._polar_steps(c, d)
+            c = chart[near]
+            rho, theta = self._polar(c, u[near], v[near])
+            along, turn = self._polar_steps(c, result[near])
             cosine, sine = np.cos(theta), np.sin(theta)
             result[near] = from_components(along * cosine - rho * turn * sine, along * sine + rho * turn * cosine)
         return result
 
-    def steps(self, chart: Ints, places: Floats, rates: Floats) -> Floats:
-        """(k,2) how u and v (k,2) change where coordinates change by rates (k,2)."""
-        result = rates.copy()
-        near = np.flatnonzero(chart != MAIN)
-        if len(near):
-            c, p, d = chart[near], places[near], rates[near]
-            rho, theta = self._polar(c, p)
-            axis, cosine, sine = self.axis[c], np.cos(theta), np.sin(theta)
-            result[near, axis] = self.inwards[c] * (d[:, 0] * cosine + d[:, 1] * sine)
-            turn = (d[:, 1] * cosine - d[:, 0] * sine) / np.maximum(rho, LEAST_DIVISOR)
-            result[near, 1 - axis] = turn * self.period[c] / (2.0 * np.pi)
+    def steps(self, chart: Ints, u: Floats, v: Floats, rates: Floats) -> Floats:
+        """(k,2) how u and v (k,) change where coordinates change by rates (k,2)."""
+        near = self.round_poles(chart)
+        if not len(near):
+            return rates
+        result, c, d = rates.copy(), chart[near], rates[near]
+        rho, theta = self._polar(c, u[near], v[near])
+        axis, cosine, sine = self.axis[c], np.cos(theta), np.sin(theta)
+        result[near, axis] = self.inwards[c] * (d[:, 0] * cosine + d[:, 1] * sine)
+        turn = (d[:, 1] * cosine - d[:, 0] * sine) / np.maximum(rho, LEAST_DIVISOR)
+        result[near, 1 - axis] = turn * self.period[c] / (2.0 * np.pi)
         return result
 
     def better(self, chart: Ints, places: Floats) -> Ints:
@@ -102,36 +109,21 @@ class Charts:
             result = np.where((result == MAIN) & (part < NEAR), pole, result)
         return np.asarray(result, dtype=np.intp)
 
-    def within(self, places: Floats) -> Floats:
-        """(k,2) u and v within the domain, those beyond a border on it."""
-        return from_components(*self._within(places))
+    def within(self, places: Floats) -> tuple[Floats, Floats]:
+        """u and v (k,) of places (k,2) within the domain, those beyond a border on it."""
+        d = self.domain
+        return self._between(places, (d.u_start, d.u_end), (d.v_start, d.v_end))
 
-    def inside(self, places: Floats) -> Floats:
-        """(k,2) u and v within the domain, and beside poles, where the surface has no tangent plane."""
-        u, v = self._within(places)
-        for pole in range(len(self.axis)):
-            own = u if self.axis[pole] == 0 else v
-            if np.abs(own - self.place[pole]).min(initial=np.inf) >= AT_POLE * self.size[pole]:
-                continue
-            beside = self.place[pole] + self.inwards[pole] * AT_POLE * self.size[pole]
-            moved = np.where(np.abs(own - self.place[pole]) < AT_POLE * self.size[pole], beside, own)
-            u, v = (moved, v) if self.axis[pole] == 0 else (u, moved)
-        return from_components(u, v)
+    def inside(self, places: Floats) -> tuple[Floats, Floats]:
+        """u and v (k,) within the domain, and beside poles, where the surface has no tangent plane."""
+        return self._between(places, *self._beside_poles)
 
     def beyond(self, places: Floats) -> Floats:
         """(k,) by what part of the domain places (k,2) are beyond the nearest border that a curve cannot cross;
         negative inside."""
-        d = self.domain
-        own = set(zip(self.axis.tolist(), self.place.tolist(), strict=True))
         result = np.full(len(places), -np.inf)
-        for axis, (low, high, closed) in enumerate(
-            ((d.u_start, d.u_end, d.closed_u), (d.v_start, d.v_end, d.closed_v))
-        ):
-            if not closed:
-                if (axis, low) not in own:
-                    result = np.maximum(result, (low - places[:, axis]) / (high - low))
-                if (axis, high) not in own:
-                    result = np.maximum(result, (places[:, axis] - high) / (high - low))
+        for axis, border, outwards, size in self._walls:
+            result = np.maximum(result, outwards * (places[:, axis] - border) / size)
         return result
 
     def near_to(self, places: Floats, others: Floats) -> Floats:
@@ -143,17 +135,46 @@ class Charts:
                 result[:, axis] += period * np.rint((others[:, axis] - places[:, axis]) / period)
         return result
 
-    def _within(self, places: Floats) -> tuple[Floats, Floats]:
+    @cached_property
+    def _borders(self) -> tuple[tuple[int, float, float, float], ...]:
+        """Where the domain ends that is not closed: the parameter that is constant there, 0 or 1, its value, 1 where it
+        grows to the outside or -1, and its range."""
+        d = self.domain
+        both = ((d.u_start, d.u_end, d.closed_u), (d.v_start, d.v_end, d.closed_v))
+        return tuple(
+            (axis, border, outwards, high - low)
+            for axis, (low, high, closed) in enumerate(both)
+            for border, outwards in ((low, -1.0), (high, 1.0))
+            if not closed
+        )
+
+    @cached_property
+    def _walls(self) -> tuple[tuple[int, float, float, float], ...]:
+        """Those of the borders that are no poles."""
+        own = set(zip(self.axis.tolist(), self.place.tolist(), strict=True))
+        return tuple(border for border in self._borders if border[:2] not in own)
+
+    @cached_property
+    def _beside_poles(self) -> tuple[tuple[float, float], tuple[float, float]]:
+        """The ranges of u and of v without what is at poles."""
+        d = self.domain
+        ends = [[d.u_start, d.u_end], [d.v_start, d.v_end]]
+        for axis, place, inwards, size in zip(self.axis, self.place, self.inwards, self.size, strict=True):
+            ends[axis][0 if inwards > 0.0 else 1] = float(place + inwards * AT_POLE * size)
+        return (ends[0][0], ends[0][1]), (ends[1][0], ends[1][1])
+
+    def _between(self, places: Floats, us: tuple[float, float], vs: tuple[float, float]) -> tuple[Floats, Floats]:
+        """u and v (k,) of places (k,2), in closed directions within a period, else between two values."""
         d = self.domain
         u, v = wrapped(d, places[:, 0], places[:, 1])
-        u = u if d.closed_u else np.minimum(np.maximum(u, d.u_start), d.u_end)
-        v = v if d.closed_v else np.minimum(np.maximum(v, d.v_start), d.v_end)
+        u = u if d.closed_u else np.minimum(np.maximum(u, us[0]), us[1])
+        v = v if d.closed_v else np.minimum(np.maximum(v, vs[0]), vs[1])
         return u, v
 
-    def _polar(self, chart: Ints, places: Floats) -> tuple[Floats, Floats]:
-        row, axis = np.arange(len(chart)), self.axis[chart]
-        rho = (places[row, axis] - self.place[chart]) * self.inwards[chart]
-        return rho, (places[row, 1 - axis] - self.start[chart]) / self.period[chart] * 2.0 * np.pi
+    def _polar(self, chart: Ints, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        across, along = np.where(self.axis[chart] == 0, (u, v), (v, u))
+        rho = (across - self.place[chart]) * self.inwards[chart]
+        return rho, (along - self.start[chart]) / self.period[chart] * 2.0 * np.pi
 
     def _polar_steps(self, chart: Ints, steps: Floats) -> tuple[Floats, Floats]:
         row, axis = np.arange(len(chart)), self.axis[chart]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.integral.charts import MAIN, Charts
+from vectorplot.features.integral.charts import Charts
 from vectorplot.features.integral.dormand_prince import Steps
 from vectorplot.features.integral.flows import Flow
 from vectorplot.geometry import ragged, records
@@ -18,16 +19,20 @@ PARTS = 8
 """Of a step round a pole, in each of which it goes round less than half."""
 
 
-def running_on(charts: Charts, chart: Ints, steps: Steps, part: Floats, before: Floats) -> Floats:
-    """(k,2) u and v at parts (k,) of steps in charts (k,), running on over seams, and round poles, from where the steps
-    begin, before (k,2)."""
-    result = charts.near_to(charts.parameters(chart, steps.at(part)[:, :2]), before)
-    around = np.flatnonzero(chart != MAIN)
+def running_on(
+    charts: Charts, chart: Ints, steps: Steps, states: Floats, before: Floats, part: Floats | float = 1.0
+) -> Floats:
+    """(k,2) u and v of states (k,d) at parts (k,) of steps in charts (k,), running on over seams, and round poles, from
+    where the steps begin, before (k,2)."""
+    result = charts.near_to(charts.parameters(chart, states[:, :2]), before)
+    around = charts.round_poles(chart)
     if len(around):
         # Round a pole, u may run through more than a half of its period within one step.
-        own, to, last = steps.some(around), part[around], before[around]
-        for share in np.linspace(0.0, 1.0, PARTS + 1)[1:]:
-            last = charts.near_to(charts.parameters(chart[around], own.at(share * to)[:, :2]), last)
+        to, last, every = np.broadcast_to(part, len(chart))[around], before[around], np.tile(around, PARTS)
+        shares = np.linspace(0.0, 1.0, PARTS + 1)[1:, None] * to
+        stops = charts.parameters(chart[every], steps.some(every).at(shares.ravel())[:, :2])
+        for stop in stops.reshape(PARTS, -1, 2):
+            last = charts.near_to(stop, last)
         result[around] = last
     return result
 
@@ -66,15 +71,15 @@ class Courses:
 
     def places(self, step: Ints, part: Floats) -> Floats:
         """(k,2) u and v there, running on over seams."""
-        leaps = self.leaps
+        leaps, steps = self.leaps, self.steps.some(step)
         to = part * leaps.part[step]
-        return running_on(self.flow.charts, leaps.chart[step], self.steps.some(step), to, leaps.before[step])
+        return running_on(self.flow.charts, leaps.chart[step], steps, steps.at(to), leaps.before[step], to)
 
     def points(self, step: Ints, part: Floats) -> Floats:
         """(k,3) points there."""
         charts = self.flow.charts
         found = charts.parameters(self.leaps.chart[step], self.states(step, part)[:, :2])
-        return self.flow.surface.points(*charts.within(found).T)
+        return self.flow.surface.points(*charts.within(found))
 
     def directions(self, step: Ints, part: Floats) -> Floats:
         """(k,2) how u and v grow there by the length of the ways: as the flow leads at these places, and not only as
@@ -82,14 +87,14 @@ class Courses:
         charts, chart, to = self.flow.charts, self.leaps.chart[step], part * self.leaps.part[step]
         steps = self.steps.some(step)
         states = steps.at(to)
-        places = charts.inside(charts.parameters(chart, states[:, :2]))
-        nearly = charts.steps(chart, places, steps.slopes(to)[:, :2])
-        along_u, along_v = self.flow.surface.partials(*places.T)
+        u, v = charts.inside(charts.parameters(chart, states[:, :2]))
+        nearly = charts.steps(chart, u, v, steps.slopes(to)[:, :2])
+        along_u, along_v = self.flow.surface.partials(u, v)
         last = nearly[:, :1] * along_u + nearly[:, 1:] * along_v
         with np.errstate(all="ignore"):
             long = norm(last)[:, None]
             rates, tangents, _ = self.flow.rates(chart, states, last / long, np.ones(len(step)))
-            found = charts.steps(chart, places, rates[:, :2])
+            found = charts.steps(chart, u, v, rates[:, :2])
             # Fields with a direction lead the way that they were followed.
             found = np.where(dot(tangents, last)[:, None] < 0.0, -found, found)
             known = np.isfinite(found).all(axis=1, keepdims=True)
@@ -120,6 +125,17 @@ class Courses:
         with np.errstate(all="ignore"):
             part = (along - self.ends[step] + length) / length
         return step, np.clip(np.nan_to_num(part), 0.0, 1.0)
+
+    @classmethod
+    def joined(cls, parts: Sequence[Courses]) -> Courses:
+        """The ways of all points of at least one, which one flow led."""
+        sizes, closed, stalled, spent = (
+            np.concatenate(each)
+            for each in zip(*((np.diff(p.offsets), p.closed, p.stalled, p.spent) for p in parts), strict=True)
+        )
+        leaps = replace(records.joined([part.leaps for part in parts]), row=ragged.owner(sizes))
+        steps = records.joined([part.steps for part in parts])
+        return cls(parts[0].flow, leaps, steps, ragged.offsets(sizes), closed, stalled, spent)
 
     def some(self, rows: Ints) -> Courses:
         """The ways of some of the points."""

@@ -148,8 +148,8 @@ def _principal_in_faces(sites: FaceSites, bent: BentFaces, faces: Ints) -> Princ
 
 def _principal_on_surface(sites: Sites) -> Principal:
     """By the fundamental forms."""
+    (p, m, q), (e, f, g) = sites.second_form, sites.first_form
     along_u, _, normals = sites.planes
-    (e, f, g), (p, m, q) = sites.first_form, sites.second_form
     with np.errstate(all="ignore"):
         # Of the frame of x_u and what is at right angles to it.
         area = e * g - f * f

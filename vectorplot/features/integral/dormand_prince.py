@@ -84,10 +84,11 @@ class Steps:
 def steps(rates: Rates, start: Floats, first: Floats, length: Floats) -> Steps:
     """Steps of lengths (k,) from states start (k,d) with derivatives first (k,d) there."""
     h = length[:, None]
-    found = [h * first]
+    found, move = [h * first], start
     for row in STAGES:
-        found.append(h * rates(start + _sum(row, found)))
-    return Steps(start, _sum(STAGES[-1], found), _sum(ERRORS, found), found[0], found[-1], _sum(BETWEEN, found))
+        move = _sum(row, found)
+        found.append(h * rates(start + move))
+    return Steps(start, move, _sum(ERRORS, found), found[0], found[-1], _sum(BETWEEN, found))
 
 
 def _sum(weights: tuple[float, ...], parts: list[Floats]) -> Floats:

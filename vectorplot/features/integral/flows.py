@@ -57,19 +57,16 @@ class FieldFlow:
 
     def rates(self, chart: Ints, states: Floats, last: Floats, way: Floats) -> Rates:
         """Derivatives, tangents and places."""
-        places = self.charts.inside(self.charts.parameters(chart, states))
-        sites = Sites(self.surface, *places.T)
+        sites = Sites(self.surface, *self.charts.inside(self.charts.parameters(chart, states)))
         found = self.field.tangents(sites)
         if self.field.directed:
             tangents = found[0] * way[:, None]
         else:
             tangents = aligned(found, last)
-        if len(found) > 1:
-            lost = ~all_finite(tangents)
-            if lost.any():
-                lost &= all_finite(last) & np.isfinite(sites.normals[:, 0])
-                tangents[lost] = unit(sites.tangential(last))[lost]
-        return self.charts.rates(chart, places, from_components(*sites.steps(tangents))), tangents, sites
+        if len(found) > 1 and not np.isfinite(tangents).all():
+            lost = ~all_finite(tangents) & all_finite(last) & np.isfinite(sites.normals[:, 0])
+            tangents[lost] = unit(sites.tangential(last))[lost]
+        return self.charts.rates(chart, sites.u, sites.v, *sites.steps(tangents)), tangents, sites
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,12 +87,13 @@ class GeodesicFlow:
 
     def sites(self, chart: Ints, states: Floats) -> Sites:
         """Where points of states (k,d) in charts (k,) are."""
-        return Sites(self.surface, *self.charts.inside(self.charts.parameters(chart, states[:, :2])).T)
+        return Sites(self.surface, *self.charts.inside(self.charts.parameters(chart, states[:, :2])))
 
     def rates_at(self, chart: Ints, states: Floats, sites: Sites) -> Floats:
         """Derivatives (k,5) of states (k,5) at their sites."""
-        du, dv = sites.steps(states[:, 2:])
-        along = self.charts.rates(chart, from_components(sites.u, sites.v), from_components(du, dv))
+        # All derivatives of the surface come at once where the second ones are asked for first.
+        _, (du, dv) = sites.second_form, sites.steps(states[:, 2:])
+        along = self.charts.rates(chart, sites.u, sites.v, du, dv)
         return np.concatenate([along, sites.bends_along(du, dv)[:, None] * sites.normals], axis=1)
 
 
@@ -121,7 +119,7 @@ class JacobiFlow:
         """Derivatives, tangents and places."""
         straight = GeodesicFlow(self.surface, self.charts)
         sites = straight.sites(chart, states)
-        (e, f, g), (p, m, q) = sites.first_form, sites.second_form
+        (p, m, q), (e, f, g) = sites.second_form, sites.first_form
         with np.errstate(all="ignore"):
             curvature = (p * q - m * m) / (e * g - f * f)
         aside = from_components(states[:, 6] / self.size, -curvature * self.size * states[:, 5])

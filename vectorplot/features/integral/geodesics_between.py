@@ -148,29 +148,28 @@ def geodesics_between(
             f"{MOST_EXTENTS * size:g}"
         )
     chart = charts(surface)
-    points = surface.points(*chart.within(places).T)
+    points = surface.points(*chart.within(places))
     if not norm(points[1] - points[0]) > ONE_GEODESIC_OF_EXTENT * size:
         raise InputError("geodesics between two places: start and end are the same point")
     flow = JacobiFlow(surface, chart, size)
     shooting = _Shooting(flow, places[0], places[1], (size, large))
-    at_pole = (chart.inside(places[:1]) != chart.within(places[:1])).any()
+    at_pole = np.not_equal(chart.inside(places[:1]), chart.within(places[:1])).any()
     if at_pole or not np.isfinite(shooting.frame).all():
         raise InputError("geodesics between two places: the surface has no tangent plane where they start")
     # Those that are short are shorter than all others: where these are enough the others are not looked for.
     for reach in (limit,) if most is None else _reaches(limit, LONGEST * size):
-        roughly, _ = shooting.met(shooting.passing(reach), (1.0 + LENGTH_ROUGHLY) * reach, ROUGH, ROUGH.error)
+        roughly, _, _ = shooting.met(shooting.passing(reach), (1.0 + LENGTH_ROUGHLY) * reach, ROUGH, ROUGH.error)
         if most is not None and len(roughly.length) >= most:
             break
     # Which are the shortest is known but for the error of these.
     last = np.inf if most is None else roughly.length[:most].max(initial=0.0)
     wanted = np.flatnonzero(roughly.length <= (1.0 + LENGTH_ROUGHLY) * last)
     near = max(GEODESIC_MET, MET_OF_INTEGRATED * accuracy.error)
-    found, aside = shooting.met(records.some(roughly, wanted), limit, accuracy, near)
+    found, aside, runs = shooting.met(records.some(roughly, wanted), limit, accuracy, near)
     if not len(found.length):
         return no_curves()
     order = np.arange(len(found.length))[:most]
-    runs = shooting.runs(records.some(found, order), accuracy)
-    curves = drawn(runs, 1, size, tracing)
+    curves = drawn(runs.some(order), 1, size, tracing)
     doubts = ("of infinitely many geodesics between conjugate points there is one",)
     conjugate = bool((aside[order] <= ONE_GEODESIC_OF_EXTENT * size).any())
     return replace(
@@ -236,22 +235,20 @@ class _Shooting:
         states = runs.states(step, part)
         surface, chart = self.flow.surface, self.flow.charts
         places = chart.parameters(runs.leaps.chart[step], states[:, :2])
-        sites = Sites(surface, *chart.inside(places).T)
-        goal = surface.points(*chart.within(self.end[None]).T)
-        way = goal - surface.points(*chart.within(places).T)
+        sites = Sites(surface, *chart.inside(places))
+        goal = surface.points(*chart.within(self.end[None]))
+        way = goal - surface.points(*chart.within(places))
         tangents = states[:, 2:5]
         left = np.nan_to_num(dot(way, cross(sites.normals, tangents)))
         return norm(way), dot(way, tangents), left, states[:, 5] * self.extent[0] / NEIGHBOURS_COUNT
 
-    def met(self, shots: _Shots, longest: float, accuracy: Accuracy, near: float) -> tuple[_Shots, Floats]:
-        """Those of the shots that meet the end, as near as a part of the extent, each once, the shortest first; and how
-        far (k,) its neighbours are aside there for each unit of angle."""
+    def met(self, shots: _Shots, longest: float, accuracy: Accuracy, near: float) -> tuple[_Shots, Floats, Courses]:
+        """Those of the shots that meet the end, as near as a part of the extent, each once, the shortest first; how far
+        (k,) its neighbours are aside there for each unit of angle; and their courses."""
         size = self.extent[0]
-        met, sides = [_Shots(np.zeros(0), np.zeros(0))], [np.zeros(0)]
+        met, sides, courses = [_Shots(np.zeros(0), np.zeros(0))], [np.zeros(0)], list[Courses]()
         last = np.full(len(shots.angle), np.inf)
         for _ in range(ROUNDS):
-            if not len(shots.angle):
-                break
             runs = self.runs(shots, accuracy)
             begun = np.flatnonzero(runs.lengths > 0.0)
             along = runs.lengths[begun]
@@ -260,12 +257,15 @@ class _Shooting:
             done = (way <= near * size) & self._on_its_sheet(runs, begun, along) & (along <= longest)
             met.append(_Shots(angle[done], along[done]))
             sides.append(np.abs(aside[done]))
+            courses.append(runs.some(begun[done]))
             with np.errstate(all="ignore"):
                 turn = np.clip(np.nan_to_num(left / aside), -FARTHEST, FARTHEST)
             length = along + ahead
             # Newton's method comes nearer with every step, or not at all.
             goes_on = np.flatnonzero((way > near * size) & (length > 0.0) & (way < last[begun]))
             shots, last = records.some(_Shots(angle + turn, length), goes_on), way[goes_on]
+            if not len(goes_on):
+                break
         found, aside = records.joined(met), np.concatenate(sides)
         order = np.argsort(found.length, kind="stable")
         found, aside = records.some(found, order), aside[order]
@@ -278,7 +278,7 @@ class _Shooting:
             chosen.append(int(left_over[0]))
             left_over = left_over[norm(key[left_over] - key[left_over[0]]) > least]
         kept = np.array(chosen, dtype=np.intp)
-        return records.some(found, kept), aside[kept]
+        return records.some(found, kept), aside[kept], Courses.joined(courses).some(order[kept])
 
     def _on_its_sheet(self, runs: Courses, row: Ints, along: Floats) -> Bools:
         """(k,) whether places along courses are near the end along the surface, if they are in space."""

@@ -94,7 +94,7 @@ def integral_curves(
     """
     at = starts_of(surface, starts)
     flow = FieldFlow(surface, charts(surface), field)
-    found = field.tangents(Sites(surface, *flow.charts.inside(at).T))[0]
+    found = field.tangents(Sites(surface, *flow.charts.inside(at)))[0]
     return curves_from(flow, at, found, length, both_ways, accuracy, tracing)
 
 
@@ -251,7 +251,7 @@ def drawn(found: Courses, sides: int, size: float, tracing: Tracing) -> SurfaceC
     shut[goes_round], own[goes_round] = True, turns
     u, v = np.ascontiguousarray(places[order].T)
     directions = found.directions(step[order], part[order]) * np.where(back[order], -1.0, 1.0)[:, None]
-    points = found.flow.surface.points(*np.ascontiguousarray(found.flow.charts.within(places[order]).T))
+    points = found.flow.surface.points(*found.flow.charts.within(places[order]))
     doubts = [unresolved("an integral curve is off by more than the tolerance")] * (not enough)
     doubts += ["an integral curve ends for want of steps"] * bool(found.spent[rows].any())
     none = np.zeros((0, 2))
@@ -328,7 +328,7 @@ def _near_parameters(
         middle = 0.5 * (a + b)
         one, two = found.places(*split(a[:, 0])), found.places(*split(b[:, 0]))
         charts = found.flow.charts
-        flat = found.flow.surface.points(*charts.within(0.5 * (one + two)).T)
+        flat = found.flow.surface.points(*charts.within(0.5 * (one + two)))
         flat = flat if tracing.picture is None else tracing.picture(flat)
         with np.errstate(all="ignore"):
             bad = np.linalg.norm(image(middle) - flat, axis=1) > tolerance

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -15,7 +16,8 @@ from vectorplot.features.integral.flows import Flow
 from vectorplot.features.integral.sites import Sites
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.vectors import dot, from_components, norm
+from vectorplot.geometry.components import all_finite
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.tolerances.of_extent import (
     CLOSED_OF_EXTENT,
     INTEGRATED_OF_EXTENT,
@@ -68,7 +70,8 @@ class Accuracy:
     >>> from vectorplot import features, surfaces
     >>> rough, fine = features.Accuracy(1e-4), features.Accuracy(1e-7)
     >>> ball, field = surfaces.Sphere(), features.loxodromes(1.0)
-    >>> ends = [features.integral_curves(ball, field, [(0, 0)], accuracy=a).points[-1] for a in (rough, fine)]
+    >>> runs = [features.integral_curves(ball, field, [(0, 0)], length=1.5, accuracy=each) for each in (rough, fine)]
+    >>> ends = [run.points[-1] for run in runs]
     >>> bool(np.allclose(*ends, atol=1e-3))
     True
     """
@@ -134,7 +137,7 @@ def courses(
     shortest = max(STALLED_OF_EXTENT, accuracy.error) * size
     count = len(starts)
     closed, stalled, spent = (np.zeros(count, dtype=np.bool_) for _ in range(3))
-    home = flow.surface.points(*charts.inside(starts).T)
+    home = flow.surface.points(*charts.inside(starts))
     chart = charts.better(np.full(count, -1), starts)
     states = flow.states(charts.coordinates(chart, starts), tangents)
     now = _Points(
@@ -151,87 +154,61 @@ def courses(
         home,
         np.zeros(count),
     )
+    new, there = tangents, Sites(flow.surface, starts[:0, 0], starts[:0, 1])
+
+    def rates(states: Floats) -> Floats:
+        nonlocal new, there
+        found, new, there = flow.rates(now.chart, states, now.tangents, way[now.which])
+        return found
+
     leaps: list[Leaps] = []
     found: list[Steps] = []
-    now = records.some(now, np.isfinite(now.rates).all(axis=1) & (now.left > 0.0))
+    now = records.some(now, all_finite(now.rates) & (now.left > 0.0))
     while len(now.which):
-        last, own_way = now.tangents, way[now.which]
         step = np.minimum(now.step, now.left)
-
-        new, there = last, Sites(flow.surface, now.places[:0, 0], now.places[:0, 1])
-
-        def rates(states: Floats, now: _Points = now, last: Floats = last, own_way: Floats = own_way) -> Floats:
-            nonlocal new, there
-            found, new, there = flow.rates(now.chart, states, last, own_way)
-            return found
-
         with np.errstate(all="ignore"):
             # The last stage is the end of the step: its derivatives, tangents and places are those to go on with.
             tried = steps(rates, now.states, now.rates, step)
-            end, ahead = tried.start + tried.move, tried.last / step[:, None]
+            end, ahead, points = tried.start + tried.move, tried.last / step[:, None], there.points
             off = _length_of(charts, now.chart, there, tried.error, size)
             allowed = accuracy.error * step + ROUNDING_OF_POINTS * large
-            good = np.isfinite(ahead).all(axis=1) & (off <= allowed) & (dot(new, last) > TURN)
-            factor = np.clip(CAUTION * (allowed / np.maximum(off, LEAST_DIVISOR)) ** (1 / ORDER), SHRINK, GROW)
+            good = all_finite(ahead) & (off <= allowed) & (dot(new, now.tangents) > TURN)
+            factor = CAUTION * (allowed / np.maximum(off, LEAST_DIVISOR)) ** (1 / ORDER)
+            factor = np.minimum(np.maximum(factor, SHRINK), GROW)
+            places = running_on(charts, now.chart, tried, end, now.places)
+            out = good & (charts.beyond(places) > 0.0)
+            gone = norm(points - now.anchor) > until.tight
         factor = np.where(good, factor, np.where(np.isfinite(off), np.minimum(factor, 0.5), SHRINK))
         following = np.minimum(factor * step, LONGEST * size)
-        ends = ~good & (following < shortest)
-        stalled[now.which[ends]] = True
-        with np.errstate(all="ignore"):
-            places = running_on(charts, now.chart, tried, np.ones(len(step)), now.places)
-        points = there.points
 
-        at = np.flatnonzero(good)
-        done = tried.some(at)
-        part = np.ones(len(at))
-        out = charts.beyond(places[at]) > 0.0
+        part = np.ones(len(step))
         if out.any():
-            part[out] = _crossing(flow, now.chart[at[out]], done.some(np.flatnonzero(out)))
-        back, share = _back(flow, now, at, done, part, points[at], home, tangents, size, accuracy.error)
+            part[out] = _crossing(flow, now.chart[out], records.some(tried, out))
+        back, share = _back(flow, now, good, tried, part, points, home, tangents, size, accuracy.error)
         part[back] = share
-        closed[now.which[at[back]]] = True
-        length = step[at] * part
-        leaps.append(Leaps(now.which[at], now.chart[at], part, length, now.places[at]))
-        found.append(done)
+        closed[now.which[back]] = True
+        length = step * part
+        leap = Leaps(now.which, now.chart, part, length, now.places)
+        leaps.append(_those(leap, good))
+        found.append(_those(tried, good))
 
-        # Derivatives at the new places, in charts that do better there.
-        finished = out.copy()
+        finished = out
         finished[back] = True
         if until.beside is not None:
-            finished |= until.beside(places[at])
-        gone = norm(points[at] - now.anchor[at]) > until.tight
-        wound = np.where(gone, 0.0, now.wound[at] + length)
-        finished |= wound > WOUND * until.tight
-        left = now.left[at] - length
-        finished |= left <= ROUNDING_OF_POINTS * size
-        slow = ~finished & (step[at] < shortest)
-        stalled[now.which[at[slow]]] = True
-        finished |= slow
-        used = now.done[at] + 1.0
-        spent[now.which[at[~finished & (used >= accuracy.steps)]]] = True
-        finished |= used >= accuracy.steps
-        goes_on = at[~finished]
-        moved = _renewed(flow, now, goes_on, end, ahead, new, places, way)
-        waits = np.flatnonzero(~good & ~ends)
-        both = np.concatenate([goes_on, waits])
-        now = _Points(
-            now.which[both],
-            np.concatenate([moved[0], now.chart[waits]]),
-            np.concatenate([moved[1], now.states[waits]]),
-            np.concatenate([moved[2], now.rates[waits]]),
-            np.concatenate([new[goes_on], now.tangents[waits]]),
-            np.concatenate([places[goes_on], now.places[waits]]),
-            np.concatenate([points[goes_on], now.points[waits]]),
-            following[both],
-            np.concatenate([left[~finished], now.left[waits]]),
-            np.concatenate([used[~finished], now.done[waits] + 1.0]),
-            np.concatenate([np.where(gone[:, None], points[at], now.anchor[at])[~finished], now.anchor[waits]]),
-            np.concatenate([wound[~finished], now.wound[waits]]),
-        )
-        worn = now.done >= accuracy.steps
-        if worn.any():
-            spent[now.which[worn]] = True
-            now = records.some(now, ~worn)
+            finished[good] |= until.beside(places[good])
+        wound = np.where(gone, 0.0, now.wound + length)
+        left = now.left - length
+        finished |= good & ((wound > WOUND * until.tight) | (left <= ROUNDING_OF_POINTS * size))
+        stuck = ~finished & (np.where(good, step, following) < shortest)
+        stalled[now.which[stuck]] = True
+        used = now.done + 1.0
+        worn = ~finished & ~stuck & (used >= accuracy.steps)
+        spent[now.which[worn]] = True
+        anchor = np.where(gone[:, None], points, now.anchor)
+        ends = _Points(now.which, now.chart, end, ahead, new, places, points, following, left, used, anchor, wound)
+        if not good.all():
+            ends = _either(good, ends, replace(now, step=following, done=used))
+        now = _renewed(flow, _those(ends, ~(finished | stuck | worn)), way)
     order, offsets = np.zeros(0, dtype=np.intp), np.zeros(count + 1, dtype=np.intp)
     if not leaps:
         none = Leaps(order, order, np.zeros(0), np.zeros(0), np.zeros((0, 2)))
@@ -243,9 +220,23 @@ def courses(
     return Courses(flow, records.some(every, order), records.joined(found).some(order), offsets, closed, stalled, spent)
 
 
+R = TypeVar("R", bound=records.Record)
+
+
+def _those(record: R, which: Bools) -> R:
+    """Those of the elements where which (k,) is true: mostly all of them."""
+    return record if which.all() else records.some(record, which)
+
+
+def _either(which: Bools, one: _Points, two: _Points) -> _Points:
+    """Points as one says where which (k,) is true, and as two says where it is not."""
+    pairs = ((getattr(one, f.name), getattr(two, f.name)) for f in fields(_Points))
+    return _Points(*(np.where(which if a.ndim == 1 else which[:, None], a, b) for a, b in pairs))
+
+
 def _length_of(charts: Charts, chart: Ints, sites: Sites, error: Floats, size: float) -> Floats:
     """(k,) how long errors (k,d) of states at places are in space; what tangents are off counts over the extent."""
-    moved = charts.steps(chart, from_components(sites.u, sites.v), error[:, :2])
+    moved = charts.steps(chart, sites.u, sites.v, error[:, :2])
     along_u, along_v, _ = sites.planes
     away = moved[:, :1] * along_u + moved[:, 1:] * along_v
     return np.asarray(np.sqrt(dot(away, away) + size * size * (error[:, 2:] ** 2).sum(axis=1)))
@@ -279,7 +270,7 @@ def _crossing(flow: Flow, chart: Ints, done: Steps) -> Floats:
 def _back(
     flow: Flow,
     now: _Points,
-    at: Ints,
+    good: Bools,
     done: Steps,
     part: Floats,
     here: Floats,
@@ -288,24 +279,24 @@ def _back(
     size: float,
     error: float,
 ) -> tuple[Ints, Floats]:
-    """Which of the steps (k,), of the points at, lead back to their starts, which are at home (m,3) with tangents
-    (m,3), before a part (k,) of them; and where. here (k,3): the ends of the steps."""
-    which = now.which[at]
-    before = dot(now.points[at] - home[which], tangents[which])
-    after = dot(here - home[which], tangents[which])
-    rows = np.flatnonzero((before < 0.0) & (after >= 0.0) & (now.done[at] >= AWAY))
-    one, two = (norm(points[rows] - home[which[rows]]) for points in (now.points[at], here))
-    rows = rows[np.minimum(one, two) <= 2.0 * norm(here[rows] - now.points[at[rows]])]
+    """Which of the good steps (k,) of points lead back to their starts, which are at home (m,3) with tangents (m,3),
+    before a part (k,) of them; and where. here (k,3): the ends of the steps."""
+    start, along = home[now.which], tangents[now.which]
+    before, after = (np.asarray(dot(points - start, along)) for points in (now.points, here))
+    rows = np.flatnonzero(good & (before < 0.0) & (after >= 0.0) & (now.done >= AWAY))
+    if len(rows):
+        one, two = (norm(points[rows] - start[rows]) for points in (now.points, here))
+        rows = rows[np.minimum(one, two) <= 2.0 * norm(here[rows] - now.points[rows])]
     if not len(rows):
         return rows, np.zeros(0)
-    own, chart = which[rows], now.chart[at[rows]]
+    chart, start, along = now.chart[rows], start[rows], along[rows]
 
     def way(states: Floats, some: Ints) -> Floats:
         places = flow.charts.parameters(chart[some], states[:, :2])
-        return flow.surface.points(*flow.charts.inside(places).T) - home[own[some]]
+        return flow.surface.points(*flow.charts.inside(places)) - start[some]
 
     def ahead(states: Floats, some: Ints) -> Floats:
-        return np.asarray(dot(way(states, some), tangents[own[some]]))
+        return np.asarray(dot(way(states, some), along[some]))
 
     some = done.some(rows)
     there = _first(some, ahead, after[rows], ROUNDING_OF_POINTS * size)
@@ -314,16 +305,14 @@ def _back(
     return rows[near], there[near]
 
 
-def _renewed(
-    flow: Flow, now: _Points, rows: Ints, end: Floats, ahead: Floats, new: Floats, places: Floats, way: Floats
-) -> tuple[Ints, Floats, Floats]:
-    """Charts, states and derivatives of rows of points at the ends of their steps."""
-    chart = flow.charts.better(now.chart[rows], places[rows])
-    states, rates = end[rows], ahead[rows]
-    changed = np.flatnonzero(chart != now.chart[rows])
-    if len(changed):
-        own = rows[changed]
-        at = flow.charts.coordinates(chart[changed], places[own])
-        states[changed] = np.concatenate([at, states[changed, 2:]], axis=1)
-        rates[changed] = flow.rates(chart[changed], states[changed], new[own], way[now.which[own]])[0]
-    return chart, states, rates
+def _renewed(flow: Flow, now: _Points, way: Floats) -> _Points:
+    """Points in the charts that do better where they are, with states and derivatives in these."""
+    chart = flow.charts.better(now.chart, now.places)
+    changed = np.flatnonzero(chart != now.chart)
+    if not len(changed):
+        return now
+    states, rates, own = now.states.copy(), now.rates.copy(), chart[changed]
+    at = flow.charts.coordinates(own, now.places[changed])
+    states[changed] = np.concatenate([at, states[changed, 2:]], axis=1)
+    rates[changed] = flow.rates(own, states[changed], now.tangents[changed], way[now.which[changed]])[0]
+    return replace(now, chart=chart, states=states, rates=rates)

@@ -61,8 +61,8 @@ class IsophoteDirections:
     def tangents(self, sites: TangentPlanes) -> Floats:
         """(1,k,3) unit tangent vectors."""
         own = on_surface(sites, "isophotes")
-        along_u, along_v, normals = own.planes
         p, m, q = own.second_form
+        along_u, along_v, normals = own.planes
         size = own.surface.domain.size
         with np.errstate(all="ignore"):
             light, distance = self._lit_from(own.points)

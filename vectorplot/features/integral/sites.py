@@ -12,7 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import cross, dot
-from vectorplot.surfaces.jets import FirstJets, first_jets
+from vectorplot.surfaces.jets import FirstJets, SecondJets, first_jets, second_jets
 from vectorplot.surfaces.surface import Surface
 
 
@@ -70,8 +70,14 @@ class Sites(TangentPlanes):
     v: Floats
 
     @cached_property
+    def _second_jets(self) -> SecondJets:
+        return second_jets(self.surface, self.u, self.v)
+
+    @cached_property
     def _jets(self) -> FirstJets:
-        return first_jets(self.surface, self.u, self.v)
+        # With second derivatives these have come as well.
+        known = self.__dict__.get("_second_jets")
+        return first_jets(self.surface, self.u, self.v) if known is None else known[:3]
 
     @property
     def points(self) -> Floats:
@@ -83,8 +89,9 @@ class Sites(TangentPlanes):
         """Derivatives by u and by v, and unit normals, (k,3) each; no normals at poles and singular points, and none in
         holes, where formulas of derivatives may go on."""
         points, along_u, along_v = self._jets
-        across, there = cross(along_u, along_v), all_finite(points)
-        across[~there] = np.nan
+        across = cross(along_u, along_v)
+        if not np.isfinite(points).all():
+            across[~all_finite(points)] = np.nan
         return along_u, along_v, unit(across)
 
     @property
@@ -100,9 +107,13 @@ class Sites(TangentPlanes):
 
     @cached_property
     def second_form(self) -> tuple[Floats, Floats, Floats]:
-        """L, M, N (k,)."""
-        uu, uv, vv = self.surface.second_partials(self.u, self.v)
-        return dot(self.normals, uu), dot(self.normals, uv), dot(self.normals, vv)
+        """L, M, N (k,); with derivatives that are found at once where this is asked for first."""
+        if "_jets" in self.__dict__:
+            uu, uv, vv = self.surface.second_partials(self.u, self.v)
+        else:
+            uu, uv, vv = self._second_jets[3:]
+        normals = self.normals
+        return dot(normals, uu), dot(normals, uv), dot(normals, vv)
 
     def steps(self, tangents: Floats) -> tuple[Floats, Floats]:
         """du and dv (k,) that move along tangent vectors (k,3); not finite at poles and singular points."""

@@ -327,9 +327,10 @@ def loxodromes(angle: float, constant: Literal["u", "v"] = "u") -> TurnedField:
     --------
     >>> import numpy as np
     >>> from vectorplot import features, surfaces
-    >>> course = features.integral_curves(surfaces.Sphere(), features.loxodromes(np.radians(50)), [(0.0, 0.0)])
-    >>> len(course)
-    1
+    >>> north_west = features.loxodromes(np.radians(50))
+    >>> course = features.integral_curves(surfaces.Sphere(), north_west, [(0.0, 0.0)], length=1.0)
+    >>> bool(np.isclose(course.v[-1], np.cos(np.radians(50))))
+    True
     """
     return TurnedField(ParameterDirection(constant), angle)
 

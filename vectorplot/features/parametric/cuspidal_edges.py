@@ -6,11 +6,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.curve_tracing import Tracing, curves_where_zero, samples
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.zero_manifold import check_grid
+from vectorplot.geometry.narrowing import narrowed
 from vectorplot.geometry.polylines import some
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.surfaces.over_domain import OverDomain
@@ -197,15 +198,18 @@ def _with_cusps(area: _SignedArea, curves: SurfaceCurves) -> SurfaceCurves:
     across = _across(area, at, still)
     first = np.flatnonzero(across[:-1] * across[1:] * turned < 0.0)
     first = first[~np.isin(first + 1, curves.offsets)]
-    low, high = np.zeros(len(first)), np.ones(len(first))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        new = _onto(area, at[first] + middle[:, None] * (at[first + 1] - at[first]))
+
+    def on_edge(start: Ints, part: Floats) -> Floats:
+        return _onto(area, at[start] + part[:, None] * (at[start + 1] - at[start]))
+
+    def goes_on(which: Ints, part: Floats) -> Bools:
+        start, new = first[which], on_edge(first[which], part)
         way = _still(area.surface, new)
-        way = np.where((way * still[first]).sum(axis=1, keepdims=True) < 0.0, -way, way)
-        before = _across(area, new, way) * across[first] > 0.0
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    new = _onto(area, at[first] + high[:, None] * (at[first + 1] - at[first]))
+        way = np.where((way * still[start]).sum(axis=1, keepdims=True) < 0.0, -way, way)
+        return np.asarray(_across(area, new, way) * across[start] > 0.0)
+
+    _, high = narrowed(goes_on, np.zeros(len(first)), np.ones(len(first)), HALVINGS)
+    new = on_edge(first, high)
     at = np.insert(at, first + 1, new, axis=0)
     points = area.surface.points(*wrapped(area.surface.domain, *new.T))
     more = np.searchsorted(first + 1, curves.offsets, side="left")

@@ -75,7 +75,7 @@ def roads(mesh: Mesh, start: ArrayLike, end: ArrayLike, *, longest: float | None
     --------
     >>> import numpy as np
     >>> from vectorplot import features, scene, surfaces
-    >>> x, y = np.meshgrid(np.linspace(-4, 4, 65), np.linspace(-4, 4, 65), indexing="ij")
+    >>> x, y = np.meshgrid(np.linspace(-4, 4, 33), np.linspace(-4, 4, 33), indexing="ij")
     >>> hill = scene.terrain_mesh(surfaces.terrain(4 - np.hypot(x, y), (-4, 4), (-4, 4)))
     >>> both = features.roads(hill, (3.0, 0.1), (0.2, 1.0))
     >>> [round(float(slope)) for slope in np.degrees(both.levels)]

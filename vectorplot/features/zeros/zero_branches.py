@@ -141,21 +141,15 @@ def _polylines(field: ScalarFields, points: Floats, segments: Ints) -> Traces:
 def led_to_holes(field: ScalarFields, lines: Traces, holes: Bools, cell: Floats, zero: Floats) -> Traces:
     """The polylines with open ends inside the domain led on to the border of the hole there; holes (s,): which
     functions have any."""
-    p = lines.points
-    for side in (0, 1):
-        starts, lasts = lines.starts, lines.ends
-        closed = ends_meet(field, p[starts], p[lasts])
-        end, before = (starts, starts + 1) if side == 0 else (lasts, lasts - 1)
-        free = ~closed & ~_on_border(field, p[end]) & holes[of_lines(lines)]
-        end, before = end[free], before[free]
-        more, goes = up_to_holes(field, p[end], p[before], cell[number(p[end])], zero)
-        at, more = end[goes], more[goes]
-        if side == 0:
-            p, last = np.insert(p, at, more, axis=0), np.insert(lines.last, at, False)
-        else:
-            p, last = np.insert(p, at + 1, more, axis=0), np.insert(lines.last, at, False)
-        lines = Traces(p, last)
-    return lines
+    p, starts, lasts = lines.points, lines.starts, lines.ends
+    # The last point of a polyline before the first one of the next: so they are put in.
+    end, before = np.concatenate([lasts, starts]), np.concatenate([lasts - 1, starts + 1])
+    free = np.tile(~ends_meet(field, p[starts], p[lasts]) & holes[of_lines(lines)], 2) & ~_on_border(field, p[end])
+    after = np.repeat([1, 0], len(starts))[free]
+    end, before = end[free], before[free]
+    more, goes = up_to_holes(field, p[end], p[before], cell[number(p[end])], zero)
+    at = end[goes]
+    return Traces(np.insert(p, at + after[goes], more[goes], axis=0), np.insert(lines.last, at, False))
 
 
 def _on_border(field: ScalarFields, points: Floats) -> Bools:

@@ -12,11 +12,15 @@ from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged
 from vectorplot.geometry.chord_refinement import Traces, refined, torn
 from vectorplot.geometry.components import greatest_component
+from vectorplot.geometry.narrowing import narrowed
 from vectorplot.geometry.vectors import from_components
 from vectorplot.tolerances.of_parameters import DOT_OF_DOMAIN, REPEATED_OF_DOMAIN
 
 FIRST_STEP = 0.01
 """Part of the way along which a zero is looked for, to its slope."""
+
+HALVINGS = 48
+"""How often the way into a hole is halved until its border is known to rounding."""
 
 Positions = Callable[[Floats, Floats, Ints], Floats]
 """Takes arrays u, v (k,) and the numbers of the functions whose parameters they are to (k, 2 or 3)."""
@@ -127,21 +131,22 @@ def up_to_holes(field: ScalarFields, end: Floats, before: Floats, reach: Floats,
     """(k,3) where the curve that arrives at end (k,3) from before (k,3) enters a hole of f, within reach (k,2) cells of
     size; and whether it goes on at all.
 
-    The way into the hole is halved until it is known to rounding; at each step the point is brought onto the curve.
+    Along the way into the hole points are brought onto the curve, as far as there is one.
     """
     way = (end - before)[:, :2] / reach
     length = np.sqrt((way * way).sum(axis=1, keepdims=True))
     way = way / np.where(length > 0.0, length, 1.0)
     across = from_components(-way[:, 1], way[:, 0]) * reach
     way = way * reach
-    low, high = np.zeros(len(end)), np.full(len(end), 2.0)
+
+    def on_from(which: Ints, far: Floats) -> tuple[Floats, Bools]:
+        return onto_curve(field, moved(end[which], far[:, None] * way[which]), far[:, None] * across[which], zero)
+
+    last, _ = narrowed(lambda which, far: on_from(which, far)[1], np.zeros(len(end)), np.full(len(end), 2.0), HALVINGS)
+    goes = last > 0.0
     best = end.copy()
-    for _ in range(48):
-        middle = (low + high) / 2.0
-        there, on = onto_curve(field, moved(end, middle[:, None] * way), across * middle[:, None], zero)
-        best[on] = there[on]
-        low, high = np.where(on, middle, low), np.where(on, high, middle)
-    return best, np.asarray(low > 0.0, dtype=np.bool_)
+    best[goes] = on_from(np.flatnonzero(goes), last[goes])[0]
+    return best, goes
 
 
 def without_repeats(lines: Traces, size: Floats) -> tuple[Traces, Floats]:

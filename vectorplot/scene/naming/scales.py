@@ -36,10 +36,10 @@ class Colouring:
     Examples
     --------
     >>> import vectorplot as vp
+    >>> from vectorplot.geometry import box
     >>> from vectorplot.scene import Colouring
-    >>> from vectorplot.surfaces import Torus
-    >>> ring = vp.Scene((vp.Item("ring", Torus(3.0, 1.0)),), colouring=Colouring("z", steps=12))
-    >>> vp.paint(ring, page="A5").width_mm
+    >>> block = vp.Scene((vp.Item("block", box((3, 2, 1))),), colouring=Colouring("z", steps=12))
+    >>> vp.paint(block, page="A5").width_mm
     148.0
     """
 

@@ -138,9 +138,10 @@ class Capped(EllipticSections):
             return found if self._outside > 0.0 else _mirrored(found)
         end = 0 if part == "bottom" else 1
         radius, height, rim = abs(float(self._ends[0][end])), float(self._ends[1][end]), self.mantle[end]
-        slope = radius / self._reach * (-1.0 if end else 1.0)
-        zero = np.zeros_like(v)
-        return (radius + slope * (v - rim), zero + height), (zero + slope, zero), (zero, zero)
+        # To the last bit the whole radius on the rim, and none in the middle.
+        middle = rim + self._reach * (1.0 if end else -1.0)
+        zero, way = np.zeros_like(v), middle - rim
+        return (radius * ((middle - v) / way), zero + height), (zero - radius / way, zero), (zero, zero)
 
     def _ellipse(self) -> tuple[float | Floats, float | Floats]:
         return self.surface._ellipse()

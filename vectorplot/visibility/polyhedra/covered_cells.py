@@ -22,6 +22,10 @@ THIN = 0.8
 """A thing that touches at most so many of the finer cells in the cells it touches is entered in these."""
 
 
+AT_ONCE = 1 << 14
+"""So many pairs of cells and planes are looked at in one step, or one plane for every cell."""
+
+
 def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
     """(cells,) for each cell of the finest level, a depth beyond which everything in it is hidden by one occluder
     alone; infinite where there is none."""
@@ -98,17 +102,21 @@ def _inside_outline(
     else:
         depth = np.full((1, len(occluder)), view.eye[2] - view.focus)
         base = np.concatenate([corner + view.eye[:2, None], depth])
-    kept = np.arange(len(occluder))
-    count = np.diff(occluders.first)
-    for step in range(int((count - occluders.behind).max())):
-        which = occluder[kept]
-        number = np.minimum(occluders.behind[which] + step, count[which] - 1)
-        a, b, c, d = occluders.planes.take(occluders.first[which] + number, axis=1)
-        distance = a * base[0, kept] + b * base[1, kept] + c * base[2, kept] - d
-        distance += (extreme(a, 0.0) + extreme(b, 0.0)) * size[kept]
-        kept = kept[distance > margin]
-    result = np.zeros(len(occluder), dtype=np.bool_)
-    result[kept] = True
+    result = np.ones(len(occluder), dtype=np.bool_)
+    last, step = occluders.first[1:] - 1, 0
+    plane = occluders.first[occluder] + occluders.behind[occluder]
+    left = np.arange(len(occluder))
+    while len(left):
+        # Of few cells many planes at once, of many one after the other, each of those that are left.
+        width = max(AT_ONCE // len(left), 1)
+        which = np.minimum(plane[left] + step + np.arange(width)[:, None], last[occluder[left]])
+        a, b, c, d = occluders.planes.take(which, axis=1)
+        distance = a * base[0, left] + b * base[1, left] + c * base[2, left] - d
+        distance += (extreme(a, 0.0) + extreme(b, 0.0)) * size[left]
+        inside = (distance > margin).all(axis=0)
+        result[left[~inside]] = False
+        step += width
+        left = left[inside & (plane[left] + step <= last[occluder[left]])]
     return result
 
 

@@ -15,7 +15,7 @@ from vectorplot.exact import intervals
 from vectorplot.exact.intervals import NUMBER_BITS
 from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
-from vectorplot.geometry.chunks import mapped
+from vectorplot.geometry.chunks import mapped, threads, workers
 from vectorplot.tolerances.of_lengths import COLLINEAR_OF_LENGTH
 
 PAIRS_AT_ONCE = 1 << 18
@@ -90,7 +90,8 @@ def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -
         owner, starts = _touching(start[:, axis], end[:, axis], owner, starts, 0.5 * tolerance)
         return _of_several(line, owner, starts)
 
-    owners, groups = zip(*mapped(of_axis, (0, 1)), strict=True)
+    with threads(workers(len(line))):
+        owners, groups = zip(*mapped(of_axis, (0, 1)), strict=True)
     return np.concatenate(owners), ragged.offsets(np.concatenate([np.diff(starts) for starts in groups]))
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.strokes.pen_order.tour_ends import ALL_PAIRS, ENDS_AT_ONCE, REACH, Curves, Places
-from vectorplot.geometry.chunks import mapped, slices
+from vectorplot.geometry.chunks import mapped, slices, threads, workers
 
 Pairs = tuple[Ints, Ints, Floats]
 """Ends (p,), ends near them, and how far from them these are."""
@@ -84,12 +84,14 @@ def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> Crowd:
                 length[np.flatnonzero(np.abs(place[there] - place[here]) <= REACH)] = np.inf
         return _Stretch(ends, apart)
 
-    return tuple(mapped(stretch, product(range(len(curves)), slices(len(spots), ENDS_AT_ONCE))))
+    with threads(workers(len(spots))):
+        return tuple(mapped(stretch, product(range(len(curves)), slices(len(spots), ENDS_AT_ONCE))))
 
 
 def nearer_than(reach: Floats, among: Crowd) -> Pairs:
     """Ends (p,), ends that count for them less than reach (n,) from them, and how far. Not all that are so near, if
     many others are nearer."""
-    pairs = mapped(lambda part: part.nearer_than(reach), among)
+    with threads(workers(len(reach))):
+        pairs = tuple(mapped(lambda part: part.nearer_than(reach), among))
     one, other, apart = (np.concatenate(column) for column in zip(*pairs, strict=True))
     return one, other, apart

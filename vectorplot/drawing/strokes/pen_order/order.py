@@ -69,16 +69,19 @@ def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     spots = _spots(paths)
     start = _canonical_starts(paths, spots)
     rank, ends = _canonical_ends(paths, spots, start, layer[:many])
-    layer = np.repeat(layer[rank], 2)
-    curves = curves_through(ends, layer)
-    tour = greedy_tour(ends, layer, curves)
-    bounds = np.append(np.flatnonzero(np.diff(layer[tour], prepend=layer[0] - 1)), many)
-    if np.any(paths.closed[:many]):
-        entry, start = _entered(paths, spots, start, rank, ends, tour, bounds)
-        ends, curves = entry, curves_through(entry, layer)
-    tour = shortened(ends, tour, layer, curves)
-    if np.any(paths.closed[:many]):
-        ends, start = _entered(paths, spots, start, rank, ends, tour, bounds)
+    tour, bounds = np.zeros(1, dtype=np.intp), np.array([0, 1])
+    # A single stroke leaves no choice, and of many layers most have no more.
+    if many > 1:
+        layer = np.repeat(layer[rank], 2)
+        curves = curves_through(ends, layer)
+        tour = greedy_tour(ends, layer, curves)
+        bounds = np.append(np.flatnonzero(np.diff(layer[tour], prepend=layer[0] - 1)), many)
+        if np.any(paths.closed[:many]):
+            entry, start = _entered(paths, spots, start, rank, ends, tour, bounds)
+            ends, curves = entry, curves_through(entry, layer)
+        tour = shortened(ends, tour, layer, curves)
+        if np.any(paths.closed[:many]):
+            ends, start = _entered(paths, spots, start, rank, ends, tour, bounds)
     tour = _from_the_corner(ends, tour, bounds)
     return _drawn(paths, start, rank[tour >> 1], _reversed(paths, spots, rank, tour))
 

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.exact.radix import ShortKeys, radix_order
-from vectorplot.geometry.chunks import mapped, slices
+from vectorplot.geometry.chunks import mapped, slices, threads, workers
 
 Places = NDArray[np.complex128]
 Curves = tuple[Ints, ...]
@@ -89,9 +89,10 @@ def _nearest_along_curves(spots: Places, other: Ints, layer: Ints, curves: Curve
 
     nearest = np.full(len(spots), np.inf)
     pairs = []
-    for own, least, *found in mapped(of_part, product(curves, slices(len(spots), ENDS_AT_ONCE))):
-        nearest[own] = np.minimum(nearest.take(own), least)
-        pairs.append(found)
+    with threads(workers(len(spots))):
+        for own, least, *found in mapped(of_part, product(curves, slices(len(spots), ENDS_AT_ONCE))):
+            nearest[own] = np.minimum(nearest.take(own), least)
+            pairs.append(found)
     one, two, apart = (np.concatenate(column) for column in zip(*pairs, strict=True))
     both = np.flatnonzero((apart == nearest.take(one)) & (apart == nearest.take(two)) & (apart < np.inf))
     return one.take(both), two.take(both), nearest
@@ -100,16 +101,17 @@ def _nearest_along_curves(spots: Places, other: Ints, layer: Ints, curves: Curve
 def curves_through(spots: Places, layer: Ints) -> Curves:
     """Orders of the places, layer (n,) ascending after layer, along Morton's curve, which keeps near places together
     whatever their density; and along the same curve shifted by a third and by two, since every curve separates some
-    neighbours (Chan)."""
+    neighbours (Chan). Of so few places that every pair is looked at one order is all that is asked for."""
+    shifts = _SHIFTS if len(spots) > ALL_PAIRS else _SHIFTS[:1]
     low = complex(spots.real.min(), spots.imag.min())
     unit = (spots - low) / (extent(spots) or 1.0)
     if layer[0] == layer[-1]:
-        return tuple(radix_order(_morton(unit + shift), _CODE_BITS) for shift in _SHIFTS)
+        return tuple(radix_order(_morton(unit + shift), _CODE_BITS) for shift in shifts)
     rank = np.zeros(len(spots), dtype=np.uint64)
     np.cumsum(layer[1:] != layer[:-1], out=rank[1:])
     bits = _CODE_BITS + int(rank[-1]).bit_length()
     rank <<= np.uint64(_CODE_BITS)
-    return tuple(radix_order(rank | _morton(unit + shift), bits) for shift in _SHIFTS)
+    return tuple(radix_order(rank | _morton(unit + shift), bits) for shift in shifts)
 
 
 def _morton(unit: Places) -> ShortKeys:

@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.integral.on_meshes.mesh_flows import MeshFlow, Onward
 from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides
 from vectorplot.geometry import ragged
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import dot, norm, point_on_line
 from vectorplot.tolerances.of_extent import CLOSED_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -74,8 +75,9 @@ def mesh_courses(
     first_face = np.full(count, -1)
     segments: list[tuple[Ints, Floats, Floats, Ints]] = []
     for step in range(MOST_FACES):
-        alive = np.isfinite(now.directions).all(axis=1) & (now.face >= 0)
-        line, here, now = line[alive], here[alive], now.rows(alive)
+        alive = all_finite(now.directions) & (now.face >= 0)
+        if not alive.all():
+            line, here, now = line[alive], here[alive], now.rows(alive)
         if not len(line):
             break
         exits = _exits(sides, here, now)
@@ -90,20 +92,21 @@ def mesh_courses(
         about = rounds.done(line, here, end, now.face)
         # Far enough to close, at the side where the first face was left.
         left[line[about]] = np.minimum(left[line[about]], FAR * beside + longest_side)
-        go = runs & whole
-        line, here, old = line[go], end[go], now.directions[go]
+        go = (runs & whole).nonzero()[0]
+        line, here, old = line[go], end.take(go, axis=0), now.directions.take(go, axis=0)
         now = _onward(flow, exits.side[go], exits.at_vertex[go], old, way[line])
         if step == 0:
             first_point[line], first_way[line], first_face[line] = here, now.directions, now.face
             continue
         back = np.flatnonzero((now.face == first_face[line]) & (now.face >= 0))
-        own = line[back]
-        home = norm(here[back] - first_point[own]) <= CLOSED_OF_EXTENT * sides.extent
-        home &= norm(now.directions[back] - first_way[own]) <= CLOSED_OF_EXTENT
-        closed[own[home]] = True
-        going = np.ones(len(line), dtype=np.bool_)
-        going[back[home]] = False
-        now = now._replace(face=np.where(going, now.face, -1))
+        if len(back):
+            own = line[back]
+            home = norm(here[back] - first_point[own]) <= CLOSED_OF_EXTENT * sides.extent
+            home &= norm(now.directions[back] - first_way[own]) <= CLOSED_OF_EXTENT
+            closed[own[home]] = True
+            face = now.face.copy()
+            face[back[home]] = -1
+            now = now._replace(face=face)
     parts = [np.concatenate([s[i] for s in segments]) if segments else np.zeros(0) for i in range(4)]
     order = np.argsort(parts[0], kind="stable")
     rows, begin, end, faces = (part[order] for part in parts)
@@ -161,8 +164,10 @@ def _exits(sides: MeshSides, here: Floats, now: Onward) -> _Exits:
     """Where lines leave their faces that run from points (k,3)."""
     all_sides, offsets = ragged.take(sides.mesh.offsets, now.face)
     line = ragged.owner(np.diff(offsets))
-    off = np.maximum(dot(sides.inwards[all_sides], here[line] - sides.starts(all_sides)), 0.0)
-    speed = -dot(sides.inwards[all_sides], now.directions[line])
+    # take moves rows several times as fast as an index between brackets does.
+    inwards = sides.inwards.take(all_sides, axis=0)
+    off = np.maximum(dot(inwards, here.take(line, axis=0) - sides.starts(all_sides)), 0.0)
+    speed = -dot(inwards, now.directions.take(line, axis=0))
     ahead = (speed > 0.0) & (all_sides != now.first[line]) & (all_sides != now.second[line])
     distance = np.where(ahead, off / np.where(ahead, speed, 1.0), np.inf)
     chosen = np.lexsort((distance, line))[offsets[:-1]]
@@ -175,7 +180,7 @@ def _exits(sides: MeshSides, here: Floats, now: Onward) -> _Exits:
         along = dot(sides.along[side[follow]], now.directions[follow]) > 0.0
         distance[follow] = norm(np.where(along[:, None], b[follow], a[follow]) - here[follow])
     reached = here + np.where(np.isfinite(distance), distance, 0.0)[:, None] * now.directions
-    place = np.minimum(np.maximum(dot(reached - a, sides.along[side]), 0.0), long)
+    place = np.minimum(np.maximum(dot(reached - a, sides.along.take(side, axis=0)), 0.0), long)
     if len(follow):
         place[follow] = np.where(along, long[follow], 0.0)
     at_start, at_end = place <= sides.rounding, long - place <= sides.rounding

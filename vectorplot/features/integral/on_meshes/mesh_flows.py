@@ -223,8 +223,9 @@ class StraightFlow:
 
 def unfolded(sides: MeshSides, side: Ints, other: Ints, directions: Floats) -> Floats:
     """(k,3) directions of faces turned about sides (k,) into the planes of the faces beyond, where they are others."""
-    along, beyond = dot(sides.along[side], directions), -dot(sides.inwards[side], directions)
-    return unit(along[:, None] * sides.along[side] + beyond[:, None] * sides.inwards[other])
+    ahead, inwards = sides.along.take(side, axis=0), sides.inwards.take(side, axis=0)
+    along, beyond = dot(ahead, directions), -dot(inwards, directions)
+    return unit(along[:, None] * ahead + beyond[:, None] * sides.inwards.take(other, axis=0))
 
 
 def _slide(sides: MeshSides, side: Ints, other: Ints, own: Floats, beyond: Floats) -> Floats:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -46,11 +47,16 @@ class MeshSides:
 
     def starts(self, side: Ints) -> Floats:
         """(k,3) where sides begin."""
-        return self.mesh.vertices[self.mesh.corners[side]]
+        return self._starts.take(side, axis=0)
 
     def ends(self, side: Ints) -> Floats:
         """(k,3) where sides end."""
-        return self.mesh.vertices[self.mesh.corners[self.after[side]]]
+        return self._starts.take(self.after[side], axis=0)
+
+    @cached_property
+    def _starts(self) -> Floats:
+        """(c,3) where all sides begin."""
+        return self.mesh.vertices[self.mesh.corners]
 
 
 def mesh_sides(given: Mesh) -> MeshSides:
@@ -92,5 +98,5 @@ def mesh_sides(given: Mesh) -> MeshSides:
 
 def outwards(sides: MeshSides, side: Ints, directions: Floats) -> Floats:
     """(k,) how fast points with directions (k,3) in the faces of sides (k,) come nearer to these; zero along them."""
-    speed = -dot(sides.inwards[side], directions)
+    speed = -dot(sides.inwards.take(side, axis=0), directions)
     return np.where(np.abs(speed) <= sides.slack[side], 0.0, speed)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from itertools import pairwise
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -55,7 +55,7 @@ class Ground:
     def where(self, places: Floats) -> Floats:
         """(k,6) the points at u and v (k,2), and the normals there, as long as the distance: the two sides of a thin
         shape are far from each other."""
-        sites = Sites(self.surface, *self.charts.inside(places).T)
+        sites = Sites(self.surface, *self.charts.inside(places))
         return np.concatenate([sites.points, self.apart * np.nan_to_num(sites.normals)], axis=1)
 
     def on_one_sheet(self, one: Floats, two: Floats, reach: float) -> Bools:
@@ -65,18 +65,24 @@ class Ground:
             parts = [slice(first, first + PAIRS_AT_ONCE) for first in bounds]
             return np.concatenate([self.on_one_sheet(one[part], two[part], reach) for part in parts])
         way = self.charts.near_to(two, one) - one
-        stops = [self.surface.points(*self.charts.within(one + part * way).T) for part in ON_THE_WAY]
-        long = sum((norm(b - a) for a, b in pairwise(stops)), np.zeros(len(one)))
-        return np.asarray(long <= DIRECT * reach)
+        stops = one + np.array(ON_THE_WAY)[:, None, None] * way
+        points = self.surface.points(*self.charts.within(stops.reshape(-1, 2))).reshape(*stops.shape[:2], 3)
+        return np.asarray(norm(np.diff(points, axis=0)).sum(axis=0) <= DIRECT * reach)
 
 
 @dataclass(frozen=True, eq=False)
 class Taken:
-    """Places u and v (n,2), the tree of where they are (n,6)."""
+    """Places u and v (n,2), and where they are (n,6)."""
 
     places: Floats
     where: Floats
-    tree: cKDTree
+
+    @cached_property
+    def tree(self) -> cKDTree:
+        """Of where they are; what is put together with more before anything is looked up in it needs none."""
+        from scipy.spatial import cKDTree
+
+        return cKDTree(self.where)
 
 
 @dataclass(frozen=True, eq=False)
@@ -89,15 +95,13 @@ class Crowd:
 
     def with_places(self, places: Floats, where: Floats) -> Crowd:
         """With more places, u and v (k,2), where (k,6)."""
-        from scipy.spatial import cKDTree
-
         if not len(places):
             return self
         groups = list(self.groups)
         while groups and len(groups[-1].places) <= 2 * len(places):
             last = groups.pop()
             places, where = np.concatenate([last.places, places]), np.concatenate([last.where, where])
-        return replace(self, groups=(*groups, Taken(places, where, cKDTree(where))))
+        return replace(self, groups=(*groups, Taken(places, where)))
 
     def together(self, other: Crowd) -> Crowd:
         """With what another one has."""

@@ -23,6 +23,7 @@ from vectorplot.features.integral.tangent_fields import TangentField, TurnedFiel
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves, no_curves, together
 from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances.of_extent import INTEGRATED_AS_DRAWN
 
@@ -138,7 +139,7 @@ def _both_ways(
 ) -> Courses:
     """The courses from u and v (k,2) along the field and against it, until they are within a part, reach, of the
     distance from what is taken, or surely from themselves."""
-    tangents = flow.field.tangents(Sites(flow.surface, *flow.charts.inside(starts).T))[0]
+    tangents = flow.field.tangents(Sites(flow.surface, *flow.charts.inside(starts)))[0]
 
     def beside(places: Floats) -> Bools:
         return crowd.near(places, crowd.ground.where(places), reach * crowd.ground.apart)
@@ -163,7 +164,7 @@ def _seeds(flow: FieldFlow, gaps: Floats, crowd: Crowd, size: tuple[float, float
     places = np.concatenate([runs.places(*runs.at(row, np.abs(along))), gaps[alone]])
     # Those of the widest gap are all taken, those of others where they fit in between.
     order = np.lexsort((np.abs(np.concatenate([along, np.zeros(len(alone))])), np.concatenate([own, alone])))
-    places = flow.charts.within(places[order])
+    places = from_components(*flow.charts.within(places[order]))
     return places[thinned(ground, places, WIDEST * apart)]
 
 

@@ -11,6 +11,7 @@ from vectorplot.features.conforming_triangles import divided
 from vectorplot.features.parametric.holes.holes import is_known, ways_between
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.components import any_component
+from vectorplot.geometry.narrowing import narrowed
 from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.surfaces.surface import Surface
 
@@ -73,7 +74,8 @@ def resolved(surface: Surface, places: Floats, triangles: Ints, known: Bools) ->
         middle = np.full(len(edges), -1)
         middle[split] = len(places) + np.arange(len(new))
         places, known = np.concatenate([places, new]), np.append(known, is_known(surface, new))
-        triangles, part_of = divided(triangles, middle[sides], places)
+        # Which diagonal is shorter is told in parts of the domain: the units of u and of v have nothing in common.
+        triangles, part_of = divided(triangles, middle[sides], places / surface.domain.size)
         of, near = of[part_of], near[part_of]
     return Resolved(places, np.concatenate([rest, triangles]), known, np.concatenate([rest_of, of]))
 
@@ -118,11 +120,11 @@ def _is_straight(surface: Surface, places: Floats, triangles: Ints, known: Bools
     ways, ends = [ways_between(surface.domain, base, places[other]) for other in others], []
     at_corners = np.ones(len(base), dtype=np.bool_)
     for way in ways:
-        low, high = np.zeros(len(base)), np.ones(len(base))
-        for _ in range(HALVINGS):
-            part = 0.5 * (low + high)
-            same = is_known(surface, base + part[:, None] * way) == alone
-            low, high = np.where(same, part, low), np.where(same, high, part)
+
+        def goes_on(which: Ints, part: Floats, way: Floats = way) -> Bools:
+            return np.asarray(is_known(surface, base[which] + part[:, None] * way[which]) == alone[which])
+
+        low, high = narrowed(goes_on, np.zeros(len(base)), np.ones(len(base)), HALVINGS)
         ends.append(0.5 * (low + high)[:, None] * way / size)
         at_corners &= np.where(alone, low == 0.0, high == 1.0)
     chord = ends[1] - ends[0]

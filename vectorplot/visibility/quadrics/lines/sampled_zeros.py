@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.chord_refinement import HALVINGS
+from vectorplot.geometry.narrowing import narrowed
 
 SAMPLES = 192
 """Of a function over its range. One with as few extrema as a trigonometric polynomial of fourth degree, the most that
@@ -75,11 +76,8 @@ def zeros_of(values: Values, low: Floats, high: Floats, goes_round: bool, touchi
 def _between(values: Values, row: Ints, start: Floats, end: Floats) -> Floats:
     """(n,) where functions change their sign between start and end."""
     positive = values(row, start) > 0.0
-    for _ in range(HALVINGS):
-        middle = 0.5 * (start + end)
-        same = (values(row, middle) > 0.0) == positive
-        start, end = np.where(same, middle, start), np.where(same, end, middle)
-    return 0.5 * (start + end)
+    low, high = narrowed(lambda which, t: (values(row[which], t) > 0.0) == positive[which], start, end, HALVINGS)
+    return 0.5 * (low + high)
 
 
 def _lowest(values: Values, row: Ints, sign: Floats, start: Floats, end: Floats) -> tuple[Floats, Floats]:

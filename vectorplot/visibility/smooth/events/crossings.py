@@ -225,13 +225,20 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
     one, two = cubics(view, [(curves, chord), (edges, edge)])
     one, two = one.some(of_curve), two.some(of_edge)
     part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
-    off = gap = np.full(len(part), np.inf)
+    off, gap = np.full((2, len(part)), np.inf)
+    active = np.arange(len(part))
     for _ in range(ROUNDS):
-        (p, a), (q, b) = one.at(part), two.at(edge_part)
+        if not len(active):
+            break
+        (p, a), (q, b) = one.at(part[active]), two.at(edge_part[active])
         away = (q - p)[:, :2]
-        off, gap = np.sqrt(dot(away, away)), (p - q)[:, 2]
+        off[active], gap[active] = np.sqrt(dot(away, away)), (p - q)[:, 2]
         s, t = _step(away, a, b)
-        part, edge_part = np.clip(part + s, -0.5, 1.5), np.clip(edge_part + t, -0.5, 1.5)
+        part[active] = np.clip(part[active] + s, -0.5, 1.5)
+        edge_part[active] = np.clip(edge_part[active] + t, -0.5, 1.5)
+        far = np.flatnonzero((np.abs(s) > CROSSING_SETTLED) | (np.abs(t) > CROSSING_SETTLED))
+        if len(far) < len(active):
+            active, one, two = active[far], one.some(far), two.some(far)
     met = np.flatnonzero(
         (off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > TOUCHING * GAP_IN_FRONT)
     )

@@ -55,8 +55,7 @@ def roots_along(curves: Curves, function: OnCurve, values: Floats) -> Roots:
     found = np.concatenate([found, pairs, pairs])
     low = np.concatenate([low, np.zeros(len(pairs)), middle])
     high = np.concatenate([high, middle, np.ones(len(pairs))])
-    at_low = _values(curves, function, found, low)
-    at_high = _values(curves, function, found, high)
+    at_low, at_high = _values(curves, function, np.tile(found, 2), np.concatenate([low, high])).reshape(2, -1)
     # Points of a polyline and of its curve differ by rounding: a root there is at the end of the chord.
     own = (at_low < 0.0) != (at_high < 0.0)
     at_end = np.where(np.abs(at_low) < np.abs(at_high), low, high)

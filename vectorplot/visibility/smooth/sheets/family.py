@@ -193,17 +193,16 @@ class RimCurves:
     def between(self, chords: Chords, part: Floats) -> Along:
         """The rims at a part of their chords: straight across in the parameters. There is no derivative at a rim that
         the surface comes to with a vertical tangent: slopes are differences."""
-        start, end = chords.places
+        count, middle = len(part), np.clip(part, RIM_STEP, 1.0 - RIM_STEP)
+        # All are looked for at once: what takes time is how often the surface is asked.
+        start, end = (np.tile(ends, (3, 1)) for ends in chords.places)
         surface = self.surface.surface_at(start)
-
-        def at(part: Floats) -> tuple[Floats, Floats]:
-            beside, _ = beside_rim_chords(surface, start[:, :2], end[:, :2], part)
-            places = np.concatenate([beside, start[:, 2:]], axis=1)
-            return places, surface.points(*inside(surface.domain, places))
-
-        middle = np.clip(part, RIM_STEP, 1.0 - RIM_STEP)
-        slopes = (at(middle + RIM_STEP)[1] - at(middle - RIM_STEP)[1]) / (2.0 * RIM_STEP)
-        return Along(*at(part), slopes)
+        each = np.concatenate([part, middle + RIM_STEP, middle - RIM_STEP])
+        beside, _ = beside_rim_chords(surface, start[:, :2], end[:, :2], each)
+        places = np.concatenate([beside, start[:, 2:]], axis=1)
+        points = surface.points(*inside(surface.domain, places))
+        at, after, before = points.reshape(3, count, 3)
+        return Along(places[:count], at, (after - before) / (2.0 * RIM_STEP))
 
 
 @dataclass(frozen=True, eq=False)

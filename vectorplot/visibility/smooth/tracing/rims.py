@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.narrowing import narrowed
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.sheets import sight_lines
@@ -71,13 +72,13 @@ def _cut(view: View, one: ParametricSheet, other: ParametricSheet, curves: Curve
     there = outline(curves.places)
     chord = curves.chords
     chord = chord[there[chord] != there[chord + 1]]
-    low, high = np.zeros(len(chord)), np.ones(len(chord))
     start, way = curves.places[chord], curves.places[chord + 1] - curves.places[chord]
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        before = outline(start + middle[:, None] * way) == there[chord]
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    places = start + low[:, None] * way
+
+    def goes_on(which: Ints, part: Floats) -> Bools:
+        return np.asarray(outline(start[which] + part[:, None] * way[which]) == there[chord[which]])
+
+    last, _ = narrowed(goes_on, np.zeros(len(chord)), np.ones(len(chord)), HALVINGS)
+    places = start + last[:, None] * way
     points = one.points(places)
     return _pieces(curves, chord, places, points, there)
 
