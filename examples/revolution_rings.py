@@ -15,7 +15,7 @@ import shapely
 
 import vectorplot as vp
 from vectorplot.drawing import Fills
-from vectorplot.geometry.regions import polygons_of
+from vectorplot.geometry import polygons_of
 from vectorplot.scene import look
 from vectorplot.shading import face_colours, face_shades, view_lights
 from vectorplot.textbook import ring_order, sliced_meridian

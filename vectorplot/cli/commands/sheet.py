@@ -55,7 +55,13 @@ if TYPE_CHECKING:
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
     click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
     click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
-    click.option("--title", metavar="TEXT", help="Letters in the title block.  [default: the title of the scene]"),
+    click.option(
+        "--title",
+        default="",
+        metavar="TEXT",
+        show_default=False,
+        help="Letters in the title block.  [default: those of the scene]",
+    ),
     click.option("--author", default="", metavar="TEXT", show_default=False, help="Who has drawn it."),
     click.option("--date", default="", metavar="TEXT", show_default=False, help="As it is to be written."),
     click.option("--sheet", metavar="TEXT", help="The number of the sheet, such as 1/2.  [default: 1, or 1/2 of two]"),
@@ -73,7 +79,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     from vectorplot.technical.technical_sheet import technical_sheet
 
     asked, upright = told.pop("sheet"), told["up"] is not None
-    told["cut_spacing_mm"] = told.pop("cut_spacing")
+    told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
 
     def page(number: int, scene: Scene, report: Report) -> Drawing:
         usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
