@@ -31,6 +31,7 @@ def strokes(drawing):
     return [(layer.name, paths) for layer in drawing.layers for paths in layer.strokes if len(paths)]
 
 
+@pytest.mark.slow
 def test_one_fit_holds_for_the_whole_film():
     whole = film()
     pages = [drawing.page_from_world for drawing in whole]
@@ -115,6 +116,7 @@ def test_frames_are_the_same_whoever_makes_them_and_in_whatever_order():
     assert vp.backends.svg_bytes(again.picture(2)) == vp.backends.svg_bytes(moving.picture(2))
 
 
+@pytest.mark.slow
 def test_a_page_for_each_frame(tmp_path):
     film(title="Dice").save(tmp_path / "film.pdf")
     told = subprocess.run(["pdfinfo", tmp_path / "film.pdf"], capture_output=True, text=True, check=True).stdout
@@ -146,6 +148,7 @@ def test_a_moving_svg_has_every_frame_once_and_no_script(tmp_path):
     assert (tmp_path / "film.png").read_bytes() == (tmp_path / "first.png").read_bytes()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("suffix", ["mp4", "webm", "gif"])
 def test_a_video_is_read_back(suffix, tmp_path):
     av = pytest.importorskip("av")
@@ -159,6 +162,7 @@ def test_a_video_is_read_back(suffix, tmp_path):
     assert np.abs(frames[0][: len(wanted), : wanted.shape[1]].astype(int) - wanted).mean() < 4.0
 
 
+@pytest.mark.slow
 def test_a_folder_holds_a_file_for_each_frame(tmp_path):
     film().save(f"{tmp_path}/new/")
     assert sorted(path.name for path in (tmp_path / "new").iterdir()) == [f"000{k}.svg" for k in (1, 2, 3, 4)]

@@ -102,6 +102,7 @@ def assert_its_examples_run(name: str, shown) -> None:
     assert doctest.DocTestRunner().run(test).failed == 0, name
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", vp.__all__)
 def test_the_examples_run(name):
     for each in (name, *(method for method in METHODS if method.startswith(f"{name}."))):
@@ -160,6 +161,7 @@ def test_functions_of_classes_that_explain_what_they_are_given_explain_all_of_it
                 assert "InputError" in found["Raises"], (name, key)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("room", ROOMS)
 def test_the_examples_of_what_a_room_offers_run(room):
     for name in names_of(room):

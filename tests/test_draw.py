@@ -285,6 +285,7 @@ def model_files() -> list[Path]:
 NO_MODELS = pytest.param(None, marks=pytest.mark.skip(reason="no models"))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")
 @pytest.mark.parametrize("path", model_files() or [NO_MODELS], ids=str)
 @pytest.mark.parametrize("name", ["front", "back", "left", "right", "top", "slanting"])

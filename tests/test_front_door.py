@@ -75,6 +75,7 @@ def test_every_room_with_stages_of_the_walk_has_a_front_door():
     assert folders - ROOMS == {*stages, "charts", "cli", "speed", "tolerances"}
 
 
+@pytest.mark.slow
 def test_examples_and_pages_import_no_deeper_than_a_room():
     found = list(imports_of_users())
     assert len(found) > 200
@@ -94,6 +95,7 @@ def declared(module):
     return {node.name for node in tree.body if isinstance(node, ast.FunctionDef | ast.ClassDef)}
 
 
+@pytest.mark.slow
 def test_type_checkers_know_what_examples_import():
     taken = {(module, name) for _, module, name in imports_of_users() if name}
     assert not [(module, name) for module, name in sorted(taken) if name not in declared(module)]
@@ -122,6 +124,7 @@ def test_a_room_loads_nothing_before_a_name_is_used(room):
     assert loaded_by_rooms()[room] == {"vectorplot", f"vectorplot.{room}"}
 
 
+@pytest.mark.slow
 def test_a_name_of_a_room_loads_its_own_modules_only():
     loaded = loaded_after("from vectorplot.surfaces import Torus")
     assert "vectorplot.surfaces.families.torus" in loaded

@@ -127,6 +127,7 @@ print([entry for entry in opened if "secret" in entry[1] or entry[0] != "open"])
 """
 
 
+@pytest.mark.slow
 @pytest.mark.hard(64)
 def test_hard_64_addresses_in_models_are_not_followed(tmp_path: Path) -> None:
     (tmp_path / "secret").write_bytes(b"\0" * 100)
@@ -312,6 +313,7 @@ def test_hard_70_formulas_are_never_run_as_code(tmp_path: Path, monkeypatch: pyt
     assert [entry.name for entry in tmp_path.iterdir()] == ["code.scene"]
 
 
+@pytest.mark.slow
 @pytest.mark.hard(70)
 def test_hard_70_the_package_runs_no_text_as_code() -> None:
     for path in PACKAGE.rglob("*.py"):

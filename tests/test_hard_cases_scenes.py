@@ -107,6 +107,7 @@ def test_any_scale_gives_the_same_drawing(scale: float, parallel: bool) -> None:
         assert stroke_count(pair[0]) == stroke_count(pair[1])
 
 
+@pytest.mark.slow
 @pytest.mark.hard(20)
 def test_three_bars_that_overlap_in_a_ring() -> None:
     scene = cyclic_bars()
@@ -307,6 +308,7 @@ def test_up_along_the_view_is_an_error_and_without_up_there_is_a_fallback() -> N
         )
 
 
+@pytest.mark.slow
 @pytest.mark.hard(31)
 def test_parallel_and_far_central_projection_converge() -> None:
     scene = vp.Scene(dyadic_scene().items + l_prisms().items)
@@ -323,6 +325,7 @@ def test_parallel_and_far_central_projection_converge() -> None:
     assert drawn(far).visible.length == pytest.approx(drawn(limit).visible.length, rel=1e-4)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(32)
 @pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", range(4))

@@ -114,6 +114,7 @@ def test_the_cuspidal_edge_of_a_swallowtail_keeps_its_cusp() -> None:
     assert distance(knots(drawing), on_page(drawing, np.zeros(3))) < 1e-6, "no curve is bent round the cusp"
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 @pytest.mark.parametrize("eye", [(-6.0, -4.0, 2.0), (4.0, -6.0, 3.0), (-5.0, -6.0, 5.0)])
 def test_the_cuspidal_edge_of_a_swallowtail_is_not_hidden_by_its_own_wings(eye) -> None:
@@ -188,6 +189,7 @@ def test_balls_that_touch_or_coincide_and_a_cylinder_along_its_axis(name: str, e
     assert assert_drawing_is_right(drawing, scene, camera, samples=150, clearance=1e-4) > 50
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("error")
 @pytest.mark.parametrize("view", ["top", "front"])
 def test_a_cylinder_with_parts_seen_edge_on_is_drawn_without_a_word(view: str) -> None:

@@ -145,6 +145,7 @@ def test_a_box_on_a_table_stands_on_whole_lines(lift: float, parallel: bool) -> 
     assert_right(scene, camera)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(8)
 def test_coincident_edges_of_two_objects_are_stroked_once() -> None:
     beside = scene_of(LEFT=box((0, 0, 0), (1, 1, 1)), RIGHT=box((1, 0, 0), (2, 1, 1)))
@@ -219,6 +220,7 @@ def test_no_light_leaks_through_a_t_junction(seed: int) -> None:
             assert lengths[0] == pytest.approx(lengths[1])
 
 
+@pytest.mark.slow
 @pytest.mark.hard(12)
 def test_an_edge_with_three_faces_or_more_is_drawn() -> None:
     book, cubes = non_manifold_edge().items

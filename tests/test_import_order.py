@@ -221,6 +221,7 @@ def test_import_of_the_package_loads_nothing_heavy():
     assert not loaded_after("import vectorplot") & (HEAVY | {"numpy"})
 
 
+@pytest.mark.slow
 def test_the_types_load_numpy_and_nothing_heavier():
     loaded = loaded_after("import vectorplot as vp\nvp.Scene, vp.Camera, vp.Mesh, vp.Drawing, vp.InputError")
     assert "numpy" in loaded

@@ -192,6 +192,7 @@ def test_lights_of_the_caller_replace_those_of_the_scene() -> None:
         assert_same_picture(given, paint(TABLE, CAMERAS[0]))
 
 
+@pytest.mark.slow
 def test_no_lights_or_none_that_cast_make_no_shadows() -> None:
     assert kinds(paint(TABLE, CAMERAS[0])) == {"face", "shadow"}
     assert kinds(paint(TABLE, CAMERAS[0], shadows="none")) == {"face"}

@@ -79,6 +79,7 @@ def test_mirrors_show_what_mirrored_rays_meet_in_its_shade(family: str) -> None:
     assert sure > 0.4 * len(seeds) * ROWS * COLUMNS
 
 
+@pytest.mark.slow
 def test_the_comparison_finds_wrong_pictures() -> None:
     random = np.random.default_rng(1)
     scene = FAMILIES["on_a_floor"](random)

@@ -215,6 +215,7 @@ def test_what_does_not_go_with_a_panorama_is_bad_usage(tmp_path, words, cause):
     assert cause in result.output
 
 
+@pytest.mark.slow
 def test_the_command_draws_what_the_function_draws(tmp_path):
     heights = tmp_path / "hill.asc"
     heights.write_text("ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n2 3 2\n3 1 3\n2 3 2\n")

@@ -126,6 +126,7 @@ def errors_of(verb: Callable[..., object], scene: Scene, **options: object) -> d
     return {report.name: (report.error, report.unit) for report in reports if report.error is not None}
 
 
+@pytest.mark.slow
 def test_stages_measure_how_far_off_they_are() -> None:
     ring = Scene((Item("RING", Torus(2.0, 0.5), "blue"),), (SUN,))
     drawn = errors_of(draw, ring, lines="contour", tolerance_mm=0.2)
@@ -137,6 +138,7 @@ def test_stages_measure_how_far_off_they_are() -> None:
     assert set(errors_of(paint, Scene((CUBE,)))) == {"order"}
 
 
+@pytest.mark.slow
 def test_triangles_and_shadow_maps_measure_how_far_off_they_are() -> None:
     scene = Scene((replace(BALL, shape=Sphere(1.5)), replace(PANE, material=Material())), (SUN,))
     small = {"size": (60, 40), "samples": 1}

@@ -117,6 +117,7 @@ def test_two_samples_a_side_and_the_mean_of_their_light():
     assert set(np.unique(two).tolist()) == {0, 137, 188, 225, 255}
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G7.3-strips")
 def test_pictures_in_bands_are_the_whole_ones(monkeypatch):
     scene = replace(coloured_boxes(), lights=(SUN,))

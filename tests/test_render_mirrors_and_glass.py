@@ -75,6 +75,7 @@ def test_a_mirror_shows_glass_before_what_is_behind_it():
     assert (veiled[doubled] > 0).any(axis=1).mean() > 0.9, "and lets light through"
 
 
+@pytest.mark.slow
 def test_glass_is_a_veil_before_what_is_behind_it():
     back = vp.Item("BACK", box((-2, 2, -2), (2, 2.1, 2)), "#ffffff")
     panes = [

@@ -59,6 +59,7 @@ def test_maps_of_what_turns_away_from_the_light_show_the_same_shadows_without_a_
     assert (both[0] == both[1]).all(), "which way the faces of an open body turn nobody knows"
 
 
+@pytest.mark.slow
 @pytest.mark.capability("R-nonsquare")
 def test_maps_that_grow_with_what_is_in_focus_have_fewer_wrong_pixels():
     random = np.random.default_rng(1)

@@ -37,6 +37,7 @@ def programs(folder, *names, **scripts):
 REAL_PYTHON = f'exec "{os.path.realpath(sys.executable)}" "$@"'
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("system", "word"),
     [("Linux", "apt-get install .*libcairo2-dev"), ("Darwin", "brew install .*cairo")],
@@ -127,6 +128,7 @@ def test_what_is_missing_is_installed_by_apt_with_the_right_names(tmp_path):
     ]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("pip", ["exit 0", "exit 1"])
 def test_a_reader_that_cannot_be_installed_is_named_and_nothing_counts_as_installed(tmp_path, pip):
     """Whatever pip does meanwhile, the script ends after apt-get, which is not left at work."""

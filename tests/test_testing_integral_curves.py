@@ -35,6 +35,7 @@ def test_curves_of_the_field_pass_however_coarse_they_are(step):
     assert_integral_curve(found(step), BALL, FIELD, 1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("aside", [0.3, 0.03])
 def test_points_beside_the_curve_fail_though_directions_there_are_right(aside):
     right = found(1e-4)
@@ -52,6 +53,7 @@ def test_a_curve_that_jumps_to_a_neighbour_fails():
         assert_integral_curve(wrong, BALL, FIELD, 1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("off", [0.2, 0.02])
 def test_a_curve_of_another_field_fails_that_claims_the_directions_of_this_one(off):
     other = found(1e-4, features.loxodromes(1.1 + off))
@@ -69,6 +71,7 @@ def test_curves_with_inflections_pass():
     assert_integral_curve(curves, ring, light, 1e-6)
 
 
+@pytest.mark.slow
 def test_geodesics_are_held_to_the_directions_that_they_know():
     """Chords alone tell a hundredth of the curvature of this one."""
     found = features.geodesics(Torus(3, 1), (1.0, 2.0), 1.1, length=5)
@@ -82,6 +85,7 @@ def test_geodesics_are_held_to_the_directions_that_they_know():
     assert_geodesic(blind, Torus(3, 1), 0.05)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("count", [2, 3])
 def test_geodesics_from_one_point_that_the_pen_draws_in_one_stroke_are_geodesics_each(count):
     surface = Ellipsoid((3.0, 2.0, 1.2))

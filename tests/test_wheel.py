@@ -55,6 +55,7 @@ def run(installed, folder, *words):
     return subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=60)
 
 
+@pytest.mark.slow
 def test_a_wheel_holds_every_file_of_the_package():
     assert [str(path) for path in package_files() if not goes_into_wheels(path)] == []
     assert Path("vectorplot/py.typed") in package_files()

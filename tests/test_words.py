@@ -184,6 +184,7 @@ def one_slip_apart(word: str, other: str) -> bool:
     return any(long[:k] + long[k + 1 :] == short for k in range(len(long)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("verb", ALL_OPTIONS)
 def test_an_option_with_one_slip_is_known_again(verb):
     """What verbs share is tried with every slip in one of them, and with a few in each of the others."""
@@ -197,6 +198,7 @@ def test_an_option_with_one_slip_is_known_again(verb):
             assert f"--{hint}" in [*known, "--help"] and one_slip_apart(typed, hint), (option, typed, hint)
 
 
+@pytest.mark.slow
 def test_a_word_of_the_scene_language_with_one_slip_is_known_again():
     for word in sorted(word for word in RESERVED if len(word) > 1)[::12]:
         for typed in misspelled(word) - RESERVED:

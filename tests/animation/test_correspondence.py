@@ -46,6 +46,7 @@ def ends_of_curves(mark):
     return found
 
 
+@pytest.mark.slow
 def test_open_curves_begin_at_their_lower_end_and_loops_run_counter_clockwise(frames):
     seen = {"open": 0, "closed": 0}
     for _, drawing in frames:

@@ -224,6 +224,7 @@ def test_vpype_reads_curves(curved, tmp_path):
     assert [document.layers[i].length() / mm for i in (1, 2)] == pytest.approx([40 * np.pi, length], rel=2e-4)
 
 
+@pytest.mark.slow
 def test_100_000_segments_take_less_than_half_a_second():
     rng = np.random.default_rng(0)
     count, size = 1000, 100

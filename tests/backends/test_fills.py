@@ -121,6 +121,7 @@ def test_a_polygon_grows_by_half_a_seam():
     assert row.sum() == pytest.approx((20 + SEAM_MM) * 50, abs=2)
 
 
+@pytest.mark.slow
 def test_marks_are_drawn_in_their_order(tmp_path):
     stroke = paths_of([(0, 15), (60, 15)])
     over = page_of(flat([SQUARE], [RED]), stroke, flat([moved(SQUARE, 25, 0)], [GREEN]))
@@ -129,6 +130,7 @@ def test_marks_are_drawn_in_their_order(tmp_path):
         assert colour_at(picture, 40, 15, 40) == list(GREEN), name
 
 
+@pytest.mark.slow
 def test_fills_and_edges_may_alternate_in_one_mark(tmp_path):
     """Polygons of two corners are lines: erasing by painting needs no marks of its own for every face."""
     faces = [SQUARE, SQUARE[:2], SQUARE[1:3], moved(SQUARE, 10, 0)]

@@ -34,6 +34,7 @@ def ours(sample) -> np.ndarray:
     return grey_of_png(png_bytes(sample, dpi=DPI))
 
 
+@pytest.mark.slow
 def test_rsvg_shows_the_same_picture(sample, ours, tmp_path):
     save(sample, tmp_path / "a.svg")
     png = run("rsvg-convert", "-d", DPI, "-p", DPI, "-b", "white", tmp_path / "a.svg")

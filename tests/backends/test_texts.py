@@ -88,6 +88,7 @@ def test_json_gives_texts_back(labelled, tmp_path):
         vp.read(tmp_path / "b.json")
 
 
+@pytest.mark.slow
 def test_latex_sets_letters_over_a_pdf(labelled, tmp_path):
     other = [vp.Label("$\\alpha_1^2$ & more", vp.OnPage(20, 70)), vp.Label("n⃗ x² Ω", vp.OnPage(20, 60))]
     scene = vp.Scene((vp.Item("b", box((1, 1, 1))),), labels=tuple(other))

@@ -55,6 +55,7 @@ def test_a_worker_that_is_killed_costs_no_frame_and_a_stopped_run_goes_on(schedu
     assert contents(tmp_path / "there") == {f"{number:04d}.svg": frame(number) for number in range(24)}
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("address", "said"), [("nonsense://x", "no cluster answers"), ("tcp://127.0.0.1:1", "no cluster answers")]
 )

@@ -20,6 +20,7 @@ def gone(pid: int) -> bool:
         return True
 
 
+@pytest.mark.slow
 def test_two_processes_of_which_one_dies_give_the_same_bytes_and_end_at_once(tmp_path):
     run(frames(tmp_path / "here", 8))
     marker = str(tmp_path / "marker")

@@ -12,6 +12,7 @@ SCENE = "camera eye 9 9 9\nDIE blue box 1 1 1"
 TURN = "frames 4 loop\nazimuth linear at 0 0 at 1 360"
 
 
+@pytest.mark.slow
 def test_tasks_write_what_saving_writes(tmp_path):
     film = vp.animate(vp.Animation(lambda time: DIE.turned("z", 90 * time), frames=3), page="60x50")
     vp.save_frames(film, tmp_path / "saved")
@@ -27,6 +28,7 @@ def test_formats_of_frames_are_known():
         next(frame_tasks(film, "x", format="gif"))
 
 
+@pytest.mark.slow
 def test_animate_makes_only_the_frames_that_have_changed(tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "die.scene").write_text(SCENE, encoding="utf-8")

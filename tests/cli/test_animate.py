@@ -24,6 +24,7 @@ def workplace(tmp_path, monkeypatch):
     return tmp_path
 
 
+@pytest.mark.slow
 @pytest.mark.capability("GA.1-layout")
 def test_files_lie_where_the_book_has_them(workplace):
     assert run(["animate", "die", "-a", "turn", "-v", "turn"]) == 0
@@ -37,6 +38,7 @@ def test_files_lie_where_the_book_has_them(workplace):
     assert run(["replay", "turn"]) == run(["replay", "video/turn.vd1"]) == 0
 
 
+@pytest.mark.slow
 def test_the_pencil_is_animated_recorded_and_replayed(tmp_path, monkeypatch, capsys):
     (tmp_path / DATA.name).mkdir()
     for name in ("pencil.scene", "pencil.anim"):
@@ -52,6 +54,7 @@ def test_the_pencil_is_animated_recorded_and_replayed(tmp_path, monkeypatch, cap
     assert "4 frames, 0 of them frozen; 2 palettes" in capsys.readouterr().out
 
 
+@pytest.mark.slow
 @pytest.mark.capability("GA.4-learn")
 @pytest.mark.parametrize("lesson", sorted(DATA.glob("Learn.*")), ids=lambda path: path.name)
 def test_lessons_are_drawn_and_painted(lesson):
@@ -67,6 +70,7 @@ def test_there_are_several_dozen_samples():
     assert len(list(DATA.glob("Learn.*"))) == 6 and len(list(DATA.glob("*.scene"))) > 30
 
 
+@pytest.mark.slow
 def test_options_mean_what_they_mean_to_the_verbs(workplace):
     assert run(["animate", "die", "-a", "turn", "-o", "a.svg", "--eye", "-9,4,3", "--hidden", "dashed"]) == 0
     text = Path("a.svg").read_text(encoding="utf-8")
@@ -78,6 +82,7 @@ def test_options_mean_what_they_mean_to_the_verbs(workplace):
     assert len(list(Path("c").glob("*.png"))) == 3
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "status", "cause"),
     [
@@ -106,6 +111,7 @@ def test_what_is_wrong_is_one_line_and_nothing_is_written(arguments, status, cau
     assert [path for path in sorted(workplace.rglob("*")) if path.name != "video"] == before
 
 
+@pytest.mark.slow
 def test_a_stop_leaves_no_half_file(workplace):
     script = (
         "import os, signal, sys, vectorplot.film as film\n"
@@ -123,6 +129,7 @@ def test_a_stop_leaves_no_half_file(workplace):
     assert sorted(path.name for path in workplace.iterdir()) == ["anim", "data"]
 
 
+@pytest.mark.slow
 def test_frames_are_told_what_pictures_are(workplace, capsys):
     """The options of the verbs reach their frames, and what is on the scene moves with it."""
     drawn = ["--halo", "1", "--hatch", "even", "--layers", "object", "--sections", "z,2", "--cut", "x+y=1"]

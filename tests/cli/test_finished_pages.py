@@ -38,6 +38,7 @@ def by_kind(root):
     return {label.split(maxsplit=1)[1]: strokes for label, strokes in strokes_by_layer(root).items()}
 
 
+@pytest.mark.slow
 def test_a_town_with_windows_tone_and_lettering_is_one_command(page_of):
     scene = vp.read(DATA / "plotted_town.scene")
     panes = [item for item in scene.items if item.hatch is not None and item.hatch.by == "even"]
@@ -51,6 +52,7 @@ def test_a_town_with_windows_tone_and_lettering_is_one_command(page_of):
     assert len(strokes["label"]) >= len("MILLLANE") and len(strokes["frame"]) > len("MillLaneatnoon")
 
 
+@pytest.mark.slow
 def test_a_rabbit_in_level_lines_and_suggestive_contours_is_one_command(page_of):
     strokes = by_kind(page_of("feature-lines.md", "rabbit.ply"))
     levels = [*strokes["section"], *strokes["index"]]

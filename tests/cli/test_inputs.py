@@ -77,6 +77,7 @@ def test_the_hint_is_one_line_and_goes_where_up_is_said(cube, tmp_path, capsys):
         assert capsys.readouterr().err == ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("verb", "item", "options", "status"),
     [

@@ -38,6 +38,7 @@ def test_matrix_products_have_one_thread_unless_told_otherwise(monkeypatch, caps
     assert (end.value.code, os.environ["OPENBLAS_NUM_THREADS"]) == (0, then)
 
 
+@pytest.mark.slow
 def test_help_loads_neither_numpy_nor_a_backend():
     script = "import sys; from vectorplot.cli.main import run; run(['draw', '--help']); print(*sys.modules)"
     result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)

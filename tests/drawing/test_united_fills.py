@@ -31,6 +31,7 @@ def seen():
     return [picture.layers[0].fills[0] for picture in (painted, visible)]
 
 
+@pytest.mark.slow
 def test_every_shade_of_a_smooth_body_is_a_region(seen):
     painted, regions = seen
     for number, name in enumerate(("blue", "red")):
@@ -41,6 +42,7 @@ def test_every_shade_of_a_smooth_body_is_a_region(seen):
     assert len(regions) < len(painted) / 20
 
 
+@pytest.mark.slow
 def test_regions_of_shades_cover_what_was_painted_and_do_not_overlap(seen):
     painted, regions = (polygons_of(fills.points.T, fills.offsets) for fills in seen)
     whole = shapely.union_all(painted, grid_size=1e-4).area

@@ -99,6 +99,7 @@ def test_without_depth_nothing_changes_and_lines_between_two_steps_stay_whole():
     assert sum(len(paths) for layer in drawn.layers for paths in layer.strokes) <= 3
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.4-depthcue")
 def test_paint_and_render_and_scene_files_understand_it_alike():
     said = replace(BOXES, depth_cue=DepthCue(("width", "shade"), 3))

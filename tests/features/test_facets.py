@@ -67,6 +67,7 @@ def test_cost_grows_as_the_tolerance_asks() -> None:
     assert np.all(np.diff(np.log10(counts)) > 0.6)
 
 
+@pytest.mark.slow
 def test_poles_and_apices_are_one_vertex_with_a_normal() -> None:
     ball = facets(Sphere(2.0), within(0.01))
     at_pole = np.abs(ball.mesh.vertices[:, 2]) > 2.0 - 1e-9
@@ -85,6 +86,7 @@ def test_the_rim_of_a_cap_is_as_fine_as_the_mantle_asks_and_ends_there() -> None
     assert found.complete and found.mesh.face_count < 1000
 
 
+@pytest.mark.slow
 def test_holes_stay_open() -> None:
     roof = graph(lambda x, y: np.sqrt(1.0 - x * x - y * y), Domain(-1.5, 1.5, -1.5, 1.5))
     found = facets(roof, within(0.01))
@@ -121,6 +123,7 @@ def test_normals_turn_little_from_vertex_to_vertex_on_ruled_surfaces_too() -> No
         assert np.degrees(np.arccos(cosine.min())) < 10.0
 
 
+@pytest.mark.slow
 @pytest.mark.hard(69)
 @pytest.mark.parametrize(
     ("height", "covered", "most"),
@@ -142,6 +145,7 @@ def test_no_triangle_of_a_graph_with_holes_is_turned_over_and_they_end_at_the_ri
     assert abs(area.sum() - covered) < 5e-3 * covered
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("tolerance", [0.05, 0.02, 2e-3])
 def test_caps_beside_cuts_are_covered_and_nothing_of_them_is_folded_over(scale: float, tolerance: float) -> None:
@@ -165,6 +169,7 @@ def test_caps_beside_cuts_are_covered_and_nothing_of_them_is_folded_over(scale: 
         assert abs(shapely.area(covered) - left) < 2.0 * np.pi * tolerance
 
 
+@pytest.mark.slow
 def test_a_cut_through_the_axis_makes_no_narrow_triangles_whatever_the_size() -> None:
     counts = []
     for scale in (1e-6, 1.0, 1e6):

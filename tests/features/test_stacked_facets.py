@@ -38,6 +38,7 @@ def mixed():
     return [shape for some in zip(rings, balls, others[:3], strict=False) for shape in some] + rings[3:] + others[3:]
 
 
+@pytest.mark.slow
 def test_each_is_to_the_last_bit_what_it_is_alone():
     shapes = mixed()
     demands = [Coarse((0.01 + 0.003 * k,)) for k in range(len(shapes))]
@@ -45,6 +46,7 @@ def test_each_is_to_the_last_bit_what_it_is_alone():
     assert all(same(f, facets(s, d)) for f, s, d in zip(found, shapes, demands, strict=True))
 
 
+@pytest.mark.slow
 def test_the_budget_is_that_of_each():
     shapes = [placed(Torus(1.0, 0.3), k) for k in range(3)]
     demands = [Coarse((d,)) for d in (0.05, 0.0005, 0.02)]
@@ -60,6 +62,7 @@ def test_lots_come_back_in_order(count):
     assert np.allclose(sizes, 2.0 * (1.0 + np.arange(count)))
 
 
+@pytest.mark.slow
 def test_demands_that_cannot_be_joined_are_asked_one_by_one():
     demand = Within(lambda points: np.full(points.shape[:-1], 0.02))
     shapes = [placed(Torus(1.0, 0.3), k) for k in range(2)]

@@ -95,6 +95,7 @@ def test_a_curve_that_crosses_a_double_line_on_the_lattice_goes_on(sign):
     assert "without changing its sign" in curve.doubts[0] and np.abs(curve.touching[:, 0]).max() < 1e-3
 
 
+@pytest.mark.slow
 @pytest.mark.hard(39)
 @pytest.mark.parametrize("gap", [1e-6, 3e-6, 1e-5, 2e-5, 3e-5, 5e-5, 1e-4])
 def test_two_circles_nearer_than_the_resolution_leave_no_crumbs(gap):
@@ -113,6 +114,7 @@ def test_a_resolved_tiny_oval_beside_a_double_line_stays(radius):
     assert np.abs(np.hypot(*(curve.points - (-0.4, 0.3)).T) - radius).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_a_finer_resolution_tells_near_lines_apart():
     curve = traced(lambda u, v: (v - 0.1 * u - 0.0137) * (v - 0.1 * u - 0.0147), resolution=2.5e-4)
     assert len(curve) == 2 and not curve.doubts and not curve.closed.any()
@@ -127,6 +129,7 @@ def test_many_tiny_ovals_are_no_beads():
     assert len(curve) == 25 and curve.closed.all() and not curve.doubts
 
 
+@pytest.mark.slow
 @pytest.mark.hard(38)
 @pytest.mark.parametrize("cells", [12, 40])
 def test_a_rose_has_one_node_of_many_petals_and_no_points_beside_it(cells):

@@ -66,6 +66,7 @@ def test_an_interruption_between_results_leaves_the_rest_undone(count):
     assert len(done) <= 2 * count + 2
 
 
+@pytest.mark.slow
 def test_several_threads_take_part_and_one_does_where_nothing_is_said():
     def where(_):
         time.sleep(0.005)

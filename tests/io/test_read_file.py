@@ -162,6 +162,7 @@ def test_models_read_as_trimesh_reads_them(path: Path) -> None:
     assert np.allclose(mesh.bounds, [other.triangles.min(axis=(0, 1)), other.triangles.max(axis=(0, 1))])
 
 
+@pytest.mark.slow
 def test_reading_a_closed_mesh_loads_neither_scipy_nor_trimesh(tmp_path: Path) -> None:
     path = written(tmp_path, "cube.obj", CUBE + faces(FACES))
     code = "import sys; from vectorplot.io.read_file import read; read(sys.argv[1]); print(*sys.modules)"

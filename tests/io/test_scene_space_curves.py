@@ -178,6 +178,7 @@ def test_numbers_keep_every_digit(radius, rise, centre, start, size):
     assert np.allclose((helix.start, helix.end), (start, start + size), rtol=4e-16, atol=0.0)
 
 
+@pytest.mark.slow
 @given(st.floats(1e-3, 1e3), st.floats(1e-3, 1e3), st.floats(0, 1))
 def test_branches_are_found_again(r, s, part):
     for branch in cylinder_intersection(r, s, part * 0.999 * (r + s)):
@@ -273,6 +274,7 @@ def test_a_scene_with_curves_is_described():
     assert whole.startswith("4 items, 1 surface, 2 curves, 8 vertices, 12 edges, 6 faces, 0 lights")
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.1-cylcyl")
 def test_the_curve_of_two_cylinders_is_drawn_on_both():
     scene = parse_scene(

@@ -102,6 +102,7 @@ def test_meshes_of_other_libraries_bring_theirs():
     assert fields.at("p", np.array([(0.2, 0.2, 0.0), (2 / 3, 2 / 3, 1 / 3)])).tolist() == [1.0, 2.0]
 
 
+@pytest.mark.slow
 def test_every_verb_knows_them_by_name_and_an_unknown_name_gets_its_nearest(tmp_path, capsys):
     path = tmp_path / "part.ply"
     path.write_bytes(ply("ascii", POLYGONS[:6], np.where(LINEAR > 12.0, np.nan, LINEAR)))

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import pytest
 
 import vectorplot as vp
 from vectorplot.effects.scales.coloured_scene import coloured
@@ -14,6 +15,7 @@ from vectorplot.shading.light.fineness.faceted import FacetedScene
 from vectorplot.surfaces import Sphere
 
 
+@pytest.mark.slow
 def test_bands_of_colours_have_the_normals_of_their_ball():
     ball = vp.Item("BALL", Sphere(2.0), material=vp.Material("matte"))
     bands, _ = coloured(vp.Scene((ball,)), Colouring("z", steps=5))

@@ -101,6 +101,7 @@ def test_every_series_grows_and_is_named_once(series):
     assert [other.name for other in SERIES].count(series.name) == 1
 
 
+@pytest.mark.slow
 def test_a_series_is_measured_on_one_thread_and_on_two():
     (weave,) = (series for series in SERIES if series.name == "weave")
     small = replace(weave, sizes=(16, 64, 100))

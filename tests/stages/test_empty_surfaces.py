@@ -22,6 +22,7 @@ def test_a_surface_without_points_is_told(verb):
         verb(nothing, "iso")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("verb", [vp.draw, vp.paint])
 def test_a_surface_that_is_cut_away_is_not(verb):
     ball = vp.Item("BALL", implicit_of_function(lambda x, y, z: x**2 + y**2 + z**2 - 0.5, BOX))

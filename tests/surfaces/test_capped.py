@@ -185,6 +185,7 @@ def test_mistakes_are_said_with_file_and_line(words, cause):
     assert str(error.value) == cause
 
 
+@pytest.mark.slow
 def test_every_verb_shows_bodies():
     scene = parse_scene("A surface cylinder 1 0 2 capped\nlight L direction -1 -2 3", "a.scene")
     camera = vp.Camera((8, -10, 7), (0, 0, 1))

@@ -81,6 +81,7 @@ def test_scales_fit_or_say_which_would():
         vp.technical_sheet(BRICK, views="top,top")
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("size", [1e-6, 1.0, 1e6])
 def test_dimensions_of_the_whole_are_three_and_mm_on_paper(size):
     moved = BRICK.moved(30, 1, 7).scaled(size)
@@ -105,6 +106,7 @@ def test_a_scenes_own_dimensions_are_in_the_view_that_is_square_to_them():
     assert np.allclose(lengths, [9.0, 9.0, 40.0])
 
 
+@pytest.mark.slow
 def test_a_frame_has_zones_and_the_block_its_words(tmp_path):
     plain, framed = (
         vp.technical_sheet(BRICK, frame=frame, title="Brick", projection="third") for frame in (False, True)
@@ -119,6 +121,7 @@ def test_a_frame_has_zones_and_the_block_its_words(tmp_path):
         vp.technical_sheet(BRICK, title="\u4e00")
 
 
+@pytest.mark.slow
 def test_a_scene_has_its_title_in_the_block_unless_another_is_asked_for_or_it_has_no_room():
     scene = vp.Scene((BRICK,), title="Brick of a wall")
     titled, other, none = vp.technical_sheet(scene), vp.technical_sheet(scene, title="Stone"), vp.technical_sheet(BRICK)
@@ -172,6 +175,7 @@ def test_sections_that_are_none(section, cause):
         vp.technical_sheet(BRICK, section=section)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("projection", ["first", "third"])
 def test_sections_of_every_axis_stand_apart_from_all_views(projection):
     sheet = vp.technical_sheet(
@@ -231,6 +235,7 @@ def test_parts_with_y_upwards_stand():
     assert {tuple(np.round(np.ptp(one, axis=0), 6).tolist()) for one in outlines(sheet)} == {(40, 20), (10, 20)}
 
 
+@pytest.mark.slow
 def test_what_places_itself_leaves_what_the_user_has_written():
     """Dimensions of the whole stand outside of others; marks of sections keep clear of labels and numbers."""
     told = ['dimension "20 ±0,1" from 0 0 0 to 0 0 20 offset -10 0 0 gap 1 beyond 2']

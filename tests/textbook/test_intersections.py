@@ -154,6 +154,7 @@ def test_an_edge_that_lies_in_the_other_polygon_is_the_common_segment():
     assert not polygons_common_segment(SQUARE, corner)[1]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G1.3-polygon-polygon")
 def test_random_triangles_agree_with_sampling_along_the_planes():
     rng = np.random.default_rng(6)

@@ -58,6 +58,7 @@ def test_scripted_keys_give_the_expected_camera(keys, eye):
     assert camera.twist_deg == pytest.approx(math.degrees(twist))
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G4.4-interactive")
 def test_the_scale_grows_by_the_factor_and_shrinks_no_farther_than_the_widest_field():
     assert STATE.picture_height / after("x").picture_height == pytest.approx(1.03)

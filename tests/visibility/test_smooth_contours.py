@@ -40,6 +40,7 @@ def lengths(drawing):
     return np.array(found), count
 
 
+@pytest.mark.slow
 def test_contours_of_meshes_of_a_torus_are_seen_as_those_of_the_torus():
     true, _ = lengths(vp.draw(TORUS, CAMERA, lines="contour", hidden="solid", page=PAGE, fit=False))
     off = []

@@ -117,6 +117,7 @@ def movies(draw):
     return Movie(palettes, tuple(frames), smooth)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G10.2-replay")
 @given(movie=movies())
 def test_what_is_encoded_is_decoded(movie):
@@ -233,6 +234,7 @@ def test_polygons_are_left_out_where_nobody_sees_them():
     assert pruned(frame(PAGE, big, line, again), none[:4]).all()
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G10.1-prune")
 def test_a_pruned_movie_shows_the_same_pixels_and_is_smaller(monkeypatch):
     drawing = vp.paint(DATA / "town.scene", vp.Camera((62, -88, 18), fov_deg=30), page="160x110")

@@ -40,6 +40,7 @@ def furthest(chords, others):
     return tree.query_nearest(places, all_matches=False, return_distance=True)[1].max()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["pencil", "curves", "torus"])
 def test_every_stroke_is_where_it_was_drawn(name):
     drawing = vp.draw(vp.read(f"data/{name}.scene"), hidden="solid", page=vp.Page(90, 64, 4))
@@ -59,6 +60,7 @@ def test_every_stroke_is_where_it_was_drawn(name):
             assert max(furthest(ours, theirs), furthest(theirs, ours)) < 0.03
 
 
+@pytest.mark.slow
 def test_circles_and_arcs_are_exact_and_other_curves_are_splines():
     ball = vp.Scene((vp.Item("ball", Sphere(2.0)),))
     space = read_back(vp.draw(ball, vp.Camera.view("front"))).modelspace()

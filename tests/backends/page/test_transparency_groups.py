@@ -87,6 +87,7 @@ def test_heaps_are_left_alone_in_time():
     assert groups(list(SQUARE + rng.uniform(-4.0, 4.0, (20_000, 1, 2)))) == [-1] * 20_000
 
 
+@pytest.mark.slow
 @given(st.integers(0, 10_000))
 def test_polygons_of_a_group_never_overlap(seed):
     rng = np.random.default_rng(seed)

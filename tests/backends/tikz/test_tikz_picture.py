@@ -40,6 +40,7 @@ def like_ours(drawing, seen):
     return float((np.abs(ours[:height, :width] - seen[:height, :width]).max(axis=2) > 128).mean())
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", ["pencil", "curves"])
 def test_latex_sets_lines_in_their_size_and_place(name, tmp_path):
     drawing = vp.draw(vp.read(f"data/{name}.scene"), page=vp.Page(148, 105, 10), hidden="dashed")
@@ -48,6 +49,7 @@ def test_latex_sets_lines_in_their_size_and_place(name, tmp_path):
     assert (seen.min(axis=2) < 128).mean() > 1e-3
 
 
+@pytest.mark.slow
 def test_latex_sets_filled_polygons_and_what_is_seen_through_them(tmp_path):
     box = vp.Mesh.from_triangles(
         [(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)], [(0, 2, 1), (0, 1, 3), (0, 3, 2), (1, 2, 3)]
@@ -60,6 +62,7 @@ def test_latex_sets_filled_polygons_and_what_is_seen_through_them(tmp_path):
     assert len(np.unique(seen @ (1 << 16, 1 << 8, 1))) > 8
 
 
+@pytest.mark.slow
 def test_long_lines_are_several_paths_that_go_on_in_each_other(tmp_path):
     t = np.linspace(0.0, 40.0 * np.pi, 4000)
     points = np.stack([100.0 + t * np.cos(t) / 2.0, 100.0 + t * np.sin(t) / 2.0], axis=1)
@@ -72,6 +75,7 @@ def test_long_lines_are_several_paths_that_go_on_in_each_other(tmp_path):
     assert like_ours(drawing, seen) < 2e-4
 
 
+@pytest.mark.slow
 def test_an_empty_picture_has_its_size_and_a_page_that_is_too_large_is_refused(tmp_path):
     seen, _ = set_by_latex(vp.Drawing(80.0, 60.0, ()), tmp_path)
     assert seen.min() == 255 and abs(seen.shape[1] - 80 / 25.4 * 150) <= 1

@@ -299,6 +299,7 @@ def test_unwritable_places_exit_with_1(out: str, cube: Path, capsys: pytest.Capt
     assert sorted(cube.parent.rglob("*")) == before
 
 
+@pytest.mark.slow
 def test_an_empty_picture_is_written_with_a_warning(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     path = tmp_path / "empty.scene"
     path.write_text('title "Nothing"\n', encoding="utf-8")

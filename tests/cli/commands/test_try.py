@@ -36,6 +36,7 @@ def pencils(tmp_path, monkeypatch):
     return served
 
 
+@pytest.mark.slow
 @pytest.mark.capability("GA.3-pencil")
 def test_the_pencil_is_tried_animated_and_recorded(pencils, tmp_path):
     assert run(["try", "pencil", "--no-browser"]) == 0
@@ -73,6 +74,7 @@ def test_options_show_a_page_or_make_a_movie(pencils, options, status, pages, ca
     assert bool(capsys.readouterr().err.strip()) == (status != 0)
 
 
+@pytest.mark.slow
 def test_it_stops_by_a_signal_and_leaves_with_status_0(cube):
     command = [sys.executable, "-m", "vectorplot", "try", str(cube), "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:

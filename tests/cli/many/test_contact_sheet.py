@@ -52,6 +52,7 @@ def test_names_say_what_each_drawing_shows(dice):
     assert letters
 
 
+@pytest.mark.slow
 def test_long_names_stand_in_smaller_letters_or_in_several_lines(dice):
     name = "a scene with a name as long as names of scenes can ever be in folders of people who like them.scene"
     (dice / "dice" / name).write_text(SCENE.format(2), encoding="utf-8")
@@ -60,6 +61,7 @@ def test_long_names_stand_in_smaller_letters_or_in_several_lines(dice):
     assert len(found["strokes"]) > len(bare["strokes"]) + 12 * 30
 
 
+@pytest.mark.slow
 def test_workers_make_the_same_sheet_and_paint_makes_one_too(dice):
     words = ["--with", "paint --shadows none --flat", "--vary", "palette=8,32"]
     for out, more in (("one.svg", []), ("two.svg", ["--workers", "1"])):

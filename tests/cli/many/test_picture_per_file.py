@@ -37,6 +37,7 @@ def test_every_verb_makes_the_pictures_that_it_makes_alone(verb, suffix, parts, 
     assert capsys.readouterr() == ("", "")
 
 
+@pytest.mark.slow
 def test_only_what_has_changed_is_made_again(parts, tmp_path):
     out = tmp_path / "out"
     words = ["draw", str(parts), "-o", f"{out}/", "--page", "A6"]

@@ -29,6 +29,7 @@ def random_paths(seed, count=120):
     return BezierPaths(control, paths.offsets, closed, paths.error)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_the_length_inside_stays_and_nothing_lies_outside(seed):
     paths = random_paths(seed)

@@ -74,6 +74,7 @@ def test_no_lines_have_no_ranks():
     assert not len(place_ranks(np.zeros((0, 6)), np.zeros(0, dtype=int), np.zeros(0), 1.0, 1.0))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("along", ["slope", "level"])
 def test_strokes_follow_their_field_and_are_long_enough(along):
     hill = vp.Item("HILL", graph(lambda x, y: 0.6 * x * x + 0.3 * y, Domain(-1, 1, -1, 1)))
@@ -91,6 +92,7 @@ def test_strokes_follow_their_field_and_are_long_enough(along):
         assert np.linalg.norm(way, axis=1).sum() * 30.0 > 5.9
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("along", ["slope", "isophotes"])
 def test_a_combed_ball_is_as_dark_as_the_light_leaves_it(along):
     ball = vp.Scene((vp.Item("ball", Sphere(1.0)),), (SUN,))
@@ -120,6 +122,7 @@ def cosines(line, light, parallel):
     return (line * way / np.linalg.norm(way, axis=-1)[..., None]).sum(axis=1)
 
 
+@pytest.mark.slow
 def test_along_isophotes_strokes_have_one_angle_to_the_light_that_the_item_names():
     lights = (vp.Light((9.0, 9.0, 9.0)), vp.Light((2.0, -3.0, 1.5), intensity=1.0))
     hatch = vp.Hatching("even", spacing_mm=6.0, along="isophotes")
@@ -143,6 +146,7 @@ def test_what_crosses_isophotes_leads_into_the_light():
     assert np.abs(across - towards / np.linalg.norm(towards, axis=1)[:, None]).max() < 1e-12
 
 
+@pytest.mark.slow
 def test_without_a_light_isophotes_are_of_one_from_the_upper_left():
     ball = vp.Item("BALL", Sphere(1.0), hatch=vp.Hatching("even", spacing_mm=6.0, along="isophotes"))
     coarse = {"curves": "polyline", "tolerance_mm": 0.1}
@@ -157,6 +161,7 @@ def test_without_a_light_isophotes_are_of_one_from_the_upper_left():
     assert not strokes(vp.draw(vp.Scene((flat,)), "top", page="60x60", lines="none", hatch=hatch))
 
 
+@pytest.mark.slow
 def test_terrains_are_hatched_as_water_runs_and_what_has_no_lines_along_the_page():
     x, y = np.meshgrid(np.linspace(0, 6, 16), np.linspace(0, 4, 11), indexing="ij")
     land = terrain_mesh(terrain(np.sin(x) * np.cos(y), x=(0, 6), y=(0, 4)))
@@ -171,6 +176,7 @@ def test_terrains_are_hatched_as_water_runs_and_what_has_no_lines_along_the_page
     assert len(flowing) == len(plain) > 10
 
 
+@pytest.mark.slow
 def test_many_lines_that_run_together_are_compared_with_few():
     x, y = np.meshgrid(np.linspace(0, 6, 19), np.linspace(0, 4, 13), indexing="ij")
     land = terrain_mesh(terrain(0.5 * np.abs(y - 2.0) + 0.2 * x, x=(0, 6), y=(0, 4)))
@@ -187,6 +193,7 @@ def test_scene_files_say_it_too():
     assert scene.items[0].hatch == vp.Hatching("tone", along="slope", spacing_mm=2.0)
 
 
+@pytest.mark.slow
 def test_walls_are_as_dark_whatever_the_size_of_their_faces():
     drawn = []
     for size in (0.125, 1.0, 8.0):

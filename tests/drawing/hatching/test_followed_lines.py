@@ -6,6 +6,7 @@ import io
 
 import cairo
 import numpy as np
+import pytest
 
 import vectorplot as vp
 from vectorplot.backends.cairo.surfaces import png_bytes
@@ -40,6 +41,7 @@ def asked(page: np.ndarray, darkest: float) -> tuple[np.ndarray, np.ndarray]:
     return 0.8 * (1.0 - light) * darkest, r < 1.0
 
 
+@pytest.mark.slow
 def test_a_ball_is_as_dark_as_the_light_leaves_it() -> None:
     cross = True
     ball = vp.Scene((vp.Item("ball", Sphere(1.0)),), (SUN,))
@@ -59,6 +61,7 @@ def test_a_ball_is_as_dark_as_the_light_leaves_it() -> None:
     assert np.abs(means[0] - means[1]).max() < 0.03
 
 
+@pytest.mark.slow
 def test_strokes_lie_on_the_sides_that_one_sees_and_behind_nothing() -> None:
     """Two balls, one of them before the other."""
     right, _, back = CAMERA.axes
@@ -87,6 +90,7 @@ def test_nothing_to_see_is_nothing_to_hatch() -> None:
     assert not any(len(paths) for layer in drawn(none).layers for paths in layer.strokes)
 
 
+@pytest.mark.slow
 def test_flat_ends_of_round_bodies_are_hatched_as_planes() -> None:
     text = "light L direction 0 0 1\nA gray surface cylinder radius 1 top 2 capped\ncamera eye 4 -6 -5 target 0 0 1\n"
     scene = parse_scene(text)

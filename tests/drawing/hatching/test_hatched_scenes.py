@@ -30,6 +30,7 @@ def seen_items(scene: vp.Scene, places: np.ndarray) -> tuple[np.ndarray, np.ndar
     return np.where(face >= 0, faces.item[face], -1), face, point
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("along", ["page", "surface"])
 def test_strokes_are_where_rays_meet_their_items_and_end_where_these_do(along: str) -> None:
     town = vp.read(DATA / "town.scene")
@@ -51,6 +52,7 @@ def test_strokes_are_where_rays_meet_their_items_and_end_where_these_do(along: s
         assert sum(some.sum() for some in same) <= 2
 
 
+@pytest.mark.slow
 def test_no_stroke_is_missing_where_rays_meet_an_item() -> None:
     town = vp.read(DATA / "town.scene")
     spacing = 2.0
@@ -69,6 +71,7 @@ def test_no_stroke_is_missing_where_rays_meet_an_item() -> None:
     assert sure.sum() > 500 and np.unique(point[found]).size == sure.sum()
 
 
+@pytest.mark.slow
 def test_strokes_lie_closer_in_shadows() -> None:
     """The largest distances to a stroke on the ground, in the light of both lamps and in the shadow of the sun."""
     town = vp.read(DATA / "town.scene")
@@ -92,6 +95,7 @@ def test_strokes_lie_closer_in_shadows() -> None:
     assert farthest(sure & (dark == 1)) < 0.8 * farthest(sure & (dark == 0))
 
 
+@pytest.mark.slow
 def test_items_may_be_hatched_in_ways_of_their_own() -> None:
     text = "A red box 1 1 1 hatch even spacing 1 cross angle -30 along surface width 0.25\n"
     text += "B blue box 1 1 1 translation 2 0 0 hatch none\n"

@@ -23,6 +23,7 @@ def dots_of(paths: vp.Paths) -> np.ndarray:
     return paths.points.reshape(-1, 2, 2).mean(axis=1)
 
 
+@pytest.mark.slow
 def test_squares_have_dots_by_their_darkness_and_white_ones_none() -> None:
     dots = dots_of(hatched_fills(squares(0.0, 0.5, 0.75, 1.0), [vp.Stippling(2000)], FLAT))
     square, x = np.divmod(dots[:, 0], 25.0)
@@ -41,6 +42,7 @@ def test_dots_keep_apart_as_evenly_as_a_draughtsman_sets_them() -> None:
     assert apart.mean() > 0.85 * even and apart.min() > 0.5 * even
 
 
+@pytest.mark.slow
 def test_dots_are_the_same_in_every_run_and_none_is_made_of_nothing() -> None:
     one, other = (hatched_fills(squares(0.3, 0.9), [vp.Stippling(300)], FLAT).points for _ in range(2))
     assert np.array_equal(one, other)

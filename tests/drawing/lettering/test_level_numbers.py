@@ -35,6 +35,7 @@ def index_lines(drawing: vp.Drawing) -> list[Floats]:
     ]
 
 
+@pytest.mark.slow
 def test_heights_stand_upright_on_their_index_lines_which_end_before_them() -> None:
     marks = [mark for layer in drawn().layers for mark in layer.marks]
     (texts,) = (mark for mark in marks if isinstance(mark, Texts))

@@ -73,6 +73,7 @@ def test_fills_end_before_letters():
         assert len(corners) < 3 or not shapely.Polygon(corners).intersects(middle)
 
 
+@pytest.mark.slow
 def test_letters_in_pixels_stand_on_paper():
     labels = (vp.Label("III", (1, 0, 0.5), place="centre", size_mm=8),)
     picture = vp.render(vp.Scene((BLOCK,), labels=labels), vp.Camera.view("front"), size=(300, 200))

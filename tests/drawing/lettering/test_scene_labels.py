@@ -79,6 +79,7 @@ def test_size_and_place_of_the_scene_change_nothing(size: float, away: float) ->
     assert np.allclose(here.points, there.points, rtol=0.0, atol=1e-4)
 
 
+@pytest.mark.slow
 def test_lines_stop_before_letters_and_labels_keep_apart() -> None:
     ring = vp.Item("RING", Circle((1.0, 1.0, 1.0), radius=3.0))
     scene = replace(labelled(), items=(CUBE, ring))
@@ -91,6 +92,7 @@ def test_lines_stop_before_letters_and_labels_keep_apart() -> None:
     assert shapely.hausdorff_distance(shapely.intersection(drawn.buffer(0.1), bare), drawn) < 0.2
 
 
+@pytest.mark.slow
 def test_labels_that_name_one_place_stand_apart_with_leaders() -> None:
     labels = tuple(vp.Label(f"name {k}", (0, 0, 2)) for k in range(12))
     found = letters(vp.draw(replace(labelled(), labels=labels), page=PAGE))
@@ -124,6 +126,7 @@ def test_json_gives_the_letters_back() -> None:
     assert np.allclose(image[:, :2] / image[:, 3:], written.points, rtol=0.0, atol=1e-9)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("asked", ["none", "contour,crease"])
 def test_paint_and_render_show_the_same_labels(asked: str) -> None:
     drawn, painted = (
@@ -156,6 +159,7 @@ def test_unknown_characters_name_the_label() -> None:
         vp.draw(replace(labelled(), labels=(vp.Label("漢", (0, 0, 0), "X"),)))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parallel", [True, False])
 def test_hidden_points_agree_with_rays(parallel: bool) -> None:
     rng = np.random.default_rng(3)
@@ -231,6 +235,7 @@ def test_hidden_letters_are_whole_and_leave_visible_lines_whole(layers: str) -> 
     assert kept == pytest.approx(whole) and cut < whole - 1.0 and fewer < behind - 1.0
 
 
+@pytest.mark.slow
 def test_what_is_hidden_in_painted_pictures_has_thin_letters_too() -> None:
     drawing = vp.paint(labelled(hidden="dashed"), page=PAGE)
     shown, faint = both_letters(drawing)

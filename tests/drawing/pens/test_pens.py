@@ -61,6 +61,7 @@ def test_pens_may_be_said_in_many_ways(pens):
     assert found["HOUSE", "contour"] == (0.5, "#ff0000") and found["a.b", "contour"][0] == 0.4
 
 
+@pytest.mark.slow
 def test_no_stroke_is_lost_or_doubled_by_pens_and_layers():
     want = sum(len(layer.strokes[0].points) for layer in drawn(hidden="solid").layers)
     rules = {"HOUSE": "red", "crease": "0.1", "a.b.crease": "0.2", "hidden": "green", "SHED.hidden": "blue"}
@@ -251,6 +252,7 @@ def test_lines_on_top_of_painted_faces_have_the_pens_of_drawn_ones(rules):
     assert len(set(papers)) <= 1
 
 
+@pytest.mark.slow
 def test_lines_over_pixels_have_pens_too():
     plain, red = (shown(vp.render, size=(120, 90), **rules).pixels for rules in ({}, {"pens": "contour=1:red"}))
     is_red = (red[..., 0] > 1.5 * red[..., 1].clip(1)) & (plain != red).any(axis=2)

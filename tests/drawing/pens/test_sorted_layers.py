@@ -18,6 +18,7 @@ CUBE = vp.Item("CUBE", box((1, 1, 1)).moved(1.2, 0, 0), hatch=None)
 TONE = {"hatch": vp.Hatching("tone", 2.0)}
 
 
+@pytest.mark.slow
 @pytest.mark.spread
 @pytest.mark.parametrize("labels", [(), (vp.Label("I", (1, 1, 1)),)], ids=["bare", "labelled"])
 @pytest.mark.parametrize(

@@ -86,6 +86,7 @@ def test_what_is_cut_by_what_hides_it_is_exact():
     assert (np.diff(strokes.beziers.offsets)[own] > 0).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("curve", "camera"),
     [
@@ -116,6 +117,7 @@ def test_what_is_no_cubic_in_the_image_is_cut_into_cubics_and_served_by_few(curv
     assert len(strokes.beziers.control) <= len(curved_strokes(blind, 0.01).beziers.control)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", [0, 1])
 def test_where_weights_change_fast_chords_are_cut_more_than_once(seed):
     """Polygons stay exact whatever the weights; others are cubics throughout, though speeds differ by thousands."""
@@ -127,6 +129,7 @@ def test_where_weights_change_fast_chords_are_cut_more_than_once(seed):
     assert np.isfinite(curve.paths.handles[1:-1]).all()
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.2-surface")
 @pytest.mark.parametrize("count", [12, 40])
 def test_pieces_between_many_knots_are_joined_where_fewer_serve(count):
@@ -147,6 +150,7 @@ def test_pieces_between_many_knots_are_joined_where_fewer_serve(count):
     assert cKDTree(dense).query((BERNSTEIN @ few.control).reshape(-1, 2))[0].max() < 0.02
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.2-surface")
 def test_parameter_lines_and_borders_of_spline_surfaces_are_exact_where_they_are_visible():
     """Lines that pass behind their own surface: all that is visible is on the true lines."""

@@ -53,6 +53,7 @@ def test_a_corner_cut_out_of_a_box_draws_the_lines_of_the_body_that_is_left():
     assert lengths(one) == pytest.approx(lengths(two), abs=1e-6)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("shape", "scale"), [(Sphere(2.0), 1e-6), (Sphere(2.0), 1e6), (Ellipsoid((2.0, 1.5, 1.0)), 1.0)]
 )
@@ -96,6 +97,7 @@ def test_faces_of_cuts_have_the_area_of_the_true_section(shape, text, area):
     assert found / 2.0 == pytest.approx(area, rel=2e-4)
 
 
+@pytest.mark.slow
 def test_smooth_surfaces_that_are_cut_alike_are_drawn_each_in_its_place():
     places, tube = (-4.0, 4.0), 0.5
     rings = [vp.Item(f"R{x}", Torus(2.0, tube).moved(x, 0, 0.1 * x), lines=("contour",)) for x in places]

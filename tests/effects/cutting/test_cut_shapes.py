@@ -72,6 +72,7 @@ def test_axes_and_dimensions_stay_whole_without_a_word():
     assert [item.name for item in after.items[len(scene) :]] == ["B cut", "B ghost"]
 
 
+@pytest.mark.slow
 def test_implicit_surfaces_end_on_the_plane_and_show_their_true_section():
     ring = vp.Scene((vp.Item("T", ImplicitTorus(3.0, 1.0).moved(0.0, 0.2, 0.0)),))
     half = vp.cut(ring, "y < 0.2")
@@ -85,6 +86,7 @@ def test_implicit_surfaces_end_on_the_plane_and_show_their_true_section():
     assert len(points["hatch"]) and len(points["contour"]) and points["contour"][:, 1].min() > 0.2 - 1e-6
 
 
+@pytest.mark.slow
 def test_implicit_surfaces_end_on_oblique_planes_and_at_corners_as_parametrised_ones_do():
     text = "x + y > 0.1, z > 0.2"
     (cut,) = vp.cut(vp.Scene((vp.Item("T", ImplicitTorus(3.0, 1.0)),)), text).cuts
@@ -117,6 +119,7 @@ def test_what_planes_leave_of_implicit_surfaces_ends_at_corners_in_single_points
     assert moved.within.heights(other.vertices).min() > -1e-12 and 0 < other.face_count < mesh.face_count
 
 
+@pytest.mark.slow
 def test_planes_that_miss_an_implicit_surface_leave_it_what_it_is_or_nothing():
     ball = vp.Scene((vp.Item("B", implicit_sphere(1.0)),))
     assert cut_scene(vp.cut(ball, "x + y > 1.5"), CAMERA).items[0].shape is ball.items[0].shape

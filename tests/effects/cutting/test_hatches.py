@@ -68,6 +68,7 @@ def test_parts_that_touch_have_other_strokes_though_one_is_narrow():
     assert all(spacing > 0.7 for _, spacing in kinds)
 
 
+@pytest.mark.slow
 def test_sheets_take_the_spacing_that_is_asked_for(tmp_path):
     (tmp_path / "p.scene").write_text("P gray box 12 8 6\n")
     out = tmp_path / "p.json"

@@ -63,6 +63,7 @@ def test_outlines_are_as_straight_as_asked_for(tolerance: float) -> None:
     assert (area > 0.0).all() or (area < 0.0).all()
 
 
+@pytest.mark.slow
 def test_there_are_fewer_pieces_than_in_a_grid_as_fine_as_the_outline() -> None:
     view, water = pool()
     found = bent(view, water, floor_in(view), EVERYWHERE, 1e-5)

@@ -39,6 +39,7 @@ def test_an_unknown_map_gets_its_nearest():
         map_colours("virdis", 4)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("by", "low", "high"),
     [("z", -1.0, 1.0), ("height", -1.0, 1.0), ("x*x", 0.0, 1.0), ("slope", 0.0, 90.0), (lambda p: p[:, 1], -1.0, 1.0)],
@@ -51,6 +52,7 @@ def test_the_bar_has_the_numbers_of_the_scene(by, low, high):
     assert [item.colour for item in scene.items] == list(bar.colours)
 
 
+@pytest.mark.slow
 def test_mean_curvature_of_a_ball_is_one_over_its_radius():
     scene, bar = coloured(vp.Scene((vp.Item("BALL", Sphere(2.0)),)), Colouring("curvature", steps=2))
     assert len(scene.items) <= 2
@@ -94,6 +96,7 @@ def test_numbers_of_a_box_stand_outside_of_its_picture_and_on_the_page(eye, name
     assert not any(one.intersects(other) for one, other in combinations(rooms.values(), 2))
 
 
+@pytest.mark.slow
 def test_edges_of_a_box_are_whole_beside_wide_numbers():
     saddle = vp.graph(lambda x, y: x * y, (-1.5, 1.5), (-1.5, 1.5))
     bare, numbered = (
@@ -129,6 +132,7 @@ def test_numbers_that_would_be_long_say_once_what_they_have_in_common(low, high,
     assert np.all(np.diff(found.values) > 0.0) and low <= found.values[0] and found.values[-1] <= high
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("surface", "said"),
     [
@@ -171,6 +175,7 @@ def _rooms(drawing):
     return found
 
 
+@pytest.mark.slow
 def test_all_verbs_have_bar_and_box():
     scene = vp.Scene(CUBE.items, colouring=Colouring("z", steps=4), box=BoxAxes())
     page = vp.Page(100, 80, 5)

@@ -66,6 +66,7 @@ def test_where_the_budget_does_all_shadows_are_as_they_were(pairs: float) -> Non
     assert np.array_equal(cast.shadows.points, every.points) and np.array_equal(cast.shadows.face, every.face)
 
 
+@pytest.mark.slow
 def test_one_roof_over_very_many_tiles_is_no_crowd() -> None:
     side = 150
     steps = np.stack(np.meshgrid(np.arange(side), np.arange(side), [0.0]), axis=-1).reshape(-1, 1, 3)

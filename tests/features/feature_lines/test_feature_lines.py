@@ -79,6 +79,7 @@ def test_on_the_side_of_a_suggestive_contour_the_normal_turns_to_the_eye_soonest
     assert len(points) and (values[1] < values[0]).all() and (values[1] < values[2]).all()
 
 
+@pytest.mark.slow
 def test_suggestive_contours_of_meshes_come_nearer_to_those_of_the_torus():
     sight = SIGHTS["central"]
     off = []
@@ -89,6 +90,7 @@ def test_suggestive_contours_of_meshes_come_nearer_to_those_of_the_torus():
     assert off[1] < 0.45 * off[0] and off[2] < 0.45 * off[1]
 
 
+@pytest.mark.slow
 def test_ridges_of_an_ellipsoid_lie_in_its_planes_of_symmetry():
     lines = surface_feature_lines(EGG, SIGHTS["central"], FEATURE_KINDS, Detail(), COARSE)
     ridge = lines[LineKind.RIDGE]
@@ -110,6 +112,7 @@ def test_ridges_of_an_implicit_ellipsoid_and_of_a_mesh_of_it_are_the_same():
         assert np.abs(ridge.points[:, 2]).max() < bound
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("kind", FEATURE_KINDS, ids=lambda kind: kind.word)
 def test_spheres_and_cylinders_have_no_feature_lines(kind):
     for surface in (surfaces.Sphere(2.0), surfaces.Cylinder(1.0)):
@@ -163,6 +166,7 @@ def test_feature_lines_are_the_same_at_any_size_and_place(scale, away):
             assert np.quantile(gap, 0.9) < 1e-6
 
 
+@pytest.mark.slow
 def test_more_detail_has_longer_lines_and_weak_ones_end():
     lengths = []
     for factor in (0.25, 1.0, 8.0):
@@ -176,6 +180,7 @@ def test_feature_lines_are_drawn_only_where_they_are_asked_for():
     assert not set(kind.word for kind in FEATURE_KINDS) & (set(DRAWN) | set(WIRES))
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", [TORUS, torus_mesh(24)], ids=["surface", "mesh"])
 def test_suggestive_contours_are_hidden_as_other_lines_are(shape):
     camera = vp.Camera(tuple(EYE), (0.0, 0.0, 0.0))

@@ -279,6 +279,7 @@ def test_apparent_contour_of_the_torus_has_four_cusps_in_closed_form():
     assert on_chord == pytest.approx(np.linalg.norm(end - begin, axis=1), rel=1e-2)
 
 
+@pytest.mark.slow
 def test_cusps_for_a_central_eye_are_those_of_both_equations_and_a_sphere_has_none():
     eye = np.array([6.0, 0.5, 2.0])
     one, two = ImplicitTorus(3, 1), ImplicitTorusByDistance(3, 1)
@@ -318,6 +319,7 @@ def test_a_user_function_without_derivatives():
     assert_same_curve(lines(implicit_contour(stacked, EYE)), lines(curves), 1e-2)
 
 
+@pytest.mark.slow
 @pytest.mark.spread
 @pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
 @pytest.mark.parametrize("offset", [0.0, 1e6])
@@ -340,6 +342,7 @@ def test_chords_keep_the_tolerance_where_the_picture_measures_it():
     assert len(p) < 1000
 
 
+@pytest.mark.slow
 def test_contour_in_view_takes_the_projection_of_the_camera():
     ball = implicit_sphere(1.0)
     central, parallel = (implicit_contour_in_view(ball, Camera((8.0, -3.0, 6.0), parallel=p)) for p in (False, True))

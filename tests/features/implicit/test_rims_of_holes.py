@@ -28,6 +28,7 @@ def test_the_rim_has_no_notches(cells: int) -> None:
     assert len(rims) == 1 and rims.closed.all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("power", [0.5, 0.6])
 def test_contours_beside_the_rim_have_no_gaps(power: float) -> None:
     found = implicit_contour(bowl(power), (4.0, -6.0, 3.0))

@@ -30,6 +30,7 @@ def dense(points):
     return (points[:-1] + t * (points[1:] - points[:-1])).reshape(-1, 3)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-field")
 def test_they_cover_a_surface_and_keep_apart():
     surface, apart = Cylinder(1.0, 0.0, 3.0), 0.25
@@ -60,6 +61,7 @@ SINKS = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", SINKS)
 def test_memory_is_bounded_where_curves_run_together(name):
     surface, field, apart = SINKS[name]
@@ -87,6 +89,7 @@ class _Plane:
         return (np.zeros((*np.shape(u), 3)),) * 3
 
 
+@pytest.mark.slow
 def test_what_winds_round_a_focus_is_not_followed_all_the_way():
     def inwards(points):
         x, y = points[:, 0], points[:, 1]
@@ -108,6 +111,7 @@ def _rolled(u, v):
     return np.stack([radius * np.cos(u), radius * np.sin(u), v], axis=-1)
 
 
+@pytest.mark.slow
 @pytest.mark.hard(50)
 def test_the_turns_of_a_rolled_sheet_do_not_keep_each_others_curves_away():
     sheet = surfaces.surface_of_function(_rolled, Domain(0.0, 6.0 * np.pi, 0.0, 2.0))
@@ -117,6 +121,7 @@ def test_the_turns_of_a_rolled_sheet_do_not_keep_each_others_curves_away():
     assert np.diff(at).max() * 1.3 < 0.95 and at[0] < 0.9 and at[-1] > 6.0 * np.pi - 0.9
 
 
+@pytest.mark.slow
 def test_the_same_curves_for_every_tolerance_and_in_every_picture():
     asked = (Sphere(), features.loxodromes(1.0), 0.6)
     one = evenly_spaced_curves(*asked, tracing=Tracing(tolerance=0.1))
@@ -129,6 +134,7 @@ def _ends(curves):
     return curves.points[curves.offsets[:-1]], curves.points[curves.offsets[1:] - 1]
 
 
+@pytest.mark.slow
 def test_every_verb_shows_the_same_lines(monkeypatch):
     from vectorplot.visibility.smooth.tracing import integral_items
 
@@ -154,6 +160,7 @@ def test_every_verb_shows_the_same_lines(monkeypatch):
     assert (plain.pixels != image.pixels).any(axis=-1).sum() > 100
 
 
+@pytest.mark.slow
 def test_what_is_near_is_so_on_the_same_sheet_and_for_a_line_not_a_little_before():
     flat = surfaces.graph(lambda x, y: 0.0 * x, Domain(-10, 10, -10, 10))
     ground = Ground(flat, charts(flat), 1.0)

@@ -27,6 +27,7 @@ def test_those_of_a_cylinder_are_straight_where_it_is_unrolled(size, most):
         assert np.abs(found[k][[0, -1]] - points_of(surface, *places)).max() < 1e-9 * size
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-field")
 def test_that_of_a_cone_is_straight_where_it_is_unrolled():
     surface, one, two = Cone(1.0, 0.0, 2.0), (0.0, 1.0), (1.5, 1.8)
@@ -43,6 +44,7 @@ def test_that_of_a_cone_is_straight_where_it_is_unrolled():
     assert np.abs(found[0][[0, -1]] - (p, q)).max() < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-field")
 def test_those_of_a_sphere_are_both_ways_round_and_between_opposite_places_one_of_many():
     ball, one, two = Sphere(), (0.3, 0.2), (1.7, -0.5)
@@ -56,6 +58,7 @@ def test_those_of_a_sphere_are_both_ways_round_and_between_opposite_places_one_o
     assert any("conjugate" in doubt for doubt in opposite.doubts)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-field")
 def test_those_of_a_torus_keep_clairauts_constant_and_meet_the_end():
     ring, places = Torus(3.0, 1.0), ((0.0, 0.0), (0.5, 1.0))
@@ -72,6 +75,7 @@ def test_those_of_a_torus_keep_clairauts_constant_and_meet_the_end():
     assert abs(inner - 0.8 * np.linalg.norm(points_of(ring, (0.0, np.pi))[0][:2])) < 1e-8
 
 
+@pytest.mark.slow
 def test_what_is_there_and_back_is_as_long():
     egg = Ellipsoid((3.0, 2.0, 1.4))
     there, back = (0.3, 0.2), (0.8, 0.5)
@@ -99,6 +103,7 @@ def test_there_is_none_where_none_is_short_enough_or_a_border_is_in_the_way():
     assert len(geodesics_between(Sphere(), (0.0, 0.0), (1.0, 0.0), longest=0.9)) == 0
 
 
+@pytest.mark.slow
 def test_a_long_limit_costs_no_more_where_there_are_enough_shorter_ones():
     torus = Torus(3.0, 1.0)
     short, far = (geodesics_between(torus, (0.1, 0.2), (2.0, 1.0), longest=longest) for longest in (20.0, 700.0))

@@ -209,6 +209,7 @@ def test_the_line_of_curvature_through_the_umbilics_goes_straight_on_through_all
     assert through.closed.all() and np.abs(y).max() < 1e-6 and x.max() > 2.99 and x.min() < -2.99 and np.ptp(z) > 1.99
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-field")
 def test_asymptotic_lines_are_the_rulings_and_end_where_the_surface_is_domed():
     saddle = HyperbolicParaboloid()
@@ -366,6 +367,7 @@ def test_curves_end_where_their_surface_is_cut(along):
     assert height.max() == pytest.approx(0.3, abs=1e-6) and height.max() <= 0.3
 
 
+@pytest.mark.slow
 def test_evenly_spaced_curves_keep_to_what_a_cut_leaves():
     bowl = CutSurface(Torus(2.0, 0.7), (HalfSpaces(((0.6, 0.8, 0.0),), (0.3,)),))
     found = features.evenly_spaced_curves(bowl, features.SteepestSlope(), 0.4)

@@ -27,6 +27,7 @@ def curves(shape, mesh):
     return found
 
 
+@pytest.mark.slow
 def test_a_plane_cuts_a_circle_out_of_a_sphere() -> None:
     found = curves(implicit_sphere(1.5), box((0.3, -3.0, -3.0), (3.0, 3.0, 3.0)))
     assert len(found) == 1 and found.closed.all()
@@ -52,6 +53,7 @@ def test_the_parametrised_form_gives_the_same_curves(equation, surface, mesh) ->
     assert hausdorff([found[k] for k in range(len(found))], [other[k] for k in range(len(other))]) < 10.0 * FINE
 
 
+@pytest.mark.slow
 def test_curves_end_on_the_sides_of_the_box() -> None:
     cut = Quadric([1.0, 1.0, 1.0, *[0.0] * 6, -1.0], np.array([[-1.2, -0.7, -1.2], [0.8, 1.2, 0.6]]))
     found = curves(cut, box((0.1, -3.0, -3.0), (3.0, 3.0, 3.0)))

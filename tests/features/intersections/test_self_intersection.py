@@ -50,6 +50,7 @@ def test_figure_eight_turned_about_an_axis_meets_itself_in_a_circle():
     assert abs(length(curves) - 3 * TURN) < 0.01
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G8.4-selfint")
 def test_figure_eight_on_a_screw_meets_itself_in_a_helix_from_border_to_border():
     def points(u, v):
@@ -141,6 +142,7 @@ def test_many_pinch_points_each_end_one_double_curve():
     assert np.abs(np.abs(curves.points[ends, 2]) - 1).max() < 1e-9
 
 
+@pytest.mark.slow
 @pytest.mark.hard(49)
 def test_double_curve_of_the_swallowtail_ends_in_its_tip():
     tail = surface_of_function(lambda u, v: (3 * v**4 + u * v * v, 4 * v**3 + 2 * u * v, u), SQUARE)

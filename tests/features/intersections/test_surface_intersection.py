@@ -236,6 +236,7 @@ class Unplaced:
     second_partials = property(lambda self: self.surface.second_partials)
 
 
+@pytest.mark.slow
 def test_many_pairs_at_once_have_the_curves_of_each_alone():
     rng = np.random.default_rng(3)
     wave = surface_of_function(lambda u, v: (u, v, 0.3 * np.sin(3 * u) * np.cos(2 * v)), Domain(-1, 1, -1, 1))

@@ -67,6 +67,7 @@ def bends_of(name):
     return [road[0][part[0] : part[-1] + 2, :2] for part in np.split(marks, np.flatnonzero(np.diff(marks) > 4) + 1)]
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.5-landscape")
 @pytest.mark.parametrize("name", CASES)
 def test_roads_lie_on_the_terrain_keep_their_slope_between_bends_and_come_to_their_end(name):
@@ -135,6 +136,7 @@ def test_legs_on_a_cone_are_logarithmic_spirals():
     assert tested >= 2
 
 
+@pytest.mark.slow
 def test_the_less_wide_a_road_is_the_more_bends_it_has():
     mesh, wide, _, _ = case("plane")
     narrow = features.serpentine(mesh, (0.3, -3.1), (-0.2, 3.2), SLOPE, radius=RADIUS, width=0.6)
@@ -143,6 +145,7 @@ def test_the_less_wide_a_road_is_the_more_bends_it_has():
     assert counts[0] > counts[1] >= 2
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("scale", "shift"), [(1e-5, 0.0), (1e4, 3e6)])
 def test_scale_and_place_do_not_matter(scale, shift):
     function, count, start, end, width = CASES["plane"]
@@ -155,6 +158,7 @@ def test_scale_and_place_do_not_matter(scale, shift):
     assert length[0] == pytest.approx(scale * length[1], rel=1e-6)
 
 
+@pytest.mark.slow
 def test_roads_down_are_those_up_and_there_may_be_none():
     mesh, road, _, _ = case("plane")
     _, _, start, end, width = CASES["plane"]
@@ -194,6 +198,7 @@ TEXT = """SLOPE terrain 0 0, 6 6 x 0 12 y 0 12 serpentine 2 1, 3 11 slope 10 rad
 """
 
 
+@pytest.mark.slow
 def test_words_of_scene_files_and_every_verb():
     scene = parse_scene(TEXT)
     assert scene.items[0].curves.terrain == (Serpentine((2, 1), (3, 11), 10.0, 0.4, 3.0),)

@@ -34,6 +34,7 @@ def slopes(points):
     return step[:, 2] / np.linalg.norm(step, axis=1)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.5-landscape")
 @pytest.mark.parametrize(("scale", "shift"), [(1.0, 0.0), (1e-5, 0.0), (1e4, 3e6)])
 def test_roads_keep_their_slope_and_come_to_their_end_on_both_sides(scale, shift):
@@ -48,6 +49,7 @@ def test_roads_keep_their_slope_and_come_to_their_end_on_both_sides(scale, shift
         assert np.allclose(road[[0, -1], :2], scale * np.array([start, end]) + shift, rtol=0, atol=1e-7 * scale + 1e-9)
 
 
+@pytest.mark.slow
 def test_roads_down_are_those_up_and_there_may_be_none():
     mesh = land(cone, count=17)
     up, down = features.roads(mesh, (3, 0.1), (0.2, 1)), features.roads(mesh, (0.2, 1), (3, 0.1))
@@ -82,6 +84,7 @@ def test_water_runs_down_to_pits_and_borders_and_is_steepest_on_its_way():
     assert (mesh.vertices[faces].min(axis=1)[:, 2] <= found.points[found.faces >= 0, 2] + 1e-12).all()
 
 
+@pytest.mark.slow
 def test_watersheds_lead_from_saddles_to_summits_and_valleys_to_pits():
     # Two summits, a saddle between them, and the ground falls everywhere else.
     mesh = land(lambda x, y: -((x**2 - 4) ** 2) / 8 - y**2)
@@ -111,6 +114,7 @@ def test_every_place_has_a_basin_and_its_pit_is_in_it():
     assert len(np.unique(features.basins(np.zeros((7, 9))))) == 1
 
 
+@pytest.mark.slow
 def test_labels_stand_on_straight_parts_and_apart():
     mesh = land(hills, count=41)
     lines = features.mesh_level_lines(mesh, np.linspace(-1, 1, 9))
@@ -133,6 +137,7 @@ TEXT = """HILLS terrain 0 1 0 0, 1 4 2 1, 0 2 6 1, 0 1 2 0 x 0 30 y 0 30 densifi
 """
 
 
+@pytest.mark.slow
 def test_words_of_scene_files():
     scene = parse_scene(TEXT)
     assert scene.bounds[1].tolist() == [30, 30, pytest.approx(3, abs=0.1)]

@@ -37,6 +37,7 @@ def test_saddles_of_any_order_are_no_tangles(order: int, place: tuple[float, flo
     assert not any("more finely" in text for text in found.doubts)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("power", [2, 4, 6])
 def test_lines_that_are_only_touched_are_no_tangles(power: int) -> None:
     found = zero_manifold_of_f_uv(lambda u, v: (u - 0.3 * v - 0.1) ** power, SQUARE, columns=32, rows=32)

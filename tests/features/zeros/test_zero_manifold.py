@@ -174,6 +174,7 @@ def test_chords_follow_a_waving_curve_between_two_grid_points():
     assert np.abs(fine[:, 1] - 0.05 * np.sin(20 * fine[:, 0])).max() < 2e-5
 
 
+@pytest.mark.slow
 @given(st.floats(0, np.pi), st.floats(-0.3, 0.3), st.floats(-0.3, 0.3))
 @settings(max_examples=examples(12))
 def test_the_two_lines_of_a_random_cross_meet_in_their_node(angle, a, b):

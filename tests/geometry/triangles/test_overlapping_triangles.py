@@ -1,6 +1,7 @@
 """Triangles of the plane that have inner points in common."""
 
 import numpy as np
+import pytest
 import shapely
 
 from vectorplot.geometry.triangles.overlapping_triangles import overlapping
@@ -10,6 +11,7 @@ def said(one, other):
     return overlapping(*(np.asarray(corners, dtype=np.float64).transpose(2, 1, 0) for corners in (one, other)))
 
 
+@pytest.mark.slow
 def test_they_agree_with_the_exact_predicates_on_random_triangles_and_on_a_grid():
     random = np.random.default_rng(3)
     for corners in (random.uniform(0.0, 3.0, (2, 4000, 3, 2)), random.integers(0, 4, (2, 4000, 3, 2)) / 4.0):

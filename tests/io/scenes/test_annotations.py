@@ -75,6 +75,7 @@ def centre_strokes(drawing):
     )
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("verb", [vp.draw, vp.paint])
 @pytest.mark.parametrize(
     "body", ["", "CAN red surface rod 2 points 5 5 5 5 5 9\n", "EGG red surface sphere 3 translation 5 5 5\n"]

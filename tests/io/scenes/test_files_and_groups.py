@@ -138,6 +138,7 @@ def test_mistakes_in_included_files_are_told_there(folder):
     assert (error.value.file.endswith("tree.scene"), error.value.line) == (True, 2)
 
 
+@pytest.mark.slow
 def test_neither_circles_nor_links_nor_long_chains_lead_out(folder, tmp_path_factory):
     (folder / "a.scene").write_text('include "b.scene"')
     (folder / "b.scene").write_text('include "a.scene"')

@@ -99,6 +99,7 @@ def test_mistakes_are_told_with_their_line(text, cause):
     assert cause in str(caught.value)
 
 
+@pytest.mark.slow
 def test_a_scene_is_exploded_where_it_is_shown_and_its_axes_stay():
     scene = parse_scene(f"{TWO} explode z 2 axes 3")
     apart = vp.exploded(parse_scene(f"{TWO} axes 3"), "z", 2)

@@ -165,6 +165,7 @@ def test_points_and_directions_on_polyhedra_move_with_them():
     assert flat.through == ((1.0, 0.5),) and np.isclose(flat.apart, 1.0)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-polyhedron")
 def test_they_are_hidden_on_polyhedra_as_rays_say_and_every_verb_shows_them():
     scene = parse_scene(

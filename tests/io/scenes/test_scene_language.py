@@ -341,6 +341,7 @@ def test_empty_text_is_an_empty_scene():
     assert parse_scene("").items == () and parse_scene(" \n# nothing\n").items == ()
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G3.L-mathobj")
 def test_objects_that_are_no_polyhedra_have_words_too():
     text = "\n".join(

@@ -110,6 +110,7 @@ def grid_text(land: Terrain) -> str:
     return head + "\n".join(rows)
 
 
+@pytest.mark.slow
 def test_every_verb_takes_a_file_of_heights(tmp_path):
     heights = hills()
     heights[20:24, 10:14] = np.nan

@@ -71,6 +71,7 @@ def test_surfaces_that_share_a_part_only_are_not_in_one_place() -> None:
     assert not are_in_one_place(Torus(1.4, 0.4), Torus(1.4, 0.4 + 1e-6))
 
 
+@pytest.mark.slow
 def test_of_turned_tori_the_last_one_is_painted_and_rendered() -> None:
     torus = Torus(1.4, 0.4)
     one, other = vp.Item("A", torus, "red"), vp.Item("B", turned(torus, 30.0), "blue")

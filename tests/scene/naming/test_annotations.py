@@ -101,6 +101,7 @@ def test_axes_that_are_seen_end_on_have_a_name_and_no_numbers(view: str, end_on:
     assert sorted(said) == sorted(expected)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("step", [1.0, 0.5, 0.1, 0.02])
 def test_numbers_at_ticks_that_are_close_are_left_out(step: float) -> None:
     drawing = vp.draw(vp.axes(6.0, ticks=step), vp.Camera.view("iso"), page="A6")

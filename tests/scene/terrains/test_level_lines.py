@@ -55,6 +55,7 @@ SHAPES = {
 }
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("shape", SHAPES)
 def test_index_lines_are_of_their_own_kind_on_every_shape(shape):
     lines = vp.SurfaceLines(sections=level_sections([-0.5, -0.25, 0.0, 0.25, 0.5], 2))

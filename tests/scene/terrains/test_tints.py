@@ -37,6 +37,7 @@ def test_bands_are_the_terrain_and_nothing_else(heights):
         assert area(band.shape).min() > 0
 
 
+@pytest.mark.slow
 def test_every_verb_shows_them_in_their_colours():
     scene = vp.Scene(tinted("HILLS", hills(13), [0.0], ["#204080", "#f0f0f0"]), (hill_light(),))
     camera = vp.Camera((3, 2, 20), (3, 2, 0), up=(0, 1, 0), parallel=True)

@@ -69,6 +69,7 @@ def test_corners_of_curves_stay_corners(placed, parallel):
     assert np.abs(chord[:, 0, 0] * chord[:, 2, 1] - chord[:, 0, 1] * chord[:, 2, 0]).max() < 1e-6
 
 
+@pytest.mark.slow
 def test_a_curve_of_many_pieces_loses_none():
     points = np.random.default_rng(0).normal(size=(400, 3))
     drawing = vp.draw(vp.Scene((vp.Item("TANGLE", spline_curve(points, AkimaSpline())),)), vp.Camera((8, -9, 14)))
@@ -76,6 +77,7 @@ def test_a_curve_of_many_pieces_loses_none():
     assert cKDTree(line).query(points)[0].max() < 1e-9, "its points are among those of the stroke"
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.3-isophote", "G9.3-sections")
 @pytest.mark.parametrize("scale", [1e-3, 1.0])
 def test_isophotes_and_sections_of_spline_surfaces_are_those_of_the_surface_itself(scale):

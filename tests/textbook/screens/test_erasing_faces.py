@@ -61,6 +61,7 @@ def in_space(view: View, points: np.ndarray) -> np.ndarray:
     return np.stack([*(points[:2] * depth / view.focus + view.eye[:2, None]), view.eye[2] - depth])
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G7.1-screen-hl")
 @pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("seed", range(6))

@@ -101,6 +101,7 @@ def test_what_is_in_front_comes_later_always(seed: int, parallel: bool, make) ->
     assert wrong_pairs(view, painters_order(view, known=known_orders(scene, view)).faces) == 0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("parallel", [False, True])
 def test_what_else_is_in_the_picture_is_compared_and_only_that(monkeypatch, parallel: bool) -> None:
     compared = []

@@ -218,6 +218,7 @@ def test_a_floor_that_reaches_behind_the_eye():
     assert_right(scene, Camera((0, -1, 1.0), (0, 4, 0.5)), 2000)
 
 
+@pytest.mark.slow
 def test_neighbours_follow_each_other_where_nothing_is_between() -> None:
     random = np.random.default_rng(0)
     turn = np.linspace(0.0, 6.0 * np.pi, 400)
@@ -256,6 +257,7 @@ def test_faces_that_pierce_each_other_too_often_are_cut_as_often_as_the_budget_a
     assert set(some.faces.source) == set(whole.faces.source)
 
 
+@pytest.mark.slow
 def test_of_shapes_that_overlap_in_too_many_pairs_only_these_are_in_order_by_depth_and_they_are_named():
     random = np.random.default_rng(3)
     # Needles through one line of sight, a plate behind them, and boxes beside them.

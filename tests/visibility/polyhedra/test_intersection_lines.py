@@ -34,6 +34,7 @@ def visible_length(drawing: vp.Drawing) -> dict[int, float]:
     return length
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("lines", [LINES, "crease,intersection"])
 @pytest.mark.parametrize("eye", [(9.0, -7.0, 6.0), (2.0, -20.0, 2.0)])
 def test_visible_lines_are_those_that_are_visible_of_all_lines(eye: tuple[float, float, float], lines: str) -> None:

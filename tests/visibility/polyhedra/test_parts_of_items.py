@@ -33,6 +33,7 @@ def points_of(drawing: vp.Drawing) -> list[tuple[float, float]]:
     return sorted({tuple(p) for layer in drawing.layers for m in layer.marks for p in np.round(m.points, 6).tolist()})
 
 
+@pytest.mark.slow
 def test_large_meshes_meet_whether_they_are_items_or_pieces_of_one_beside_small_ones_or_alone() -> None:
     assert BALL.face_count >= MANY_FACES
     two = points_of(drawn(BALL, FAR))

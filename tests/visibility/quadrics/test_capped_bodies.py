@@ -136,6 +136,7 @@ def length_of(drawing, kind, hidden_by=0):
     return total
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES[:3])
 def test_visible_lines_are_the_lines_hidden_by_nothing(case):
     scene, camera, _, _, drawing = drawn(*case)
@@ -247,6 +248,7 @@ def test_bodies_on_a_ground_are_drawn_in_closed_form():
     assert 0 in rims
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("upwards", [True, False])
 def test_what_lies_beyond_an_apex_is_not_inside_of_the_cone(upwards):
     # In the other half of the double cone, in front of the base.
@@ -297,6 +299,7 @@ def test_equal_bodies_are_drawn_once_and_stacked_ones_touch():
     assert forms_of(stacked, camera).items == {0, 1}
 
 
+@pytest.mark.slow
 def test_what_has_no_closed_form_is_a_surface_like_any_other():
     camera = Camera((30, -24, 9), (0, 0, 0))
     can, far = Item("a", Capped(Cylinder())), Item("far", Sphere(1.0, (16, 0, 0)))
@@ -327,6 +330,7 @@ def test_what_lies_under_a_body_is_hidden_by_it():
             assert (np.hypot(middle[:, 0], middle[:, 1]) > 0.5).all()
 
 
+@pytest.mark.slow
 def test_glass_bodies_hide_nothing_and_creases_leave_as_arcs():
     glass = Item("glass", Capped(Cylinder(2.0, 0.0, 3.0)), material=Material("transparent"))
     core = Item("core", Capped(Cone.standing(1.0, 2.0, (0, 0, 0.5))))

@@ -107,6 +107,7 @@ def test_every_point_is_hidden_by_as_many_items_as_rays_meet(case):
     assert (counts[sure] == truth.hidden_by[sure]).all()
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("case", CASES)
 def test_contours_are_hidden_by_as_many_others_as_rays_meet(case):
     _, camera, balls, boxes, drawing = drawn(*case)

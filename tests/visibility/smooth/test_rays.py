@@ -48,6 +48,7 @@ def test_a_sphere_hides_its_own_lower_half() -> None:
     assert np.array_equal(found > 0, points[:, 2] < 0.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(4))
 def test_sight_lines_close_to_outlines_meet_a_torus_as_often_as_in_closed_form(seed: int) -> None:
     rng = np.random.default_rng(seed)

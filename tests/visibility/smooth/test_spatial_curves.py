@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from vectorplot.features.implicit.implicit_conditions import ImplicitIsophote, MeetsPlane
 from vectorplot.features.parametric.curve_tracing import Tracing
@@ -127,6 +128,7 @@ def test_a_parametrised_sphere_meets_what_is_in_the_box_of_an_implicit_one() -> 
     assert (found.sheet == 0).all() and (found.second_sheet == 1).all()
 
 
+@pytest.mark.slow
 def test_implicit_spheres_meet_within_both_boxes() -> None:
     view = view_of(CUT)
     ball = implicit_sphere(1.0, (0.3, 0.2, 0.5))

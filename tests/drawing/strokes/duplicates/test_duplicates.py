@@ -97,6 +97,7 @@ def test_world_points_are_cut_where_the_page_is():
     assert np.allclose(cut[0], 45.0 * (cut[2] - 1.0))
 
 
+@pytest.mark.slow
 @pytest.mark.hard(25)
 def test_hundreds_of_strokes_on_top_of_each_other_become_one_in_finite_time():
     x = np.linspace(0, 200, 201)

@@ -164,6 +164,7 @@ def test_neither_the_order_nor_the_directions_given_matter(count):
     assert np.array_equal(ordered(ends).points, ordered(shuffled).points)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [2.0**-20, 2.0**20])
 def test_scale_does_not_matter(factor):
     ends = random_ends(500, 9)
@@ -184,6 +185,7 @@ def test_twenty_thousand_strokes_and_a_few_take_no_time_to_speak_of():
     assert min(seconds(5) for _ in range(5)) < 0.008
 
 
+@pytest.mark.slow
 def test_ordering_does_not_import_scipy():
     code = (
         "import sys; from vectorplot.drawing.strokes.pen_order.order import pen_ordered;"
@@ -228,6 +230,7 @@ def test_strokes_of_several_layers_that_touch_are_not_linked():
         assert travel_mm(part) < 4.0
 
 
+@pytest.mark.slow
 def test_thousands_of_layers_take_hardly_longer_than_one():
     paths, layer = layered(6000, 3000)
     whole = cpu_seconds(lambda: pen_ordered(paths), 2)

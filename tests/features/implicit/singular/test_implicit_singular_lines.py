@@ -155,6 +155,7 @@ def test_what_has_none_has_none() -> None:
         assert not len(found(implicit(text, 0.9))), text
 
 
+@pytest.mark.slow
 def test_refined_lines_keep_the_tolerance() -> None:
     lines = found_of(HUNT, 5.0)
     curves = refined_line(lines.edge_equations, lines.edges, ImplicitTracing(tolerance=1e-4))

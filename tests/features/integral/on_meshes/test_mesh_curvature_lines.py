@@ -103,6 +103,7 @@ def off_half_right(n):
     return max(found)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-polyhedron")
 @pytest.mark.parametrize(
     ("off", "sizes", "order"), [(off_egg, (8, 24), 1.0), (off_rulings, (24, 48), 1.8), (off_half_right, (24, 48), 1.8)]
@@ -112,6 +113,7 @@ def test_they_come_near_those_of_the_smooth_shape_on_finer_meshes(off, sizes, or
     assert fine < coarse * (sizes[0] / sizes[1]) ** order and fine < 0.1
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-polyhedron")
 def test_on_a_ring_they_run_around_it_and_around_its_tube():
     around, up = off_ring(ring_mesh(24))
@@ -163,6 +165,7 @@ def test_planes_balls_and_cubes_have_none_and_say_so(noise, offset):
             assert known.mean() <= (0.04 if noise > 0.0 or mesh.face_count > 200 else 0.0)
 
 
+@pytest.mark.slow
 def test_a_plate_says_that_it_has_none_in_files_and_hatched():
     for text in ("PLATE box 3 2 0.1 curvature_lines 1\n", "PLATE gray box 3 2 0.1 hatch even along curvature\n"):
         with pytest.warns(InputWarning, match="PLATE: no lines of curvature: it is flat, or round as a ball") as told:
@@ -172,6 +175,7 @@ def test_a_plate_says_that_it_has_none_in_files_and_hatched():
         vp.draw(parse_scene("PLATE box 3 2 0.1 asymptotic_lines 1\n"), "iso", lines="integral")
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-polyhedron")
 def test_evenly_spaced_ones_follow_their_field_and_end_after_a_round():
     mesh = ring_mesh(16)
@@ -245,6 +249,7 @@ def test_senseless_fields_are_told():
         PrincipalDirections().tangents(features.FaceSites(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])))
 
 
+@pytest.mark.slow
 @pytest.mark.filterwarnings("ignore::vectorplot.errors.InputWarning")
 @pytest.mark.parametrize("name", ["spot", "fandisk"])
 def test_models_have_lines_on_what_bends_and_none_on_what_is_flat(name):

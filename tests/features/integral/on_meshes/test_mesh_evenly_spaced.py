@@ -66,6 +66,7 @@ def test_mistakes_about_them_are_told():
     assert len(features.evenly_spaced_mesh_curves(Mesh.from_polygons(CUBE.vertices, []), slope, 0.1)) == 0
 
 
+@pytest.mark.slow
 def test_every_part_of_a_mesh_of_many_is_covered_with_one_even_family_a_face():
     away = 4.0 * np.stack(np.meshgrid(np.arange(5), np.arange(5), [0.0]), axis=-1).reshape(-1, 3)
     count = len(CUBE.vertices)

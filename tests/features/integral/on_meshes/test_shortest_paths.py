@@ -31,6 +31,7 @@ def from_bottom_to_top(one, two):
     return min(found)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-polyhedron")
 def test_on_a_cube_they_are_as_long_as_on_its_best_unfolding():
     rng = np.random.default_rng(5)
@@ -79,6 +80,7 @@ def subdivided(mesh):
     return Mesh.from_triangles(np.vstack([mesh.vertices, mesh.vertices[edges].mean(axis=1)]), np.concatenate(parts))
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-polyhedron")
 @pytest.mark.spread
 @pytest.mark.parametrize("seed", range(3))
@@ -110,6 +112,7 @@ def test_on_rough_ground_with_holes_they_do_not_depend_on_its_triangles_and_are_
     assert_geodesic([ways[k] for k in range(len(ways))], mesh, 1e-5)
 
 
+@pytest.mark.slow
 @pytest.mark.capability("G9.4-polyhedron")
 def test_on_finer_and_finer_balls_they_come_near_great_circles():
     errors = []
@@ -138,6 +141,7 @@ def test_mistakes_about_them_are_told():
     assert np.isinf(mesh_distances(two, (0, 0, 1))[8:]).all()
 
 
+@pytest.mark.slow
 def test_what_is_done_is_told_grows_and_ends_the_work():
     told, early = [], []
     ends = [(0.9, 0.1, 0.2), (0.1, -0.9, 0.3)]

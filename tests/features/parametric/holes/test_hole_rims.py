@@ -38,6 +38,7 @@ def test_a_dome_ends_in_a_circle(size, away):
     assert turn[-1] > turn[0] + 6.0
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("function", "rims"),
     [
@@ -74,6 +75,7 @@ def test_triangles_are_cut_where_the_hole_begins():
     assert len(cut.rims) == 2 and np.allclose(cut.places[cut.rims][..., 0], 0.25) and cut.of.tolist() == [0, 1, 1]
 
 
+@pytest.mark.slow
 def test_the_facets_of_a_dome_follow_its_rim():
     found = facets(dome(), Within(lambda points: np.full(points.shape[:-1], 5e-3)))
     points, triangles = found.mesh.vertices, found.mesh.corners.reshape(-1, 3)

@@ -65,6 +65,7 @@ def test_neighbours_of_different_sizes_share_their_vertices(name, eye):
     assert len(np.unique(edges, axis=0)) == len(edges), "and turn the same way"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("tolerance", [0.02, 0.2])
 def test_the_outline_of_a_ball_is_within_the_tolerance(tolerance):
     camera = Camera(eye=(8.0, -16.0, 11.0), target=(0.0, 0.0, 0.0), fov_deg=26.0)

@@ -112,6 +112,7 @@ def test_random_heaps_show_the_same(seed, opacity):
             assert old.tolist() == new.tolist(), (x, y)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("seed", range(3))
 def test_where_sheets_take_too_much_work_what_is_left_shows_the_same_polygon_by_polygon(seed):
     random = np.random.default_rng(seed)

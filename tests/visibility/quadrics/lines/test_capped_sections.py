@@ -132,6 +132,7 @@ def test_sections_lie_in_their_planes_and_on_their_bodies(eye, parallel, oblique
         assert np.abs(heights).max(axis=2).min(axis=0).max() < 1e-12
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("oblique", "view"), [(False, 1), (True, 0)])
 def test_sections_are_all_there_and_hidden_by_what_rays_meet(oblique, view):
     eye, parallel = VIEWS[view]

@@ -51,6 +51,7 @@ def ellipse(a, b):
     return 4.0 * max(a, b) * ellipe(1.0 - (min(a, b) / max(a, b)) ** 2)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(("angle", "scale"), [(10.0, 1.0), (40.0, 1e-6), (90.0, 1.0), (90.0, 1e6)])
 def test_equal_cylinders_meet_in_two_ellipses_that_cross(angle, scale):
     half = np.radians(angle) / 2.0
@@ -60,6 +61,7 @@ def test_equal_cylinders_meet_in_two_ellipses_that_cross(angle, scale):
     assert length(curves) / scale == pytest.approx(truth, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_rods_of_a_chain_meet_in_their_mitre_and_their_ends_in_a_line():
     joint = np.zeros(3)
     bent = curves_of(rod((-3, 0, 0), joint, 0.5), rod(joint, (0, -3, 0), 0.5))
@@ -67,6 +69,7 @@ def test_rods_of_a_chain_meet_in_their_mitre_and_their_ends_in_a_line():
     assert length(bent) == pytest.approx(0.5 * ellipse(0.5, 0.5 * np.sqrt(2.0)) + 1.0, rel=1e-4)
 
 
+@pytest.mark.slow
 def test_a_cap_in_a_rod_that_it_stands_across_is_met_in_straight_lines():
     inside = curves_of(rod((-2, 0, 0), (2, 0, 0), 0.5), rod((0, 0, 0.3), (0, 0, 3), 0.2))
     across = curves_of(rod((-2, 0, 0), (2, 0, 0), 0.5), rod((0, 0, 0.45), (0, 0, 3), 0.3))
@@ -91,6 +94,7 @@ def test_a_body_inside_of_another_one_even_on_its_floor_meets_it_nowhere(shapes)
     assert not curves_of(*shapes)
 
 
+@pytest.mark.slow
 def test_coaxial_cones_meet_in_a_circle():
     curves = curves_of(Capped(Cone.standing(1.0, 2.0)), Capped(Cone.standing(0.8, 3.0)))
     # The radii 1 - z/2 and .8 (1 - z/3) are equal where z = 6/7.
@@ -98,11 +102,13 @@ def test_coaxial_cones_meet_in_a_circle():
     assert np.abs(np.concatenate(curves)[:, 2] - 6.0 / 7.0).max() < 1e-9
 
 
+@pytest.mark.slow
 def test_caps_that_cross_meet_in_the_line_they_share():
     tilted, flat = rod((0.3, 0, 0), (0.3 + 3, 0, 3), 0.5), Capped(Cylinder(2.0, -1.0, 0.0))
     assert length_where(curves_of(tilted, flat), lambda p: np.hypot(p[:, 0] - 0.3, p[:, 2])) == pytest.approx(1.0)
 
 
+@pytest.mark.slow
 def test_a_cut_that_only_just_is_one_is_found():
     # A plane that leaves a thousandth of a cylinder, and a ball that comes as little out of it.
     thin = curves_of(rod((-2, 0, 0), (2, 0, 0), 0.5), rod((0, 0, 0.4995), (0, 0, 3), 1.0))

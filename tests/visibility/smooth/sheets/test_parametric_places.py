@@ -70,6 +70,7 @@ def test_at_right_angles_to_the_rim_of_a_hole() -> None:
     assert ((inner * (out[:, :1] * along_u + out[:, 1:] * along_v)).sum(axis=1) > 0.0).all()
 
 
+@pytest.mark.slow
 def test_a_rim_with_a_vertical_tangent_is_left_straight_up() -> None:
     surface = surface_of_function(lambda u, v: (u, v, np.sqrt(0.6 - u * u - 2.0 * v * v)), SQUARE)
     sheet = sheet_of(surface)

@@ -26,6 +26,7 @@ def test_no_triangle_is_farther_off_its_surface_than_it_and_its_neighbours_are_l
     assert sheet.sags.max() > 1e-4
 
 
+@pytest.mark.slow
 def test_sheets_made_together_are_those_made_alone() -> None:
     """Tori of which some take finer grids, surfaces of functions, one with a hole and one that jumps."""
     rng = np.random.default_rng(3)
