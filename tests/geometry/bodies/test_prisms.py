@@ -112,6 +112,17 @@ def test_holes_that_are_none_are_refused(holes, said):
         prism(PLATE, UP, holes=holes)
 
 
+@pytest.mark.slow
+def test_a_grating_has_a_thousand_holes_and_none_has_too_many():
+    corners = np.array([(0, 0, 0), (32, 0, 0), (32, 32, 0), (0, 32, 0)])
+    holes = [regular_polygon(6, 0.4, centre=(x + 0.5, y + 0.5, 0)) for x in range(32) for y in range(32)]
+    body = prism(corners, UP / 6, holes=holes)
+    assert is_closed_oriented(body)
+    assert body_record(body).volume == pytest.approx(32 * 32 * (1 - area(0.4, 6)), rel=1e-9)
+    with pytest.raises(InputError, match="5120 holes, expected at most 5000"):
+        prism(corners, UP, holes=holes * 5)
+
+
 def test_hollow_plates_have_all_of_a_cap_or_nothing_of_it():
     hole = regular_polygon(6, 5, centre=(20, 20, 0))
     body = prism(PLATE, UP, caps=("top",), holes=[hole])
@@ -119,6 +130,7 @@ def test_hollow_plates_have_all_of_a_cap_or_nothing_of_it():
     assert body.present[~caps].all() and (body.present[caps] == (body.face_normals[caps, 2] > 0)).all()
 
 
+@pytest.mark.slow
 def test_lines_of_a_plate_are_its_outline_and_rims_and_hidden_as_rays_see_them():
     holes = [regular_polygon(48, 9, centre=(30, 20, 0)), PLATE / 10 + (8, 8, 0)]
     scene = vp.Scene((vp.Item("PLATE", prism(PLATE, UP, holes=holes)),))

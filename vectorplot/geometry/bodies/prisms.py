@@ -18,6 +18,9 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_extent import FLAT_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
+MOST_HOLES = 5000
+"""Round ones of 48 sides take ten seconds, and more than twice as long where they are twice as many."""
+
 
 def prism(
     base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = BOTH_CAPS, holes: Sequence[ArrayLike] = ()
@@ -33,8 +36,8 @@ def prism(
     caps : collection of {"bottom", "top"}
         Which of them are present.
     holes : sequence of (h, 3) array_like of float
-        Polygons in the plane of the base, inside of it and apart from each other, either way round; holes go through
-        the body. regular_polygon makes round ones.
+        Polygons in the plane of the base, inside of it and apart from each other, either way round, at most 5000; holes
+        go through the body. regular_polygon makes round ones.
 
     Returns
     -------
@@ -47,7 +50,7 @@ def prism(
     ------
     InputError
         For fewer than three points, points that are not finite, a vector in the plane of the base; for a hole that is
-        not in the plane of the base, reaches beyond it or into another one.
+        not in the plane of the base, reaches beyond it or into another one; for too many of them.
 
     Warns
     -----
@@ -126,6 +129,8 @@ def area_vector(points: ArrayLike) -> Floats:
 
 def _checked_holes(base: Floats, normal: Floats, holes: Sequence[ArrayLike]) -> list[Floats]:
     """The holes (h,3), clockwise about the normal of the base."""
+    if len(holes) > MOST_HOLES:
+        raise InputError(f"{len(holes)} holes, expected at most {MOST_HOLES}")
     found = []
     for number, points in enumerate(holes, 1):
         hole = checked_points(points, f"hole {number}: its corners")
