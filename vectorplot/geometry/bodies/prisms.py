@@ -127,10 +127,15 @@ def area_vector(points: ArrayLike) -> Floats:
     return np.asarray(np.cross(arm, np.roll(arm, -1, axis=0)).sum(axis=0))
 
 
+def check_hole_count(count: int) -> None:
+    """Errors: InputError for more holes than a prism has."""
+    if count > MOST_HOLES:
+        raise InputError(f"{count} holes, expected at most {MOST_HOLES}")
+
+
 def _checked_holes(base: Floats, normal: Floats, holes: Sequence[ArrayLike]) -> list[Floats]:
     """The holes (h,3), clockwise about the normal of the base."""
-    if len(holes) > MOST_HOLES:
-        raise InputError(f"{len(holes)} holes, expected at most {MOST_HOLES}")
+    check_hole_count(len(holes))
     found = []
     for number, points in enumerate(holes, 1):
         hole = checked_points(points, f"hole {number}: its corners")
@@ -209,7 +214,8 @@ def regular_polygon(
         raise InputError("the normal of a regular polygon has no length")
     angle = 2.0 * np.pi / count * np.arange(count)
     around = np.column_stack([np.cos(angle), np.sin(angle)])
-    return np.asarray(middle + radius * around @ np.stack(_level_axes(up / length)))
+    first, second = plane_axes(up / length)
+    return np.asarray(middle + radius * around @ np.stack([-second, first]))
 
 
 def _vector(numbers: ArrayLike, what: str) -> Floats:
@@ -217,11 +223,3 @@ def _vector(numbers: ArrayLike, what: str) -> Floats:
     if vector.shape != (3,) or not np.isfinite(vector).all():
         raise InputError(f"{what} must be three finite numbers")
     return vector
-
-
-def _level_axes(normal: Floats) -> tuple[Floats, Floats]:
-    """Two unit vectors across a normal, right-handed with it, the first one level; x where all are."""
-    level = np.array([-normal[1], normal[0], 0.0])
-    length = float(np.linalg.norm(level))
-    x = level / length if length > ZERO_OF_EXTENT else np.array([1.0, 0.0, 0.0])
-    return x, np.cross(normal, x)

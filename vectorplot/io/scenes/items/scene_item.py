@@ -12,7 +12,14 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.bodies.bodies_of_revolution import FULL_TURN, revolution
-from vectorplot.geometry.bodies.prisms import NOT_PLANAR, area_vector, is_planar, regular_polygon, swept_polygon
+from vectorplot.geometry.bodies.prisms import (
+    NOT_PLANAR,
+    area_vector,
+    check_hole_count,
+    is_planar,
+    regular_polygon,
+    swept_polygon,
+)
 from vectorplot.geometry.bodies.solids import (
     BOTH_CAPS,
     BOTTOM,
@@ -255,6 +262,7 @@ def _holes(draft: Draft, base: Floats) -> list[Floats]:
     normal = area_vector(base)
     if not normal.any():
         return []
+    check_hole_count(len(draft.bores) + len(draft.cutouts))
     for *_, radius in draft.bores:
         if not radius > 0.0:
             raise InputError(f"a bore of radius {radius:g}: expected more than 0")
