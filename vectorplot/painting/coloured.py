@@ -13,7 +13,7 @@ from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay, fills_on_page, stacked
 from vectorplot.geometry.budget import Budget
 from vectorplot.painting.painted_paper import background, paper
-from vectorplot.painting.seen import Seen, finer, shades_of_faces
+from vectorplot.painting.seen import Seen, finer, off_surfaces, shades_of_faces
 from vectorplot.painting.shade_errors import shade_error_steps
 from vectorplot.painting.stepped import stepped
 from vectorplot.scene.pages.page import Page
@@ -35,7 +35,7 @@ def coloured(
     walk.measured("shades", "of 255", shade_error_steps, seen, lighting)
     seen, shades, whole = stepped(seen, lighting, shades)
     aura = aura_mm / seen.placement.scale
-    decals, lighting = _decals(walk, seen, lighting, aura, budget)
+    decals, lighting = _decals(walk, seen, lighting, aura, tolerance_mm, budget)
     laid = _laid(seen, lighting, decals)
     overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm, budget)
     painted = walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
@@ -45,7 +45,7 @@ def coloured(
 
 
 def _decals(
-    walk: Walk, seen: Seen, lighting: Lighting, aura: float, budget: Budget
+    walk: Walk, seen: Seen, lighting: Lighting, aura: float, tolerance_mm: float, budget: Budget
 ) -> tuple[tuple[Decals, ...], Lighting]:
     """The polygons that lie on faces, in the order in which they are painted."""
     scene, view, projected = seen.scene, seen.view, seen.projected
@@ -53,7 +53,8 @@ def _decals(
     if walk.calls_for("shadows"):
         from vectorplot.effects.decals.scene_decals import scene_shadows
 
-        found.append(walk.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, budget))
+        off = off_surfaces(seen, tolerance_mm)
+        found.append(walk.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, off, budget))
     if walk.calls_for("mirror light"):
         from vectorplot.effects.decals.scene_decals import scene_mirror_light
 
@@ -103,9 +104,10 @@ def _overlays(
 
         shown = mirrors(seen.scene, seen.view, seen.projected)
         borders = aura if walk.calls_for("shadows") else None
+        off = off_surfaces(seen, tolerance_mm)
 
         def decals_of(number: int, there: Lighting, which: Bools) -> tuple[Decals, ...]:
-            return double_decals(seen.scene, seen.view, shown, number, there, which, borders, budget)
+            return double_decals(seen.scene, seen.view, shown, number, there, which, borders, off, budget)
 
         found.append(
             walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placement)

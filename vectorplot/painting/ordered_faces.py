@@ -20,7 +20,7 @@ from vectorplot.painting.reports import (
     warn_of_guesses,
     warn_of_single_polygons,
 )
-from vectorplot.painting.seen import Seen, without_unseen_facets
+from vectorplot.painting.seen import Seen, smooth_items, without_unseen_facets
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of
@@ -107,7 +107,8 @@ def seen_on_page(walk: Walk, ordered: OrderedFaces, placement: Placement, budget
         faces = sheets.faces
     plane = plane_numbers(view)
     faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
-    return Seen(facets.scene, view, projected, shown_faces(faces, placement), placement), plane
+    shown = shown_faces(faces, placement)
+    return Seen(facets.scene, view, projected, shown, placement, smooth_items(facets)), plane
 
 
 def _with_clear_items(scene: Scene) -> Scene:

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from vectorplot.arrays import Bools
+from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals
 from vectorplot.geometry.budget import USUAL, Budget
@@ -25,11 +25,13 @@ def scene_shadows(
     lights: Sequence[Light],
     projected: ProjectedFaces,
     aura: float,
+    off: Floats,
     budget: Budget = USUAL,
     receivers: Bools | None = None,
 ) -> Decals:
-    """The shadows of opaque items, of every grade, with soft borders of some width in the image; receivers (f,): the
-    faces that they may fall on (None: all). An InputWarning names the items (i,) for which the budget did not do."""
+    """The shadows of opaque items, of every grade, with soft borders of some width in the image; off (i,): how far the
+    faces of items may be off the surfaces that they stand for; receivers (f,): the faces that they may fall on (None:
+    all). An InputWarning names the items (i,) for which the budget did not do."""
     from vectorplot.effects.shadows.missing_shadows import tell_missing_shadows
     from vectorplot.effects.shadows.shadow_borders import shadow_borders
     from vectorplot.effects.shadows.shadow_decals import cast_within
@@ -39,7 +41,7 @@ def scene_shadows(
     # Light goes through what is transparent: there patterns show shadows, and nothing else.
     shows = np.array([item.material.opacity >= 1.0 or bool(item.patterns) for item in items], dtype=np.bool_)
     shown = shows[view.face_item] if receivers is None else receivers & shows[view.face_item]
-    cast = cast_within(view, lights, budget.pairs, receivers=shown, projected=projected)
+    cast = cast_within(view, lights, budget.pairs, receivers=shown, projected=projected, off=off)
     tell_missing_shadows(items, lights, cast.left_out)
     # Borders are made of the regions that cells are made of.
     single = cast.shadows if aura == 0.0 else united_shadows(view, cast.shadows)

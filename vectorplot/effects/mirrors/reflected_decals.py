@@ -25,13 +25,14 @@ def double_decals(
     lighting: Lighting,
     shown: Bools,
     aura: float | None,
+    off: Floats,
     budget: Budget = USUAL,
 ) -> tuple[Decals, ...]:
     """The decals on the doubles of faces shown (f,), in the double of the view: those of a mirrored scene in mirrored
     light, of which the same holds as of the scene.
 
     lighting: as it is in the mirror; aura: the width of soft borders in the image, None where lights cast no shadows;
-    budget: of the work on these.
+    off (i,) as of scene_shadows; budget: of the work on these.
     Source: Glaeser, section 6.4.
     """
     mirrored = doubled(view, mirrors, number)
@@ -41,7 +42,7 @@ def double_decals(
     if lights and aura is not None:
         from vectorplot.effects.decals.scene_decals import scene_shadows
 
-        found.append(scene_shadows(mirrored, scene.items, lights, projected, aura, budget, shown))
+        found.append(scene_shadows(mirrored, scene.items, lights, projected, aura, off, budget, shown))
     if any(item.patterns for item in scene.items):
         from vectorplot.effects.decals.pattern_decals import pattern_decals
         from vectorplot.effects.decals.scene_decals import shadowed_patterns

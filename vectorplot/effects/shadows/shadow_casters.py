@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -22,6 +23,7 @@ class Casters:
     volumes: the planes of what each keeps dark: the cone of rays through its outline, as far as it lies behind all its
     faces; item (k,): of the scene; face (g,): the faces of the view that they show the light, caster (g,), ascending:
     whose they are. No face of a convex body lies behind all others that are lit: the body never shadows its outside.
+    known: of pairs (n,) of items and faces of the view, those whose shadows come from elsewhere.
     Source: Glaeser, section 6.3, figure 5.
     """
 
@@ -29,6 +31,7 @@ class Casters:
     item: Ints
     face: Ints
     caster: Ints
+    known: Callable[[Ints, Ints], Bools] | None = None
 
     def __len__(self) -> int:
         return len(self.item)
@@ -40,7 +43,9 @@ class Casters:
         number[which] = np.arange(len(which))
         own = np.flatnonzero(number[self.caster] >= 0)
         volumes = PlaneBundles(self.volumes.planes[:, position], first)
-        return Casters(volumes, self.item[which], self.face[own], number[self.caster[own]])
+        return replace(
+            self, volumes=volumes, item=self.item[which], face=self.face[own], caster=number[self.caster[own]]
+        )
 
 
 def shadow_casters(
@@ -56,15 +61,20 @@ def shadow_casters(
     whole = items & solids & lit
     of_solid = np.flatnonzero(whole[view.face_item] & (facing > 0))
     loose = items & ~whole
-    outwards = _outwards(view, planes)
-    one_sided = closed_items(view) & ~_near_light(view, system) & (outwards != 0.0)
-    towards = facing * outwards[view.face_item]
-    alone = np.flatnonzero(loose[view.face_item] & (facing != 0) & (~one_sided[view.face_item] | (towards > 0.0)))
+    one_sided, turned = turned_to_light(view, planes, system, facing)
+    alone = np.flatnonzero(loose[view.face_item] & (facing != 0) & (~one_sided[view.face_item] | turned))
     item, owner = np.unique(view.face_item[of_solid], return_inverse=True)
     face = np.concatenate([of_solid, alone])
     caster = np.concatenate([owner, len(item) + np.arange(len(alone))])
     volumes = _volumes(view, planes, system, facing, of_solid, alone, caster)
     return Casters(volumes, np.concatenate([item, view.face_item[alone]]), face, caster)
+
+
+def turned_to_light(view: View, planes: FacePlanes, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
+    """(i,) closed items that the light is outside of, and (f,) the faces that they turn to it."""
+    outwards = _outwards(view, planes)
+    one_sided = closed_items(view) & ~_near_light(view, system) & (outwards != 0.0)
+    return one_sided, np.asarray(one_sided[view.face_item] & (facing * outwards[view.face_item] > 0.0))
 
 
 def _near_light(view: View, system: LightSystem) -> Bools:

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.shadows.light_system import FacePlanes, LightSystem, light_system
+from vectorplot.effects.shadows.lit_bodies import LitBodies, lit_bodies
 from vectorplot.effects.shadows.shadow_casters import Casters, shadow_casters
 from vectorplot.effects.shadows.shadow_grades import Shadows, graded, joined_shadows, shadow_decals_of
 from vectorplot.effects.shadows.shadow_pairs import Receivers, apart, candidates, crowds
@@ -67,15 +68,19 @@ def cast_within(
     casters: Bools | None = None,
     receivers: Bools | None = None,
     projected: ProjectedFaces | None = None,
+    off: Floats | None = None,
 ) -> Cast:
     """The shadows as of cast_shadows, but for those of one item on one, in one light, for which more than so many pairs
-    would have to be looked at (see shadow_pairs.crowds)."""
+    would have to be looked at (see shadow_pairs.crowds). off (i,): how far the faces of items may be off the surfaces
+    that they stand for (None: not at all, they are polyhedra); so far may borders of shadows be from those that the
+    faces throw."""
     if len(lights) > MOST_LIGHTS:
         raise InputError(f"{len(lights)} lights cast shadows: at most {MOST_LIGHTS} can")
     projected = project_faces(view) if projected is None else projected
     items = view.occludes if casters is None else np.asarray(casters, dtype=np.bool_)
     solids = solid_items(replace(view, occludes=items), projected, most_faces=MOST_FACES)
     planes = FacePlanes.of(view)
+    off = np.zeros(len(items)) if off is None else off
     seen = drawn_faces(view, projected)
     seen = seen if receivers is None else seen[receivers[seen]]
     found, missing = [], [np.zeros((3, 0), dtype=np.intp)]
@@ -83,20 +88,55 @@ def cast_within(
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
         lit = seen[facing[seen] * projected.facing[seen] > 0]
-        dark = shadow_casters(view, planes, system, facing, items, solids)
         bright = Receivers.of(view, lit)
-        crowded = crowds(view, system, dark, bright, pairs)
-        missing.append(np.insert(crowded, 0, number, axis=0))
-        parts = [_of_light(view, system, *some, number) for some in apart(view, dark, bright, crowded)]
-        found.append(parts[0] if len(parts) == 1 else joined_shadows(parts).without_needless())
+        bodies = lit_bodies(view, planes, system, facing, items & ~solids, off)
+        outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
+        alone = items.copy()
+        alone[bodies.casters.item] = False
+        still = ~np.isin(bright.face, outlined.face[outlined.whole])
+        parts = [outlined]
+        for some, on in ((alone, still), (open_items, still & open_receivers)):
+            casters = replace(shadow_casters(view, planes, system, facing, some, solids), known=bodies.settle)
+            under = bright.some(np.flatnonzero(on))
+            crowded = crowds(view, system, casters, under, pairs)
+            missing.append(np.insert(crowded, 0, number, axis=0))
+            parts += [_of_faces(view, system, *each, number) for each in apart(view, casters, under, crowded)]
+        found.append(joined_shadows(parts).without_needless())
     return Cast(joined_shadows(found), np.concatenate(missing, axis=1))
 
 
-def _of_light(view: View, system: LightSystem, casters: Casters, receivers: Receivers, number: int) -> Shadows:
-    """The shadows that the casters throw on the receivers; on a face that one of them darkens whole, only that one."""
+def _of_outlines(
+    view: View, system: LightSystem, bodies: LitBodies, receivers: Receivers, number: int
+) -> tuple[Shadows, Bools, Bools]:
+    """The shadows that bodies throw with their outlines; the items (i,) and the receivers (r,) of pairs for which these
+    do not do."""
+    items, on = np.zeros(len(view.item_vertices) - 1, dtype=np.bool_), np.zeros(len(receivers.face), dtype=np.bool_)
+
+    def beyond() -> Iterator[tuple[Ints, Ints]]:
+        for caster, receiver in candidates(view, system, bodies.casters, receivers):
+            item, face = bodies.casters.item[caster], receivers.face[receiver]
+            settled = bodies.settle(item, face)
+            items[item[~settled]] = True
+            on[receiver[~settled]] = True
+            others = np.flatnonzero(settled & (view.face_item[face] != item))
+            yield caster[others], receiver[others]
+
+    return _thrown(view, bodies.casters, receivers, beyond(), number), items, on
+
+
+def _of_faces(view: View, system: LightSystem, casters: Casters, receivers: Receivers, number: int) -> Shadows:
+    """The shadows that casters throw on receivers."""
+    return _thrown(view, casters, receivers, candidates(view, system, casters, receivers), number)
+
+
+def _thrown(
+    view: View, casters: Casters, receivers: Receivers, pairs: Iterable[tuple[Ints, Ints]], number: int
+) -> Shadows:
+    """The shadows of pairs of casters and receivers, lot by lot; on a face that one of them darkens whole, only that
+    one."""
     parts = []
     dark = np.zeros(len(receivers.face), dtype=np.bool_)
-    for caster, receiver in candidates(view, system, casters, receivers):
+    for caster, receiver in pairs:
         light = np.flatnonzero(~dark[receiver])
         caster, receiver = caster[light], receiver[light]
         found = shadow_crossings(view, casters, receivers, caster, receiver)

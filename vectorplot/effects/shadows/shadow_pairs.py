@@ -71,8 +71,12 @@ def candidates(
         if len(lot) > 1:
             key = np.unique(caster * len(receivers.face) + receiver)
             caster, receiver = np.divmod(key, len(receivers.face))
+        looked = len(caster)
+        if casters.known is not None:
+            open_still = np.flatnonzero(~casters.known(casters.item[caster], receivers.face[receiver]))
+            caster, receiver = caster[open_still], receiver[open_still]
         yield caster, receiver
-        count = int(np.clip(count * PAIRS_AT_ONCE / max(len(caster), 1), 1, 8 * count))
+        count = int(np.clip(count * PAIRS_AT_ONCE / max(looked, 1), 1, 8 * count))
 
 
 @dataclass(frozen=True, eq=False)
