@@ -88,19 +88,19 @@ def cast_within(
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
         lit = seen[facing[seen] * projected.facing[seen] > 0]
-        bright = Receivers.of(view, lit)
         bodies = lit_bodies(view, planes, system, facing, items & ~solids, off)
+        bright = Receivers.of(view, lit)
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()
         alone[bodies.casters.item] = False
         still = ~np.isin(bright.face, outlined.face[outlined.whole])
         parts = [outlined]
         for some, on in ((alone, still), (open_items, still & open_receivers)):
-            casters = replace(shadow_casters(view, planes, system, facing, some, solids), known=bodies.settle)
+            dark = replace(shadow_casters(view, planes, system, facing, some, solids), known=bodies.settle)
             under = bright.some(np.flatnonzero(on))
-            crowded = crowds(view, system, casters, under, pairs)
+            crowded = crowds(view, system, dark, under, pairs)
             missing.append(np.insert(crowded, 0, number, axis=0))
-            parts += [_of_faces(view, system, *each, number) for each in apart(view, casters, under, crowded)]
+            parts += [_of_faces(view, system, *each, number) for each in apart(view, dark, under, crowded)]
         found.append(joined_shadows(parts).without_needless())
     return Cast(joined_shadows(found), np.concatenate(missing, axis=1))
 

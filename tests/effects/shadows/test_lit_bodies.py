@@ -1,0 +1,119 @@
+"""Bodies that lights see as one convex region: which these are, and that rays confirm what their outlines keep dark."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.blocked_lights import wrong_points
+
+import vectorplot as vp
+from vectorplot.effects.shadows.light_system import FacePlanes, light_system
+from vectorplot.effects.shadows.lit_bodies import LitBodies, lit_bodies
+from vectorplot.effects.shadows.shadow_decals import cast_within, shadow_decals
+from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View, look
+from vectorplot.surfaces import Sphere
+from vectorplot.testing.curved_meshes import bumpy_icosphere, torus_mesh
+from vectorplot.testing.shapes import box
+from vectorplot.visibility.painter.image_faces import drawn_faces
+from vectorplot.visibility.projected_faces import project_faces
+
+LAMPS = (Light((1.0, 0.4, 6.0)), Light((0.6, -0.2, 1.0), parallel=True), Light((0.1, 0.2, 2.1)))
+
+
+def ball(x: float, y: float, z: float, radius: float = 1.0, bump: float = 0.0) -> Mesh:
+    """A ball of 1,280 triangles: more than a solid that is checked to be convex may have."""
+    mesh = bumpy_icosphere(3, bump)
+    return Mesh(radius * mesh.vertices + np.array([x, y, z]), mesh.corners, mesh.offsets)
+
+
+def view_of_meshes(*meshes: Mesh) -> View:
+    return look(Scene(tuple(Item(f"body{k}", mesh) for k, mesh in enumerate(meshes))), Camera((8, -9, 12), (0, 0, 0)))
+
+
+def bodies_of(view: View, light: Light, off: float = 0.0) -> LitBodies:
+    planes, system = FacePlanes.of(view), light_system(view, light)
+    facing = system.facing(planes, view.tolerance)
+    return lit_bodies(view, planes, system, facing, view.occludes, np.full(len(view.occludes), off))
+
+
+@pytest.mark.parametrize("light", LAMPS)
+def test_balls_are_bodies_and_what_has_a_hole_or_two_parts_or_bumps_is_none(light: Light) -> None:
+    near, far = ball(0, 0, 0), ball(0.2, 0.1, -3)
+    both = Mesh.from_triangles(
+        np.concatenate([near.vertices, far.vertices]),
+        np.concatenate([some.corners.reshape(-1, 3) + start for some, start in ((near, 0), (far, len(near.vertices)))]),
+    )
+    view = view_of_meshes(ball(3, 0, 0), torus_mesh(), both, ball(-3, 0, 0, bump=0.15), ball(0, 3, -1, 0.3))
+    bodies = bodies_of(view, light)
+    assert bodies.casters.item.tolist() == [0, 4]
+    assert bodies.number.tolist() == [0, -1, -1, -1, 1]
+
+
+@pytest.mark.parametrize("light", LAMPS)
+def test_dents_no_deeper_than_faces_are_off_are_filled(light: Light) -> None:
+    mesh = ball(0, 0, 0)
+    flutes = 1.0 + 0.02 * np.cos(8.0 * np.arctan2(mesh.vertices[:, 1], mesh.vertices[:, 0]))
+    view = view_of_meshes(Mesh(mesh.vertices * flutes[:, None], mesh.corners, mesh.offsets))
+    assert len(bodies_of(view, light, 1e-4).casters) == 0
+    assert len(bodies_of(view, light, 0.1).casters) == 1
+
+
+def heap(size: float, place: float) -> Scene:
+    """Balls in front of each other, that touch, and that pierce each other, on a floor and above it."""
+    meshes = [
+        box((-6, -6, -2), (6, 6, -1)),
+        ball(0, 0, 0),
+        ball(0.9, 0.3, 1.5, 0.6),
+        ball(-1.6, 0.4, -0.2, 0.8),
+        ball(-1.9, -0.6, 0.3, 0.6),
+        ball(1.2, -1.6, -0.5, 0.5),
+    ]
+    return Scene(
+        tuple(
+            Item(f"item{k}", Mesh(size * mesh.vertices + place, mesh.corners, mesh.offsets))
+            for k, mesh in enumerate(meshes)
+        )
+    )
+
+
+@pytest.mark.slow
+@pytest.mark.capability("G6.3-convex-cast")
+@pytest.mark.parametrize(("size", "place"), [(1.0, 0.0), (1e-6, 0.0), (1.0, 1e5)])
+def test_shadows_of_balls_of_many_faces_are_where_rays_say(size: float, place: float) -> None:
+    lights = tuple(
+        light if light.parallel else Light(tuple(size * np.array(light.position) + place)) for light in LAMPS
+    )
+    camera = Camera(tuple(size * np.array((8, -9, 12)) + place), (place,) * 3)
+    view = look(heap(size, place), camera)
+    seen = drawn_faces(view, project_faces(view))
+    decals = shadow_decals(view, lights)
+    wrong, answered = wrong_points(view, lights, decals, seen, 500, 3)
+    assert wrong == 0 and answered > 350 and len(decals) > 100
+
+
+def test_a_floor_has_one_shadow_of_each_ball_and_a_face_none_twice() -> None:
+    view = look(heap(1.0, 0.0), Camera((8, -9, 12), (0, 0, 0)))
+    cast = cast_within(view, LAMPS[1:2], np.inf).shadows
+    assert np.count_nonzero(view.face_item[cast.face] == 0) == 5
+    beyond = np.bincount(cast.face[cast.whole], minlength=view.face_count)
+    assert beyond.max() == 1
+
+
+@pytest.mark.slow
+def test_smooth_balls_throw_less_shadows_than_they_have_facets() -> None:
+    balls = (Sphere(1.0, (0, 0, 0)), Sphere(1.0, (0.0, 0.0, -2.5)))
+    scene = vp.Scene(tuple(vp.Item(f"ball{k}", some, "gray") for k, some in enumerate(balls)), lights=(LAMPS[1],))
+    counts: dict[str, int] = {}
+    vp.paint(
+        scene,
+        vp.Camera((9, -4, 2), (0, 0, -1.2)),
+        page="A6",
+        lines="none",
+        explain=lambda report: counts.setdefault(report.name, report.count) and None,
+    )
+    assert 0 < counts["shadows"] < counts["unseen facets"] / 2
