@@ -42,7 +42,7 @@ def bodies_of(view: View, light: Light, off: float = 0.0) -> LitBodies:
 
 
 @pytest.mark.parametrize("light", LAMPS)
-def test_balls_are_bodies_and_what_has_a_hole_or_two_parts_or_bumps_is_none(light: Light) -> None:
+def test_balls_are_convex_for_lights_and_what_has_a_hole_or_two_parts_or_bumps_is_not(light: Light) -> None:
     near, far = ball(0, 0, 0), ball(0.2, 0.1, -3)
     both = Mesh.from_triangles(
         np.concatenate([near.vertices, far.vertices]),
@@ -50,8 +50,9 @@ def test_balls_are_bodies_and_what_has_a_hole_or_two_parts_or_bumps_is_none(ligh
     )
     view = view_of_meshes(ball(3, 0, 0), torus_mesh(), both, ball(-3, 0, 0, bump=0.15), ball(0, 3, -1, 0.3))
     bodies = bodies_of(view, light)
+    assert bodies.item.tolist() == [0, 1, 2, 3, 4]
+    assert bodies.convex.tolist() == [True, False, False, False, True]
     assert bodies.casters.item.tolist() == [0, 4]
-    assert bodies.number.tolist() == [0, -1, -1, -1, 1]
 
 
 @pytest.mark.parametrize("light", LAMPS)

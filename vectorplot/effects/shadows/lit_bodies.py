@@ -1,4 +1,4 @@
-"""Bodies that a light sees as one convex region: they keep it from what lies beyond them by their outlines alone."""
+"""Bodies that keep light from what lies beyond them as a whole: by their outlines, not face by face."""
 
 from __future__ import annotations
 
@@ -9,69 +9,106 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.shadows.light_system import FacePlanes, LightSystem
+from vectorplot.effects.shadows.lit_outlines import (
+    axes_towards,
+    covered,
+    directions,
+    hulls,
+    image_of,
+    meets_once,
+    outlines,
+    reach,
+)
 from vectorplot.effects.shadows.shadow_casters import Casters, turned_to_light
+from vectorplot.effects.shadows.shadow_pairs import Receivers
 from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, planes_of
 from vectorplot.geometry.mesh import next_positions
-from vectorplot.geometry.regions import POLYGON
+from vectorplot.geometry.regions import polygons_of
 from vectorplot.scene.view import View
-
-LEAST_COSINE = 0.1
-"""Of the angle between the rays through a body's middle and through its corners: images of what is seen at a wider one
-are too large to be measured."""
 
 GOLDEN = (5.0**0.5 - 1.0) / 2.0
 """Multiples of the golden section, without whole turns, never come near each other: so planes are put in order."""
 
-HALF = 0.5
-"""Rays meet all of the lit faces of a body once if these are as large, in the image of the light, as what is inside the
-outline, give or take this part: what they meet twice counts two times."""
-
 
 @dataclass(frozen=True, eq=False)
 class LitBodies:
-    """Closed bodies whose faces that are turned to a light are met by its rays once, in a convex region.
+    """Closed bodies, and what a light sees of them.
 
     A ray that meets a face turned to the light enters the body there: as often as the outline of these faces runs
-    around the ray. Where the outline keeps near the border of its convex hull, this number is the same all over the
-    hull. Such a body never shadows its own lit faces; what lies beyond it is dark in the cone of rays through the hull.
+    around the ray. What lies beyond the body is dark where that is once or more. Where the outline keeps near the
+    border of its convex hull, and runs around it once, the body is convex for the light: it never shadows its own lit
+    faces, and all that lies beyond it in the cone of rays through the hull is dark.
 
-    view: whose items and faces these are; casters: those cones, and the faces of the bodies that are lit; number (i,):
-    which body an item is, -1 for none; far (k,): the greatest distances of their lit corners from the light, or along
-    its rays; near (f,): the least ones of the faces of the view, or less; box (2,3,k): smallest and largest coordinates
-    along the world's axes; ball (4,k): middles and radii of balls around them; lit_side (4,f): the planes of the faces,
-    with normals to the side of the light.
+    casters: those cones, with the faces of these bodies that are lit; number (i,): which body an item is, -1 for none;
+    item (k,): the items; convex (k,): whether for the light; regions (k,): what the others cover in its image, nothing
+    where it has several; depths: how far away bodies and faces are.
     """
 
     view: View
+    system: LightSystem
     casters: Casters
     number: Ints
+    item: Ints
+    convex: Bools
+    regions: Any
+    depths: Depths
+
+    def settle(self, item: Ints, face: Ints) -> Bools:
+        """(n,) of pairs of items and faces those for which the shadow of the item is that of its cone, or none: the
+        face is one of its own, or lies beyond it."""
+        body = self.number[item]
+        result = np.zeros(len(item), dtype=np.bool_)
+        known = np.flatnonzero(body >= 0)
+        known = known[self.convex[body[known]]]
+        body, face = body[known], face[known]
+        result[known] = (self.view.face_item[face] == item[known]) | self.depths.beyond(body, face)
+        return result
+
+    def within(self, receivers: Receivers) -> Ints:
+        """(n,) the receivers all of which is in the shadow of a body that is not convex for the light."""
+        import shapely
+
+        filled = np.flatnonzero(~shapely.is_empty(self.regions))
+        if not len(filled) or not len(receivers.face):
+            return np.zeros(0, dtype=np.intp)
+        points = receivers.points if self.system.parallel else receivers.points - self.system.position[:, None]
+        x, y, away = self.system.axes[0] @ points
+        flat = np.stack([x, y]) if self.system.parallel else np.stack([x, y]) / away
+        tree = shapely.STRtree(polygons_of(flat, receivers.offsets))
+        body, receiver = tree.query(self.regions[filled], predicate="contains")
+        return np.unique(receiver[self.depths.beyond(filled[body], receivers.face[receiver])])
+
+
+@dataclass(frozen=True, eq=False)
+class Depths:
+    """How far away k bodies and the faces of a view are, from a light or along its rays.
+
+    far (k,): the greatest distances of lit corners; near (f,): the least ones of faces, or less; box (2,3,k): smallest
+    and largest coordinates along the world's axes; ball (4,k): middles and radii of balls around bodies; lit_side
+    (4,f): the planes of the faces, with normals to the side of the light.
+    """
+
+    view: View
     far: Floats
     near: Floats
     box: Floats
     ball: Floats
     lit_side: Floats
 
-    def settle(self, item: Ints, face: Ints) -> Bools:
-        """(n,) of pairs of items and faces those for which the shadow of the item is that of its cone, or none: the
-        face is one of its own, or is farther away on every ray, or the whole body lies on the lit side of it."""
-        body = self.number[item]
-        known = np.flatnonzero(body >= 0)
-        result = np.zeros(len(item), dtype=np.bool_)
-        body, face, item = body[known], face[known], item[known]
+    def beyond(self, body: Ints, face: Ints) -> Bools:
+        """(n,) of pairs of bodies and faces those in which every ray that meets both comes to the body first: the face
+        is farther away than all of it, or the body lies on the lit side of the face."""
         tolerance = self.view.tolerance
-        settled = self.view.face_item[face] == item
-        settled |= self.near[face] >= self.far[body] - tolerance
+        result = self.near[face] >= self.far[body] - tolerance
         a, b, c, d = self.lit_side[:, face]
         x, y, z, radius = self.ball[:, body]
-        settled |= a * x + b * y + c * z - radius >= d - tolerance
+        result |= a * x + b * y + c * z - radius >= d - tolerance
         normal = self.view.axes.T @ self.lit_side[:3, face]
-        settled |= (np.where(normal > 0.0, self.box[0][:, body], self.box[1][:, body]) * normal).sum(
-            axis=0
-        ) >= d - tolerance
-        result[known] = settled
-        return result
+        lowest = np.where(normal > 0.0, self.box[0][:, body], self.box[1][:, body])
+        result |= (lowest * normal).sum(axis=0) >= d - tolerance
+        return np.asarray(result, dtype=np.bool_)
 
 
 def lit_bodies(
@@ -86,112 +123,27 @@ def lit_bodies(
     _, turned = turned_to_light(view, planes, system, facing)
     face = np.flatnonzero(turned & items[view.face_item])
     item, body = np.unique(view.face_item[face], return_inverse=True)
-    axes = _axes_towards(view, system, face, body, len(item))
-    far, narrow = _reach(view, system, face, body, axes)
-    start, end, of = _outlines(view, face, body)
-    ends = np.stack([_image(view, system, axes, some, of) for some in (start, end)])
-    hull, corners, first = _hulls(ends.transpose(1, 0, 2).reshape(2, -1), np.tile(of, 2), len(item))
+    axes = axes_towards(view, system, face, body, len(item))
+    far, narrow = reach(view, system, face, body, axes)
+    start, end, of = outlines(view, face, body)
+    ends = np.stack([image_of(view, system, axes, some, of) for some in (start, end)])
+    hull, corners, first = hulls(ends.transpose(1, 0, 2).reshape(2, -1), np.tile(of, 2), len(item))
     slack = view.tolerance + off[item]
-    once = narrow & _meets_once(ends, of, hull, slack if system.parallel else slack / far)
-    kept = np.flatnonzero(once)
+    convex = narrow & meets_once(ends, of, hull, slack if system.parallel else slack / far)
+    kept = np.flatnonzero(convex)
     position, first = ragged.take(first, kept)
     volumes = PlaneBundles(_cones(system, axes, corners[:, position], first, kept), first)
-    own = np.flatnonzero(once[body])
-    number = np.full(len(view.item_vertices) - 1, -1, dtype=np.intp)
-    number[item[kept]] = np.arange(len(kept))
+    own = np.flatnonzero(convex[body])
     casters = Casters(volumes, item[kept], face[own], np.searchsorted(kept, body[own]))
-    box, ball = _bounds(view, item[kept])
-    lit_side = planes.planes * facing
-    return LitBodies(view, casters, number, far[kept], _nearest(view, planes, system), box, ball, lit_side)
-
-
-def _directions(view: View, system: LightSystem, vertex: Ints) -> Floats:
-    """(3,n) vertices, seen from a light that has a place."""
-    points = view.points[:, vertex]
-    return points if system.parallel else points - system.position[:, None]
-
-
-def _axes_towards(view: View, system: LightSystem, face: Ints, body: Ints, count: int) -> Floats:
-    """(3,3,k) right, up and away from the light, one behind the other, of an image of each body."""
-    if system.parallel:
-        return np.repeat(system.axes[0][:, :, None], count, axis=2)
-    first = _directions(view, system, view.corners[view.offsets[face]])
-    away = np.stack([np.bincount(body, row, minlength=count) for row in first])
-    away = away / np.sqrt((away * away).sum(axis=0))
-    least = np.argmin(np.abs(away), axis=0)
-    right = cross(np.eye(3)[:, least], away)
-    right /= np.sqrt((right * right).sum(axis=0))
-    return np.stack([right, cross(away, right), away])
-
-
-def _reach(view: View, system: LightSystem, face: Ints, body: Ints, axes: Floats) -> tuple[Floats, Bools]:
-    """(k,) the greatest distance of a corner of each body, as of LitBodies, and whether all of it is seen at angles
-    whose images are not too large."""
-    position, offsets = ragged.take(view.offsets, face)
-    points = _directions(view, system, view.corners[position])
-    starts = offsets[np.flatnonzero(np.diff(body, prepend=-1))] if len(face) else offsets[:0]
-    away = (axes[2][:, np.repeat(body, np.diff(offsets))] * points).sum(axis=0)
-    if system.parallel:
-        return np.maximum.reduceat(away, starts) if len(starts) else away, np.ones(len(starts), dtype=np.bool_)
-    distance = np.sqrt((points * points).sum(axis=0))
-    narrow = np.logical_and.reduceat(away >= LEAST_COSINE * distance, starts) if len(starts) else away > 0.0
-    return np.maximum.reduceat(distance, starts) if len(starts) else away, narrow
-
-
-def _outlines(view: View, face: Ints, body: Ints) -> tuple[Ints, Ints, Ints]:
-    """(s,) first and last vertices of the sides of faces of bodies (n,) that are not sides of others of these, with the
-    face on their left, and of which body each is."""
-    position, offsets = ragged.take(view.offsets, face)
-    start, end = view.corners[position], view.corners[view.after(position)]
-    low, high = np.minimum(start, end), np.maximum(start, end)
-    order = np.lexsort((high, low))
-    low, high, forth = low[order], high[order], np.where(start < end, 1, -1)[order]
-    begins = np.flatnonzero((np.diff(low, prepend=-1) != 0) | (np.diff(high, prepend=-1) != 0))
-    more = np.add.reduceat(forth, begins) if len(begins) else forth
-    # A side that is there more often one way than the other is a border as often.
-    often = np.repeat(np.arange(len(begins)), np.abs(more))
-    side = begins[often]
-    turned = more[often] < 0
-    of = np.repeat(body, np.diff(offsets))[order[side]]
-    return np.where(turned, high[side], low[side]), np.where(turned, low[side], high[side]), of
-
-
-def _image(view: View, system: LightSystem, axes: Floats, vertex: Ints, of: Ints) -> Floats:
-    """(2,n) vertices in the images of the bodies that they are of."""
-    points = _directions(view, system, vertex)
-    right, up, away = (axes[:, :, of] * points).sum(axis=1)
-    flat = np.stack([right, up])
-    return flat if system.parallel else flat / away
-
-
-def _hulls(points: Floats, of: Ints, count: int) -> tuple[Any, Floats, Ints]:
-    """The convex hulls of the points (2,n) of each body, and their corners (2,c) counter-clockwise, first (k+1,)."""
-    import shapely
-
-    order = np.argsort(of, kind="stable")
-    hull = shapely.convex_hull(shapely.multipoints(points.T[order], indices=of[order], out=np.full(count, None)))
-    filled = shapely.get_type_id(hull) == POLYGON
-    hull = np.where(filled, hull, shapely.Polygon())
-    corners, owner = shapely.get_coordinates(shapely.orient_polygons(hull), return_index=True)
-    # The last corner is the first one once more.
-    inner = np.diff(owner, append=-1) == 0
-    return hull, corners[inner].T, ragged.offsets(np.bincount(owner[inner], minlength=count))
-
-
-def _meets_once(ends: Floats, of: Ints, hull: Any, slack: Floats) -> Bools:
-    """(k,) whether outlines with sides from ends (2,2,s), of bodies (s,), run once around every point of the hulls that
-    is not within the slack (k,) of the border."""
-    import shapely
-
-    border, area = shapely.boundary(hull), shapely.area(hull)
-    # How far inside the hull a point is, is concave along a side: at most twice as far as in its middle.
-    deep = np.zeros(len(hull))
-    for point, times in zip((*ends, ends.mean(axis=0)), (1.0, 1.0, 2.0), strict=True):
-        np.maximum.at(deep, of, times * shapely.distance(shapely.points(point.T), border[of]))
-    (x, y), (u, v) = ends
-    around = 0.5 * np.abs(np.bincount(of, x * v - y * u, minlength=len(hull)))
-    wide = area > 2.0 * slack * shapely.length(border)
-    return np.asarray(wide & (deep <= slack) & (np.abs(around - area) <= HALF * area), dtype=np.bool_)
+    number = np.full(len(view.item_vertices) - 1, -1, dtype=np.intp)
+    number[item] = np.arange(len(item))
+    other = np.flatnonzero(~convex[of] & ~system.windowed)
+    same = np.repeat(system.axes[0][:, :, None], len(item), axis=2)
+    sides = np.stack([image_of(view, system, same, some[other], of[other]) for some in (start, end)])
+    regions = covered(sides, of[other], len(item), view.tolerance)
+    box, ball = _bounds(view, item)
+    depths = Depths(view, far, _nearest(view, planes, system), box, ball, planes.planes * facing)
+    return LitBodies(view, system, casters, number, item, convex, regions, depths)
 
 
 def _cones(system: LightSystem, axes: Floats, corners: Floats, first: Ints, body: Ints) -> Floats:
@@ -226,11 +178,11 @@ def _bounds(view: View, item: Ints) -> tuple[Floats, Floats]:
 
 
 def _nearest(view: View, planes: FacePlanes, system: LightSystem) -> Floats:
-    """(f,) the least distances of faces, as of LitBodies, or less: no point of a convex polygon is nearer than the
+    """(f,) the least distances of faces, as of Depths, or less: no point of a convex polygon is nearer than the
     square root of what is left of the square of its nearest corner without half that of its extent."""
     if not view.face_count:
         return np.zeros(0)
-    points = _directions(view, system, view.corners)
+    points = directions(view, system, view.corners)
     if system.parallel:
         return np.asarray(np.minimum.reduceat(-(system.position @ points), view.offsets[:-1]))
     square = np.minimum.reduceat((points * points).sum(axis=0), view.offsets[:-1])

@@ -92,9 +92,10 @@ def cast_within(
         bright = Receivers.of(view, lit)
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()
-        alone[bodies.casters.item] = False
-        still = ~np.isin(bright.face, outlined.face[outlined.whole])
-        parts = [outlined]
+        alone[bodies.item[bodies.convex]] = False
+        inside = _whole(bright.some(bodies.within(bright)), number)
+        parts = [joined_shadows([outlined, inside]).without_needless()]
+        still = ~np.isin(bright.face, parts[0].face[parts[0].whole])
         for some, on in ((alone, still), (open_items, still & open_receivers)):
             dark = replace(shadow_casters(view, planes, system, facing, some, solids), known=bodies.settle)
             under = bright.some(np.flatnonzero(on))
@@ -122,6 +123,13 @@ def _of_outlines(
             yield caster[others], receiver[others]
 
     return _thrown(view, bodies.casters, receivers, beyond(), number), items, on
+
+
+def _whole(receivers: Receivers, number: int) -> Shadows:
+    """The shadows of receivers that are dark as a whole."""
+    count = len(receivers.face)
+    lacking = np.full(count, 1 << number, dtype=np.intp)
+    return Shadows(receivers.points, receivers.offsets, receivers.face, lacking, np.ones(count, dtype=np.bool_))
 
 
 def _of_faces(view: View, system: LightSystem, casters: Casters, receivers: Receivers, number: int) -> Shadows:
