@@ -27,7 +27,11 @@ PAGE, PEN, DPI = vp.Page(120.0, 90.0, 5.0), Pen(0.3), 100.0
 ROUGH = 0.1
 """Tolerance in mm: lines and facets are off by a fifth of a pixel."""
 STEP = 80
-"""Ink may differ by so many of 255: lines are cut into parts, whose ends are round."""
+"""Ink may be missing by so many of 255: lines are cut into parts, whose ends are round."""
+
+MORE = 255.0 * (1.0 - PEN.width_mm / 25.4 * DPI / 2.0)
+"""There may be more ink by so many of 255 than a line leaves in two rows of pixels, each half of its width: parts that
+lie over one another, as those of sections seen from the side, darken both."""
 
 MOST = 60
 """Items of a scene that are enough to hide one another: of a town some of the houses."""
@@ -75,9 +79,12 @@ def cameras(scene: Scene) -> list[Camera]:
 @pytest.mark.parametrize("path", scenes_to_try(), ids=lambda path: path.stem)
 def test_what_painting_leaves_of_the_lines_are_the_exact_lines(path: Path) -> None:
     scene = vp.read(path)
-    # Letters and hatches are strokes that lie on top.
+    # Letters, the lines that go with them, and hatches are strokes that lie on top.
     every = several(1 + len(scene.items) // MOST, long=1)
-    bare = tuple(replace(item, hatch=None) for item in scene.items[::every])
+    bare = tuple(
+        replace(item, hatch=None, lines=None if item.lines == ("label",) else item.lines)
+        for item in scene.items[::every]
+    )
     scene = replace(scene, items=bare, labels=())
     views = cameras(scene)
     # Each scene from a side of its own.
@@ -87,4 +94,4 @@ def test_what_painting_leaves_of_the_lines_are_the_exact_lines(path: Path) -> No
         missing = wanted - grey_dilation(left, 3)
         extra = left - grey_dilation(wanted, 3)
         assert wanted.any()
-        assert missing.max() <= STEP and extra.max() <= STEP, number
+        assert missing.max() <= STEP and extra.max() <= MORE, number

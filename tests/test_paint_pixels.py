@@ -38,7 +38,7 @@ FAMILIES = {
     "hulls": lambda random: random_convex_solids(12, int(random.integers(1 << 20))),
     "rotated boxes": lambda random: rotated_boxes(30, int(random.integers(1 << 20))),
 }
-"""Random scenes without faces in one place, of which rays of single precision would find either."""
+"""Random scenes, of which those with faces in one place show the smaller ones there."""
 
 SEEDS, SEEDS_OF_MIRRORS = several(4, long=64), several(4, long=32)
 """Each picture is ten thousand comparisons: a handful of scenes, with none to three lights, shows what is wrong."""
@@ -77,6 +77,18 @@ def test_mirrors_show_what_mirrored_rays_meet_in_its_shade(family: str) -> None:
         assert (wrong, off) == (0, 0), f"seed {seed}"
         sure += some
     assert sure > 0.4 * len(seeds) * ROWS * COLUMNS
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("family", "seed"), [("on_a_floor", 17), ("piercing_boxes", 5)])
+def test_mirrors_show_bottoms_in_the_plane_of_a_floor_and_light_in_shadows_of_many_corners(
+    family: str, seed: int
+) -> None:
+    random = np.random.default_rng(seed)
+    scene = with_mirror(FAMILIES[family](random), random)
+    scene = replace(scene, lights=random_lights(scene, random, seed % 4))
+    wrong, off, some = compared(scene, random_camera(scene, random))
+    assert (wrong, off) == (0, 0) and some > 0.4 * ROWS * COLUMNS
 
 
 @pytest.mark.slow

@@ -114,7 +114,7 @@ def _light_by_mirrors(
             through = point + np.clip(reach, 0.0, 1e6)[:, None] * to_light
             inside = (face >= 0) & (reach > 0.0) & (((point - middle) @ axis) > 1e-9 * size)
             inside &= (normal * to_light).sum(axis=1) > 0.0
-            inside &= ((through - middle) @ axis < 1e-6 * size) & _within(faces, window, through)
+            inside &= ((through - middle) @ axis < 1e-6 * size) & faces.within(window, through)
             at = np.flatnonzero(inside)
             start, mirror = point[at] + ABOVE * size * normal[at], through[at] + ABOVE * size * axis
             on = np.broadcast_to(light.position, mirror.shape) * (1e3 if light.parallel else 1.0)
@@ -130,18 +130,6 @@ def _light_by_mirrors(
 
 def _lengths(vectors: Floats) -> Floats:
     return np.asarray(np.linalg.norm(vectors, axis=1))
-
-
-def _within(faces: Faces, face: int, points: Floats) -> Bools:
-    """(n,) which points of its plane lie in a face."""
-    found = np.zeros(len(points), dtype=np.bool_)
-    for corners in faces.triangles[faces.face == face]:
-        sides = np.roll(corners, -1, axis=0) - corners
-        turns = [
-            np.cross(side, points - corner) @ faces.normal[face] for side, corner in zip(sides, corners, strict=True)
-        ]
-        found |= (np.array(turns) >= 0.0).all(axis=0)
-    return found
 
 
 def expected_levels(scene: Scene, camera: Camera, truth: Truth) -> Floats:

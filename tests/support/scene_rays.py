@@ -19,6 +19,9 @@ from vectorplot.scene.scene import Scene
 ABOVE = 2e-5
 """Rays start so far above the face they leave, in extents of the scene."""
 
+IN_PLANE = 1e-9
+"""Faces lie in one plane where middles and normals differ by so little, in extents of the scene and as cosines."""
+
 GRAZING = 0.02
 """What comes in flatter than at this cosine has no sure answer."""
 
@@ -38,14 +41,42 @@ class Faces:
         """What shoots at them."""
         return TriangleRays(self.triangles)
 
+    @cached_property
+    def in_one_plane(self) -> list[tuple[int, int]]:
+        """Faces that lie in the plane of a larger one, of all larger ones, the largest first: the larger one first."""
+        area = np.bincount(self.face, norm(cross(*(self.triangles[:, k] - self.triangles[:, 0] for k in (1, 2)))))
+        height = np.abs(((self.middle[None] - self.middle[:, None]) * self.normal[:, None]).sum(axis=2))
+        level = (height < IN_PLANE * np.ptp(self.triangles.reshape(-1, 3), axis=0).max(initial=0.0)) & (
+            np.abs(self.normal @ self.normal.T) > 1.0 - IN_PLANE
+        )
+        large, small = np.nonzero(level & (area[:, None] > area))
+        falling = np.lexsort((-area[small], -area[large]))
+        return list(zip(large[falling].tolist(), small[falling].tolist(), strict=True))
+
     def first(self, origin: Floats, direction: Floats) -> tuple[Ints, Floats]:
-        """(n,) the face each ray meets first, -1 for none, and (n,3) where, exactly on its plane."""
+        """(n,) the face each ray meets first, -1 for none, and (n,3) where, exactly on its plane. Of faces in one plane
+        it meets the smallest, as pictures show them."""
         found = self.rays.first(origin, direction)
         face = np.where(found >= 0, self.face[found], -1)
         n, m = self.normal[face], self.middle[face]
         with np.errstate(divide="ignore", invalid="ignore"):
             t = (n * (m - origin)).sum(axis=1) / (n * direction).sum(axis=1)
-        return face, origin + np.where(face >= 0, np.nan_to_num(t), 0.0)[:, None] * direction
+        point = origin + np.where(face >= 0, np.nan_to_num(t), 0.0)[:, None] * direction
+        for large, small in self.in_one_plane:
+            at = np.flatnonzero(face == large)
+            face[at[self.within(small, point[at])]] = small
+        return face, point
+
+    def within(self, face: int, points: Floats) -> Bools:
+        """(n,) which points of its plane lie in a face."""
+        found = np.zeros(len(points), dtype=np.bool_)
+        for corners in self.triangles[self.face == face]:
+            sides = np.roll(corners, -1, axis=0) - corners
+            turns = [
+                np.cross(side, points - corner) @ self.normal[face] for side, corner in zip(sides, corners, strict=True)
+            ]
+            found |= (np.array(turns) >= 0.0).all(axis=0)
+        return found
 
     def free(self, start: Floats, end: Floats) -> Bools:
         """(n,) whether nothing is between points."""

@@ -2,19 +2,19 @@ from __future__ import annotations
 
 import re
 import xml.etree.ElementTree as ET
-from itertools import pairwise
+from itertools import combinations, pairwise
 
 import numpy as np
 import pytest
 import shapely
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.ndimage import median_filter
 from support.fill_samples import colour_at, fan, flat, page_of, pictures, shaded
 
 import vectorplot as vp
 from vectorplot.backends.page.areas import areas
-from vectorplot.backends.page.transparency_groups import beside_a_side, groups_of, outline
+from vectorplot.backends.page.transparency_groups import SIDE_BY_SIDE_MICRONS, beside_a_side, groups_of, outline
 from vectorplot.backends.svg.svg_document import svg_bytes, svg_text
 from vectorplot.drawing.fills import FillKind
 
@@ -88,8 +88,10 @@ def test_heaps_are_left_alone_in_time():
 
 
 @pytest.mark.slow
+@example(18)
+@example(3966)
 @given(st.integers(0, 10_000))
-def test_polygons_of_a_group_never_overlap(seed):
+def test_polygons_of_a_group_overlap_by_no_more_than_a_strip_that_is_not_seen(seed):
     rng = np.random.default_rng(seed)
     corners = rng.integers(0, 12, (40, 3, 2)) * 2.0
     found = areas(flat(list(corners), [DARK] * 40, opacity=0.5, item=rng.integers(0, 2, 40)), 60.0, 40.0)
@@ -97,15 +99,18 @@ def test_polygons_of_a_group_never_overlap(seed):
     for number, (first, last) in enumerate(found.group_ends.tolist()):
         assert (found.group[first:last] == number).all() and last - first > 1
         inside = [shapes[k] for k in range(first, last) if not found.fringe[k]]
-        total = sum(shape.area for shape in inside)
+        common = shapely.intersection(*np.array(list(combinations(inside, 2))).T)
+        assert shapely.is_empty(shapely.buffer(common, -SIDE_BY_SIDE_MICRONS)).all()
+        united = shapely.union_all(inside)
         corners, offsets = found.outline(first, last)
         rings = [shapely.Polygon(corners[a:b]) for a, b in pairwise(offsets)]
-        assert shapely.union_all(inside).area == pytest.approx(total, rel=1e-3)
         # All corners are even: no ring of a border crosses another one, so that holes count as holes.
         together = rings[0]
         for ring in rings[1:]:
             together = together.symmetric_difference(ring)
-        assert together.area == pytest.approx(total, rel=1e-3)
+        # What is narrow is filled or left out: of very small groups that counts.
+        assert shapely.is_empty(shapely.buffer(united.symmetric_difference(together), -SIDE_BY_SIDE_MICRONS))
+        assert together.area == pytest.approx(united.area, rel=1e-3, abs=1e3 * SIDE_BY_SIDE_MICRONS)
     assert (found.group >= 0).sum() == np.diff(found.group_ends, axis=1).sum()
 
 

@@ -2,15 +2,16 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
-from vectorplot.backends.svg.shaded_strips import SHADE_ERROR, strips_of
+from vectorplot.backends.svg.shaded_strips import SHADE_ERROR, stops_of, strips_of
 
 
 def worst_error(corners, colours) -> tuple[float, int]:
     """How far the colours of strips are from the linear ones, at their corners and between them, and their number."""
     found = strips_of(corners, colours)
+    part, stops, gradient = stops_of(found.colours)
     owner = np.repeat(np.arange(len(found.triangle)), np.diff(found.offsets))
     worst = 0.0
     middles = np.add.reduceat(found.microns, found.offsets[:-1]) / np.diff(found.offsets)[:, None]
@@ -20,7 +21,10 @@ def worst_error(corners, colours) -> tuple[float, int]:
         exact = colours[triangle, 0] + np.einsum("pi,pij->pj", places - corners[triangle, 0], slopes[triangle])
         start, way = found.ends[strip, 0], found.ends[strip, 1] - found.ends[strip, 0]
         share = np.clip(((places - start) * way).sum(axis=1) / (way * way).sum(axis=1), 0, 1)[:, None]
-        shown = found.colours[strip, 0] * (1 - share) + found.colours[strip, 1].astype(float) * share
+        # What readers show between stops, of all gradients one after the other.
+        shown = np.stack(
+            [np.interp(2 * strip + share[:, 0], 2 * gradient + part, column) for column in stops.T], axis=1
+        )
         worst = max(worst, float(np.abs(shown - exact).max()))
     return worst, len(found.triangle)
 
@@ -35,6 +39,7 @@ def areas(microns, offsets):
 
 
 @pytest.mark.slow
+@example(685)
 @given(st.integers(0, 10_000))
 def test_strips_cover_their_triangle_in_its_colours(seed):
     rng = np.random.default_rng(seed)
@@ -80,6 +85,17 @@ def test_slivers_too_thin_for_a_slope_across_keep_their_ends(far):
                 np.abs(first - np.array((200.0, 0, 0))).max() <= 12
                 and np.abs(last - np.array((0.0, 0, 100))).max() <= 12
             )
+
+
+def test_gradients_that_lead_beyond_the_colours_there_are_bend_where_they_end():
+    colours = np.array(
+        [[(-50, 100, 305), (150, 100, 205)], [(10, 20, 30), (40, 50, 60)], [(0.4, 0, -0.4), (255, 1, 2)]]
+    )
+    part, stops, gradient = stops_of(colours)
+    assert gradient.tolist() == [0] * 4 + [1, 1, 2, 2] and part.tolist() == [0.0, 0.25, 0.5, 1.0] + [0.0, 1.0] * 2
+    assert stops[:4].tolist() == [[0, 100, 255], [0, 100, 255], [50, 100, 255], [150, 100, 205]]
+    assert stops[4:].tolist() == [[10, 20, 30], [40, 50, 60], [0, 0, 0], [255, 1, 2]]
+    assert len(stops_of(np.zeros((0, 2, 3)))[0]) == 0
 
 
 def test_nothing_is_no_strips():

@@ -106,6 +106,26 @@ def test_within_the_tolerance_corners_stay():
     assert one(SQUARE + np.array([[2.0 - 1e-12], [0.0]]), SQUARE, tolerance=1e-9).shape == (2, 0)
 
 
+@pytest.mark.parametrize("tolerance", [0.0, 1e-9])
+def test_corners_that_rounding_takes_apart_are_one(tolerance):
+    rng = np.random.default_rng(2)
+    subjects, clips = [wreath(rng, 6) for _ in range(200)], [wreath(rng, 5, radius=0.9) for _ in range(200)]
+    several = [np.repeat(clip, 3, axis=1) + rng.uniform(-2e-16, 2e-16, (2, 15)) for clip in clips]
+    several = [clip[:, ::-1] if k % 2 else clip for k, clip in enumerate(several)]
+    areas = []
+    for some in (clips, several):
+        points, offsets, pair = clipped_by_convex(*batch(subjects), *batch(some), tolerance=tolerance)
+        areas.append(np.zeros(200))
+        areas[-1][pair] = [area(points[:, a:b]) for a, b in pairwise(offsets)]
+    assert np.abs(areas[0] - areas[1]).max() < 1e-8
+    middles = [clip.mean(axis=1, keepdims=True) for clip in clips]
+    small, outside = (
+        [middle + part * (clip - middle) for middle, clip in zip(middles, clips, strict=True)] for part in (0.5, 1.01)
+    )
+    assert inside_convex(*batch(small), *batch(several), tolerance=tolerance).all()
+    assert not inside_convex(*batch(outside), *batch(several), tolerance=tolerance).any()
+
+
 def test_scale_and_offset_change_nothing():
     rng = np.random.default_rng(8)
     subject, clip = wreath(rng, 7), wreath(rng, 6, middle=(0.4, 0.3))

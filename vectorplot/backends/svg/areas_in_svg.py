@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -12,7 +13,16 @@ from vectorplot.backends.page.merged_triangles import merged, slopes
 from vectorplot.backends.page.underlaps import grown, underlaps
 from vectorplot.backends.svg.path_data import path_data
 from vectorplot.backends.svg.ramps import NONE, Ramps, item_ramps
-from vectorplot.backends.svg.shaded_strips import SHADE_ERROR, Strips, joined_strips, nearly_flat, strips_of
+from vectorplot.backends.svg.shaded_strips import (
+    DARKEST,
+    LIGHTEST,
+    SHADE_ERROR,
+    Strips,
+    joined_strips,
+    nearly_flat,
+    stops_of,
+    strips_of,
+)
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import some
@@ -123,18 +133,19 @@ def _gradient_heads(
     start = ends[of_ramp, 0] - low[:, None] * slope
     ends[of_ramp] = np.stack((start, start + slope), axis=1)
     numbers = (np.round(ends.reshape(-1, 4) / 1000.0, 2) + 0.0).tolist()
-    stops = (np.rint(strips.colours).astype(np.intp) @ (65536, 256, 1)).tolist()
+    own_stops = iter(_stops(strips.colours[ramp == NONE]))
     common = f"{ID_PREFIX.decode()}{name}"
     opacity = pieces.own_opacity[place].tolist()
     heads = [_shared_gradients(ramps, common)] if len(place) else []
-    middles = (np.rint(strips.colours.mean(axis=1)).astype(np.intp) @ (65536, 256, 1)).tolist()
-    wide = (np.abs(strips.colours[:, 1] - strips.colours[:, 0]).max(axis=1) > LINE_SPAN).tolist()
+    shown = np.clip(strips.colours, DARKEST, LIGHTEST)
+    middles = (np.rint(shown.mean(axis=1)).astype(np.intp) @ (65536, 256, 1)).tolist()
+    wide = (np.abs(shown[:, 1] - shown[:, 0]).max(axis=1) > LINE_SPAN).tolist()
     rows = zip(numbers, ramp.tolist(), opacity, stroked.tolist(), middles, wide, strict=True)
     for k, (run, number, clear, seam, middle, much) in enumerate(rows):
         x1, y1, x2, y2 = (f"{number:.7g}" for number in run)
         own, where = f"{common}{k}", f'x1="{x1}" y1="{y1}" x2="{x2}" y2="{y2}"'
         if number == NONE:
-            gradient = _gradient(own, f" {where}", *stops[k])
+            gradient = _gradient(own, f" {where}", next(own_stops))
         else:
             gradient = f'<linearGradient id="{own}" xlink:href="#{common}c{number}" {where}/>\n'
         faint = f' fill-opacity="{clear:.3g}"' if clear < 1.0 else ""
@@ -145,15 +156,21 @@ def _gradient_heads(
 
 
 def _shared_gradients(ramps: Ramps, common: str) -> str:
-    stops = (np.rint(ramps.ends).astype(np.intp) @ (65536, 256, 1)).tolist()
-    return "".join(_gradient(f"{common}c{number}", "", *ends) for number, ends in enumerate(stops))
+    return "".join(_gradient(f"{common}c{number}", "", stops) for number, stops in enumerate(_stops(ramps.ends)))
 
 
-def _gradient(identity: str, where: str, low: int, high: int) -> str:
-    return (
-        f'<linearGradient id="{identity}" gradientUnits="userSpaceOnUse"{where}>'
-        f'<stop stop-color="#{low:06x}"/><stop offset="1" stop-color="#{high:06x}"/></linearGradient>\n'
-    )
+def _gradient(identity: str, where: str, stops: str) -> str:
+    return f'<linearGradient id="{identity}" gradientUnits="userSpaceOnUse"{where}>{stops}</linearGradient>\n'
+
+
+def _stops(colours: Floats) -> list[str]:
+    """The stops of gradients (s,2,3)."""
+    part, colour, gradient = stops_of(colours)
+    where = [f'offset="{share:.4g}" ' if share else "" for share in part.tolist()]
+    packed = (colour @ (65536, 256, 1)).tolist()
+    texts = [f'<stop {place}stop-color="#{rgb:06x}"/>' for place, rgb in zip(where, packed, strict=True)]
+    first = np.searchsorted(gradient, np.arange(len(colours) + 1)).tolist()
+    return ["".join(texts[begin:end]) for begin, end in pairwise(first)]
 
 
 def _gradients(areas: Areas, shaded: Ints, ramps: Ramps, ramp: Ints, colours: Floats) -> Strips:
@@ -185,7 +202,7 @@ def _gradients(areas: Areas, shaded: Ints, ramps: Ramps, ramp: Ints, colours: Fl
     # A triangle that is too small for a gradient, alone.
     alone = tiny[on[found.first]] & (found.first == found.last)
     part = np.where(alone[:, None], value[:, None], part)
-    shades = np.clip(first[:, None] + part[..., None] * (last - first)[:, None], 0.0, 255.0)
+    shades = first[:, None] + part[..., None] * (last - first)[:, None]
     return joined_strips(others, Strips(found.microns, found.offsets, on[found.first], ends, shades))
 
 
@@ -200,7 +217,8 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
     on = np.flatnonzero(ramp >= 0)
     colours[on] = ramps.on(ramp[on], colours[on])
     strips = _gradients(areas, shaded, ramps, ramp, colours)
-    low, high = strips.colours.min(axis=1), strips.colours.max(axis=1)
+    shown = np.clip(strips.colours, DARKEST, LIGHTEST)
+    low, high = shown.min(axis=1), shown.max(axis=1)
     # What has nearly one colour has the middle one.
     flat = ((high - low) <= 2.0 * SHADE_ERROR).all(axis=1)
     others, owner = np.flatnonzero(~areas.shaded), shaded[strips.triangle]

@@ -25,10 +25,17 @@ SMALLEST_MICRONS, NARROWEST_MICRONS = 250.0, 60.0
 """Triangles that are no longer, or no wider, than this are painted in one colour: less than a pixel of a screen."""
 
 
+DARKEST, LIGHTEST = 0.0, 255.0
+"""What there is of each of the three colours."""
+
+
 @dataclass(frozen=True, eq=False)
 class Strips:
     """Polygons with linear gradients: microns (p,2) int64, offsets (s+1,); triangle (s,) that each is a part of,
-    ascending; ends (s,2,2) in microns from where to where the gradient runs; colours (s,2,3) there."""
+    ascending; ends (s,2,2) in microns from where to where the gradient runs; colours (s,2,3) there.
+
+    Ends may lie beside the triangle, where colours go on beyond 0 and 255; what is shown there are these.
+    """
 
     microns: Ints = field(metadata=EACH_POINT)
     offsets: Ints
@@ -41,6 +48,25 @@ def joined_strips(one: Strips, other: Strips) -> Strips:
     """The strips of both by their triangles."""
     both = joined((one, other))
     return some(both, np.argsort(both.triangle, kind="stable"))
+
+
+def stops_of(colours: Floats) -> tuple[Floats, Ints, Ints]:
+    """Where linear gradients (s,2,3) bend that show what colours there are: parts (k,) of the way, 0 and 1 among them,
+    the colours (k,3) there, and the gradient (k,) of each, ascending."""
+    start, way = colours[:, 0], colours[:, 1] - colours[:, 0]
+    limit = np.array([DARKEST, LIGHTEST])[:, None]
+    # What rounding leads back needs no stop.
+    shown = np.rint(colours)
+    beyond = np.stack([shown.min(axis=1) < DARKEST, shown.max(axis=1) > LIGHTEST], axis=1) & (way != 0.0)[:, None]
+    part = (limit - start[:, None]) / np.where(beyond, way[:, None], 1.0)
+    inner, *_ = within = np.nonzero(beyond & (part > 0.0) & (part < 1.0))
+    ends = np.arange(len(colours))
+    gradient = np.concatenate([ends, inner, ends])
+    part = np.concatenate([np.zeros(len(ends)), part[within], np.ones(len(ends))])
+    order = np.lexsort((part, gradient))
+    gradient, part = gradient[order], part[order]
+    found = np.clip(start[gradient] + part[:, None] * way[gradient], DARKEST, LIGHTEST)
+    return part, np.rint(found).astype(np.intp), gradient
 
 
 def nearly_flat(areas: Areas) -> Areas:
@@ -89,8 +115,7 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
     along = np.einsum("pi,pi->p", from_first, np.repeat(directions[owner, :, 0], size, axis=0))
     ways = np.stack([np.stack((end, middle), axis=-1) for end in _extremes(along, offsets)], axis=1)
     ways = ways @ directions[owner].transpose(0, 2, 1)
-    values = np.clip(colours[owner, :1] + ways @ slopes[owner], 0.0, 255.0)
-    return Strips(microns, offsets, owner, corners[owner, :1] + ways, values)
+    return Strips(microns, offsets, owner, corners[owner, :1] + ways, colours[owner, :1] + ways @ slopes[owner])
 
 
 def _slopes(corners: Floats, colours: Floats) -> Floats:

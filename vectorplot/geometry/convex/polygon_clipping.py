@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.convex.convex_hulls import convex_hulls
 
 
 def clipped_by_convex(
@@ -38,7 +39,8 @@ def clipped_by_convex(
     Notes
     -----
     Degenerate: nothing is left by a convex polygon without area, or where only points of a side are common; a polygon
-    that is not convex may get coincident edges along the sides, which enclose no area.
+    that is not convex may get coincident edges along the sides, which enclose no area. A convex polygon that is not
+    convex, as by rounding of corners that lie near together, clips as its hull does.
 
     Source: Glaeser, section 6.2, figure 3 (Hodgman and Sutherland); erratum G6-04.
 
@@ -51,10 +53,9 @@ def clipped_by_convex(
     >>> sorted(points.T.tolist()), pair.tolist()
     ([[2.0, 0.0], [2.0, 4.0], [4.0, 0.0], [4.0, 4.0]], [0])
     """
-    lines = _lines(clip_points, clip_offsets)
+    lines, clip_offsets, wide = _lines(clip_points, clip_offsets, tolerance)
     sides = np.diff(clip_offsets)
-    area = _doubled_areas(clip_points, clip_offsets)
-    pair = np.flatnonzero((area != 0.0) & (sides >= 3) & (np.diff(offsets) >= 3))
+    pair = np.flatnonzero(wide & (sides >= 3) & (np.diff(offsets) >= 3))
     points, offsets = _some(points, offsets, pair)
     for number in range(int(sides[pair].max(initial=0))):
         side = np.where(number < sides[pair], clip_offsets[pair] + number, -1)
@@ -93,9 +94,9 @@ def inside_convex(
     >>> geometry.inside_convex(small, np.array([0, 3]), large, np.array([0, 4])).tolist()
     [True]
     """
-    lines = _lines(clip_points, clip_offsets)
+    lines, clip_offsets, wide = _lines(clip_points, clip_offsets, tolerance)
     sides = np.diff(clip_offsets)
-    inside = (_doubled_areas(clip_points, clip_offsets) != 0.0) & (np.diff(offsets) > 0)
+    inside = wide & (np.diff(offsets) > 0)
     for number in range(int(sides.max(initial=0))):
         which = np.flatnonzero(inside & (sides > number))
         some, starts = _some(points, offsets, which)
@@ -105,14 +106,41 @@ def inside_convex(
     return np.asarray(inside, dtype=np.bool_)
 
 
-def _lines(points: Floats, offsets: Ints) -> Floats:
-    """(4,d) the line through each corner and the next one: unit normal, inwards, and the corner; a side without length
-    is no line: normal zero."""
-    along = points[:2, _after(points, offsets)] - points[:2]
+def _lines(points: Floats, offsets: Ints, tolerance: float) -> tuple[Floats, Ints, Bools]:
+    """(4,d) the lines of the sides of convex polygons: unit normal, inwards, and a corner; their offsets, and which
+    polygons have area.
+
+    A side between corners that rounding moved has any direction, and its line may lead across the polygon: where
+    polygons turn both ways, or have sides no longer than the tolerance, these are the sides of their hulls.
+    """
+    along, wound, area = _sides(points, offsets)
     length = np.hypot(*along)
-    turn = np.repeat(np.where(_doubled_areas(points, offsets) < 0.0, -1.0, 1.0), np.diff(offsets))
-    along *= turn / np.where(length > 0.0, length, 1.0)
-    return np.stack([-along[1], along[0], *points[:2]])
+    after = _after(points, offsets)
+    bent = wound * (along[0] * along[1, after] - along[1] * along[0, after]) < 0.0
+    bent |= length <= tolerance
+    if bent.any():
+        points, offsets = _with_hulls(points, offsets, np.unique(ragged.owner(np.diff(offsets))[bent]))
+        along, wound, area = _sides(points, offsets)
+        length = np.hypot(*along)
+    along *= wound / np.where(length > 0.0, length, 1.0)
+    return np.stack([-along[1], along[0], *points[:2]]), offsets, area != 0.0
+
+
+def _sides(points: Floats, offsets: Ints) -> tuple[Floats, Floats, Floats]:
+    """(2,d) the sides of polygons, (d,) -1 where they go around clockwise, and (n,) twice the areas, signed."""
+    area = _doubled_areas(points, offsets)
+    along = points[:2, _after(points, offsets)] - points[:2]
+    return along, np.repeat(np.where(area < 0.0, -1.0, 1.0), np.diff(offsets)), area
+
+
+def _with_hulls(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
+    """Polygons (2 or more, d), the hulls of some of them in their places."""
+    some, starts = _some(points, offsets, which)
+    corner, ends = convex_hulls(some[:2].T, starts)
+    every = np.concatenate([points[:2], some[:2, corner]], axis=1)
+    first, sizes = offsets[:-1].copy(), np.diff(offsets)
+    first[which], sizes[which] = points.shape[1] + ends[:-1], np.diff(ends)
+    return every[:, ragged.ranges(first, sizes)], ragged.offsets(sizes)
 
 
 def _after(points: Floats, offsets: Ints) -> Ints:
