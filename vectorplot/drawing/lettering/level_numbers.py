@@ -55,7 +55,7 @@ def level_numbers(scene: Scene, strokes: Paths, text: str, mm: float) -> list[Le
     strokes: of the picture; text, mm: as of labels_on_page. A line that is nowhere visible and straight over the length
     of the longest number has none.
     """
-    from vectorplot.drawing.lettering.scene_labels import LETTERS
+    from vectorplot.drawing.lettering.labels.label_letters import LETTERS
 
     which, level, heights = _levels(scene, strokes)
     if not len(which):

@@ -9,7 +9,8 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
-from vectorplot.drawing.lettering.scene_labels import LETTERS, Letters, label_paths
+from vectorplot.drawing.lettering.labels.label_letters import LETTERS, Letters
+from vectorplot.drawing.lettering.scene_labels import label_paths
 from vectorplot.drawing.lettering.text import DESCENT, LINES_APART, Lettering
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.long_strokes import split_long
