@@ -106,6 +106,40 @@ def test_a_scenes_own_dimensions_are_in_the_view_that_is_square_to_them():
     assert np.allclose(lengths, [9.0, 9.0, 40.0])
 
 
+def test_nothing_hides_dimensions_and_leaders_of_a_view():
+    behind, leader = vp.dimension((0, 20, 0), (40, 20, 0), (0, 0, 5)), vp.leader((20, 10, 5), (50, 10, 9), "1")
+    sheet = vp.technical_sheet([BRICK, behind, leader], views="front", scale="1:1")
+    assert layer(sheet, "hidden") is None
+    lengths = [np.hypot(*np.ptp(part, axis=0)) for name, part in strokes_of(sheet, "label") if name[:6] == "leader"]
+    assert lengths == pytest.approx([np.hypot(30, 4)])
+
+
+def test_what_is_square_to_no_view_is_told_but_leaders_are_shown():
+    leader = vp.leader((40, 20, 10), (60, 35, 19), "2")
+    notes = [vp.dimension((0, 0, 0), (0, 20, 0), (-8, 0, 0)), vp.centre_line((20, 10, -3), (20, 10, 13)), leader]
+    with pytest.warns(vp.InputWarning, match="^square to no view and not shown: dimension 20$"):
+        sheet = vp.technical_sheet([BRICK, *notes], views="front,left", scale="1:1")
+    names = [name for name, _ in strokes_of(sheet, "label")]
+    assert names.count("leader 2") == 1 and "dimension 20" not in names
+
+
+def test_measures_are_in_mm_whatever_the_unit_of_the_part_is():
+    small = BRICK.scaled(0.1)
+    asked = {"views": "front,left", "scale": "1:1", "dimensions": True}
+    assert_drawings_equal(vp.technical_sheet(small, unit="cm", **asked), vp.technical_sheet(BRICK, **asked))
+    with pytest.raises(vp.InputError, match="unit 'km'"):
+        vp.technical_sheet(BRICK, unit="km")
+
+
+def test_the_name_of_a_mesh_file_is_its_title_unless_it_has_one(tmp_path):
+    path = tmp_path / "lid.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+    asked = ["--views", "front", "--page", "A5", "--unit", "in", "-q"]
+    for more, title in (([], "lid"), (["--title", "Cover"], "Cover")):
+        assert run(["sheet", str(path), "-o", str(tmp_path / "lid.svg"), *asked, *more]) == 0
+        assert f"<title>{title}, 2:1</title>" in (tmp_path / "lid.svg").read_text()
+
+
 @pytest.mark.slow
 def test_a_frame_has_zones_and_the_block_its_words(tmp_path):
     plain, framed = (

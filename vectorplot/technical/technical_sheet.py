@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -15,10 +15,10 @@ from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.sheets.drawing_frames import drawing_space, frame_layers
 from vectorplot.drawing.sheets.drawing_scales import DrawingScale
 from vectorplot.drawing.sheets.sheet import Sheet
-from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
+from vectorplot.drawing.sheets.title_block import TitleBlock
 from vectorplot.effects.cutting.cut_scenes import cut, cut_scene
 from vectorplot.effects.cutting.hatches import InSpace
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
@@ -26,10 +26,11 @@ from vectorplot.io.upwards import stood_up
 from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.pages.page import Page
-from vectorplot.scene.point_of_view import camera_of, page_of
+from vectorplot.scene.pages.paper import MM_PER_INCH
+from vectorplot.scene.point_of_view import camera_of
 from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import StageReport
-from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of
+from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of, fitting_scale, roomiest
 from vectorplot.technical.round_edges import centre_lines_of, round_edges
 from vectorplot.technical.section_views import ROOM_MM, SheetSection, sections_of
 from vectorplot.technical.view_annotations import (
@@ -51,6 +52,9 @@ PENS = "contour=0.5,boundary=0.5,crease=0.5,intersection=0.5,curve=0.5,cut=0.5,h
 """Visible lines are wide, hidden ones narrow, as ISO 128-24 has it."""
 
 DASHES = "hidden=3,1"
+
+MM_PER = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": MM_PER_INCH}
+"""How many mm a unit of the world may be."""
 
 BORDER_MM = 20.0
 """What the page of a view has around the view, so that letters beside it are not cut off."""
@@ -145,6 +149,7 @@ def technical_sheet(
     views: str | Iterable[str] = "front,top,left,iso",
     up: Point | None = None,
     scale: str = "fit",
+    unit: str = "mm",
     projection: Literal["first", "third"] = "first",
     page: Page | str = "A3",
     section: str | Iterable[str] = (),
@@ -165,8 +170,8 @@ def technical_sheet(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is drawn, as of `io.scene_of`; a unit of the world is a mm. Dimensions in it are shown in the first view
-        that they are square to, centre lines in every such view.
+        What is drawn, as of `io.scene_of`. Dimensions in it are shown in the first view that they are square to, centre
+        lines in every such view, and leaders that are square to none where they look longest.
     views : str or iterable of str
         Some of front, back, left, right, top, bottom, iso, each once; iso stands in a free corner, without hidden lines
         and dimensions.
@@ -175,6 +180,8 @@ def technical_sheet(
         stands. Where None, z.
     scale : str
         Lengths on paper to lengths of the part, such as 1:2; fit: the largest of ISO 5455 that fits.
+    unit : {"mm", "cm", "m", "in"}
+        What a unit of the world is; measures, sections and the scale are in mm whatever it is.
     projection : {"first", "third"}
         First or third angle: whether a view stands opposite to the side it is seen from, as in Europe, or on that
         side, as in America.
@@ -212,7 +219,12 @@ def technical_sheet(
     InputError
         As of draw; for views that are unknown, twice or none; for sections that are none, or beside the part; for a
         scale that is too large for the page, with the largest that fits; for a page without room, and a title without
-        room in its block.
+        room in its block; for an unknown unit.
+
+    Warns
+    -----
+    InputWarning
+        Of dimensions that are square to none of the views: they are not shown.
 
     Notes
     -----
@@ -233,9 +245,11 @@ def technical_sheet(
     """
     names = _view_names(views)
     check_word("projection", projection, ("first", "third"))
+    check_word("unit", unit, MM_PER)
     asked = None if scale == "fit" else DrawingScale.of(scale)
-    # Sheets have pens of their own.
     given = shown_apart(scene_of(scene))
+    given = given if unit == "mm" else given.scaled(MM_PER[unit])
+    # Sheets have pens of their own.
     given = replace(given if up is None else stood_up(given, up), inks=None)
     if centre_lines:
         given = together([given, *_centre_lines(given, crease_angle_deg)])
@@ -244,8 +258,8 @@ def technical_sheet(
     overall = overall_dimensions(names, solid.bounds) if dimensions else ()
     sections = sections_of(section, names, solid.bounds)
     part = _Part(solid, annotations, names, cameras, overall, sections)
-    paper, arranged = _roomiest(page, part.views(projection == "first"), frame)
-    chosen = _scale(asked, arranged, paper)
+    paper, arranged = roomiest(page, part.views(projection == "first"), frame)
+    chosen = fitting_scale(asked, arranged, paper)
     factor = chosen.factor
     name = page.strip().split()[0].upper() if isinstance(page, str) else f"{paper.width_mm:g}x{paper.height_mm:g}"
     said = given.title if title is None else title
@@ -255,9 +269,10 @@ def technical_sheet(
     layers = block.layers(space) if title is not None else _titled_if_possible(block, space)
     done = Sheet(paper, f"{said}, {chosen}" if said else str(chosen))
     notes = part.notes()
+    _tell_left_out(annotations, notes)
     written: dict[str, Floats] = {}
     for number, (view, (x, y)) in enumerate(zip(arranged.views, arranged.middles(factor), strict=True)):
-        added = [one.scene for one in notes[number]]
+        added = [one.before(view.camera, part.bounds) for one in notes[number]]
         added += [
             one.annotation(view.camera, part.bounds, factor, view.world).scene
             for one in part.overall
@@ -283,6 +298,14 @@ def technical_sheet(
     around = part.around_sections(arranged, factor, written)
     borders = (*(frame_layers(paper) if frame else ()), *layers)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
+
+
+def _tell_left_out(annotations: Iterable[Annotation], notes: Iterable[Iterable[Annotation]]) -> None:
+    """An InputWarning that names the annotations, but for centre lines, which are in no view."""
+    shown = {id(one) for view in notes for one in view}
+    names = [one.name for one in annotations if not one.is_centre and id(one) not in shown]
+    if names:
+        warnings.warn(f"square to no view and not shown: {', '.join(names)}", InputWarning, stacklevel=3)
 
 
 def _titled_if_possible(block: TitleBlock, space: Floats) -> tuple[Layer, ...]:
@@ -313,33 +336,3 @@ def _view_names(views: str | Iterable[str]) -> tuple[str, ...]:
     if not names or len(set(names)) < len(names):
         raise InputError(f"views {','.join(names)!r}: expected some of {', '.join(VIEWS)}, each once")
     return names
-
-
-def _roomiest(page: Page | str, views: tuple[SheetView, ...], frame: bool) -> tuple[Page, Arrangement]:
-    """The sheet, and the views on it; a named one lies as gives them more room."""
-    given = page_of(page, Scene(()))
-    turned = isinstance(page, str) and len(page.split()) == 1 and "x" not in page.lower()
-    tried = [(paper, _arranged(paper, views, frame)) for paper in ((given.landscape, given) if turned else (given,))]
-    paper, arranged = max(tried, key=lambda pair: pair[1].largest_factor())
-    if not arranged.largest_factor() > 0.0:
-        raise InputError(f"page {paper.width_mm:g}x{paper.height_mm:g} mm: no room for {len(views)} views")
-    return paper, arranged
-
-
-def _arranged(paper: Page, views: tuple[SheetView, ...], frame: bool) -> Arrangement:
-    """The views above the title block."""
-    return Arrangement(views, np.add(drawing_space(paper, frame), [(0.0, BLOCK_MM[1]), (0.0, 0.0)]))
-
-
-def _scale(asked: DrawingScale | None, arranged: Arrangement, paper: Page) -> DrawingScale:
-    """The scale asked for, or the largest standard one that fits. Errors: InputError for one that is too large."""
-    room = arranged.largest_factor()
-    if asked is None:
-        return DrawingScale.largest_standard(room) if math.isfinite(room) else DrawingScale(1.0, 1.0)
-    if asked.factor > room:
-        largest = DrawingScale.largest_standard(room)
-        raise InputError(
-            f"scale {asked}: too large for {len(arranged.views)} views on {paper.width_mm:g}x{paper.height_mm:g} mm; "
-            f"the largest standard scale that fits is {largest}"
-        )
-    return asked

@@ -13,7 +13,7 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.lettering.scene_labels import NO_ITEM
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
-from vectorplot.scene.naming.annotations import annotation_points, is_annotation
+from vectorplot.scene.naming.annotations import annotation_points, is_annotation, leader_tips
 from vectorplot.scene.naming.dimensions import dimension
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve
 from vectorplot.scene.scene import Scene
@@ -44,6 +44,27 @@ class Annotation:
     def is_centre(self) -> bool:
         """Whether it is centre lines."""
         return all(item.lines == ("centre",) for item in self.scene.items)
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self.scene.items[-1].name
+
+    @property
+    def is_leader(self) -> bool:
+        """Whether it is a leader, which measures nothing."""
+        return bool(leader_tips(self.scene))
+
+    def length_in(self, camera: Camera) -> float:
+        """How far it reaches across a view."""
+        return float(np.hypot(*np.ptp(self.points @ camera.axes[:2].T, axis=0)))
+
+    def before(self, camera: Camera, bounds: Floats) -> Scene:
+        """It where nothing within bounds (2,3) hides it from a view, at the same place in its picture."""
+        back = camera.axes[2]
+        nearest = float(bounds.mean(axis=0) @ back + 0.5 * np.ptp(bounds, axis=0) @ np.abs(back))
+        way = max(nearest - float((self.points @ back).min()), 0.0) * back
+        return self.scene.moved(*way.tolist()) if way.any() else self.scene
 
     def is_square_to(self, camera: Camera, extent: float) -> bool:
         """Whether a view shows all of it in its true shape, and not as a point."""
@@ -80,10 +101,13 @@ def without_annotations(scene: Scene) -> tuple[Scene, tuple[Annotation, ...]]:
 
 
 def views_of(annotations: Sequence[Annotation], cameras: Sequence[Camera], extent: float) -> list[list[Annotation]]:
-    """The annotations of each view: dimensions in the first one that they are square to, centre lines in every one."""
+    """The annotations of each view: dimensions in the first one that they are square to, centre lines in every one;
+    leaders that are square to none where they look longest."""
     found: list[list[Annotation]] = [[] for _ in cameras]
     for one in annotations:
         square = [number for number, camera in enumerate(cameras) if one.is_square_to(camera, extent)]
+        if one.is_leader and not square and cameras:
+            square = [max(range(len(cameras)), key=lambda number: one.length_in(cameras[number]))]
         for number in square if one.is_centre else square[:1]:
             found[number].append(one)
     return found
