@@ -62,5 +62,7 @@ def test_without_a_format_it_is_bad_usage(path):
 
 
 def test_one_format_alone_is_no_choice():
+    with pytest.raises(click.UsageError, match=r"^a\.gcode: .* \.svg, \.pdf; vpype writes it from an \.svg$"):
+        options.format_of("a.gcode", None, ("svg", "pdf"))
     with pytest.raises(click.UsageError, match=r"^a\.jpg: the name must end in \.png$"):
         options.format_of("a.jpg", None, ("png",))

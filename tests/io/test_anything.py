@@ -145,6 +145,13 @@ def test_an_array_that_is_nothing_is_told_with_its_shape():
         vp.draw(np.zeros((7, 3)))
 
 
+def test_points_are_told_how_they_become_a_curve():
+    with pytest.raises(TypeError, match=r"spline_curve\(points, AkimaSpline\(\)\) is the curve through points"):
+        vp.draw(np.arange(30.0).reshape(10, 3))
+    with pytest.raises(TypeError, match=r"not ndarray of shape \(2, 10, 3\)$"):
+        vp.draw(np.zeros((2, 10, 3)))
+
+
 @pytest.mark.parametrize(
     "make",
     [

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from vectorplot.errors import InputError
-from vectorplot.words import LINE_WORDS, line_words
+from vectorplot.words import LINE_WORDS, format_hint, line_words
 
 if TYPE_CHECKING:
     from vectorplot.scene.depth_cue import DepthCue
@@ -273,5 +273,6 @@ def format_of(path: str, given: str | None, known: Sequence[str]) -> str:
     word = suffix[2].lower() if suffix[1] and suffix[0] else ""
     if word not in known:
         choice = "" if len(known) == 1 else "one of "
-        raise click.UsageError(f"{path}: the name must end in {choice}{', '.join('.' + name for name in known)}")
+        names = ", ".join("." + name for name in known)
+        raise click.UsageError(f"{path}: the name must end in {choice}{names}{format_hint(word)}")
     return word

@@ -34,6 +34,9 @@ TAKEN = (
 )
 """What the verbs take, in words."""
 
+CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the curve through points"
+"""What is said of points."""
+
 
 def scene_of(shown: object) -> Scene:
     """The scene that something with a shape is, or makes up.
@@ -112,7 +115,8 @@ def _is_heights(shown: object) -> TypeGuard[Floats]:
 
 def _refuse(shown: object) -> NoReturn:
     shape = f" of shape {shown.shape}" if isinstance(shown, np.ndarray) else ""
-    raise TypeError(f"expected {TAKEN}, not {type(shown).__name__}{shape}")
+    points = isinstance(shown, np.ndarray) and shown.ndim == 2 and shown.shape[1] == len("xyz")
+    raise TypeError(f"expected {TAKEN}, not {type(shown).__name__}{shape}{CURVE_HINT if points else ''}")
 
 
 def _read(path: str | os.PathLike[str]) -> Scene:
