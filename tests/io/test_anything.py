@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from types import SimpleNamespace
 
@@ -143,6 +144,17 @@ def test_lists_that_hold_themselves_are_refused():
 def test_an_array_that_is_nothing_is_told_with_its_shape():
     with pytest.raises(TypeError, match=r"ndarray of shape \(7, 3\)"):
         vp.draw(np.zeros((7, 3)))
+
+
+@pytest.mark.parametrize(("relief", "factor"), [(0.02, 50.0), (1.0, 1.0), (600.0, 1e-3)])
+def test_heights_that_would_be_a_plain_or_needles_are_scaled_as_those_of_files(relief, factor):
+    heights = np.zeros((5, 9))
+    heights[2, 4] = relief
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        scene = scene_of(heights)
+    assert np.ptp(scene.bounds, axis=0).tolist() == pytest.approx([4.0, 8.0, relief * factor])
+    assert [f"drawn {factor:g} times as high" in str(one.message) for one in told] == [True] * (factor != 1.0)
 
 
 def test_points_are_told_how_they_become_a_curve():

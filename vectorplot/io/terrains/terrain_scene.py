@@ -1,4 +1,4 @@
-"""A file of heights -> a scene."""
+"""A file, or an array, of heights -> a scene."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.io.terrains.read_terrain import read_terrain
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.terrains.level_lines import times_power_of_ten
 from vectorplot.scene.terrains.terrain_mesh import MOST_DRAWN, terrain_scene
-from vectorplot.surfaces.terrains.terrain import Terrain, exaggerated, thinned_terrain
+from vectorplot.surfaces.terrains.terrain import Terrain, exaggerated, terrain, thinned_terrain
 
 LOWEST = 1.0 / 30.0
 """Heights less than this part of the width of their terrain would be seen as a plain: they are exaggerated."""
@@ -45,6 +46,20 @@ def scene_of_heights(path: Path, exaggeration: float | None) -> Scene:
         raise (error if error.file else InputError(error.cause, file=shown(path))) from None
     except MemoryError:
         raise InputError("too large for the memory", file=shown(path)) from None
+
+
+def scene_of_array(heights: Floats) -> Scene:
+    """The scene of an array of heights (m,n), a step of 1 between them; what was made higher or lower is said in an
+    InputWarning.
+
+    Errors: InputError as of `terrain` and `terrain_scene`.
+    """
+    land = terrain(np.ma.asarray(heights))
+    factor = usual_exaggeration(land)
+    if factor != 1.0:
+        what = f"heights are drawn {factor:g} times as high (vp.surface(x, y, z) leaves them as they are)"
+        warnings.warn(what, InputWarning, stacklevel=4)
+    return terrain_scene(exaggerated(land, factor))
 
 
 def usual_exaggeration(land: Terrain) -> float:
