@@ -137,7 +137,9 @@ def labels_on_page(
     along = [k for k, path in paths.items() if length_of(path) > seen.anchors.labels[k].size_mm * mm]
     set_: dict[int, Lettering] = {k: set_along(letters, seen, k, paths[k], mm) for k in along}
     beside = [k for k in some if k not in set_]
-    texts = [set_label(letters, seen.anchors.labels[k], mm) for k in beside]
+    gap = np.array([_gap(seen.anchors.labels[k], mm) for k in beside])
+    rooms = (placement.page.width_mm - 2.0 * gap).tolist()
+    texts = [set_label(letters, seen.anchors.labels[k], room, mm) for k, room in zip(beside, rooms, strict=True)]
     shown = strokes if hidden != "none" else chosen(strokes, strokes.hidden_by == 0)
     begin, end = shown.points[segments(shown)].transpose(1, 0, 2)
     page = np.array([[0.0, 0.0], [placement.page.width_mm, placement.page.height_mm]])
@@ -148,7 +150,6 @@ def labels_on_page(
     height = np.array([seen.anchors.labels[k].size_mm * mm for k in beside])
     taken = np.array([set_[k].bounds for k in along]).reshape(-1, 2, 2)
     asked = [_asked(seen.anchors.labels[k]) for k in beside]
-    gap = np.array([_gap(seen.anchors.labels[k], mm) for k in beside])
     points = np.array([_named(seen, k, mm) for k in beside]).reshape(-1, 2)
     found = places(points, sizes, height, gap, asked, begin, end, page, taken)
     for number, k in enumerate(beside):

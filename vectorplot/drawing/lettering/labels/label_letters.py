@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 
 from vectorplot.arrays import Floats
-from vectorplot.drawing.lettering.formulas import without_formulas_in_strokes
+from vectorplot.drawing.lettering.formulas import FORMULA, without_formulas_in_strokes
 from vectorplot.drawing.lettering.labels.seen_labels import SeenLabels
-from vectorplot.drawing.lettering.text import Lettering, lettered, typeset
+from vectorplot.drawing.lettering.text import Lettering, broken_at_blanks, lettered, typeset
 from vectorplot.drawing.lettering.text_along import lettered_along, typeset_along
 from vectorplot.errors import InputError
 from vectorplot.scene.naming.labels import Label
@@ -44,10 +44,22 @@ LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset
 """What letters are: strokes of a pen, or those of the fonts of whatever reads the file."""
 
 
-def set_label(letters: Letters, label: Label, mm: float) -> Lettering:
-    """A label beside a point. Errors: InputError, with its name, for a character without strokes."""
+def set_label(letters: Letters, label: Label, room: float, mm: float) -> Lettering:
+    """A label beside a point, in several lines where it is wider than there is room; no formula is broken.
+
+    Errors: InputError, with its name, for a character without strokes.
+    """
+
+    def set_(text: str) -> Lettering:
+        return letters.plain(text, size_mm=label.size_mm * mm, align="centre")
+
+    def fits(text: str) -> bool:
+        return float(np.ptp(set_(text).bounds, axis=0)[0]) <= room
+
     try:
-        return letters.plain(label.text, size_mm=label.size_mm * mm, align="centre")
+        if FORMULA.search(label.text) or fits(label.text):
+            return set_(label.text)
+        return set_("\n".join(broken_at_blanks(line, fits) for line in label.text.split("\n")))
     except InputError as error:
         raise InputError(f"label {label.name}: {error.cause}") from None
 
