@@ -40,7 +40,7 @@ def scene_of_heights(path: Path, exaggeration: float | None) -> Scene:
         if factor is None:
             factor = usual_exaggeration(land)
             if factor != 1.0:
-                _say(path, f"heights are drawn {factor:g} times as high (an exaggeration of 1 leaves them as they are)")
+                _say(path, _drawn(factor, "an exaggeration of 1"))
         return terrain_scene(exaggerated(land, factor), name=path.stem)
     except InputError as error:
         raise (error if error.file else InputError(error.cause, file=shown(path))) from None
@@ -57,8 +57,7 @@ def scene_of_array(heights: Floats) -> Scene:
     land = terrain(np.ma.asarray(heights))
     factor = usual_exaggeration(land)
     if factor != 1.0:
-        what = f"heights are drawn {factor:g} times as high (vp.surface(x, y, z) leaves them as they are)"
-        warnings.warn(what, InputWarning, stacklevel=4)
+        warnings.warn(_drawn(factor, "vp.surface(x, y, z)"), InputWarning, stacklevel=4)
     return terrain_scene(exaggerated(land, factor))
 
 
@@ -73,6 +72,11 @@ def usual_exaggeration(land: Terrain) -> float:
     power = int(np.floor(np.log10(wanted)))
     numerator = max(k for k in (1, 2, 5) if k * 10.0**power <= wanted or k == 1)
     return float(times_power_of_ten(np.array(float(numerator)), power))
+
+
+def _drawn(factor: float, instead: str) -> str:
+    """That heights are scaled, and what leaves them as they are."""
+    return f"heights are drawn {factor:g} times as high, numbers at them too ({instead} leaves them as they are)"
 
 
 def _say(path: Path, what: str) -> None:
