@@ -114,6 +114,7 @@ def test_cameras_and_pages_are_words_too():
     drawing = vp.draw(CUBE, "iso", page="A5 landscape")
     assert (drawing.width_mm, drawing.height_mm) == (210.0, 148.0)
     assert vp.draw(CUBE, "top", page="60x50").width_mm == 60.0
+    assert vp.draw(CUBE, "top", page="60x50 Portrait").width_mm == 50.0
     assert vp.render(CUBE, "front", size=(20, 10)).columns == 20
     with pytest.raises(vp.InputError, match="did you mean 'front'"):
         vp.paint(CUBE, "fornt")

@@ -111,15 +111,17 @@ def length(text: str) -> float:
 
 
 def page_size(text: str) -> tuple[float, float] | str:
-    """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape, or the word FIT."""
+    """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape or portrait, or the word FIT."""
     from vectorplot.scene.pages.paper import FIT, sheet_size
 
     if text.strip().lower() == FIT:
         return FIT
     sheet, _, way = text.strip().partition(" ")
+    word = way.strip().lower()
     try:
-        width, height = sheet_size(sheet if way.strip().lower() == "landscape" else text)
-        return (max(width, height), min(width, height)) if way else (width, height)
+        sides = sheet_size(sheet if word in ("landscape", "portrait") else text)
+        width, height = sorted(sides, reverse=word == "landscape") if word else sides
+        return width, height
     except InputError as error:
         raise click.BadParameter(str(error)) from None
 

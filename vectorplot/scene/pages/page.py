@@ -76,6 +76,12 @@ class Page:
         return self
 
     @property
+    def portrait(self) -> Page:
+        """The same sheet standing on its shorter side."""
+        long, short = max(self.width_mm, self.height_mm), min(self.width_mm, self.height_mm)
+        return Page(short, long, self.margin_mm)
+
+    @property
     def landscape(self) -> Page:
         """The same sheet lying on its longer side."""
         long, short = max(self.width_mm, self.height_mm), min(self.width_mm, self.height_mm)
