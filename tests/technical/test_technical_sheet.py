@@ -12,7 +12,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.verbs import vectorplot
-from vectorplot.geometry import box
+from vectorplot.geometry import box, prism, regular_polygon
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.technical.round_edges import round_edges
 from vectorplot.testing import assert_drawings_equal
@@ -112,6 +112,21 @@ def test_nothing_hides_dimensions_and_leaders_of_a_view():
     assert layer(sheet, "hidden") is None
     lengths = [np.hypot(*np.ptp(part, axis=0)) for name, part in strokes_of(sheet, "label") if name[:6] == "leader"]
     assert lengths == pytest.approx([np.hypot(30, 4)])
+
+
+def test_radii_and_diameters_are_where_their_circle_is_one():
+    holes = [regular_polygon(24, 4, centre=(x, 10, 0)) for x in (8, 30)]
+    plate = prism([(0, 0, 0), (40, 0, 0), (40, 20, 0), (0, 20, 0)], (0, 0, 4), holes=holes)
+    notes = [
+        vp.diameter((8, 10, 4), (12, 10, 4)),
+        vp.radius((30, 10, 0), (34, 10, 0)),
+        vp.diameter((9, 0, 2), (12, 0, 2)),
+    ]
+    sheet = vp.technical_sheet([vp.Item("plate", plate), *notes], views="front,top", scale="1:1")
+    boxes = [(box[:, 1].mean(), np.ptp(box[:, 1])) for box in outlines(sheet)]
+    front, top = (next(y for y, high in boxes if high == pytest.approx(wanted)) for wanted in (4.0, 20.0))
+    height = {name: float(part[:, 1].mean()) for name, part in strokes_of(sheet, "label") if name}
+    assert height == pytest.approx({"diameter ø8": top, "radius R4": top, "diameter ø6": front})
 
 
 def test_what_is_square_to_no_view_is_told_but_leaders_are_shown():

@@ -31,7 +31,7 @@ from vectorplot.scene.point_of_view import camera_of
 from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import StageReport
 from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of, fitting_scale, roomiest
-from vectorplot.technical.round_edges import centre_lines_of, round_edges
+from vectorplot.technical.round_edges import RoundEdge, centre_lines_of, round_edges
 from vectorplot.technical.section_views import ROOM_MM, SheetSection, sections_of
 from vectorplot.technical.view_annotations import (
     TEXT_MM,
@@ -70,6 +70,7 @@ class _Part:
     cameras: tuple[Camera, ...]
     overall: tuple[OverallDimension, ...]
     sections: tuple[SheetSection, ...]
+    edges: tuple[RoundEdge, ...]
 
     @property
     def bounds(self) -> Floats:
@@ -79,7 +80,7 @@ class _Part:
         """The annotations of each view, and centre lines of each section; a pictorial view has none."""
         flat = [camera for name, camera in zip(self.names, self.cameras, strict=True) if name != "iso"]
         extent = float(np.ptp(self.bounds, axis=0).max())
-        found = iter(views_of(self.annotations, flat, extent))
+        found = iter(views_of(self.annotations, flat, extent, self.edges))
         cut = [self.centre_lines_in(section, extent) for section in self.sections]
         return [*([] if name == "iso" else next(found) for name in self.names), *cut]
 
@@ -170,8 +171,9 @@ def technical_sheet(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is drawn, as of `io.scene_of`. Dimensions in it are shown in the first view that they are square to, centre
-        lines in every such view, and leaders that are square to none where they look longest.
+        What is drawn, as of `io.scene_of`. Dimensions in it are shown in the first view that they are square to, radii
+        and diameters of bores in one that shows the circle, centre lines in every such view, and leaders that are
+        square to none where they look longest.
     views : str or iterable of str
         Some of front, back, left, right, top, bottom, iso, each once; iso stands in a free corner, without hidden lines
         and dimensions.
@@ -251,13 +253,17 @@ def technical_sheet(
     given = given if unit == "mm" else given.scaled(MM_PER[unit])
     # Sheets have pens of their own.
     given = replace(given if up is None else stood_up(given, up), inks=None)
-    if centre_lines:
-        given = together([given, *_centre_lines(given, crease_angle_deg)])
     solid, annotations = without_annotations(given)
+    edges: tuple[RoundEdge, ...] = ()
+    if centre_lines or any(one.may_be_of_circle for one in annotations):
+        edges = _round_edges(solid, crease_angle_deg)
+    if centre_lines and edges:
+        extent = float(np.ptp(given.bounds, axis=0).max())
+        solid, annotations = without_annotations(together([given, *centre_lines_of(edges, extent)]))
     cameras = tuple(camera_of(name, solid) for name in names)
     overall = overall_dimensions(names, solid.bounds) if dimensions else ()
     sections = sections_of(section, names, solid.bounds)
-    part = _Part(solid, annotations, names, cameras, overall, sections)
+    part = _Part(solid, annotations, names, cameras, overall, sections, edges)
     paper, arranged = roomiest(page, part.views(projection == "first"), frame)
     chosen = fitting_scale(asked, arranged, paper)
     factor = chosen.factor
@@ -321,11 +327,10 @@ def _page_at(factor: float) -> Callable[[Scene], InSpace]:
     return lambda scene: lambda points: np.full(len(points), 1.0 / factor)
 
 
-def _centre_lines(scene: Scene, crease_angle_deg: float) -> tuple[Scene, ...]:
-    """Those of the round edges of all polyhedra."""
+def _round_edges(scene: Scene, crease_angle_deg: float) -> tuple[RoundEdge, ...]:
+    """Those of all polyhedra."""
     meshes = [item.shape for item in scene.items if isinstance(item.shape, Mesh)]
-    edges = [edge for mesh in meshes for edge in round_edges(mesh, crease_angle_deg)]
-    return centre_lines_of(edges, float(np.ptp(scene.bounds, axis=0).max())) if edges else ()
+    return tuple(edge for mesh in meshes for edge in round_edges(mesh, crease_angle_deg))
 
 
 def _view_names(views: str | Iterable[str]) -> tuple[str, ...]:

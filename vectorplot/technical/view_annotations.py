@@ -17,7 +17,9 @@ from vectorplot.scene.naming.annotations import annotation_points, is_annotation
 from vectorplot.scene.naming.dimensions import dimension
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve
 from vectorplot.scene.scene import Scene
+from vectorplot.technical.round_edges import RoundEdge
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_measuring import ROUND_OF_RADIUS
 
 OFFSET_MM, GAP_MM, BEYOND_MM = 10.0, 1.0, 2.0
 """From the part to a dimension line, to the extension lines, and from the dimension line to their ends."""
@@ -58,6 +60,24 @@ class Annotation:
     def length_in(self, camera: Camera) -> float:
         """How far it reaches across a view."""
         return float(np.hypot(*np.ptp(self.points @ camera.axes[:2].T, axis=0)))
+
+    @property
+    def may_be_of_circle(self) -> bool:
+        """Whether it may be a radius or a diameter: it is one line, and no leader and no centre line."""
+        return len(self.scene.items) == 1 and not self.is_centre and not self.is_leader
+
+    def axes_among(self, edges: Sequence[RoundEdge]) -> set[int]:
+        """The axes of those round edges of which it is a radius or a diameter, wherever along their axis."""
+        ends = self.points[[0, -1]]
+        found = set()
+        for edge in edges if self.may_be_of_circle else ():
+            away = np.delete(ends - edge.centre, edge.axis, axis=1)
+            zero = ROUND_OF_RADIUS * edge.radius
+            begins, middle = (float(np.hypot(*point)) for point in (away[0], 0.5 * away.sum(axis=0)))
+            level = abs(float(np.diff(ends[:, edge.axis])[0])) <= zero
+            if level and abs(float(np.hypot(*away[1])) - edge.radius) <= zero and min(begins, middle) <= zero:
+                found.add(edge.axis)
+        return found
 
     def before(self, camera: Camera, bounds: Floats) -> Scene:
         """It where nothing within bounds (2,3) hides it from a view, at the same place in its picture."""
@@ -100,14 +120,19 @@ def without_annotations(scene: Scene) -> tuple[Scene, tuple[Annotation, ...]]:
     return part, found
 
 
-def views_of(annotations: Sequence[Annotation], cameras: Sequence[Camera], extent: float) -> list[list[Annotation]]:
-    """The annotations of each view: dimensions in the first one that they are square to, centre lines in every one;
-    leaders that are square to none where they look longest."""
+def views_of(
+    annotations: Sequence[Annotation], cameras: Sequence[Camera], extent: float, edges: Sequence[RoundEdge]
+) -> list[list[Annotation]]:
+    """The annotations of each view: dimensions in the first one that they are square to, radii and diameters of round
+    edges in one that shows their circle, if there is any; centre lines in every one; leaders that are square to none
+    where they look longest."""
     found: list[list[Annotation]] = [[] for _ in cameras]
     for one in annotations:
         square = [number for number, camera in enumerate(cameras) if one.is_square_to(camera, extent)]
         if one.is_leader and not square and cameras:
             square = [max(range(len(cameras)), key=lambda number: one.length_in(cameras[number]))]
+        round_ = one.axes_among(edges)
+        square.sort(key=lambda number: not any(abs(cameras[number].axes[2, axis]) == 1.0 for axis in round_))
         for number in square if one.is_centre else square[:1]:
             found[number].append(one)
     return found
