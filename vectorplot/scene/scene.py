@@ -66,6 +66,9 @@ class Scene(Movable["Scene"]):
         The style, the pens and the dashes that the scene is drawn with.
     explosion : Explosion, optional
         Parts are moved apart where the scene is shown, before it is cut.
+    exaggeration : float
+        What heights in it were multiplied with: those that pictures write, on level lines, beside boxes and colour
+        bars, are divided by it. Scene files say nothing of it.
 
     Raises
     ------
@@ -97,6 +100,7 @@ class Scene(Movable["Scene"]):
     depth_cue: DepthCue | None = None
     inks: Inks | None = None
     explosion: Explosion | None = None
+    exaggeration: float = 1.0
 
     def __post_init__(self) -> None:
         if self.background is not None:

@@ -126,5 +126,6 @@ def _levels(scene: Scene, strokes: Paths) -> tuple[Ints, Ints, Floats]:
         away = np.abs(ends[:, own] @ normals.T - offsets).max(axis=0)
         which.append(seen[own])
         level.append(len(heights) + away.argmin(axis=1))
-        heights += offsets.tolist()
+        upright = np.abs(normals[:, 2]) == 1.0
+        heights += np.where(upright, offsets / scene.exaggeration, offsets).tolist()
     return np.concatenate(which), np.concatenate(level), np.array(heights)

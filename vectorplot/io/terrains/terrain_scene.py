@@ -14,7 +14,7 @@ from vectorplot.io.terrains.read_terrain import read_terrain
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.terrains.level_lines import times_power_of_ten
 from vectorplot.scene.terrains.terrain_mesh import MOST_DRAWN, terrain_scene
-from vectorplot.surfaces.terrains.terrain import Terrain, exaggerated, terrain, thinned_terrain
+from vectorplot.surfaces.terrains.terrain import Terrain, terrain, thinned_terrain
 
 LOWEST = 1.0 / 30.0
 """Heights less than this part of the width of their terrain would be seen as a plain: they are exaggerated."""
@@ -41,7 +41,7 @@ def scene_of_heights(path: Path, exaggeration: float | None) -> Scene:
             factor = usual_exaggeration(land)
             if factor != 1.0:
                 _say(path, _drawn(factor, "an exaggeration of 1"))
-        return terrain_scene(exaggerated(land, factor), name=path.stem)
+        return terrain_scene(land, name=path.stem, exaggeration=factor)
     except InputError as error:
         raise (error if error.file else InputError(error.cause, file=shown(path))) from None
     except MemoryError:
@@ -58,7 +58,7 @@ def scene_of_array(heights: Floats) -> Scene:
     factor = usual_exaggeration(land)
     if factor != 1.0:
         warnings.warn(_drawn(factor, "vp.surface(x, y, z)"), InputWarning, stacklevel=4)
-    return terrain_scene(exaggerated(land, factor))
+    return terrain_scene(land, exaggeration=factor)
 
 
 def usual_exaggeration(land: Terrain) -> float:
@@ -76,7 +76,7 @@ def usual_exaggeration(land: Terrain) -> float:
 
 def _drawn(factor: float, instead: str) -> str:
     """That heights are scaled, and what leaves them as they are."""
-    return f"heights are drawn {factor:g} times as high, numbers at them too ({instead} leaves them as they are)"
+    return f"heights are drawn {factor:g} times as high ({instead} leaves them as they are)"
 
 
 def _say(path: Path, what: str) -> None:
