@@ -138,6 +138,20 @@ def test_what_is_square_to_no_view_is_told_but_leaders_are_shown():
     assert names.count("leader 2") == 1 and "dimension 20" not in names
 
 
+def test_without_a_title_block_views_have_the_whole_page(tmp_path):
+    asked = {"views": "front,top", "page": "100x74", "scale": "1:1"}
+    with pytest.raises(vp.InputError, match=r"no room for 2 views above the title block$"):
+        vp.technical_sheet(BRICK, **asked)
+    figure = vp.technical_sheet(BRICK, block=False, **asked)
+    assert [one.name for one in figure.layers if one.marks] == ["contour"]
+    assert outlines(figure)[:, 0, 1].min() < 20.0
+    (tmp_path / "b.scene").write_text("brick gray box solid 40 20 10")
+    told = ["--views", "front,top", "--page", "100x74", "--scale", "1:1", "--no-block", "-q"]
+    assert run(["sheet", str(tmp_path / "b.scene"), "-o", str(tmp_path / "b.svg"), *told]) == 0
+    vp.save(figure, tmp_path / "figure.svg")
+    assert (tmp_path / "b.svg").read_text() == (tmp_path / "figure.svg").read_text()
+
+
 def test_measures_are_in_mm_whatever_the_unit_of_the_part_is():
     small = BRICK.scaled(0.1)
     asked = {"views": "front,left", "scale": "1:1", "dimensions": True}

@@ -11,7 +11,6 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.sheets.drawing_frames import drawing_space
 from vectorplot.drawing.sheets.drawing_scales import DrawingScale
-from vectorplot.drawing.sheets.title_block import BLOCK_MM
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.pages.page import Page
@@ -115,20 +114,19 @@ class Arrangement:
         return most
 
 
-def roomiest(page: Page | str, views: tuple[SheetView, ...], frame: bool) -> tuple[Page, Arrangement]:
-    """The sheet, and the views on it; a named one lies as gives them more room."""
+def roomiest(page: Page | str, views: tuple[SheetView, ...], frame: bool, below: float) -> tuple[Page, Arrangement]:
+    """The sheet, and the views on it; a named one lies as gives them more room. below: the mm below the views that the
+    title block takes."""
     given = page_of(page, Scene(()))
     turned = isinstance(page, str) and len(page.split()) == 1 and "x" not in page.lower()
-    tried = [(paper, _arranged(paper, views, frame)) for paper in ((given.landscape, given) if turned else (given,))]
+    papers = (given.landscape, given) if turned else (given,)
+    above = np.array([(0.0, below), (0.0, 0.0)])
+    tried = [(paper, Arrangement(views, drawing_space(paper, frame) + above)) for paper in papers]
     paper, arranged = max(tried, key=lambda pair: pair[1].largest_factor())
     if not arranged.largest_factor() > 0.0:
-        raise InputError(f"page {paper.width_mm:g}x{paper.height_mm:g} mm: no room for {len(views)} views")
+        taken = " above the title block" if below else ""
+        raise InputError(f"page {paper.width_mm:g}x{paper.height_mm:g} mm: no room for {len(views)} views{taken}")
     return paper, arranged
-
-
-def _arranged(paper: Page, views: tuple[SheetView, ...], frame: bool) -> Arrangement:
-    """The views above the title block."""
-    return Arrangement(views, np.add(drawing_space(paper, frame), [(0.0, BLOCK_MM[1]), (0.0, 0.0)]))
 
 
 def fitting_scale(asked: DrawingScale | None, arranged: Arrangement, paper: Page) -> DrawingScale:

@@ -15,7 +15,7 @@ from vectorplot.drawing.drawing import Drawing, Layer
 from vectorplot.drawing.sheets.drawing_frames import drawing_space, frame_layers
 from vectorplot.drawing.sheets.drawing_scales import DrawingScale
 from vectorplot.drawing.sheets.sheet import Sheet
-from vectorplot.drawing.sheets.title_block import TitleBlock
+from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
 from vectorplot.effects.cutting.cut_scenes import cut, cut_scene
 from vectorplot.effects.cutting.hatches import InSpace
 from vectorplot.errors import InputError, InputWarning
@@ -106,8 +106,7 @@ class _Part:
             for places in beside:
                 world = np.maximum(world, [-places.min(axis=0), places.max(axis=0)])
             # Cutting lines end outside of dimensions.
-            mm = np.maximum(TEXT_MM if beside else 0.0, self.overall_room_mm(name, camera))
-            mm = mm + (TEXT_MM if self.scene.labels else 0.0)
+            mm = np.maximum(TEXT_MM if beside or self.scene.labels else 0.0, self.overall_room_mm(name, camera))
             rooms = [one.line_room_mm(camera) for one in self.sections if one.told_in(self.names) == name]
             rooms += [np.array([(0.0, 0.0), (0.0, ROOM_MM)]) for one in self.sections if one.letter == name]
             found.append(SheetView(name, camera, cells[name], world, mm + np.max([np.zeros((2, 2)), *rooms], axis=0)))
@@ -158,6 +157,7 @@ def technical_sheet(
     dimensions: bool = False,
     centre_lines: bool = False,
     frame: bool = False,
+    block: bool = True,
     title: str | None = None,
     author: str = "",
     date: str = "",
@@ -202,6 +202,8 @@ def technical_sheet(
         Of bores, shafts and whatever else has edges in circles across x, y or z, polyhedra only.
     frame : bool
         The border of the drawing space, with centring marks and zones, and a wider margin at the left.
+    block : bool
+        The title block; without it the sheet is a figure of views, for a page of something else.
     title : str, optional
         Letters in the title block; where None those of the scene, if they have room and strokes there.
     author, date, sheet : str
@@ -264,15 +266,15 @@ def technical_sheet(
     overall = overall_dimensions(names, solid.bounds) if dimensions else ()
     sections = sections_of(section, names, solid.bounds)
     part = _Part(solid, annotations, names, cameras, overall, sections, edges)
-    paper, arranged = roomiest(page, part.views(projection == "first"), frame)
+    paper, arranged = roomiest(page, part.views(projection == "first"), frame, BLOCK_MM[1] if block else 0.0)
     chosen = fitting_scale(asked, arranged, paper)
     factor = chosen.factor
     name = page.strip().split()[0].upper() if isinstance(page, str) else f"{paper.width_mm:g}x{paper.height_mm:g}"
     said = given.title if title is None else title
-    block = TitleBlock(said, author, date, sheet, str(chosen), name, projection)
-    space = drawing_space(paper, frame)
+    words = TitleBlock(said, author, date, sheet, str(chosen), name, projection)
     # A title that nobody asked for here may be too long, or in letters without strokes.
-    layers = block.layers(space) if title is not None else _titled_if_possible(block, space)
+    written_in = words.layers_titled_if_possible if title is None else words.layers
+    layers = written_in(drawing_space(paper, frame)) if block else ()
     done = Sheet(paper, f"{said}, {chosen}" if said else str(chosen))
     notes = part.notes()
     _tell_left_out(annotations, notes)
@@ -312,14 +314,6 @@ def _tell_left_out(annotations: Iterable[Annotation], notes: Iterable[Iterable[A
     names = [one.name for one in annotations if not one.is_centre and id(one) not in shown]
     if names:
         warnings.warn(f"square to no view and not shown: {', '.join(names)}", InputWarning, stacklevel=3)
-
-
-def _titled_if_possible(block: TitleBlock, space: Floats) -> tuple[Layer, ...]:
-    """The layers of a title block, without its title where that cannot be written there."""
-    try:
-        return block.layers(space)
-    except InputError:
-        return replace(block, title="").layers(space)
 
 
 def _page_at(factor: float) -> Callable[[Scene], InSpace]:

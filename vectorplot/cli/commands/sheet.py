@@ -70,6 +70,7 @@ def _name_of_mesh(path: str) -> str:
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
     click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
     click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
+    click.option("--block/--no-block", default=True, help="The title block, or views alone, as a figure."),
     click.option(
         "--title",
         default="",
