@@ -74,6 +74,8 @@ class Scene(Movable["Scene"]):
     ------
     InputError
         For an unknown background.
+    TypeError
+        For what is no tuple of items.
 
     Examples
     --------
@@ -103,6 +105,11 @@ class Scene(Movable["Scene"]):
     exaggeration: float = 1.0
 
     def __post_init__(self) -> None:
+        # The first one tells: a scene may have a million items, and is made anew by every stage.
+        if not isinstance(self.items, tuple | list) or not all(isinstance(item, Item) for item in self.items[:1]):
+            given = self.items[0] if isinstance(self.items, tuple | list) else self.items
+            kind = type(given).__name__
+            raise TypeError(f"a scene is made of Items, as vp.Scene((vp.Item('part', shape),)), not of a {kind}")
         if self.background is not None:
             check_colour(self.background, "background: ")
         check_exposure(self.exposure)

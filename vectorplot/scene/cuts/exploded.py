@@ -46,6 +46,8 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
     ------
     InputError
         For another axis, and a factor out of range.
+    TypeError
+        For what is no scene.
 
     Notes
     -----
@@ -64,6 +66,8 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
     >>> [item.name for item in apart.items], apart.items[1].shape.bounds[:, 2].tolist()
     (['a', 'b', 'b trace'], [1.5, 2.5])
     """
+    if not isinstance(scene, Scene):
+        raise TypeError(f"exploded takes a Scene, such as vectorplot.io.scene_of(parts), not {type(scene).__name__}")
     way = direction_of(axis)
     if not 1.0 <= factor < np.inf:
         raise InputError(f"explode: a factor of {factor:g}: expected a finite number, 1 or more")
