@@ -13,7 +13,9 @@ import pytest
 from support.paths import DOCS, EXAMPLES, PACKAGE, ROOT
 
 import vectorplot as vp
+from vectorplot.geometry import box
 
+CUBE = box((1, 1, 1))
 STUBS = sorted(path.relative_to(PACKAGE) for path in PACKAGE.rglob("*.pyi"))
 ROOMS = {path.parent.as_posix() for path in STUBS} - {"."}
 PAGES = [ROOT / "README.md", *sorted(DOCS.glob("*.md"))]
@@ -42,6 +44,47 @@ def imports_of_users():
                 yield from ((path.name, node.module, alias.name) for alias in node.names)
             elif isinstance(node, ast.Import):
                 yield from ((path.name, alias.name, "") for alias in node.names if alias.name.startswith("vectorplot."))
+
+
+@pytest.mark.parametrize(
+    ("name", "told"),
+    [
+        ("Sphere", "vectorplot has no 'Sphere': from vectorplot.surfaces import Sphere"),
+        ("box", "vectorplot has no 'box': from vectorplot.geometry import box"),
+        ("implicit", "vectorplot has no 'implicit'"),
+    ],
+)
+def test_a_name_of_a_room_is_told_where_it_is(name, told):
+    with pytest.raises(AttributeError) as error:
+        getattr(vp, name)
+    assert str(error.value) == told
+
+
+@pytest.mark.parametrize(
+    ("make", "kind", "told"),
+    [
+        (lambda: vp.Scene(vp.Item("cube", CUBE)), TypeError, r"made of Items, .* not of a Item$"),
+        (lambda: vp.Scene((CUBE,)), TypeError, r"made of Items, .* not of a Mesh$"),
+        (lambda: vp.exploded([CUBE]), TypeError, r"exploded takes a Scene, .* not list$"),
+        (
+            lambda: vp.Camera("iso"),
+            vp.InputError,
+            r"eye must be three numbers; .* vp.Camera.view\('iso'\)$",
+        ),
+        (lambda: vp.Page("A4"), vp.InputError, r"^page 'A4', 297.0: expected width and height in mm; .* page='A4'$"),
+        (lambda: vp.technical_sheet(CUBE, scale=0.5), vp.InputError, r"^scale 0.5: expected two numbers such as 1:2$"),
+    ],
+)
+def test_what_first_scripts_get_wrong_is_told_in_one_sentence(make, kind, told):
+    with pytest.raises(kind, match=told):
+        make()
+
+
+def test_whatever_has_a_shape_is_cut():
+    assert [item.name for item in vp.cut([CUBE, vp.Item("lid", CUBE)], "y = 0.5", items=["lid"]).items] == [
+        "mesh",
+        "lid",
+    ]
 
 
 @pytest.mark.parametrize("stub", STUBS, ids=str)

@@ -62,6 +62,11 @@ def test_save_writes_what_write_returns(drawing, tmp_path, format):
     assert sorted(path.name for path in tmp_path.iterdir()) == [f"a.{format}", f"b.{format.upper()}"]
 
 
+def test_languages_of_plotters_are_those_of_vpype(drawing, tmp_path):
+    with pytest.raises(InputError, match=r"unknown suffix '\.HPGL'.*\.json; vpype writes it from an \.svg$"):
+        save(drawing, tmp_path / "a.HPGL")
+
+
 @pytest.mark.parametrize("name", ["a.gif", "a", ".svg", "a.svg.bak"])
 def test_an_unknown_suffix_is_refused(drawing, tmp_path, name):
     with pytest.raises(InputError, match=r"unknown suffix .*\.svg, \.ps, \.eps, \.pdf, \.png, \.tex, \.dxf, \.json"):

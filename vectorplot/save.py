@@ -12,6 +12,7 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.raster.image import Image
+from vectorplot.words import format_hint
 
 # Module and function of each format; a backend is imported when it is called for.
 _BACKENDS = {
@@ -96,7 +97,8 @@ def save(drawing: Drawing | Image | Scene | Frames | Sequence[Drawing], path: st
         write_whole(path, pdf_pages_bytes(drawing, drawing[0].title))
         return
     if suffix[1:].lower() not in (*_BACKENDS, _SCENE):
-        raise InputError(f"unknown suffix {suffix!r}; known are .{', .'.join(FORMATS)}", file=os.fspath(path))
+        known = f"known are .{', .'.join(FORMATS)}{format_hint(suffix[1:])}"
+        raise InputError(f"unknown suffix {suffix!r}; {known}", file=os.fspath(path))
     write_whole(path, write(drawing, suffix[1:]))
 
 

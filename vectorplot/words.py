@@ -323,3 +323,12 @@ def check_word(what: str, word: object, known: Iterable[str]) -> None:
     words = tuple(known)
     if word not in words:
         raise unknown(what, word, words)
+
+
+OF_PLOTTERS = ("hpgl", "hpg", "plt", "gcode", "nc", "ngc", "tap")
+"""Suffixes of the languages of plotters, which other programs write."""
+
+
+def format_hint(suffix: str) -> str:
+    """What is said behind a message that a suffix, without its point, is no format."""
+    return "; vpype writes it from an .svg" if suffix.lower() in OF_PLOTTERS else ""

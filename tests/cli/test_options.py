@@ -35,6 +35,8 @@ def test_bounds_of_numbers_are_kept():
 def test_pages_have_names_or_sizes():
     assert options.page_size("A4") == (210.0, 297.0)
     assert options.page_size("300x200.5") == (300.0, 200.5)
+    assert options.page_size("A4 landscape") == (297.0, 210.0)
+    assert options.page_size("300x200.5 portrait") == (200.5, 300.0)
     for text in ("A9", "0x5", "5x-5", "nanx5", "x"):
         with pytest.raises(click.BadParameter):
             options.page_size(text)
@@ -62,5 +64,7 @@ def test_without_a_format_it_is_bad_usage(path):
 
 
 def test_one_format_alone_is_no_choice():
+    with pytest.raises(click.UsageError, match=r"^a\.gcode: .* \.svg, \.pdf; vpype writes it from an \.svg$"):
+        options.format_of("a.gcode", None, ("svg", "pdf"))
     with pytest.raises(click.UsageError, match=r"^a\.jpg: the name must end in \.png$"):
         options.format_of("a.jpg", None, ("png",))

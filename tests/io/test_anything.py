@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
 from types import SimpleNamespace
 
@@ -113,6 +114,7 @@ def test_cameras_and_pages_are_words_too():
     drawing = vp.draw(CUBE, "iso", page="A5 landscape")
     assert (drawing.width_mm, drawing.height_mm) == (210.0, 148.0)
     assert vp.draw(CUBE, "top", page="60x50").width_mm == 60.0
+    assert vp.draw(CUBE, "top", page="60x50 Portrait").width_mm == 50.0
     assert vp.render(CUBE, "front", size=(20, 10)).columns == 20
     with pytest.raises(vp.InputError, match="did you mean 'front'"):
         vp.paint(CUBE, "fornt")
@@ -143,6 +145,24 @@ def test_lists_that_hold_themselves_are_refused():
 def test_an_array_that_is_nothing_is_told_with_its_shape():
     with pytest.raises(TypeError, match=r"ndarray of shape \(7, 3\)"):
         vp.draw(np.zeros((7, 3)))
+
+
+@pytest.mark.parametrize(("relief", "factor"), [(0.02, 50.0), (1.0, 1.0), (600.0, 1e-3)])
+def test_heights_that_would_be_a_plain_or_needles_are_scaled_as_those_of_files(relief, factor):
+    heights = np.zeros((5, 9))
+    heights[2, 4] = relief
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        scene = scene_of(heights)
+    assert np.ptp(scene.bounds, axis=0).tolist() == pytest.approx([4.0, 8.0, relief * factor])
+    assert [f"drawn {factor:g} times as high" in str(one.message) for one in told] == [True] * (factor != 1.0)
+
+
+def test_points_are_told_how_they_become_a_curve():
+    with pytest.raises(TypeError, match=r"spline_curve\(points, AkimaSpline\(\)\) is the curve through points"):
+        vp.draw(np.arange(30.0).reshape(10, 3))
+    with pytest.raises(TypeError, match=r"not ndarray of shape \(2, 10, 3\)$"):
+        vp.draw(np.zeros((2, 10, 3)))
 
 
 @pytest.mark.parametrize(

@@ -31,6 +31,11 @@ def test_a_grid_may_have_holes_and_be_given_by_its_sides():
             vp.surface(np.arange(5), np.arange(4), bad)
 
 
+def test_rows_and_columns_that_were_mistaken_are_told():
+    with pytest.raises(vp.InputError, match=r"\(5, 4\) are no grid: expected z \(4, 5\), a row for each y"):
+        vp.surface(np.arange(5), np.arange(4), np.zeros((5, 4)))
+
+
 def test_a_graph_has_the_lines_of_its_samples():
     item = vp.graph(lambda x, y: x * y, (0, 2), np.linspace(-1, 1, 5))
     assert (item.curves.columns, item.curves.rows) == (20, 4)

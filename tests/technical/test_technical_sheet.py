@@ -12,7 +12,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.verbs import vectorplot
-from vectorplot.geometry import box
+from vectorplot.geometry import box, prism, regular_polygon
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.technical.round_edges import round_edges
 from vectorplot.testing import assert_drawings_equal
@@ -104,6 +104,69 @@ def test_a_scenes_own_dimensions_are_in_the_view_that_is_square_to_them():
     found = [points for name, points in strokes_of(only, "label") if name in names]
     lengths = sorted(float(np.abs(np.ptp(points, axis=0)).sum()) for points in found)
     assert np.allclose(lengths, [9.0, 9.0, 40.0])
+
+
+def test_nothing_hides_dimensions_and_leaders_of_a_view():
+    behind, leader = vp.dimension((0, 20, 0), (40, 20, 0), (0, 0, 5)), vp.leader((20, 10, 5), (50, 10, 9), "1")
+    sheet = vp.technical_sheet([BRICK, behind, leader], views="front", scale="1:1")
+    assert layer(sheet, "hidden") is None
+    lengths = [np.hypot(*np.ptp(part, axis=0)) for name, part in strokes_of(sheet, "label") if name[:6] == "leader"]
+    assert lengths == pytest.approx([np.hypot(30, 4)])
+
+
+def test_radii_and_diameters_are_where_their_circle_is_one():
+    holes = [regular_polygon(24, 4, centre=(x, 10, 0)) for x in (8, 30)]
+    plate = prism([(0, 0, 0), (40, 0, 0), (40, 20, 0), (0, 20, 0)], (0, 0, 4), holes=holes)
+    notes = [
+        vp.diameter((8, 10, 4), (12, 10, 4)),
+        vp.radius((30, 10, 0), (34, 10, 0)),
+        vp.diameter((9, 0, 2), (12, 0, 2)),
+    ]
+    sheet = vp.technical_sheet([vp.Item("plate", plate), *notes], views="front,top", scale="1:1")
+    boxes = [(box[:, 1].mean(), np.ptp(box[:, 1])) for box in outlines(sheet)]
+    front, top = (next(y for y, high in boxes if high == pytest.approx(wanted)) for wanted in (4.0, 20.0))
+    height = {name: float(part[:, 1].mean()) for name, part in strokes_of(sheet, "label") if name}
+    assert height == pytest.approx({"diameter ø8": top, "radius R4": top, "diameter ø6": front})
+
+
+def test_what_is_square_to_no_view_is_told_but_leaders_are_shown():
+    leader = vp.leader((40, 20, 10), (60, 35, 19), "2")
+    notes = [vp.dimension((0, 0, 0), (0, 20, 0), (-8, 0, 0)), vp.centre_line((20, 10, -3), (20, 10, 13)), leader]
+    with pytest.warns(vp.InputWarning, match="^square to no view and not shown: dimension 20$"):
+        sheet = vp.technical_sheet([BRICK, *notes], views="front,left", scale="1:1")
+    names = [name for name, _ in strokes_of(sheet, "label")]
+    assert names.count("leader 2") == 1 and "dimension 20" not in names
+
+
+def test_without_a_title_block_views_have_the_whole_page(tmp_path):
+    asked = {"views": "front,top", "page": "100x74", "scale": "1:1"}
+    with pytest.raises(vp.InputError, match=r"no room for 2 views above the title block$"):
+        vp.technical_sheet(BRICK, **asked)
+    figure = vp.technical_sheet(BRICK, block=False, **asked)
+    assert [one.name for one in figure.layers if one.marks] == ["contour"]
+    assert outlines(figure)[:, 0, 1].min() < 20.0
+    (tmp_path / "b.scene").write_text("brick gray box solid 40 20 10")
+    told = ["--views", "front,top", "--page", "100x74", "--scale", "1:1", "--no-block", "-q"]
+    assert run(["sheet", str(tmp_path / "b.scene"), "-o", str(tmp_path / "b.svg"), *told]) == 0
+    vp.save(figure, tmp_path / "figure.svg")
+    assert (tmp_path / "b.svg").read_text() == (tmp_path / "figure.svg").read_text()
+
+
+def test_measures_are_in_mm_whatever_the_unit_of_the_part_is():
+    small = BRICK.scaled(0.1)
+    asked = {"views": "front,left", "scale": "1:1", "dimensions": True}
+    assert_drawings_equal(vp.technical_sheet(small, unit="cm", **asked), vp.technical_sheet(BRICK, **asked))
+    with pytest.raises(vp.InputError, match="unit 'km'"):
+        vp.technical_sheet(BRICK, unit="km")
+
+
+def test_the_name_of_a_mesh_file_is_its_title_unless_it_has_one(tmp_path):
+    path = tmp_path / "lid.obj"
+    path.write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n")
+    asked = ["--views", "front", "--page", "A5", "--unit", "in", "-q"]
+    for more, title in (([], "lid"), (["--title", "Cover"], "Cover")):
+        assert run(["sheet", str(path), "-o", str(tmp_path / "lid.svg"), *asked, *more]) == 0
+        assert f"<title>{title}, 2:1</title>" in (tmp_path / "lid.svg").read_text()
 
 
 @pytest.mark.slow

@@ -28,11 +28,11 @@ def cut_text(text: str) -> str:
     return text
 
 
-def _explosion(text: str) -> tuple[Point, float]:
-    """AXIS,FACTOR; an axis is x, y, z, or X,Y,Z."""
-    axis, comma, factor = text.rpartition(",")
-    if not comma:
-        raise click.BadParameter(f"{text!r} is not AXIS,FACTOR")
+def _explosion(text: str) -> tuple[Point] | tuple[Point, float]:
+    """AXIS or AXIS,FACTOR; an axis is x, y, z, or X,Y,Z."""
+    if text.count(",") in (0, 2):
+        return (direction(text),)
+    axis, _, factor = text.rpartition(",")
     found = direction(axis), number(factor)
     if not found[1] >= 1.0:
         raise click.BadParameter(f"a factor of {found[1]:g}: expected 1 or more")
@@ -65,7 +65,10 @@ CUT_OPTIONS = (
     CUT_SPACING,
     click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
     click.option(
-        "--explode", type=_explosion, metavar="AXIS,FACTOR", help="Parts moved apart along x, y, z or X,Y,Z: z,1.5."
+        "--explode",
+        type=_explosion,
+        metavar="AXIS[,FACTOR]",
+        help="Parts moved apart along x, y, z or X,Y,Z; z,1.5 is z.",
     ),
 )
 
@@ -79,7 +82,7 @@ class CutOptions:
     cut_colour: str | None = None
     cut_spacing: float | None = None
     cut_angle: float = 45.0
-    explode: tuple[Point, float] | None = None
+    explode: tuple[Point] | tuple[Point, float] | None = None
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> CutOptions:

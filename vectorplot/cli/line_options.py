@@ -202,7 +202,7 @@ def _sections(planes: Planes, scene: Scene) -> Section:
 
 
 def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
-    from vectorplot.scene.lines.added_lines import round_sections
+    from vectorplot.scene.lines.added_lines import heights_times, round_sections
     from vectorplot.scene.surface_lines import Section
     from vectorplot.scene.terrains.level_lines import USUAL_EVERY, with_index_lines
 
@@ -210,4 +210,6 @@ def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
         return ()
     if planes.count:
         return round_sections(scene, planes.normal, planes.count)
-    return with_index_lines(Section(planes.normal, planes.offsets), USUAL_EVERY)
+    given = Section(planes.normal, planes.offsets)
+    times = heights_times(scene, given)
+    return with_index_lines(replace(given, offsets=tuple(times * height for height in given.offsets)), USUAL_EVERY)

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar
 import click
 
 from vectorplot.errors import InputError
-from vectorplot.words import LINE_WORDS, line_words
+from vectorplot.words import LINE_WORDS, format_hint, line_words
 
 if TYPE_CHECKING:
     from vectorplot.scene.depth_cue import DepthCue
@@ -111,15 +111,17 @@ def length(text: str) -> float:
 
 
 def page_size(text: str) -> tuple[float, float] | str:
-    """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape, or the word FIT."""
+    """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape or portrait, or the word FIT."""
     from vectorplot.scene.pages.paper import FIT, sheet_size
 
     if text.strip().lower() == FIT:
         return FIT
     sheet, _, way = text.strip().partition(" ")
+    word = way.strip().lower()
     try:
-        width, height = sheet_size(sheet if way.strip().lower() == "landscape" else text)
-        return (max(width, height), min(width, height)) if way else (width, height)
+        sides = sheet_size(sheet if word in ("landscape", "portrait") else text)
+        width, height = sorted(sides, reverse=word == "landscape") if word else sides
+        return width, height
     except InputError as error:
         raise click.BadParameter(str(error)) from None
 
@@ -273,5 +275,6 @@ def format_of(path: str, given: str | None, known: Sequence[str]) -> str:
     word = suffix[2].lower() if suffix[1] and suffix[0] else ""
     if word not in known:
         choice = "" if len(known) == 1 else "one of "
-        raise click.UsageError(f"{path}: the name must end in {choice}{', '.join('.' + name for name in known)}")
+        names = ", ".join("." + name for name in known)
+        raise click.UsageError(f"{path}: the name must end in {choice}{names}{format_hint(word)}")
     return word

@@ -34,6 +34,9 @@ TAKEN = (
 )
 """What the verbs take, in words."""
 
+CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the curve through points"
+"""What is said of points."""
+
 
 def scene_of(shown: object) -> Scene:
     """The scene that something with a shape is, or makes up.
@@ -44,7 +47,9 @@ def scene_of(shown: object) -> Scene:
         A path is read as by `vp.read`. Shapes become gray items named after what they are. A mesh of another library is
         known by what it has: vertices and faces, as those of trimesh, or points and cells, as those of meshio, whose
         volumes show their outer faces. Arrays of vertices (n, 3) and of faces (f, k) are a pair. A Terrain, or an array
-        of heights (m, n), is drawn with its level lines. A list or a tuple is all of what is in it, a mapping names it.
+        of heights (m, n), is drawn with its level lines; heights of an array that would be a plain, or needles, over
+        steps of 1 are drawn higher or lower, as those of files. A list or a tuple is all of what is in it, a mapping
+        names it.
 
     Returns
     -------
@@ -62,7 +67,7 @@ def scene_of(shown: object) -> Scene:
     Warns
     -----
     InputWarning
-        What was mended of a mesh of another library, or of arrays, as of files.
+        What was mended of a mesh of another library, or of arrays, as of files; how heights were scaled.
 
     Examples
     --------
@@ -85,8 +90,12 @@ def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
         return shown
     if isinstance(shown, str | os.PathLike):
         return _read(shown)
-    if isinstance(shown, Terrain) or _is_heights(shown):
+    if isinstance(shown, Terrain):
         return terrain_scene(shown)
+    if _is_heights(shown):
+        from vectorplot.io.terrains.terrain_scene import scene_of_array
+
+        return scene_of_array(shown)
     item = _item(shown)
     if item is not None:
         return Scene((item,))
@@ -112,7 +121,8 @@ def _is_heights(shown: object) -> TypeGuard[Floats]:
 
 def _refuse(shown: object) -> NoReturn:
     shape = f" of shape {shown.shape}" if isinstance(shown, np.ndarray) else ""
-    raise TypeError(f"expected {TAKEN}, not {type(shown).__name__}{shape}")
+    points = isinstance(shown, np.ndarray) and shown.ndim == 2 and shown.shape[1] == len("xyz")
+    raise TypeError(f"expected {TAKEN}, not {type(shown).__name__}{shape}{CURVE_HINT if points else ''}")
 
 
 def _read(path: str | os.PathLike[str]) -> Scene:

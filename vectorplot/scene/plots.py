@@ -61,7 +61,9 @@ def surface(x: ArrayLike, y: ArrayLike, z: ArrayLike, colour: str = "gray", name
     if heights.ndim == 2 and across.shape == heights.shape[1:] and up.shape == heights.shape[:1]:
         across, up = np.meshgrid(across, up)
     if heights.ndim != 2 or across.shape != heights.shape or up.shape != heights.shape:
-        raise InputError(f"surface: x, y and z of shapes {across.shape}, {up.shape}, {heights.shape} are no grid")
+        grid = (*up.shape, *across.shape) if up.ndim == across.ndim == 1 else across.shape
+        given = f"x, y and z of shapes {across.shape}, {up.shape}, {heights.shape}"
+        raise InputError(f"surface: {given} are no grid: expected z {grid}, a row for each y")
     points = np.stack([across, up, heights], axis=-1).reshape(-1, 3)
     number = np.arange(heights.size).reshape(heights.shape)
     faces = np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], axis=-1).reshape(-1, 4)

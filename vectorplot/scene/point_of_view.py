@@ -78,9 +78,9 @@ def _sheet_of(page: Page | str | None, scene: Scene) -> Page:
     if not isinstance(page, str):
         raise TypeError(f"a page is a Page or a text such as 'A4', '200x150' or 'fit', not {type(page).__name__}")
     sheet, _, way = page.strip().partition(" ")
-    if way.strip() not in ("", "landscape"):
-        raise InputError(f"page {page!r}: expected a sheet, and perhaps 'landscape'")
+    if (way := way.strip().lower()) not in ("", "landscape", "portrait"):
+        raise InputError(f"page {page!r}: expected a sheet, and perhaps 'landscape' or 'portrait'")
     fitted = sheet.lower() == FIT
     found = (scene.page or Page()) if fitted else Page(*sheet_size(sheet))
-    found = found.landscape if way else found
+    found = found.landscape if way == "landscape" else found.portrait if way == "portrait" else found
     return fitted_page(found) if fitted else found

@@ -66,11 +66,16 @@ class Scene(Movable["Scene"]):
         The style, the pens and the dashes that the scene is drawn with.
     explosion : Explosion, optional
         Parts are moved apart where the scene is shown, before it is cut.
+    exaggeration : float
+        What heights in it were multiplied with: those that pictures write, on level lines, beside boxes and colour
+        bars, are divided by it. Scene files say nothing of it.
 
     Raises
     ------
     InputError
         For an unknown background.
+    TypeError
+        For what is no tuple of items.
 
     Examples
     --------
@@ -97,8 +102,14 @@ class Scene(Movable["Scene"]):
     depth_cue: DepthCue | None = None
     inks: Inks | None = None
     explosion: Explosion | None = None
+    exaggeration: float = 1.0
 
     def __post_init__(self) -> None:
+        # The first one tells: a scene may have a million items, and is made anew by every stage.
+        if not isinstance(self.items, tuple | list) or not all(isinstance(item, Item) for item in self.items[:1]):
+            given = self.items[0] if isinstance(self.items, tuple | list) else self.items
+            kind = type(given).__name__
+            raise TypeError(f"a scene is made of Items, as vp.Scene((vp.Item('part', shape),)), not of a {kind}")
         if self.background is not None:
             check_colour(self.background, "background: ")
         check_exposure(self.exposure)

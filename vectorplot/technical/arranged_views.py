@@ -9,7 +9,13 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.drawing.sheets.drawing_frames import drawing_space
+from vectorplot.drawing.sheets.drawing_scales import DrawingScale
+from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.point_of_view import page_of
+from vectorplot.scene.scene import Scene
 
 THIRD_ANGLE = {"front": (0, 0), "right": (1, 0), "left": (-1, 0), "top": (0, 1), "bottom": (0, -1), "back": (2, 0)}
 """Column and row of main views, rightwards and upwards from the front, where each is on the side it is seen from."""
@@ -106,3 +112,32 @@ class Arrangement:
         most = np.zeros((int(cells.max()) + 1, 2))
         np.maximum.at(most, cells, np.array([reach(view)[:, axis] for view in self.views]))
         return most
+
+
+def roomiest(page: Page | str, views: tuple[SheetView, ...], frame: bool, below: float) -> tuple[Page, Arrangement]:
+    """The sheet, and the views on it; a named one lies as gives them more room. below: the mm below the views that the
+    title block takes."""
+    given = page_of(page, Scene(()))
+    turned = isinstance(page, str) and len(page.split()) == 1 and "x" not in page.lower()
+    papers = (given.landscape, given) if turned else (given,)
+    above = np.array([(0.0, below), (0.0, 0.0)])
+    tried = [(paper, Arrangement(views, drawing_space(paper, frame) + above)) for paper in papers]
+    paper, arranged = max(tried, key=lambda pair: pair[1].largest_factor())
+    if not arranged.largest_factor() > 0.0:
+        taken = " above the title block" if below else ""
+        raise InputError(f"page {paper.width_mm:g}x{paper.height_mm:g} mm: no room for {len(views)} views{taken}")
+    return paper, arranged
+
+
+def fitting_scale(asked: DrawingScale | None, arranged: Arrangement, paper: Page) -> DrawingScale:
+    """The scale asked for, or the largest standard one that fits. Errors: InputError for one that is too large."""
+    room = arranged.largest_factor()
+    if asked is None:
+        return DrawingScale.largest_standard(room) if math.isfinite(room) else DrawingScale(1.0, 1.0)
+    if asked.factor > room:
+        largest = DrawingScale.largest_standard(room)
+        raise InputError(
+            f"scale {asked}: too large for {len(arranged.views)} views on {paper.width_mm:g}x{paper.height_mm:g} mm; "
+            f"the largest standard scale that fits is {largest}"
+        )
+    return asked

@@ -16,7 +16,7 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.layers import PENS
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
-from vectorplot.drawing.lettering.scene_labels import HALO_MM
+from vectorplot.drawing.lettering.labels.label_letters import HALO_MM
 from vectorplot.drawing.lettering.text import lettered
 from vectorplot.drawing.sheets.page_strokes import page_strokes
 from vectorplot.drawing.strokes.dashes import CHAIN_MM, dashed

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import math
+import warnings
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -18,7 +18,7 @@ from vectorplot.drawing.sheets.sheet import Sheet
 from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
 from vectorplot.effects.cutting.cut_scenes import cut, cut_scene
 from vectorplot.effects.cutting.hatches import InSpace
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
@@ -26,11 +26,12 @@ from vectorplot.io.upwards import stood_up
 from vectorplot.scene.cuts.exploded import shown_apart
 from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.scene.pages.page import Page
-from vectorplot.scene.point_of_view import camera_of, page_of
+from vectorplot.scene.pages.paper import MM_PER_INCH
+from vectorplot.scene.point_of_view import camera_of
 from vectorplot.scene.scene import Scene
 from vectorplot.stages.walk import StageReport
-from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of
-from vectorplot.technical.round_edges import centre_lines_of, round_edges
+from vectorplot.technical.arranged_views import Arrangement, SheetView, cells_of, fitting_scale, roomiest
+from vectorplot.technical.round_edges import RoundEdge, centre_lines_of, round_edges
 from vectorplot.technical.section_views import ROOM_MM, SheetSection, sections_of
 from vectorplot.technical.view_annotations import (
     TEXT_MM,
@@ -52,6 +53,9 @@ PENS = "contour=0.5,boundary=0.5,crease=0.5,intersection=0.5,curve=0.5,cut=0.5,h
 
 DASHES = "hidden=3,1"
 
+MM_PER = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": MM_PER_INCH}
+"""How many mm a unit of the world may be."""
+
 BORDER_MM = 20.0
 """What the page of a view has around the view, so that letters beside it are not cut off."""
 
@@ -66,6 +70,7 @@ class _Part:
     cameras: tuple[Camera, ...]
     overall: tuple[OverallDimension, ...]
     sections: tuple[SheetSection, ...]
+    edges: tuple[RoundEdge, ...]
 
     @property
     def bounds(self) -> Floats:
@@ -75,7 +80,7 @@ class _Part:
         """The annotations of each view, and centre lines of each section; a pictorial view has none."""
         flat = [camera for name, camera in zip(self.names, self.cameras, strict=True) if name != "iso"]
         extent = float(np.ptp(self.bounds, axis=0).max())
-        found = iter(views_of(self.annotations, flat, extent))
+        found = iter(views_of(self.annotations, flat, extent, self.edges))
         cut = [self.centre_lines_in(section, extent) for section in self.sections]
         return [*([] if name == "iso" else next(found) for name in self.names), *cut]
 
@@ -101,8 +106,7 @@ class _Part:
             for places in beside:
                 world = np.maximum(world, [-places.min(axis=0), places.max(axis=0)])
             # Cutting lines end outside of dimensions.
-            mm = np.maximum(TEXT_MM if beside else 0.0, self.overall_room_mm(name, camera))
-            mm = mm + (TEXT_MM if self.scene.labels else 0.0)
+            mm = np.maximum(TEXT_MM if beside or self.scene.labels else 0.0, self.overall_room_mm(name, camera))
             rooms = [one.line_room_mm(camera) for one in self.sections if one.told_in(self.names) == name]
             rooms += [np.array([(0.0, 0.0), (0.0, ROOM_MM)]) for one in self.sections if one.letter == name]
             found.append(SheetView(name, camera, cells[name], world, mm + np.max([np.zeros((2, 2)), *rooms], axis=0)))
@@ -145,6 +149,7 @@ def technical_sheet(
     views: str | Iterable[str] = "front,top,left,iso",
     up: Point | None = None,
     scale: str = "fit",
+    unit: str = "mm",
     projection: Literal["first", "third"] = "first",
     page: Page | str = "A3",
     section: str | Iterable[str] = (),
@@ -152,6 +157,7 @@ def technical_sheet(
     dimensions: bool = False,
     centre_lines: bool = False,
     frame: bool = False,
+    block: bool = True,
     title: str | None = None,
     author: str = "",
     date: str = "",
@@ -165,8 +171,9 @@ def technical_sheet(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is drawn, as of `io.scene_of`; a unit of the world is a mm. Dimensions in it are shown in the first view
-        that they are square to, centre lines in every such view.
+        What is drawn, as of `io.scene_of`. Dimensions in it are shown in the first view that they are square to, radii
+        and diameters of bores in one that shows the circle, centre lines in every such view, and leaders that are
+        square to none where they look longest.
     views : str or iterable of str
         Some of front, back, left, right, top, bottom, iso, each once; iso stands in a free corner, without hidden lines
         and dimensions.
@@ -175,6 +182,8 @@ def technical_sheet(
         stands. Where None, z.
     scale : str
         Lengths on paper to lengths of the part, such as 1:2; fit: the largest of ISO 5455 that fits.
+    unit : {"mm", "cm", "m", "in"}
+        What a unit of the world is; measures, sections and the scale are in mm whatever it is.
     projection : {"first", "third"}
         First or third angle: whether a view stands opposite to the side it is seen from, as in Europe, or on that
         side, as in America.
@@ -193,6 +202,8 @@ def technical_sheet(
         Of bores, shafts and whatever else has edges in circles across x, y or z, polyhedra only.
     frame : bool
         The border of the drawing space, with centring marks and zones, and a wider margin at the left.
+    block : bool
+        The title block; without it the sheet is a figure of views, for a page of something else.
     title : str, optional
         Letters in the title block; where None those of the scene, if they have room and strokes there.
     author, date, sheet : str
@@ -212,7 +223,12 @@ def technical_sheet(
     InputError
         As of draw; for views that are unknown, twice or none; for sections that are none, or beside the part; for a
         scale that is too large for the page, with the largest that fits; for a page without room, and a title without
-        room in its block.
+        room in its block; for an unknown unit.
+
+    Warns
+    -----
+    InputWarning
+        Of dimensions that are square to none of the views: they are not shown.
 
     Notes
     -----
@@ -233,31 +249,38 @@ def technical_sheet(
     """
     names = _view_names(views)
     check_word("projection", projection, ("first", "third"))
+    check_word("unit", unit, MM_PER)
     asked = None if scale == "fit" else DrawingScale.of(scale)
-    # Sheets have pens of their own.
     given = shown_apart(scene_of(scene))
+    given = given if unit == "mm" else given.scaled(MM_PER[unit])
+    # Sheets have pens of their own.
     given = replace(given if up is None else stood_up(given, up), inks=None)
-    if centre_lines:
-        given = together([given, *_centre_lines(given, crease_angle_deg)])
     solid, annotations = without_annotations(given)
+    edges: tuple[RoundEdge, ...] = ()
+    if centre_lines or any(one.may_be_of_circle for one in annotations):
+        edges = _round_edges(solid, crease_angle_deg)
+    if centre_lines and edges:
+        extent = float(np.ptp(given.bounds, axis=0).max())
+        solid, annotations = without_annotations(together([given, *centre_lines_of(edges, extent)]))
     cameras = tuple(camera_of(name, solid) for name in names)
     overall = overall_dimensions(names, solid.bounds) if dimensions else ()
     sections = sections_of(section, names, solid.bounds)
-    part = _Part(solid, annotations, names, cameras, overall, sections)
-    paper, arranged = _roomiest(page, part.views(projection == "first"), frame)
-    chosen = _scale(asked, arranged, paper)
+    part = _Part(solid, annotations, names, cameras, overall, sections, edges)
+    paper, arranged = roomiest(page, part.views(projection == "first"), frame, BLOCK_MM[1] if block else 0.0)
+    chosen = fitting_scale(asked, arranged, paper)
     factor = chosen.factor
     name = page.strip().split()[0].upper() if isinstance(page, str) else f"{paper.width_mm:g}x{paper.height_mm:g}"
     said = given.title if title is None else title
-    block = TitleBlock(said, author, date, sheet, str(chosen), name, projection)
-    space = drawing_space(paper, frame)
+    words = TitleBlock(said, author, date, sheet, str(chosen), name, projection)
     # A title that nobody asked for here may be too long, or in letters without strokes.
-    layers = block.layers(space) if title is not None else _titled_if_possible(block, space)
+    written_in = words.layers_titled_if_possible if title is None else words.layers
+    layers = written_in(drawing_space(paper, frame)) if block else ()
     done = Sheet(paper, f"{said}, {chosen}" if said else str(chosen))
     notes = part.notes()
+    _tell_left_out(annotations, notes)
     written: dict[str, Floats] = {}
     for number, (view, (x, y)) in enumerate(zip(arranged.views, arranged.middles(factor), strict=True)):
-        added = [one.scene for one in notes[number]]
+        added = [one.before(view.camera, part.bounds) for one in notes[number]]
         added += [
             one.annotation(view.camera, part.bounds, factor, view.world).scene
             for one in part.overall
@@ -285,12 +308,12 @@ def technical_sheet(
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
 
 
-def _titled_if_possible(block: TitleBlock, space: Floats) -> tuple[Layer, ...]:
-    """The layers of a title block, without its title where that cannot be written there."""
-    try:
-        return block.layers(space)
-    except InputError:
-        return replace(block, title="").layers(space)
+def _tell_left_out(annotations: Iterable[Annotation], notes: Iterable[Iterable[Annotation]]) -> None:
+    """An InputWarning that names the annotations, but for centre lines, which are in no view."""
+    shown = {id(one) for view in notes for one in view}
+    names = [one.name for one in annotations if not one.is_centre and id(one) not in shown]
+    if names:
+        warnings.warn(f"square to no view and not shown: {', '.join(names)}", InputWarning, stacklevel=3)
 
 
 def _page_at(factor: float) -> Callable[[Scene], InSpace]:
@@ -298,11 +321,10 @@ def _page_at(factor: float) -> Callable[[Scene], InSpace]:
     return lambda scene: lambda points: np.full(len(points), 1.0 / factor)
 
 
-def _centre_lines(scene: Scene, crease_angle_deg: float) -> tuple[Scene, ...]:
-    """Those of the round edges of all polyhedra."""
+def _round_edges(scene: Scene, crease_angle_deg: float) -> tuple[RoundEdge, ...]:
+    """Those of all polyhedra."""
     meshes = [item.shape for item in scene.items if isinstance(item.shape, Mesh)]
-    edges = [edge for mesh in meshes for edge in round_edges(mesh, crease_angle_deg)]
-    return centre_lines_of(edges, float(np.ptp(scene.bounds, axis=0).max())) if edges else ()
+    return tuple(edge for mesh in meshes for edge in round_edges(mesh, crease_angle_deg))
 
 
 def _view_names(views: str | Iterable[str]) -> tuple[str, ...]:
@@ -313,33 +335,3 @@ def _view_names(views: str | Iterable[str]) -> tuple[str, ...]:
     if not names or len(set(names)) < len(names):
         raise InputError(f"views {','.join(names)!r}: expected some of {', '.join(VIEWS)}, each once")
     return names
-
-
-def _roomiest(page: Page | str, views: tuple[SheetView, ...], frame: bool) -> tuple[Page, Arrangement]:
-    """The sheet, and the views on it; a named one lies as gives them more room."""
-    given = page_of(page, Scene(()))
-    turned = isinstance(page, str) and len(page.split()) == 1 and "x" not in page.lower()
-    tried = [(paper, _arranged(paper, views, frame)) for paper in ((given.landscape, given) if turned else (given,))]
-    paper, arranged = max(tried, key=lambda pair: pair[1].largest_factor())
-    if not arranged.largest_factor() > 0.0:
-        raise InputError(f"page {paper.width_mm:g}x{paper.height_mm:g} mm: no room for {len(views)} views")
-    return paper, arranged
-
-
-def _arranged(paper: Page, views: tuple[SheetView, ...], frame: bool) -> Arrangement:
-    """The views above the title block."""
-    return Arrangement(views, np.add(drawing_space(paper, frame), [(0.0, BLOCK_MM[1]), (0.0, 0.0)]))
-
-
-def _scale(asked: DrawingScale | None, arranged: Arrangement, paper: Page) -> DrawingScale:
-    """The scale asked for, or the largest standard one that fits. Errors: InputError for one that is too large."""
-    room = arranged.largest_factor()
-    if asked is None:
-        return DrawingScale.largest_standard(room) if math.isfinite(room) else DrawingScale(1.0, 1.0)
-    if asked.factor > room:
-        largest = DrawingScale.largest_standard(room)
-        raise InputError(
-            f"scale {asked}: too large for {len(arranged.views)} views on {paper.width_mm:g}x{paper.height_mm:g} mm; "
-            f"the largest standard scale that fits is {largest}"
-        )
-    return asked

@@ -13,11 +13,13 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.lettering.scene_labels import NO_ITEM
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
-from vectorplot.scene.naming.annotations import annotation_points, is_annotation
+from vectorplot.scene.naming.annotations import annotation_points, is_annotation, leader_tips
 from vectorplot.scene.naming.dimensions import dimension
 from vectorplot.scene.naming.labels import Along, AtVertex, Label, OnCurve
 from vectorplot.scene.scene import Scene
+from vectorplot.technical.round_edges import RoundEdge
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances.of_measuring import ROUND_OF_RADIUS
 
 OFFSET_MM, GAP_MM, BEYOND_MM = 10.0, 1.0, 2.0
 """From the part to a dimension line, to the extension lines, and from the dimension line to their ends."""
@@ -44,6 +46,45 @@ class Annotation:
     def is_centre(self) -> bool:
         """Whether it is centre lines."""
         return all(item.lines == ("centre",) for item in self.scene.items)
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self.scene.items[-1].name
+
+    @property
+    def is_leader(self) -> bool:
+        """Whether it is a leader, which measures nothing."""
+        return bool(leader_tips(self.scene))
+
+    def length_in(self, camera: Camera) -> float:
+        """How far it reaches across a view."""
+        return float(np.hypot(*np.ptp(self.points @ camera.axes[:2].T, axis=0)))
+
+    @property
+    def may_be_of_circle(self) -> bool:
+        """Whether it may be a radius or a diameter: it is one line, and no leader and no centre line."""
+        return len(self.scene.items) == 1 and not self.is_centre and not self.is_leader
+
+    def axes_among(self, edges: Sequence[RoundEdge]) -> set[int]:
+        """The axes of those round edges of which it is a radius or a diameter, wherever along their axis."""
+        ends = self.points[[0, -1]]
+        found = set()
+        for edge in edges if self.may_be_of_circle else ():
+            away = np.delete(ends - edge.centre, edge.axis, axis=1)
+            zero = ROUND_OF_RADIUS * edge.radius
+            begins, middle = (float(np.hypot(*point)) for point in (away[0], 0.5 * away.sum(axis=0)))
+            level = abs(float(np.diff(ends[:, edge.axis])[0])) <= zero
+            if level and abs(float(np.hypot(*away[1])) - edge.radius) <= zero and min(begins, middle) <= zero:
+                found.add(edge.axis)
+        return found
+
+    def before(self, camera: Camera, bounds: Floats) -> Scene:
+        """It where nothing within bounds (2,3) hides it from a view, at the same place in its picture."""
+        back = camera.axes[2]
+        nearest = float(bounds.mean(axis=0) @ back + 0.5 * np.ptp(bounds, axis=0) @ np.abs(back))
+        way = max(nearest - float((self.points @ back).min()), 0.0) * back
+        return self.scene.moved(*way.tolist()) if way.any() else self.scene
 
     def is_square_to(self, camera: Camera, extent: float) -> bool:
         """Whether a view shows all of it in its true shape, and not as a point."""
@@ -79,11 +120,19 @@ def without_annotations(scene: Scene) -> tuple[Scene, tuple[Annotation, ...]]:
     return part, found
 
 
-def views_of(annotations: Sequence[Annotation], cameras: Sequence[Camera], extent: float) -> list[list[Annotation]]:
-    """The annotations of each view: dimensions in the first one that they are square to, centre lines in every one."""
+def views_of(
+    annotations: Sequence[Annotation], cameras: Sequence[Camera], extent: float, edges: Sequence[RoundEdge]
+) -> list[list[Annotation]]:
+    """The annotations of each view: dimensions in the first one that they are square to, radii and diameters of round
+    edges in one that shows their circle, if there is any; centre lines in every one; leaders that are square to none
+    where they look longest."""
     found: list[list[Annotation]] = [[] for _ in cameras]
     for one in annotations:
         square = [number for number, camera in enumerate(cameras) if one.is_square_to(camera, extent)]
+        if one.is_leader and not square and cameras:
+            square = [max(range(len(cameras)), key=lambda number: one.length_in(cameras[number]))]
+        round_ = one.axes_among(edges)
+        square.sort(key=lambda number: not any(abs(cameras[number].axes[2, axis]) == 1.0 for axis in round_))
         for number in square if one.is_centre else square[:1]:
             found[number].append(one)
     return found

@@ -296,9 +296,26 @@ def test_labels_beside_the_edge_of_the_page_stay_on_it(vertex: int, text: str) -
     assert found[:, 1].min() >= 0.5 and found[:, 1].max() <= 79.5
 
 
+@pytest.mark.parametrize("text", ["strokes", "real"])
+def test_labels_that_are_wider_than_the_page_are_broken_at_blanks(text: str, recwarn: pytest.WarningsRecorder) -> None:
+    said = "a name that is much wider than the page of the picture\nand goes on"
+    scene = replace(labelled(), labels=(vp.Label(said, (2, 2, 2), "long"),))
+    drawing = vp.draw(scene, page=vp.Page(100, 80, 5), hidden="solid", text=text)
+    assert not recwarn.list
+    (layer,) = (layer for layer in drawing.layers if layer.name == "label")
+    if text == "real":
+        first, second, third = layer.texts[0].strings
+        assert (
+            f"{first} {second}" == "a name that is much wider than the page of the picture" and third == "and goes on"
+        )
+    else:
+        points = layer.strokes[0].points
+        assert points[:, 0].min() > 0.0 and points[:, 0].max() < 100.0
+
+
 @pytest.mark.parametrize("verb", ["draw", "paint", "render"])
 def test_labels_that_cannot_be_kept_on_the_page_are_told_once(verb: str) -> None:
-    wide = "a name that is much wider than the page of the picture"
+    wide = "a_name_that_is_much_wider_than_the_page_of_the_picture"
     labels = (
         vp.Label(wide, (2, 2, 2), "long"),
         vp.Label("told where", vp.AtVertex("CUBE", 6), "placed", 12.0, "right"),

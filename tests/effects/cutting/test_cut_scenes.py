@@ -12,6 +12,7 @@ from vectorplot.geometry import box, prism
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.scene import Cut
+from vectorplot.scene.naming.joined_scenes import together
 from vectorplot.surfaces import Cylinder, Ellipsoid, Sphere, Torus, rod
 from vectorplot.testing.shapes import without
 
@@ -217,6 +218,9 @@ def test_the_command_cuts_and_explodes(tmp_path):
         warnings.simplefilter("error")
         text = out.read_text()
     assert '"kind": "cut"' in text and '"kind": "trace"' in text
+    for axis in ("z", "0,0,1"):
+        assert run(["draw", str(tmp_path / "a.scene"), "--cut", "y=1", "--explode", axis, "-o", str(out)]) == 0
+        assert out.read_text() == text
 
 
 def test_exploded_parts_keep_their_order_and_their_room():
@@ -227,6 +231,28 @@ def test_exploded_parts_keep_their_order_and_their_room():
     assert [item.name for item in apart.items[3:]] == ["b trace"]
     with pytest.raises(vp.InputError, match="a factor"):
         vp.exploded(vp.Scene(tuple(items)), "z", 0.5)
+
+
+def test_parts_beside_each_other_move_as_one_and_come_from_what_they_stand_over():
+    bolts = [vp.Item(f"bolt {k}", box((1, 1, 2)).moved(3 * k, 0, 1)) for k in range(3)]
+    ring, hub = vp.Item("ring", box((3, 3, 2)).moved(0, 3, 1)), vp.Item("hub", box((1, 1, 2)).moved(1, 4, 1))
+    apart = vp.exploded(vp.Scene((vp.Item("plate", box((9, 9, 1))), *bolts, ring, hub)), "z", 2.0)
+    lows = [float(item.mesh.bounds[0, 2]) for item in apart.items[:6]]
+    room = 11 / 6
+    assert lows == pytest.approx([0, *[1 + room] * 4, 1 + 2 * room + 2])
+    traces = {item.name: (item.shape.points(np.arange(2.0))[:, 2] - 1).tolist() for item in apart.items[6:]}
+    assert traces["bolt 2 trace"] == pytest.approx([0, room])
+    # The hub is drawn out of its ring.
+    assert traces["hub trace"] == pytest.approx([room, 2 * room + 2])
+
+
+def test_leaders_go_with_the_part_that_they_point_at_and_axes_stay():
+    parts = [vp.Item("low", box((4, 4, 1))), vp.Item("high", box((2, 2, 1)).moved(1, 1, 1))]
+    leaders = [vp.leader((4, 2, 0.5), (6, 2, 0.5), "1"), vp.leader((3, 2, 1.5), (6, 2, 1.5), "2")]
+    shown = together([vp.Scene(tuple(parts)), *leaders, vp.axes(3, origin=(2, 2, 1.5))])
+    apart = vp.exploded(shown, "z", 2.0)
+    heights = {one.name: float(one.shape.points(np.zeros(()))[2]) for one in apart.items[2:-1]}
+    assert heights == {"leader 1": 0.5, "leader 2": 2.5, "axis x": 1.5, "axis y": 1.5, "axis z": 1.5}
 
 
 def _hatch(drawing: vp.Drawing) -> tuple[np.ndarray, np.ndarray]:

@@ -282,6 +282,8 @@ def test_pages_by_size():
     assert parse_scene("page 300x200").page == Page(300, 200)
     assert parse_scene("page 150.5x99mm landscape margin 3").page == Page(150.5, 99, 3)
     assert parse_scene("page letter").page == Page(215.9, 279.4)
+    assert parse_scene("page A4 portrait margin 5").page == Page(210, 297, 5)
+    assert parse_scene("page 300x200 portrait").page == Page(200, 300)
 
 
 @pytest.mark.capability("G3.L-comments")

@@ -1,13 +1,22 @@
 """Files of heights: grids and points, holes, and what is said of those that are wrong."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 import vectorplot as vp
+from vectorplot.effects.scales.axis_numbers import axis_numbers
+from vectorplot.effects.scales.box_axes import with_box
+from vectorplot.effects.scales.coloured_scene import coloured
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.read_file import read
 from vectorplot.io.terrains.read_terrain import read_terrain
 from vectorplot.io.terrains.terrain_scene import usual_exaggeration
+from vectorplot.scene.lines.added_lines import round_sections, with_numbers
+from vectorplot.scene.naming.joined_scenes import together
+from vectorplot.scene.naming.scales import BoxAxes, Colouring
+from vectorplot.scene.terrains.level_lines import round_heights
 from vectorplot.surfaces.terrains.terrain import Terrain, terrain
 from vectorplot.words import LineKind
 
@@ -135,6 +144,27 @@ def test_heights_that_nobody_would_see_are_exaggerated_and_that_is_said(tmp_path
         read(path)
     with pytest.raises(InputError, match="heights are exaggerated of terrains only"):
         read(written(tmp_path, "BOX box 1 1 1", "box.scene"), exaggeration=2.0)
+
+
+def test_numbers_at_heights_are_those_of_the_file_however_high_it_is_drawn(tmp_path):
+    land = terrain(20.0 + 0.01 * hills(9, 7), (0, 8), (0, 6))
+    path = written(tmp_path, grid_text(land))
+    low, high = read_terrain(path).relief
+    with pytest.warns(InputWarning, match="drawn 50 times as high"):
+        scene = together([read(path), vp.Scene(())])
+    assert scene.bounds[:, 2] == pytest.approx([50 * low, 50 * high])
+    for sections in (scene.items[0].curves.sections, round_sections(scene)):
+        heights = sorted(offset for section in sections for offset in section.offsets)
+        assert np.array(heights) / 50.0 == pytest.approx(np.array(round_heights(low, high)))
+    drawing = vp.draw(with_numbers(scene), "top", text="real")
+    texts = [float(text) for layer in drawing.layers for mark in layer.marks for text in getattr(mark, "strings", ())]
+    assert texts and low < min(texts) and max(texts) < high
+    boxed, _ = with_box(replace(scene, box=BoxAxes()), vp.Camera.view("front"))
+    upright = [label.text for label in boxed.labels if label.name.startswith("box 2 ")]
+    assert upright == list(axis_numbers(low, high).texts)
+    for by, ends in (("z", [low, high]), ("x", [0.0, 8.0])):
+        bar = coloured(scene, Colouring(by))[1]
+        assert [bar.low, bar.high] == pytest.approx(ends)
 
 
 def test_verbs_take_arrays_of_heights_and_terrains():

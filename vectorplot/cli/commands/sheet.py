@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
@@ -28,6 +30,13 @@ if TYPE_CHECKING:
     from vectorplot.scene.scene import Scene
 
 
+def _name_of_mesh(path: str) -> str:
+    """The name of a file without its suffix, where the file has no title of its own to say."""
+    from vectorplot.io.meshes.read_mesh import MESH_SUFFIXES
+
+    return Path(path).stem if Path(path).suffix.lower() in MESH_SUFFIXES else ""
+
+
 @click.command(short_help="Draw main views of a part on one sheet.", context_settings={"show_default": True})
 @with_options(
     INPUT,
@@ -44,6 +53,12 @@ if TYPE_CHECKING:
         help="Mm on paper for units of the part; fit: the largest of ISO 5455.",
     ),
     click.option(
+        "--unit",
+        type=click.Choice(["mm", "cm", "m", "in"]),
+        default="mm",
+        help="What a unit of the part is; the sheet is in mm whatever it is.",
+    ),
+    click.option(
         "--projection",
         type=click.Choice(["first", "third"]),
         default="first",
@@ -55,12 +70,13 @@ if TYPE_CHECKING:
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
     click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
     click.option("--frame", is_flag=True, help="A border with centring marks and zones."),
+    click.option("--block/--no-block", default=True, help="The title block, or views alone, as a figure."),
     click.option(
         "--title",
         default="",
         metavar="TEXT",
         show_default=False,
-        help="Letters in the title block.  [default: those of the scene]",
+        help="Letters in the title block.  [default: those of the scene, or the name of a mesh file]",
     ),
     click.option("--author", default="", metavar="TEXT", show_default=False, help="Who has drawn it."),
     click.option("--date", default="", metavar="TEXT", show_default=False, help="As it is to be written."),
@@ -84,7 +100,8 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     def page(number: int, scene: Scene, report: Report) -> Drawing:
         usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
         said = usual if asked is None else asked
-        return technical_sheet(scene, **told, sheet=said, progress=report.progress, explain=report.explain)
+        named = replace(scene, title=scene.title or _name_of_mesh(scene_file[number]))
+        return technical_sheet(named, **told, sheet=said, progress=report.progress, explain=report.explain)
 
     written = format_of(out, format_, DRAWING_FORMATS)
     if len(scene_file) > 1:

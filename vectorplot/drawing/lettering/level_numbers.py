@@ -55,7 +55,7 @@ def level_numbers(scene: Scene, strokes: Paths, text: str, mm: float) -> list[Le
     strokes: of the picture; text, mm: as of labels_on_page. A line that is nowhere visible and straight over the length
     of the longest number has none.
     """
-    from vectorplot.drawing.lettering.scene_labels import LETTERS
+    from vectorplot.drawing.lettering.labels.label_letters import LETTERS
 
     which, level, heights = _levels(scene, strokes)
     if not len(which):
@@ -126,5 +126,6 @@ def _levels(scene: Scene, strokes: Paths) -> tuple[Ints, Ints, Floats]:
         away = np.abs(ends[:, own] @ normals.T - offsets).max(axis=0)
         which.append(seen[own])
         level.append(len(heights) + away.argmin(axis=1))
-        heights += offsets.tolist()
+        upright = np.abs(normals[:, 2]) == 1.0
+        heights += np.where(upright, offsets / scene.exaggeration, offsets).tolist()
     return np.concatenate(which), np.concatenate(level), np.array(heights)

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
-from typing import Any
 
 import numpy as np
 
@@ -13,56 +12,36 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import PENS
-from vectorplot.drawing.lettering.formulas import without_formulas_in_strokes
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
-from vectorplot.drawing.lettering.labels.label_marks import ARROW_MM, ARROW_SLOPE, MARK_MM, TICK, direction_at, marked
+from vectorplot.drawing.lettering.labels.label_letters import (
+    GAP,
+    HALO_MM,
+    LETTERS,
+    course_on_page,
+    length_of,
+    set_along,
+    set_label,
+)
+from vectorplot.drawing.lettering.labels.label_marks import ARROW_MM, ARROW_SLOPE, MARK_MM, TICK
 from vectorplot.drawing.lettering.labels.labels_with_room import labels_with_room, ticks_with_room
+from vectorplot.drawing.lettering.labels.measures import arrowheads, mark_with_room, measures_on_page
 from vectorplot.drawing.lettering.labels.seen_labels import SeenLabels
 from vectorplot.drawing.lettering.placing import places
-from vectorplot.drawing.lettering.text import Lettering, lettered, typeset
-from vectorplot.drawing.lettering.text_along import lettered_along, typeset_along
+from vectorplot.drawing.lettering.text import Lettering
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.drawing.texts import Texts
-from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import segments
 from vectorplot.scene.naming.labels import Along, BesidePoint, Label, OnPage
 from vectorplot.scene.placement import Placement
 from vectorplot.words import LineKind
 
-HALO_MM = 0.6
-"""Lines end so far before the letters."""
-
-GAP = 0.4
-"""From a point to the letters beside it, in heights of capitals."""
-
 NO_ITEM = -1
 """Strokes of labels belong to no item."""
 
-
 BESIDE = 0.4
 """A box whose middle lies farther from a point across, as a part of its width, stands beside it."""
-
-
-@dataclass(frozen=True)
-class Letters:
-    """How texts become letters: plain ones, and those along curves."""
-
-    plain: Callable[..., Lettering]
-    along: Callable[..., Lettering]
-
-
-def _stroked(text: str, *where: Any, **how: Any) -> Lettering:
-    return lettered(without_formulas_in_strokes(text), *where, **how)
-
-
-def _stroked_along(text: str, *where: Any, **how: Any) -> Lettering:
-    return lettered_along(without_formulas_in_strokes(text), *where, **how)
-
-
-LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset, typeset_along)}
-"""What letters are: strokes of a pen, or those of the fonts of whatever reads the file."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,19 +133,23 @@ def labels_on_page(
     some = [k for k, way in enumerate(ways) if not seen.hidden_by[k] or way != "none"]
     some = labels_with_room(seen, some, mm)
     labels = [seen.anchors.labels[k] for k in some]
-    paths = {k: _path(seen, k, placement) for k in some if isinstance(seen.anchors.labels[k].at, Along)}
-    along = [k for k, path in paths.items() if _length(path) > seen.anchors.labels[k].size_mm * mm]
-    set_: dict[int, Lettering] = {k: _along(letters, seen, k, paths[k], mm) for k in along}
+    paths = {k: course_on_page(seen, k, placement) for k in some if isinstance(seen.anchors.labels[k].at, Along)}
+    along = [k for k, path in paths.items() if length_of(path) > seen.anchors.labels[k].size_mm * mm]
+    set_: dict[int, Lettering] = {k: set_along(letters, seen, k, paths[k], mm) for k in along}
     beside = [k for k in some if k not in set_]
-    texts = [_set(letters, seen.anchors.labels[k], mm) for k in beside]
+    gap = np.array([_gap(seen.anchors.labels[k], mm) for k in beside])
+    rooms = (placement.page.width_mm - 2.0 * gap).tolist()
+    texts = [set_label(letters, seen.anchors.labels[k], room, mm) for k, room in zip(beside, rooms, strict=True)]
     shown = strokes if hidden != "none" else chosen(strokes, strokes.hidden_by == 0)
     begin, end = shown.points[segments(shown)].transpose(1, 0, 2)
+    page = np.array([[0.0, 0.0], [placement.page.width_mm, placement.page.height_mm]])
+    heads = arrowheads(seen)
+    measures = measures_on_page(letters, seen, {k: paths[k] for k in along}, set_, heads, shown, page, mm)
+    set_ |= {k: measure.text for k, measure in measures.items()}
     sizes = np.array([np.ptp(text.bounds, axis=0) for text in texts]).reshape(-1, 2)
     height = np.array([seen.anchors.labels[k].size_mm * mm for k in beside])
     taken = np.array([set_[k].bounds for k in along]).reshape(-1, 2, 2)
-    page = np.array([[0.0, 0.0], [placement.page.width_mm, placement.page.height_mm]])
     asked = [_asked(seen.anchors.labels[k]) for k in beside]
-    gap = np.array([_gap(seen.anchors.labels[k], mm) for k in beside])
     points = np.array([_named(seen, k, mm) for k in beside]).reshape(-1, 2)
     found = places(points, sizes, height, gap, asked, begin, end, page, taken)
     for number, k in enumerate(beside):
@@ -179,9 +162,10 @@ def labels_on_page(
     leaders = {beside[of]: line for of, line in zip(found.label, found.leaders, strict=True)}
     faint = [bool(seen.hidden_by[k]) and ways[k] == "dashed" for k in some]
     parts = []
-    for k, label in zip(some, labels, strict=True):
-        way = direction_at(seen, k, placement) if label.mark in ("arrow", "tick") else np.zeros(2)
-        lines = [*_lines(set_[k]), *marked(label, seen.points[k], way, mm), *([leaders[k]] if k in leaders else [])]
+    for k in some:
+        lines = [*_lines(set_[k]), *mark_with_room(seen, k, heads, placement, mm)]
+        lines += [leaders[k]] if k in leaders else []
+        lines += [*measures[k].tails] if k in measures else []
         parts.append(label_paths(lines, int(seen.hidden_by[k]), placement))
     both = []
     for wanted in (False, True):
@@ -246,41 +230,6 @@ def _named(seen: SeenLabels, number: int, mm: float) -> Floats:
     at = seen.anchors.labels[number].at
     beside = at.middle_mm if isinstance(at, BesidePoint) else (0.0, 0.0)
     return np.asarray(seen.points[number] + mm * np.array(beside))
-
-
-def _set(letters: Letters, label: Label, mm: float) -> Lettering:
-    try:
-        return letters.plain(label.text, size_mm=label.size_mm * mm, align="centre")
-    except InputError as error:
-        raise InputError(f"label {label.name}: {error.cause}") from None
-
-
-def _path(seen: SeenLabels, number: int, placement: Placement) -> Floats:
-    """(n,2) on the page, the course of the curve that a label stands along."""
-    course, projection = seen.anchors.courses[number], placement.projection
-    assert course is not None
-    points = projection.points_of(course)
-    ahead = projection.depth_of(points) > projection.near
-    return placement.on_page(projection.image_of(points.compress(ahead, axis=1)))
-
-
-def _length(path: Floats) -> float:
-    return float(np.hypot(*np.diff(path, axis=0).T).sum())
-
-
-def _along(letters: Letters, seen: SeenLabels, number: int, path: Floats, mm: float) -> Lettering:
-    """Letters along the course of a curve on the page."""
-    label = seen.anchors.labels[number]
-    steps = np.hypot(*np.diff(path, axis=0).T)
-    nearest = int(np.argmin(np.hypot(*(path - seen.points[number]).T)))
-    whole = float(steps.sum())
-    part = float(steps[:nearest].sum()) / whole if whole else 0.0
-    size = label.size_mm * mm
-    level, off = {"above": ("base", GAP), "below": ("top", -GAP)}.get(label.place, ("middle", 0.0))
-    try:
-        return letters.along(label.text, path, size_mm=size, level=level, at=part, off_mm=off * size)
-    except InputError as error:
-        raise InputError(f"label {label.name}: {error.cause}") from None
 
 
 def _lines(text: Lettering) -> list[Floats]:

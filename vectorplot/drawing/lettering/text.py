@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import chain
 from typing import Literal
@@ -78,6 +78,18 @@ class Lettering:
         """The same, moved on the page by (2,)."""
         strokes = replace(self.strokes, points=self.strokes.points + way)
         return Lettering(strokes, self.boxes + way, self.texts.moved(way))
+
+
+def broken_at_blanks(text: str, fits: Callable[[str], bool]) -> str:
+    """A text in lines that fit, parted at blanks; a word that does not fit alone has a line of its own."""
+    lines = [""]
+    for word in text.split():
+        longer = f"{lines[-1]} {word}".lstrip()
+        if lines[-1] and not fits(longer):
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return "\n".join(lines)
 
 
 def lettered(

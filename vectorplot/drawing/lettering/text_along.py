@@ -177,8 +177,7 @@ def _course(
     length = float(advance.sum())
     begin, end = (at * whole + part * length for part in (-ALIGNED[align], 1.0 - ALIGNED[align]))
     (from_, to), _ = _along(points, np.array([begin, end]))
-    across, upwards = (to - from_).tolist()
-    if upwards < 0.0 if abs(across) < STEEP_SINE * math.hypot(across, upwards) else across < 0.0:
+    if reads_backwards(*(to - from_).tolist()):
         points, begin = points[::-1], whole - end
     middle = begin + np.cumsum(advance) - 0.5 * advance
     down = {"base": 0.0, "middle": 0.5 * size_mm, "top": size_mm}[level] - off_mm
@@ -189,6 +188,11 @@ def _course(
         middle = _apart(points, middle, advance, down, low, high, size_mm)
         course = _upright(points, middle, advance, down, low, high)
     return course
+
+
+def reads_backwards(across: float, upwards: float) -> bool:
+    """Whether a text in this direction would be upside down, or nearly upright downwards."""
+    return upwards < 0.0 if abs(across) < STEEP_SINE * math.hypot(across, upwards) else across < 0.0
 
 
 def _upright(points: Floats, middle: Floats, advance: Floats, down: float, low: float, high: float) -> _Course:

@@ -9,8 +9,9 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
-from vectorplot.drawing.lettering.scene_labels import LETTERS, Letters, label_paths
-from vectorplot.drawing.lettering.text import DESCENT, LINES_APART, Lettering
+from vectorplot.drawing.lettering.labels.label_letters import LETTERS, Letters
+from vectorplot.drawing.lettering.scene_labels import label_paths
+from vectorplot.drawing.lettering.text import DESCENT, LINES_APART, Lettering, broken_at_blanks
 from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.drawing.strokes.long_strokes import split_long
 from vectorplot.drawing.strokes.stroke_paths import concatenated
@@ -99,14 +100,9 @@ def _title(letters: Letters, title: str, width: float, margin: float) -> Letteri
 
 def _lines(letters: Letters, title: str, width: float) -> list[str]:
     """The title in lines as wide as that, in the smallest letters, parted at blanks."""
-    lines = [""]
-    for word in title.split():
-        longer = f"{lines[-1]} {word}".lstrip()
-        if lines[-1] and _wide(letters.plain(longer, size_mm=SIZES_MM[1])) > width:
-            lines.append(word)
-        else:
-            lines[-1] = longer
-    return lines
+    return broken_at_blanks(title, lambda longer: _wide(letters.plain(longer, size_mm=SIZES_MM[1])) <= width).split(
+        "\n"
+    )
 
 
 def _height(lines: Sequence[str]) -> float:

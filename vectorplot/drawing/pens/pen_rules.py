@@ -11,7 +11,7 @@ from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.layers import ink
 from vectorplot.errors import InputError
 from vectorplot.scene.hatching import Hatching, Stippling
-from vectorplot.scene.pages.inks import FINEST_MM, FRAME, HIDDEN, WIDEST_MM, target_of, unknown_item
+from vectorplot.scene.pages.inks import FINEST_MM, FRAME, HIDDEN, LONGEST_MM, WIDEST_MM, target_of, unknown_item
 from vectorplot.scene.pages.paper import LENGTH, length_mm
 from vectorplot.words import COLOURS, LineKind, is_colour, nearest
 
@@ -106,7 +106,7 @@ def _pen_rule(target: str, value: str | float | Pen) -> PenRule:
         width, colour = "", width
     if not width.strip() and not colour.strip():
         raise InputError(f"pen {target}={value}: expected WIDTH, COLOUR or WIDTH:COLOUR")
-    found = _length(width, f"pen {target}={value}") if width.strip() else None
+    found = _length(width, f"pen {target}={value}", WIDEST_MM) if width.strip() else None
     return PenRule(kind, item, found, pen_colour(colour, f"pen {target}={value}: ") if colour.strip() else None)
 
 
@@ -119,20 +119,20 @@ def _dash_rule(target: str, value: str) -> PenRule:
     parts = value.split(",")
     if len(parts) != 2:
         raise InputError(f"dash {target}={value}: expected DASH,GAP such as 3,1 or 8pt,3pt; or none")
-    dash, gap = (_length(part, f"dash {target}={value}") for part in parts)
+    dash, gap = (_length(part, f"dash {target}={value}", LONGEST_MM) for part in parts)
     return PenRule(kind, item, dash_mm=(dash, gap))
 
 
-def _length(text: str, owner: str) -> float:
-    """A length on paper in mm."""
+def _length(text: str, owner: str, most: float) -> float:
+    """A length on paper in mm, from the finest pen to the most that there is."""
     try:
         size = length_mm(text)
     except InputError:
-        size = 0.0
-    if not 0.0 < size <= WIDEST_MM:
-        raise InputError(f"{owner}: {text.strip()!r} is no length in mm or pt")
+        raise InputError(f"{owner}: {text.strip()!r} is no length in mm or pt") from None
     if size < FINEST_MM:
         raise InputError(f"{owner}: expected {FINEST_MM:g} mm or more")
+    if size > most:
+        raise InputError(f"{owner}: expected {most:g} mm or less")
     return size
 
 

@@ -46,7 +46,7 @@ class DrawingScale:
     def of(cls, text: str) -> DrawingScale:
         """The scale that a text such as 1:2 or 5:1 says. Errors: InputError for another text, and numbers that are not
         finite and positive."""
-        sides = re.fullmatch(r"\s*([^:]+):([^:]+)", text)
+        sides = re.fullmatch(r"\s*([^:]+):([^:]+)", str(text))
         try:
             paper, world = (float(side) for side in sides.groups()) if sides else (math.nan, math.nan)
         except ValueError:

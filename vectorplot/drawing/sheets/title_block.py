@@ -5,7 +5,7 @@ Source: ISO 7200 (fields), ISO 5456-2 (the symbols of the projection methods).
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -101,6 +101,13 @@ class TitleBlock:
             Layer("thin", THIN, (dashed(page_strokes(chains), *CHAIN_MM[:2], dot_mm=CHAIN_MM[2]),)),
             Layer("label", PENS["label"], (page_strokes(strokes),)),
         )
+
+    def layers_titled_if_possible(self, space: Floats) -> tuple[Layer, ...]:
+        """The same, without the title where that cannot be written there."""
+        try:
+            return self.layers(space)
+        except InputError:
+            return replace(self, title="").layers(space)
 
 
 def _line(x: float, y: float, to_x: float, to_y: float) -> Floats:

@@ -32,6 +32,7 @@ from vectorplot.geometry.cuts.divided_meshes import divided_mesh
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces, nothing_beside
 from vectorplot.geometry.cuts.section_faces import PlaneFrame, mesh_of_regions
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.anything import scene_of
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.item import Item
@@ -47,7 +48,7 @@ MOVED = 0.5
 
 
 def cut(
-    scene: Scene,
+    scene: object,
     cuts: Cut | str | Iterable[Cut | str],
     away: str = "gone",
     colour: str | None = None,
@@ -60,8 +61,8 @@ def cut(
 
     Parameters
     ----------
-    scene : Scene
-        What is cut; cuts that it has stay.
+    scene : Scene, path, Item, Mesh, surface, or several of these
+        What is cut, as of `io.scene_of`; cuts that a scene has stay.
     cuts : Cut or str, or several
         Texts as of `Cut.of`: y = 0, x + 2y > 3, or several conditions with commas between them.
     away : {"gone", "ghost", "moved"}
@@ -91,11 +92,12 @@ def cut(
     >>> len(half.cuts), half.cuts[0].away
     (1, 'gone')
     """
+    given = scene_of(scene)
     several = [cuts] if isinstance(cuts, Cut | str) else list(cuts)
     spelled = partial(Cut.of, away=away, colour=colour, spacing_mm=spacing_mm, angle_deg=angle_deg)
-    names = None if items is None else _known_names(scene, items)
+    names = None if items is None else _known_names(given, items)
     found = tuple(cut if isinstance(cut, Cut) else replace(spelled(cut), items=names) for cut in several)
-    return replace(scene, cuts=scene.cuts + found)
+    return replace(given, cuts=given.cuts + found)
 
 
 def _known_names(scene: Scene, items: Iterable[str]) -> tuple[str, ...]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -29,6 +29,10 @@ class AxisNumbers:
     values: tuple[float, ...]
     texts: tuple[str, ...]
     common: str = ""
+
+    def drawn(self, times: float) -> AxisNumbers:
+        """The same numbers where they are drawn times as far from the origin."""
+        return replace(self, values=tuple(times * value for value in self.values))
 
 
 def axis_numbers(low: float, high: float) -> AxisNumbers:

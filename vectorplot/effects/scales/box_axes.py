@@ -56,7 +56,11 @@ def with_box(scene: Scene, camera: Camera) -> tuple[Scene, Floats]:
     # Square to a side the lower and the left edge are numbered.
     near_high = np.append(towards[:2] > 0.0, towards[2] >= 0.0)
     far, near = np.where(near_high, low, high), np.where(near_high, high, low)
-    numbers = [_numbers(a, b, THIN * float((high - low).max())) for a, b in bounds.T.tolist()]
+    thin = THIN * float((high - low).max())
+    numbers = [
+        _numbers(a / times, b / times, thin / times).drawn(times)
+        for (a, b), times in zip(bounds.T.tolist(), (1.0, 1.0, scene.exaggeration), strict=True)
+    ]
     labels = _labels(box, projection_of(camera, np.stack([low, high])), (low, high), far, near, numbers)
     items = _grids(far, low, high, [list(one.values) for one in numbers])
     corners = np.where(np.array(list(np.ndindex(2, 2, 2)), dtype=np.bool_), high, low)

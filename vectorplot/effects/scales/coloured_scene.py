@@ -109,7 +109,7 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     smooth = _faceted(scene, numbered, COLOURED_OF_EXTENT * size)
     given: list[_Valued | None] = [None] * len(scene.items)
     for k in numbered:
-        given[k] = _valued(scene.items[k], colouring, smooth.get(k))
+        given[k] = _valued(scene.items[k], colouring, smooth.get(k), scene.exaggeration)
     values = np.concatenate([np.zeros(0), *(one.values for one in given if one is not None)])
     values = values[np.isfinite(values)]
     if not len(values):
@@ -160,9 +160,9 @@ def _faceted(scene: Scene, numbers: Sequence[int], allowed: float) -> dict[int, 
     return dict(zip(smooth, found, strict=True))
 
 
-def _valued(item: Item, colouring: Colouring, found: Facets | None) -> _Valued:
+def _valued(item: Item, colouring: Colouring, found: Facets | None, exaggeration: float) -> _Valued:
     """The triangles of an item and the numbers at their corners; what has none has the lowest there is. found: the
-    facets of a smooth surface."""
+    facets of a smooth surface; exaggeration: what heights were multiplied with."""
     mesh, normals, of_surface = item.mesh, None, None
     if found is not None:
         mesh, normals = found.mesh, found.normals
@@ -176,6 +176,7 @@ def _valued(item: Item, colouring: Colouring, found: Facets | None) -> _Valued:
     try:
         if (numbers := _of_places(colouring.by)) is None:
             values = _of_shape(str(colouring.by), mesh, triangles, normals)
+            values = values / exaggeration if colouring.by in ("z", "height") else values
         else:
             range_ = reached(points, triangles, numbers)
             points, triangles = linear_triangles(points, triangles, numbers, PART_OF_STEP * range_ / colouring.steps)

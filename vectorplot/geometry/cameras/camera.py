@@ -84,6 +84,8 @@ class Camera:
     def __post_init__(self) -> None:
         for name in ("eye", "target", "up"):
             value = getattr(self, name)
+            if isinstance(value, str):
+                raise InputError(f"camera: {name} must be three numbers; a main view is vp.Camera.view({value!r})")
             if value is not None:
                 point = tuple(float(x) for x in value)
                 if len(point) != 3 or not all(np.isfinite(point)):

@@ -125,7 +125,7 @@ def _known_colour(words: Words, at: int, owner: str) -> tuple[str, int]:
     return word, at + 1
 
 
-_PAGE_WORDS = ("landscape", "margin", FIT)
+_PAGE_WORDS = ("landscape", "portrait", "margin", FIT)
 
 
 def read_page(words: Words, at: int) -> tuple[Page, int]:
@@ -140,9 +140,9 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
             wide = length_mm(words.words[at + 2])
         at += 1 if first == FIT else 3 if first == "width" else 2
         margin: float | None = None
-        landscape = fitted = False
+        way, fitted = "", False
         while (word := words.words[at]) in _PAGE_WORDS:
-            landscape |= word == "landscape"
+            way = word if word in ("landscape", "portrait") else way
             fitted |= word == FIT
             at += 1
             if word == "margin":
@@ -150,7 +150,7 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
                 at += 1
         _check_spelling(words, start, at, _PAGE_WORDS)
         page = sheet if margin is None else Page(sheet.width_mm, sheet.height_mm, margin)
-        page = page.landscape if landscape else page
+        page = page.landscape if way == "landscape" else page.portrait if way == "portrait" else page
         if wide is not None:
             if fitted:
                 words.fail(start, "page: a width and fit exclude each other")

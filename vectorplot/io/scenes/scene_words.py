@@ -131,6 +131,11 @@ class Words:
             word += 1
         return line + self._text.count("\n", position, len(self._text.rstrip()))
 
+    def comment_beside(self, index: int) -> str:
+        """The comment on the line of a word, from its # on."""
+        line = self._text.split("\n")[self.line(index) - 1]
+        return next((match[0] for match in _WORD.finditer(line) if match[0][0] == "#"), "")
+
     def fail(self, index: int, cause: str) -> NoReturn:
         """Raise InputError with file and line of a word."""
         raise InputError(cause, file=self.name, line=self.line(index))

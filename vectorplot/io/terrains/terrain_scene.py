@@ -1,4 +1,4 @@
-"""A file of heights -> a scene."""
+"""A file, or an array, of heights -> a scene."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ from pathlib import Path
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.io.terrains.read_terrain import read_terrain
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.terrains.level_lines import times_power_of_ten
 from vectorplot.scene.terrains.terrain_mesh import MOST_DRAWN, terrain_scene
-from vectorplot.surfaces.terrains.terrain import Terrain, exaggerated, thinned_terrain
+from vectorplot.surfaces.terrains.terrain import Terrain, terrain, thinned_terrain
 
 LOWEST = 1.0 / 30.0
 """Heights less than this part of the width of their terrain would be seen as a plain: they are exaggerated."""
@@ -39,12 +40,25 @@ def scene_of_heights(path: Path, exaggeration: float | None) -> Scene:
         if factor is None:
             factor = usual_exaggeration(land)
             if factor != 1.0:
-                _say(path, f"heights are drawn {factor:g} times as high (an exaggeration of 1 leaves them as they are)")
-        return terrain_scene(exaggerated(land, factor), name=path.stem)
+                _say(path, _drawn(factor, "an exaggeration of 1"))
+        return terrain_scene(land, name=path.stem, exaggeration=factor)
     except InputError as error:
         raise (error if error.file else InputError(error.cause, file=shown(path))) from None
     except MemoryError:
         raise InputError("too large for the memory", file=shown(path)) from None
+
+
+def scene_of_array(heights: Floats) -> Scene:
+    """The scene of an array of heights (m,n), a step of 1 between them; what was made higher or lower is said in an
+    InputWarning.
+
+    Errors: InputError as of `terrain` and `terrain_scene`.
+    """
+    land = terrain(np.ma.asarray(heights))
+    factor = usual_exaggeration(land)
+    if factor != 1.0:
+        warnings.warn(_drawn(factor, "vp.surface(x, y, z)"), InputWarning, stacklevel=4)
+    return terrain_scene(land, exaggeration=factor)
 
 
 def usual_exaggeration(land: Terrain) -> float:
@@ -58,6 +72,11 @@ def usual_exaggeration(land: Terrain) -> float:
     power = int(np.floor(np.log10(wanted)))
     numerator = max(k for k in (1, 2, 5) if k * 10.0**power <= wanted or k == 1)
     return float(times_power_of_ten(np.array(float(numerator)), power))
+
+
+def _drawn(factor: float, instead: str) -> str:
+    """That heights are scaled, and what leaves them as they are."""
+    return f"heights are drawn {factor:g} times as high ({instead} leaves them as they are)"
 
 
 def _say(path: Path, what: str) -> None:

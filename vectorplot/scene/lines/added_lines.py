@@ -239,7 +239,14 @@ def round_sections(
     low, high = _extent_along(solid, section.normal)
     if not high - low > least_extent(solid.bounds, low, high):
         raise InputError("level lines: the scene has no extent along their normal")
-    return with_index_lines(replace(section, offsets=round_heights(low, high, count)), every)
+    times = heights_times(scene, section)
+    heights = round_heights(low / times, high / times, count)
+    return with_index_lines(replace(section, offsets=tuple(times * height for height in heights)), every)
+
+
+def heights_times(scene: Scene, section: Section) -> float:
+    """What heights along the normal of a section were multiplied with in a scene."""
+    return scene.exaggeration if abs(section.normal[2]) == 1.0 else 1.0
 
 
 def evenly_between(low: float, high: float, count: int) -> tuple[float, ...]:

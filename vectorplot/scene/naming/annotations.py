@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -139,6 +140,16 @@ def annotation_points(scene: Scene) -> Floats:
     shapes = [item.shape for item in scene.items if is_annotation(item)]
     found = [shape.points(np.linspace(shape.start, shape.end, PLACES)) for shape in shapes if is_curve(shape)]
     return np.concatenate([np.zeros((0, 3)), *found])
+
+
+def leader_tips(scene: Scene) -> dict[str, Floats]:
+    """(3,) what each leader of a scene points at, by the name of its item: the start of a line that has its only
+    arrowhead there."""
+    marks = [one.at for one in scene.labels if one.mark == "arrow" and isinstance(one.at, OnCurve)]
+    heads = Counter(at.item for at in marks)
+    curves = {item.name: item.shape for item in scene.items if is_annotation(item) and is_curve(item.shape)}
+    names = [at.item for at in marks if at.part == 0.0 and heads[at.item] == 1]
+    return {name: curves[name].points(np.array(curves[name].start)) for name in names if name in curves}
 
 
 def thin_line(name: str, curve: Curve, group: str = "") -> Item:

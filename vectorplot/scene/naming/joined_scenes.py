@@ -51,6 +51,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
         depth_cue=next((scene.depth_cue for scene in scenes if scene.depth_cue), None),
         inks=next((_inks(scene, items[end - len(scene) : end]) for scene, end in parts if scene.inks), None),
         explosion=next((scene.explosion for scene in scenes if scene.explosion), None),
+        exaggeration=next((scene.exaggeration for scene in scenes if scene.exaggeration != 1.0), 1.0),
     )
 
 

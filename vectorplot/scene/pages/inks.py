@@ -17,8 +17,11 @@ FRAME = "frame"
 PEN_KINDS = (*(kind.word for kind in LineKind), HIDDEN, FRAME)
 """The kinds that pens are for."""
 
-WIDEST_MM = 1000.0
-"""Wider than any pen."""
+WIDEST_MM = 25.0
+"""No pen and no brush that plotters take is wider: 50 is 0.50 without its point."""
+
+LONGEST_MM = 1000.0
+"""No dash and no gap is longer."""
 
 FINEST_MM = 0.01
 """No pen is finer, or draws a shorter dash."""

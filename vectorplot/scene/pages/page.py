@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from numbers import Real
 
 import numpy as np
 
@@ -39,6 +40,9 @@ class Page:
 
     def __post_init__(self) -> None:
         sizes = (self.width_mm, self.height_mm, self.margin_mm)
+        if not all(isinstance(size, Real) for size in sizes):
+            shown = ", ".join(repr(size) for size in sizes[:2])
+            raise InputError(f"page {shown}: expected width and height in mm; verbs take a name too, as page='A4'")
         if not all(np.isfinite(sizes)) or min(self.width_mm, self.height_mm) <= 0.0 or self.margin_mm < 0.0:
             raise InputError(f"page {self.width_mm:g}x{self.height_mm:g} mm, margin {self.margin_mm:g} mm: not a page")
         if 2.0 * self.margin_mm >= min(self.width_mm, self.height_mm):
@@ -74,6 +78,12 @@ class Page:
         Page(width_mm=100, height_mm=80, margin_mm=10.0)
         """
         return self
+
+    @property
+    def portrait(self) -> Page:
+        """The same sheet standing on its shorter side."""
+        long, short = max(self.width_mm, self.height_mm), min(self.width_mm, self.height_mm)
+        return Page(short, long, self.margin_mm)
 
     @property
     def landscape(self) -> Page:

@@ -13,7 +13,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.terrains.level_lines import USUAL_EVERY, level_sections, round_heights
-from vectorplot.surfaces.terrains.terrain import Terrain, terrain
+from vectorplot.surfaces.terrains.terrain import Terrain, exaggerated, terrain
 
 TERRAIN_LINES = ("contour", "boundary", "section", "index")
 """What is drawn of a terrain: its edges are none of its own."""
@@ -62,7 +62,12 @@ def terrain_mesh(given: Terrain) -> Mesh:
 
 
 def terrain_scene(
-    given: Terrain | ArrayLike, *, levels: int = 20, every: int = USUAL_EVERY, name: str = "terrain"
+    given: Terrain | ArrayLike,
+    *,
+    levels: int = 20,
+    every: int = USUAL_EVERY,
+    name: str = "terrain",
+    exaggeration: float = 1.0,
 ) -> Scene:
     """The scene that shows a terrain: its outlines, its borders, and level lines at round heights.
 
@@ -76,6 +81,8 @@ def terrain_scene(
         Every so many of them is an index line; 0 for none.
     name : str
         Of the item, and the title.
+    exaggeration : float
+        Heights are drawn times this; level lines and numbers are those of the heights as they are given.
 
     Returns
     -------
@@ -85,7 +92,7 @@ def terrain_scene(
     Raises
     ------
     InputError
-        As of `terrain_mesh`.
+        As of `terrain_mesh`; for an exaggeration that is not positive and finite.
 
     Examples
     --------
@@ -97,5 +104,8 @@ def terrain_scene(
     """
     land = given if isinstance(given, Terrain) else terrain(np.ma.asarray(given))
     heights = round_heights(*land.relief, levels) if levels else ()
-    lines = SurfaceLines(sections=level_sections(heights, every) if heights else ())
-    return Scene((Item(name, terrain_mesh(land), "green", usual_lines=TERRAIN_LINES, curves=lines),), title=name)
+    drawn = land if exaggeration == 1.0 else exaggerated(land, exaggeration)
+    sections = level_sections([exaggeration * height for height in heights], every) if heights else ()
+    shape, lines = terrain_mesh(drawn), SurfaceLines(sections=sections)
+    item = Item(name, shape, "green", usual_lines=TERRAIN_LINES, curves=lines)
+    return Scene((item,), title=name, exaggeration=exaggeration)

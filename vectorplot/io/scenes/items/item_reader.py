@@ -24,6 +24,23 @@ HANDLERS: dict[str, Callable[[ItemCursor, Draft], None]] = {
 """What reads the words of an item."""
 
 
+_PRISM = "a prism is a 'translation' with 'base_points' and 'trans_vector'"
+_BOX = "expected 'box' and its three lengths"
+
+OTHERWISE = {
+    **dict.fromkeys(("prism", "extrusion", "extrude"), _PRISM),
+    **dict.fromkeys(("cube", "cuboid"), _BOX),
+    "pyramid": "a pyramid is its 'vertices' and 'faces', or a 'revolution' with as large an 'order' as it has sides",
+    "polyhedron": "a polyhedron is its 'vertices' and 'faces'",
+    "union": "bodies that pierce each other are drawn with the lines in which they do",
+    "difference": "holes are 'bore' and 'cutout', and 'cut' takes away what is before a plane",
+}
+"""What is said in other words than those that other programs have for it."""
+
+CODE = len("#rrggbb")
+"""The length of a colour by its numbers."""
+
+
 class ItemReader(ItemCursor):
     """Reads items, and what moves them."""
 
@@ -75,6 +92,9 @@ class ItemReader(ItemCursor):
             hint = f" ('{draft.name}' is a word of the language, but none of what stands before it)"
         if word.startswith('"') and is_colour(word.strip('"')):
             hint = f" (before a colour in quotes stands the word for it: colour {word})"
+        code = source.comment_beside(draft.index)[:CODE]
+        if is_colour(code):
+            hint = f' (behind # is a comment; a colour is written so: colour "{code}")'
         self.fail(f"expected one of {', '.join(KIND_WORDS)}, got {source.shown(self.at)}{hint}", draft)
 
     def _named_shape(self, draft: Draft, word: str) -> None:
@@ -82,6 +102,8 @@ class ItemReader(ItemCursor):
         # Surfaces and curves are loaded for scenes that name one, and where a word is none that is known.
         from vectorplot.io.scenes.scene_families import CURVES, SURFACES
 
+        if word.lower() in OTHERWISE:
+            self.fail(f"there is no '{word}': {OTHERWISE[word.lower()]}", draft)
         for kind, names in (("surface", SURFACES), ("curve", CURVES)):
             if word.lower() in names:
                 name = word.lower()

@@ -10,7 +10,7 @@ from vectorplot.errors import InputError
 from vectorplot.io.named_files import NamedFiles
 from vectorplot.io.scenes.scene_words import SCENE_WORDS, Words
 from vectorplot.scene.cuts.explosion import AXES, Explosion
-from vectorplot.scene.pages.inks import FINEST_MM, PEN_KINDS, WIDEST_MM, Inks
+from vectorplot.scene.pages.inks import FINEST_MM, LONGEST_MM, PEN_KINDS, WIDEST_MM, Inks
 from vectorplot.scene.pages.paper import LENGTH, length_mm
 from vectorplot.words import COLOURS, STYLE_WORDS, is_colour, nearest
 
@@ -145,8 +145,9 @@ def _check_length(words: Words, at: int, owner: str) -> None:
         length = length_mm(words.words[at])
     except InputError as error:
         words.fail(at, f"{owner}: {error.cause}")
-    if not FINEST_MM <= length <= WIDEST_MM:
-        words.fail(at, f"{owner}: expected {FINEST_MM:g} to {WIDEST_MM:g} mm, got {words.shown(at)}")
+    most = WIDEST_MM if owner == "pen" else LONGEST_MM
+    if not FINEST_MM <= length <= most:
+        words.fail(at, f"{owner}: expected {FINEST_MM:g} to {most:g} mm, got {words.shown(at)}")
 
 
 def _fail_value(words: Words, at: int, owner: str) -> NoReturn:
