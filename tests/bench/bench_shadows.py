@@ -14,7 +14,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.testing.curved_meshes import bumpy_icosphere
+from vectorplot.testing.curved_meshes import bumpy_icosphere, torus_mesh
 from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
 
 pytestmark = pytest.mark.bench
@@ -89,3 +89,25 @@ def test_meshes_that_shadow_themselves() -> None:
     exponent = np.log(times[-1] / times[0]) / np.log(16.0)
     print(f"exponent {exponent:.2f}")
     assert exponent < 1.3
+
+
+def lattice(side: int, mesh: Mesh) -> Scene:
+    """Meshes in rows, columns and layers, so that they hide each other from the light and from the eye."""
+    places = np.stack(np.meshgrid(*(np.arange(side),) * 3), axis=-1).reshape(-1, 3)
+    return numbered([Mesh(mesh.vertices + 3.0 * place, mesh.corners, mesh.offsets) for place in places])
+
+
+def test_bodies_of_many_faces_in_a_heap() -> None:
+    print("\n                 faces   shadows  seconds   times the bare cost")
+    for name, mesh in (("balls", bumpy_icosphere(4, 0.0)), ("rings", torus_mesh(96, 32, 0.9, 0.4))):
+        ratios = []
+        for side in (3, 5):
+            scene = lattice(side, mesh)
+            view = view_of(scene)
+            start = time.process_time()
+            np.argsort(view_of(scene).depth)
+            bare = time.process_time() - start
+            seconds, decals = best(view, SUN, times=2)
+            ratios.append(seconds / bare)
+            print(f"{name:13s} {view.face_count:8d} {len(decals):9d}  {seconds:7.2f} {ratios[-1]:9.1f}")
+        assert ratios[1] < 4.0 * ratios[0]
