@@ -152,6 +152,14 @@ def test_without_a_title_block_views_have_the_whole_page(tmp_path):
     assert (tmp_path / "b.svg").read_text() == (tmp_path / "figure.svg").read_text()
 
 
+@pytest.mark.parametrize("words", [["--page", "A3", "--landscape"], ["--page", "A3 landscape"]])
+def test_sheets_lie_on_the_side_that_is_asked_for(words, tmp_path):
+    (tmp_path / "b.scene").write_text("brick gray box solid 40 20 400")
+    out = tmp_path / "b.json"
+    assert run(["sheet", str(tmp_path / "b.scene"), "-o", str(out), *words]) == 0
+    assert '"page_mm": [420.0, 297.0]' in out.read_text().replace("\n", " ")
+
+
 def test_measures_are_in_mm_whatever_the_unit_of_the_part_is():
     small = BRICK.scaled(0.1)
     asked = {"views": "front,left", "scale": "1:1", "dimensions": True}

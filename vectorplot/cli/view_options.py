@@ -46,6 +46,9 @@ def fit_option(filled: str) -> Callable[[Command], Command]:
     return click.option("--fit/--no-fit", default=True, help=f"Fill the {filled}, or keep the camera's scale.")
 
 
+LANDSCAPE = click.option("--landscape", is_flag=True, help="Lay the page on its longer side.")
+"""Of whatever has a page."""
+
 PAGE_OPTIONS = (
     click.option(
         "--page",
@@ -56,7 +59,7 @@ PAGE_OPTIONS = (
     click.option(
         "--width", type=length, metavar="LENGTH", help="Of a page as high as its picture: 80mm, 8cm, 3in or 120pt."
     ),
-    click.option("--landscape", is_flag=True, help="Lay the page on its longer side."),
+    LANDSCAPE,
     click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]"),
     fit_option("page"),
 )

@@ -45,6 +45,11 @@ def test_there_is_a_drawing_for_each_file_and_each_value_in_reading_order(dice):
     assert 0 < front < iso and below == [front, iso]
 
 
+def test_sheets_may_be_landscape_as_pages_of_draw(dice):
+    sizes = [sheet("--page", *words)["page_mm"] for words in (["A5", "--landscape"], ["A5 landscape"])]
+    assert sizes == [[210.0, 148.0]] * 2
+
+
 def test_names_say_what_each_drawing_shows(dice):
     bare, named = sheet("--no-names"), sheet()
     assert len(named["strokes"]) > len(bare["strokes"])

@@ -11,7 +11,7 @@ import shapely
 import vectorplot as vp
 from vectorplot.curves import Circle, Line
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.drawing.lettering.interrupted import grown, outside_boxes, outside_others
 from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.geometry import box
 from vectorplot.save import FORMATS, write
@@ -90,6 +90,28 @@ def test_lines_stop_before_letters_and_labels_keep_apart() -> None:
     assert shapely.distance(drawn, groups) >= 0.55
     bare = lines(vp.draw(replace(scene, labels=()), page=PAGE, hidden="solid"))
     assert shapely.hausdorff_distance(shapely.intersection(drawn.buffer(0.1), bare), drawn) < 0.2
+
+
+def test_lines_to_labels_end_before_the_letters_of_others() -> None:
+    corners = np.array([(2.0, -1.0), (4.0, -1.0), (4.0, 1.0), (2.0, 1.0)])
+    lines = np.array([[(0.0, 0.0), (10.0, 0.0)], [(0.0, 5.0), (10.0, 5.0)]])
+    boxes, owner = np.stack([corners, corners + np.array((5.0, 0.0))]), np.array([3, 1])
+    parts, line = outside_others(lines, np.array([1, 2]), boxes, owner)
+    assert line.tolist() == [0, 0, 1]
+    assert parts == pytest.approx(np.array([[(0, 0), (2, 0)], [(4, 0), (10, 0)], [(0, 5), (10, 5)]]))
+    parts, line = outside_others(lines[:0], owner[:0], boxes, owner)
+    assert parts.shape == (0, 2, 2) and line.shape == (0,)
+
+
+def test_leaders_do_not_run_through_the_letters_of_others() -> None:
+    places = ("right", "above_right", "above", "above_left", "left", "below_left", "below", "below_right")
+    around = [vp.Label("MMM", (0, 0, 2), f"{place}", place=place) for place in places]
+    lines = []
+    for labels in (around, [*around, vp.Label("far", (0, 0, 2))]):
+        found = letters(vp.draw(replace(labelled(), labels=tuple(labels)), page=PAGE))
+        lines.append({tuple(map(tuple, found.points[a:b].tolist())) for a, b, _ in strokes(found)})
+    near, far = (shapely.union_all([*map(shapely.linestrings, one)]) for one in (lines[0], lines[1] - lines[0]))
+    assert lines[0] < lines[1] and shapely.distance(near, far) > 0.2
 
 
 @pytest.mark.slow

@@ -22,7 +22,7 @@ from vectorplot.cli.common_options import (
 from vectorplot.cli.cut_options import CUT_SPACING
 from vectorplot.cli.options import format_of, upwards
 from vectorplot.cli.picture import Source, make_pages, make_picture
-from vectorplot.cli.view_options import VIEW_WORDS
+from vectorplot.cli.view_options import LANDSCAPE, VIEW_WORDS
 
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report
@@ -65,6 +65,7 @@ def _name_of_mesh(path: str) -> str:
         help="Views opposite to the side they are seen from, or on it.",
     ),
     click.option("--page", default="A3", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm."),
+    LANDSCAPE,
     click.option("--section", multiple=True, metavar="AXIS=PLACE", help="A section view, as y=12; repeat it for more."),
     CUT_SPACING,
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
@@ -94,6 +95,8 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     """
     from vectorplot.technical.technical_sheet import technical_sheet
 
+    if told.pop("landscape"):
+        told["page"] = f"{told['page'].split(' ')[0]} landscape"
     asked, upright = told.pop("sheet"), told["up"] is not None
     told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
 

@@ -20,6 +20,7 @@ from vectorplot.cli.many.workers import WORKER_OPTIONS, WorkerOptions
 from vectorplot.cli.options import at_least, format_of, page_size
 from vectorplot.cli.picture import check_place, write_out
 from vectorplot.cli.progress import progress_bar, told_warnings
+from vectorplot.cli.view_options import LANDSCAPE
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
@@ -85,6 +86,7 @@ def _verb(text: str) -> tuple[str, ...]:
         help="The page of each drawing, before it is made to fit.",
     ),
     click.option("--page", type=page_size, default="A4", metavar="SIZE", help="The sheet: A4, 'A3 landscape', WxH."),
+    LANDSCAPE,
     click.option("--columns", type=click.IntRange(1), metavar="N", help="Side by side.  [default: as fits best]"),
     click.option("--gap", "gap_mm", type=at_least(0.0), default=5.0, metavar="MM", help="Between drawings."),
     click.option("--names/--no-names", default=True, help="Under each drawing what it shows."),
@@ -108,6 +110,7 @@ def contact_sheet(
     cells = _cells(inputs_of(scene_file), told["vary"])
     width, height = _size("--cell", told["cell"])
     page = Page(*_size("--page", told["page"]))
+    page = page.landscape if told["landscape"] else page
     captions = [name for _, name, _ in cells] if told["names"] else []
     margin = max([CELL_MARGIN_MM, *(room_for_title(name, width) for name in captions)])
     same = ("--page", f"{width!r}x{height!r}", "--margin", repr(margin), *verb[1:])

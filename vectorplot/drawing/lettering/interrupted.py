@@ -56,6 +56,19 @@ def outside_boxes(paths: Paths, boxes: Floats, page_from_world: Floats) -> Paths
     return chosen(concatenated((chosen(paths, whole), parts)), np.argsort(source, kind="stable"))
 
 
+def outside_others(lines: Floats, own: Ints, boxes: Floats, owner: Ints) -> tuple[Floats, Ints]:
+    """The parts (m,2,2) of straight lines (k,2,2) outside of the rectangles (b,4,2) of other owners, and the line (m,)
+    each is of; own (k,), owner (b,): whose they are."""
+    segment, box = near_boxes(lines[:, 0], lines[:, 1], boxes)
+    low, high = inside_box(lines[segment, 0], lines[segment, 1], boxes[box])
+    hit = (low < high) & (own[segment] != owner[box])
+    fine = np.full(len(lines), UNION_OF_SEGMENT)
+    covered = intervals.union(segment[hit], low[hit], high[hit], fine)
+    line, low, high = intervals.complement(len(lines), *covered, fine)
+    part = np.stack([low, high], axis=1)[:, :, None]
+    return (1.0 - part) * lines[line, :1] + part * lines[line, 1:], line
+
+
 def near_boxes(start: Floats, end: Floats, boxes: Floats) -> tuple[Ints, Ints]:
     """Pairs of a segment, from start to end (s,2), and one of the rectangles (b,4,2) whose bounds overlap."""
     import shapely

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import takewhile
 
@@ -12,7 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import PENS
-from vectorplot.drawing.lettering.interrupted import grown, outside_boxes
+from vectorplot.drawing.lettering.interrupted import grown, outside_boxes, outside_others
 from vectorplot.drawing.lettering.labels.label_letters import (
     GAP,
     HALO_MM,
@@ -159,14 +159,14 @@ def labels_on_page(
         set_[k] = replace(
             text_, texts=text_.texts.anchored(_side(found.middles[number], sizes[number], seen.points[k]))
         )
-    leaders = {beside[of]: line for of, line in zip(found.label, found.leaders, strict=True)}
+    told = [*zip((beside[of] for of in found.label), found.leaders, strict=True)]
+    told += [(k, line) for k, measure in measures.items() for line in measure.tails]
+    lines_of = _outside_letters(told, set_, HALO_MM * mm)
     faint = [bool(seen.hidden_by[k]) and ways[k] == "dashed" for k in some]
     parts = []
     for k in some:
         lines = [*_lines(set_[k]), *mark_with_room(seen, k, heads, placement, mm)]
-        lines += [leaders[k]] if k in leaders else []
-        lines += [*measures[k].tails] if k in measures else []
-        parts.append(label_paths(lines, int(seen.hidden_by[k]), placement))
+        parts.append(label_paths([*lines, *lines_of.get(k, [])], int(seen.hidden_by[k]), placement))
     both = []
     for wanted in (False, True):
         own = [n for n, is_faint in enumerate(faint) if is_faint is wanted]
@@ -177,6 +177,22 @@ def labels_on_page(
     written = Texts.joined([set_[k].texts.hidden(count) for k, count in zip(some, by, strict=True)])
     off_page = tuple(label.name for k, label in zip(some, labels, strict=True) if _leaves(page, set_[k].boxes))
     return SceneLabels(shown, hidden_, written, boxes, faint_boxes, off_page)
+
+
+def _outside_letters(
+    lines: Sequence[tuple[int, Floats]], letters: Mapping[int, Lettering], margin: float
+) -> dict[int, list[Floats]]:
+    """Of the straight lines (2,2) of labels, by their numbers, what is outside of the letters of others."""
+    if not lines:
+        return {}
+    own = np.array([k for k, _ in lines])
+    owner = np.repeat([*letters], [len(text.boxes) for text in letters.values()])
+    boxes = grown(np.concatenate([text.boxes for text in letters.values()]), margin)
+    parts, line = outside_others(np.array([line for _, line in lines]), own, boxes, owner)
+    found: dict[int, list[Floats]] = {}
+    for k, part in zip(own[line].tolist(), parts, strict=True):
+        found.setdefault(k, []).append(part)
+    return found
 
 
 def with_letters(labels: SceneLabels, letters: Sequence[Lettering], placement: Placement, mm: float) -> SceneLabels:
