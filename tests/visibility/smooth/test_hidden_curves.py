@@ -5,13 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from vectorplot.draw import draw
 from vectorplot.geometry.bodies.solids import box
 from vectorplot.geometry.budget import USUAL, unheard
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
+from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
 from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.surface import Domain
+from vectorplot.testing import assert_drawing_is_right
 from vectorplot.visibility.polyhedra.lines import joined_lines
 from vectorplot.visibility.smooth.hidden_curves import hidden_curves
 from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords
@@ -38,3 +43,17 @@ def test_only_items_that_hide_are_counted() -> None:
         lines, doubts = cut_lines_and_chords(view, traced, joined_lines([]), 1e-3)
         assert not doubts and lines.behind.any()
     assert np.array_equal(*counts)
+
+
+@pytest.mark.slow
+@pytest.mark.spread
+@pytest.mark.parametrize("parallel", [True, False])
+@pytest.mark.parametrize("offset", [-1e-4, -1e-6])
+def test_a_section_past_a_cusp_is_hidden_by_what_rays_meet(offset: float, parallel: bool) -> None:
+    """Seen along x the fold of z = x^3 + x y has its cusp in the middle: close to it one branch lies right behind the
+    other."""
+    sections = SurfaceLines(sections=(Section((0.5, 1.0, -0.5), (offset,)),))
+    fold = graph(lambda x, y: x**3 + x * y, Domain(-1.0, 1.0, -1.0, 1.0))
+    scene = Scene((Item("FOLD", fold, curves=sections, lines=("section",)),))
+    camera = Camera((6.0, 0.0, 0.0), (0.0, 0.0, 0.0), up=(0.0, 0.0, 1.0), parallel=parallel, height=3.0)
+    assert assert_drawing_is_right(draw(scene, camera, hidden="solid"), scene, camera, samples=300) > 200

@@ -17,7 +17,7 @@ from vectorplot.visibility.smooth.events.events import all_events
 from vectorplot.visibility.smooth.events.missed_events import missed_events
 from vectorplot.visibility.smooth.events.own_events import edge_on_curves, facing_of, own_events
 from vectorplot.visibility.smooth.events.piercings import piercings
-from vectorplot.visibility.smooth.hidden_pieces import Counts, Pieces, carried, counted, cut, recounted
+from vectorplot.visibility.smooth.hidden_pieces import Counts, Pieces, believed, carried, counted, cut, recounted
 from vectorplot.visibility.smooth.runs import without_short_runs
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.targets import targets_of
@@ -80,7 +80,7 @@ def hidden_curves(
         pieces, counts = again, recounted(pieces, counts, again, count)
     unlooked = [*short_of_piercings, *short_of_halvings, *counts.unlooked]
     short = {*short_of_crossings, *hiding[unlooked].tolist()} if unlooked else {*short_of_crossings}
-    hidden_by = np.bincount(carried(pieces, counts).row, minlength=len(pieces))
+    hidden_by = np.bincount(carried(pieces, believed(pieces, counts)).row, minlength=len(pieces))
     hidden_by = without_short_runs(view, curves, pieces, hidden_by, 2.0 * tolerance)
     return HiddenCurves(pieces, hidden_by, tuple(sorted(short)))
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -174,7 +174,25 @@ def carried(pieces: Pieces, counts: Counts) -> Tally:
     return Tally(cells.piece[some], cells.item[some], value[some])
 
 
-def disagreeing(pieces: Pieces, counts: Counts) -> tuple[Ints, Ints]:
+def believed(pieces: Pieces, counts: Counts) -> Counts:
+    """The same, all sight lines between two that are safe and do not agree taken for safe: changes there were told
+    wrongly, as where a curve passes so near to a cusp that its other branch is no more behind it than rounding, and one
+    sight line close to an edge misleads only about its own piece."""
+    safe = counts.safe.copy()
+    safe[suspects(pieces, counts)] = True
+    return counts if counts.unlooked else replace(counts, safe=safe & counts.taken)
+
+
+def suspects(pieces: Pieces, counts: Counts) -> Ints:
+    """The pieces between two safe sight lines that do not agree, with those of the sight lines themselves."""
+    before, after = _disagreeing(pieces, counts)
+    mark = np.zeros(len(pieces) + 1, dtype=np.intp)
+    np.add.at(mark, before, 1)
+    np.add.at(mark, after + 1, -1)
+    return np.flatnonzero(np.cumsum(mark)[:-1] > 0)
+
+
+def _disagreeing(pieces: Pieces, counts: Counts) -> tuple[Ints, Ints]:
     """The pieces (w,) with safe sight lines of which the next one (w,) on their curve does not follow by the changes
     between."""
     safe = np.flatnonzero(counts.safe)

@@ -113,7 +113,8 @@ def _close_pairs(
         apart = np.flatnonzero(~_one_way(view, curves, edges, one.chord[near], two.chord[far]))
         near, far, part, edge_part = near[apart], far[apart], part[apart], edge_part[apart]
         # Near a cusp of an edge a curve may cross it twice close together: the search begins at several places.
-        own = curves.sheet[curves.owner[one.chord[near]]] == edges.sheet[edges.owner[two.chord[far]]]
+        curve, sheet = curves.owner[one.chord[near]], edges.sheet[edges.owner[two.chord[far]]]
+        own = (curves.sheet[curve] == sheet) | (curves.second_sheet[curve] == sheet)
         again = np.flatnonzero(own & cusps[two.chord[far]])
         starts = [(np.arange(len(near)), part, edge_part)]
         starts += [(again, np.full(len(again), a), np.full(len(again), b)) for a, b in STARTS]

@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.scene.view import View
 from vectorplot.visibility.smooth.events.events import Events
-from vectorplot.visibility.smooth.hidden_pieces import Counts, Pieces, disagreeing, samples_at
+from vectorplot.visibility.smooth.hidden_pieces import Counts, Pieces, samples_at, suspects
 from vectorplot.visibility.smooth.rays import counts_in_front
 from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
 from vectorplot.visibility.smooth.tallies import Tally
@@ -47,21 +47,21 @@ def missed_events(
         samples = samples_at(curves, edge_on, chord, at - chord)
         return counts_in_front(view, sheets, targets, samples, max(1, pairs))
 
-    suspects = _suspects(pieces, counts)
-    begin = (pieces.begin_chord + pieces.begin_part)[suspects]
-    end = (pieces.end_chord + pieces.end_part)[suspects]
+    suspicious = suspects(pieces, counts)
+    begin = (pieces.begin_chord + pieces.begin_part)[suspicious]
+    end = (pieces.end_chord + pieces.end_part)[suspicious]
     # Neither end is looked at: there the count changes.
     shares = (np.arange(LOOKS) + 0.5) / LOOKS
     at = begin[:, None] + shares * (end - begin)[:, None]
-    tally, unlooked = count(at.ravel(), np.repeat(pieces.end_chord[suspects], LOOKS), pairs // SHARE)
+    tally, unlooked = count(at.ravel(), np.repeat(pieces.end_chord[suspicious], LOOKS), pairs // SHARE)
     short = {*unlooked.item.tolist()}
     columns = _Columns.of(tally, LOOKS)
-    found = columns.table(tally, np.arange(len(suspects)), LOOKS)
-    seen = _are_seen(unlooked, len(suspects), LOOKS)
+    found = columns.table(tally, np.arange(len(suspicious)), LOOKS)
+    seen = _are_seen(unlooked, len(suspicious), LOOKS)
     piece, look = np.nonzero((found[:, 1:] != found[:, :-1]).any(axis=2) & seen[:, 1:] & seen[:, :-1])
     low, high = at[piece, look], at[piece, look + 1]
     below, above = found[piece, look], found[piece, look + 1]
-    last = pieces.end_chord[suspects][piece]
+    last = pieces.end_chord[suspicious][piece]
     row = np.arange(len(piece))
     inner, change = np.arange(1, PARTS) / PARTS, above - below
     # From here on nothing else is looked at than what changes.
@@ -128,12 +128,3 @@ def _are_seen(unlooked: Tally, rows: int, looks: int) -> Bools:
     result = np.ones(rows * looks, dtype=np.bool_)
     result[unlooked.row] = False
     return result.reshape(rows, looks)
-
-
-def _suspects(pieces: Pieces, counts: Counts) -> Ints:
-    """The pieces between two sight lines that do not agree, with those of the sight lines themselves."""
-    before, after = disagreeing(pieces, counts)
-    mark = np.zeros(len(pieces) + 1, dtype=np.intp)
-    np.add.at(mark, before, 1)
-    np.add.at(mark, after + 1, -1)
-    return np.flatnonzero(np.cumsum(mark)[:-1] > 0)
