@@ -34,6 +34,9 @@ TONES = 64
 ROUGHLY = 8.0
 """Shades on round bodies may be off by so many times as much as in paintings: by a hundredth of black."""
 
+ENDS = 3.0
+"""Strokes may end so many tolerances before outlines, or behind them: usually by less than half the width of a pen."""
+
 
 def hatched(
     scene: Scene,
@@ -61,7 +64,7 @@ def hatched(
     page, projection = placement.page, placement.projection
 
     def demand() -> Callable[[int], Demand]:
-        allowed = allowed_in_space(toned, projection, page, placement.whole, tolerance_mm)
+        allowed = allowed_in_space(toned, projection, page, placement.whole, ENDS * tolerance_mm)
         return picture_fineness(shown, projection, bool(toned.lights), allowed, ROUGHLY * tolerance_mm)
 
     ordered = ordered_faces(walk, toned, shown, projection, demand, budget)
