@@ -57,3 +57,14 @@ def test_a_section_past_a_cusp_is_hidden_by_what_rays_meet(offset: float, parall
     scene = Scene((Item("FOLD", fold, curves=sections, lines=("section",)),))
     camera = Camera((6.0, 0.0, 0.0), (0.0, 0.0, 0.0), up=(0.0, 0.0, 1.0), parallel=parallel, height=3.0)
     assert assert_drawing_is_right(draw(scene, camera, hidden="solid"), scene, camera, samples=300) > 200
+
+
+@pytest.mark.slow
+def test_a_section_through_a_place_that_is_seen_edge_on_is_hidden_by_nothing() -> None:
+    """Seen along x the surface z = x^3 + x y^2 turns its edge to the eye in the middle, and hides nothing anywhere."""
+    sections = SurfaceLines(sections=(Section((-0.746, -0.622, 0.239), (1e-5,)),))
+    sheet = graph(lambda x, y: x**3 + x * y**2, Domain(-1.0, 1.0, -1.0, 1.0))
+    scene = Scene((Item("SHEET", sheet, curves=sections, lines=("section",)),))
+    camera = Camera((6.0, 0.0, 0.0), (0.0, 0.0, 0.0), up=(0.0, 0.0, 1.0), parallel=True, height=3.0)
+    (marks,) = [marks for layer in draw(scene, camera, hidden="solid").layers for marks in layer.strokes if len(marks)]
+    assert (marks.hidden_by == 0).all()

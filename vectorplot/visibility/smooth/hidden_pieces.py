@@ -8,7 +8,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_angles import GRAZING_ANGLE
 from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
 from vectorplot.visibility.smooth.clearances import clearances
 from vectorplot.visibility.smooth.events.events import Events
@@ -109,7 +111,7 @@ def counted(
     pairs: what the budget has for all sight lines together.
     """
     long = _seen(view, curves, pieces, shortest)
-    samples, clearance = _safest(view, curves, edges, edge_on, pieces.some(long), shortest)
+    samples, clearance = _safest(view, sheets, curves, edges, edge_on, pieces.some(long), shortest)
     found, unlooked = counts_in_front(view, sheets, targets, samples, pairs)
     safe, taken = np.zeros(len(pieces), dtype=np.bool_), np.zeros(len(pieces), dtype=np.bool_)
     safe[long], taken[long] = clearance > SAFE_IN_IMAGE, True
@@ -219,20 +221,45 @@ def _nearest(pieces: Pieces, known: Bools) -> Ints:
 
 
 def _safest(
-    view: View, curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces, tolerance: float
+    view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces, tolerance: float
 ) -> tuple[Samples, Floats]:
-    """The point of each piece whose image is farthest from those of edges, and how far that is."""
+    """The point of each piece whose image is farthest from those of edges, and how far that is; none where the sight
+    line grazes a sheet of the point's own, which near by may bend either way."""
     begin, end = pieces.begin_chord + pieces.begin_part, pieces.end_chord + pieces.end_part
     at = begin + np.array(CANDIDATES)[:, None] * (end - begin)
     clear, all_pieces = np.full(at.shape, -np.inf), np.arange(len(pieces))
+
+    def look(which: Ints) -> None:
+        some = pieces.some(which)
+        clear[1:, which] = _clear(view, curves, edges, edge_on, some, at[1:, which], tolerance)
+
+    def best(which: Ints) -> Samples:
+        place = at[np.argmax(clear[:, which], axis=0), which]
+        chord = _chords_at(pieces.some(which), place)
+        return samples_at(curves, edge_on, chord, place - chord)
+
     clear[0] = _clear(view, curves, edges, edge_on, pieces, at[:1], tolerance)[0]
     # The others are looked at only where the first one is not good enough.
-    others = np.flatnonzero(edge_on[pieces.curve] | ~(clear[0] > ENOUGH * SAFE_IN_IMAGE))
-    clear[1:, others] = _clear(view, curves, edges, edge_on, pieces.some(others), at[1:, others], tolerance)
-    best = np.argmax(clear, axis=0)
-    place = at[best, all_pieces]
-    chord = _chords_at(pieces, place)
-    return samples_at(curves, edge_on, chord, place - chord), clear[best, all_pieces]
+    look(np.flatnonzero(edge_on[pieces.curve] | ~(clear[0] > ENOUGH * SAFE_IN_IMAGE)))
+    samples = best(all_pieces)
+    grazing = np.flatnonzero(_graze(view, sheets, samples))
+    if not len(grazing):
+        return samples, clear.max(axis=0)
+    look(grazing[np.isneginf(clear[1, grazing])])
+    for _ in CANDIDATES:
+        clear[np.argmax(clear[:, grazing], axis=0), grazing] = 0.0
+        grazing = grazing[_graze(view, sheets, best(grazing))]
+    return best(all_pieces), clear.max(axis=0)
+
+
+def _graze(view: View, sheets: Sheets, samples: Samples) -> Bools:
+    """(k,) whether the sight lines of samples graze a sheet on which they lie, but for those of contours."""
+    found, way = np.zeros(len(samples), dtype=np.bool_), sight_lines.sight(view, samples.points)
+    for number, places, contour in samples.own:
+        on = np.flatnonzero((number >= 0) & ~contour)
+        cosine = dot(sheets.normals(number[on], places[on]), way[on])
+        found[on] |= np.abs(cosine) <= GRAZING_ANGLE * norm(way[on])
+    return found
 
 
 def _clear(
