@@ -9,6 +9,7 @@ from support.paths import DATA
 from support.scene_rays import faces_of, lacking, page_rays
 
 import vectorplot as vp
+from vectorplot import surfaces
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
 from vectorplot.scene import Page
@@ -111,3 +112,14 @@ def test_items_may_be_hatched_in_ways_of_their_own() -> None:
     drawing = vp.draw(scene, hatch=vp.Hatching("colour"), layers="colour")
     named = {layer.name: layer.pen for layer in drawing.layers if layer.name.startswith("hatch")}
     assert {name: pen.width_mm for name, pen in named.items()} == {"hatch red 0.25": 0.25, "hatch green 0.18": 0.18}
+
+
+@pytest.mark.slow
+def test_all_strokes_of_a_round_body_in_a_shadow_are_on_its_lines() -> None:
+    balls = (surfaces.Sphere(1.2, (0, 0, 0)), surfaces.Sphere(1.2, (0, 0, 3)), surfaces.Sphere(1.2, (3, 0, 0)))
+    items = tuple(vp.Item(f"ball{k}", ball) for k, ball in enumerate(balls))
+    scene = vp.Scene(items, lights=(vp.Light((30, -20, 60)),))
+    hatching = vp.Hatching(spacing_mm=0.8, angle_deg=0.0)
+    strokes = strokes_of(vp.draw(scene, vp.Camera((40, -50, 35), (1, 0, 1)), page="A6", lines="none", hatch=hatching))
+    line = strokes.points[:, 1] / 0.8 - 0.5
+    assert len(strokes) > 100 and np.abs(line - np.rint(line)).max() < 1e-6

@@ -23,6 +23,9 @@ from vectorplot.tolerances.of_angles import SAME_PLANE_SINE
 from vectorplot.tolerances.of_the_page import HATCH_GAP_MM
 from vectorplot.words import LineKind
 
+CRUMB = 4.0
+"""Regions of one shade that are smaller, in squares of the distance between lines, have no strokes of their own."""
+
 
 def hatched_fills(fills: Fills, hatching: Sequence[Hatching | Stippling | None], page_from_world: Floats) -> Paths:
     """Strokes, as they come, that hatch the visible regions of polygons as dark as their colours.
@@ -112,7 +115,7 @@ def _family(regions: TonedRegions, hatching: Hatching, family: int, page_from_wo
     """The strokes of one direction: of plain regions, and of those where darkness varies."""
     angle = float(np.radians(hatching.angle_deg)) + family * np.pi / 2.0
     page = PageFrame(angle)
-    plain = regions.plain | (hatching.by == "even")
+    plain = regions.plain & ~_crumbs(regions, hatching.spacing_mm) | (hatching.by == "even")
     even, varied = regions.some(plain), regions.some(~plain)
     found = []
     spacing = even_spacings(hatching, np.ones(len(even)) if hatching.by == "even" else even.lowest)[family]
@@ -128,6 +131,17 @@ def _family(regions: TonedRegions, hatching: Hatching, family: int, page_from_wo
         parts = _dark_enough(varied, page, parts, thresholds(hatching, family, parts.line), hatching.spacing_mm)
         found.append(_strokes(varied, page, parts, spacing, np.zeros(len(varied), dtype=np.intp), page_from_world))
     return found
+
+
+def _crumbs(regions: TonedRegions, spacing_mm: float) -> Bools:
+    """(n,) the regions of items with varying darkness in planes of less than CRUMB squares between lines: triangles of
+    round bodies that happen to have one shade. Their strokes are those of the regions around them."""
+    round_ = np.unique(regions.item[~regions.plain])
+    normal = planes_of_fills(regions.fills)[0][regions.source]
+    rows = np.column_stack([regions.item, np.rint(normal / SAME_PLANE_SINE)])
+    group = np.unique(rows, axis=0, return_inverse=True)[1].ravel()
+    area = np.bincount(group, regions.areas, minlength=len(rows))[group]
+    return np.isin(regions.item, round_) & (area < CRUMB * spacing_mm * spacing_mm)
 
 
 def _dark_enough(

@@ -46,6 +46,17 @@ class TonedRegions:
         """(n,) the item each is a part of."""
         return self.fills.item[self.source]
 
+    @property
+    def areas(self) -> Floats:
+        """(n,) the areas of the regions."""
+        x, y = self.points
+        after = ragged.following(self.offsets)
+        around = ragged.owner(np.diff(self.offsets))
+        area = 0.5 * np.abs(np.bincount(around, x * y[after] - x[after] * y, minlength=len(self.of)))
+        # The first ring of each region is its outer one.
+        outer = np.diff(self.of, prepend=-1) != 0
+        return np.asarray(np.bincount(self.of, np.where(outer, area, -area), minlength=len(self)), dtype=np.float64)
+
     def some(self, which: Bools) -> TonedRegions:
         """Those regions, with their rings."""
         corners, offsets = ragged.take(self.offsets, which[self.of])
