@@ -126,6 +126,21 @@ def test_faces_that_rings_and_bumpy_balls_darken_whole_are_those_that_rays_never
     assert reached[sure > 1e-6].all() and np.count_nonzero(sure > 1e-6) > 250
 
 
+def test_the_bottom_of_a_crater_in_a_body_is_not_in_the_shadow_of_the_body() -> None:
+    base = np.array([(0, 0), (4, 0), (4, 2), (2, 2), (2, 4), (0, 4)], dtype=float)
+    crater = np.array([(0.8, 0.8, 1.0), (1.2, 0.8, 1.0), (1.0, 1.2, 1.0)])
+    points = np.concatenate([np.column_stack([base, np.full(6, z)]) for z in (0.0, 1.5)] + [crater])
+    slopes = [(6, 7, 13), (6, 13, 12), (7, 8, 9), (7, 9, 13), (9, 14, 13), (9, 10, 11), (9, 11, 14), (11, 6, 12)]
+    walls = [(k, (k + 1) % 6, (k + 1) % 6 + 6, k + 6) for k in range(6)]
+    body = Mesh.from_polygons(points, [(5, 4, 3, 2, 1, 0), *walls, *slopes, (11, 12, 14), (12, 13, 14)])
+    view = view_of_meshes(body, box((0.9, 0.9, -3), (1.1, 1.1, -2)))
+    light = Light((0.0, 0.0, 1.0), parallel=True)
+    bodies = bodies_of(view, light)
+    assert bodies.convex.tolist() == [False, True] and view.face_item.tolist().count(0) > 15
+    cast = cast_within(view, (light,), np.inf).shadows
+    assert set(view.face_item[cast.face].tolist()) == {1}
+
+
 @pytest.mark.slow
 def test_smooth_balls_throw_less_shadows_than_they_have_facets() -> None:
     balls = (Sphere(1.0, (0, 0, 0)), Sphere(1.0, (0.0, 0.0, -2.5)))

@@ -67,7 +67,7 @@ class LitBodies:
         return result
 
     def within(self, receivers: Receivers) -> Ints:
-        """(n,) the receivers all of which is in the shadow of a body that is not convex for the light."""
+        """(n,) the receivers all of which is in the shadow of another item that is not convex for the light."""
         import shapely
 
         filled = np.flatnonzero(~shapely.is_empty(self.regions))
@@ -78,7 +78,9 @@ class LitBodies:
         flat = np.stack([x, y]) if self.system.parallel else np.stack([x, y]) / away
         tree = shapely.STRtree(polygons_of(flat, receivers.offsets))
         body, receiver = tree.query(self.regions[filled], predicate="contains")
-        return np.unique(receiver[self.depths.beyond(filled[body], receivers.face[receiver])])
+        body, face = filled[body], receivers.face[receiver]
+        others = self.view.face_item[face] != self.item[body]
+        return np.unique(receiver[others & self.depths.beyond(body, face)])
 
 
 @dataclass(frozen=True, eq=False)
