@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+import shapely
 from support.blocked_lights import face_points, scene_triangles, wrong_points
 from support.triangle_rays import blocked
 
@@ -124,6 +125,15 @@ def test_faces_that_rings_and_bumpy_balls_darken_whole_are_those_that_rays_never
     rays = 10.0 * system.towards(at.points) if system.parallel else system.towards(at.points)
     reached, sure = blocked(at.points.T, rays.T, scene_triangles(view))
     assert reached[sure > 1e-6].all() and np.count_nonzero(sure > 1e-6) > 250
+
+
+def test_a_remote_lamp_sees_what_parallel_light_does() -> None:
+    view = view_of_meshes(moved(torus_mesh(), 0.5, (0.0, 0.0, 2.0)), ball(0.8, 0.0, 4.0, 0.7, 0.15))
+    way = np.array((0.3, 0.6, 6.0))
+    sun, lamp = bodies_of(view, Light(tuple(way), parallel=True)), bodies_of(view, Light(tuple(1e8 * way)))
+    assert not sun.convex.any() and not lamp.convex.any()
+    areas = shapely.area(lamp.regions) * lamp.depths.far**2
+    assert areas == pytest.approx(shapely.area(sun.regions), rel=1e-4)
 
 
 def test_the_bottom_of_a_crater_in_a_body_is_not_in_the_shadow_of_the_body() -> None:

@@ -16,6 +16,7 @@ from vectorplot.effects.shadows.lit_outlines import (
     hulls,
     image_of,
     meets_once,
+    narrow,
     outlines,
     reach,
 )
@@ -124,14 +125,16 @@ def lit_bodies(
     """
     _, turned = turned_to_light(view, planes, system, facing)
     face = np.flatnonzero(turned & items[view.face_item])
+    face = face[narrow(view, system, face)]
     item, body = np.unique(view.face_item[face], return_inverse=True)
     axes = axes_towards(view, system, face, body, len(item))
-    far, narrow = reach(view, system, face, body, axes)
+    far = reach(view, system, face, body)
     start, end, of = outlines(view, face, body)
     ends = np.stack([image_of(view, system, axes, some, of) for some in (start, end)])
     hull, corners, first = hulls(ends.transpose(1, 0, 2).reshape(2, -1), np.tile(of, 2), len(item))
-    slack = view.tolerance + off[item]
-    convex = narrow & meets_once(ends, of, hull, slack if system.parallel else slack / far)
+    # In images of lamps all is smaller by its distance.
+    scale = 1.0 if system.parallel else far
+    convex = meets_once(ends, of, hull, (view.tolerance + off[item]) / scale)
     kept = np.flatnonzero(convex)
     position, first = ragged.take(first, kept)
     volumes = PlaneBundles(_cones(system, axes, corners[:, position], first, kept), first)
@@ -142,7 +145,7 @@ def lit_bodies(
     other = np.flatnonzero(~convex[of] & ~system.windowed)
     same = np.repeat(system.axes[0][:, :, None], len(item), axis=2)
     sides = np.stack([image_of(view, system, same, some[other], of[other]) for some in (start, end)])
-    regions = covered(sides, of[other], len(item), view.tolerance)
+    regions = covered(sides, of[other], len(item), view.tolerance / np.max(scale, initial=1.0))
     box, ball = _bounds(view, item)
     depths = Depths(view, far, _nearest(view, planes, system), box, ball, planes.planes * facing)
     return LitBodies(view, system, casters, number, item, convex, regions, depths)

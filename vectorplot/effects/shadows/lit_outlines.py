@@ -41,18 +41,25 @@ def axes_towards(view: View, system: LightSystem, face: Ints, body: Ints, count:
     return np.stack([right, cross(away, right), away])
 
 
-def reach(view: View, system: LightSystem, face: Ints, body: Ints, axes: Floats) -> tuple[Floats, Bools]:
-    """(k,) the greatest distance of a corner of each body, as of LitBodies, and whether all of it is seen at angles
-    whose images are not too large."""
+def narrow(view: View, system: LightSystem, face: Ints) -> Bools:
+    """(n,) the faces of items all faces of which, among these, are seen at angles whose images are not too large."""
+    if system.parallel:
+        return np.ones(len(face), dtype=np.bool_)
+    item, body = np.unique(view.face_item[face], return_inverse=True)
+    axes = axes_towards(view, system, face, body, len(item))
+    position, offsets = ragged.take(view.offsets, face)
+    points, of = directions(view, system, view.corners[position]), np.repeat(body, np.diff(offsets))
+    wide = (axes[2][:, of] * points).sum(axis=0) < LEAST_COSINE * np.sqrt((points * points).sum(axis=0))
+    return np.asarray(np.bincount(of, wide, minlength=len(item))[body] == 0.0)
+
+
+def reach(view: View, system: LightSystem, face: Ints, body: Ints) -> Floats:
+    """(k,) the greatest distances of corners of the faces of bodies, as of Depths."""
     position, offsets = ragged.take(view.offsets, face)
     points = directions(view, system, view.corners[position])
+    distance = -(system.position @ points) if system.parallel else np.sqrt((points * points).sum(axis=0))
     starts = offsets[np.flatnonzero(np.diff(body, prepend=-1))] if len(face) else offsets[:0]
-    away = (axes[2][:, np.repeat(body, np.diff(offsets))] * points).sum(axis=0)
-    if system.parallel:
-        return np.maximum.reduceat(away, starts) if len(starts) else away, np.ones(len(starts), dtype=np.bool_)
-    distance = np.sqrt((points * points).sum(axis=0))
-    narrow = np.logical_and.reduceat(away >= LEAST_COSINE * distance, starts) if len(starts) else away > 0.0
-    return np.maximum.reduceat(distance, starts) if len(starts) else away, narrow
+    return np.asarray(np.maximum.reduceat(distance, starts) if len(starts) else distance)
 
 
 def outlines(view: View, face: Ints, body: Ints) -> tuple[Ints, Ints, Ints]:
@@ -111,8 +118,8 @@ def meets_once(ends: Floats, of: Ints, hull: Any, slack: Floats) -> Bools:
 
 
 def covered(ends: Floats, of: Ints, count: int, tolerance: float) -> Any:
-    """(k,) the regions around which outlines with sides from ends (2,2,s), of bodies (s,), run: all that their faces
-    cover, as often as the outline runs around it.
+    """(k,) the regions that outlines with sides from ends (2,2,s), of bodies (s,), run around, once or more: all that
+    the faces of the bodies cover. tolerance: in the image.
 
     Degenerate: what is narrower than a few tolerances may be missing; a body without an outline covers nothing.
     """
