@@ -21,6 +21,9 @@ from vectorplot.scene.naming.annotations import leader_tips
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
+PARTS_AT_ONCE = 1 << 9
+"""So many parts are looked at together for one that another stands over: it is mostly among the last ones."""
+
 
 def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, traces: bool = True) -> Scene:
     """The scene with its parts moved apart along an axis, in their order along it.
@@ -73,7 +76,10 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
         raise InputError(f"explode: a factor of {factor:g}: expected a finite number, 1 or more")
     keys = [item.group or f"{number} {item.name}" for number, item in enumerate(scene.items)]
     bodies = [key for key, item in zip(keys, scene.items, strict=True) if not is_curve(item.shape)] or keys
-    parts = {key: [n for n, own in enumerate(keys) if own == key] for key in dict.fromkeys(bodies)}
+    parts: dict[str, list[int]] = {key: [] for key in bodies}
+    for n, key in enumerate(keys):
+        if key in parts:
+            parts[key].append(n)
     boxes = {key: _box([scene.items[n] for n in which]) for key, which in parts.items()}
     zero = ZERO_OF_EXTENT * float(np.ptp(scene.bounds, axis=0).max())
     ways = np.array([way, *axis_frame(way)[:2]])
@@ -89,10 +95,11 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
     ]
     items = [item.transformed(shift_matrix(*step)) for item, step in zip(scene.items, steps, strict=True)]
     for number, key in enumerate(order):
-        # It came from the last part before it that it stands over.
-        under = np.flatnonzero(~_beside(spans[:number], spans[number], zero))
-        low, start = spans[number, 0, 0], shifts[order[under[-1]]] if len(under) else 0.0
-        if not traces or shifts[key] - start <= zero:
+        if not traces or shifts[key] <= zero:
+            continue
+        under = _under(spans[:number], spans[number], zero)
+        low, start = spans[number, 0, 0], 0.0 if under is None else shifts[order[under]]
+        if shifts[key] - start <= zero:
             continue
         middle = boxes[key].mean(axis=0)
         foot = middle + (low - float(middle @ way)) * way
@@ -130,6 +137,16 @@ def _beside(ones: Floats, other: Floats, zero: float) -> Bools:
     """(n,) which parts with spans (n,3,2) are apart from one with these (3,2), across the first of the directions."""
     first, last = np.maximum(ones[:, 1:, 0], other[1:, 0]), np.minimum(ones[:, 1:, 1], other[1:, 1])
     return np.asarray((first >= last - zero).any(axis=1))
+
+
+def _under(ones: Floats, other: Floats, zero: float) -> int | None:
+    """The last one of parts with spans (n,3,2) that one with these (3,2) stands over: there it came from."""
+    for end in range(len(ones), 0, -PARTS_AT_ONCE):
+        start = max(end - PARTS_AT_ONCE, 0)
+        found = np.flatnonzero(~_beside(ones[start:end], other, zero))
+        if len(found):
+            return start + int(found[-1])
+    return None
 
 
 def _shifts(spans: Floats, room: float, zero: float) -> list[float]:
