@@ -36,8 +36,6 @@ FOR_PROGRAMS = {
 }
 """Files that programs of one's own call for, and no verb."""
 
-MOST_FILES = 15
-"""What a folder holds before one cannot find a file in it any more."""
 
 HEAVY = {
     "cairo",
@@ -175,23 +173,6 @@ def test_no_file_takes_what_another_keeps_to_itself():
                     if alias.name.startswith("_") and alias.name != "__version__"
                 ]
     assert not taken
-
-
-@pytest.mark.parametrize("folder", sorted({path.parent for path in PACKAGE.rglob("*.py")}))
-def test_a_room_has_few_files_and_says_what_it_is_for(folder):
-    files = [path for path in folder.glob("*.py") if path.name != "__init__.py"]
-    assert len(files) <= MOST_FILES, f"{folder.name} has {len(files)} files: give it rooms of its own"
-    assert ast.get_docstring(tree_of(folder / "__init__.py"))
-
-
-def test_a_name_of_a_file_means_one_thing():
-    """Only a verb and its command share theirs, and a sheet and its command."""
-    homes: dict[str, list[str]] = {}
-    for file in FILES:
-        homes.setdefault(Path(file).name, []).append(file)
-    del homes["__init__.py"]
-    commands = {"animate.py", "draw.py", "paint.py", "render.py", "sheet.py"}
-    assert {name: found for name, found in homes.items() if len(found) > 1 and name not in commands} == {}
 
 
 def heavy_imports(file: str) -> list[str]:

@@ -14,6 +14,7 @@ from vectorplot.curves.function_curve import curve_of_function
 from vectorplot.curves.placed_curve import PlacedCurve
 from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 
 FORMS = np.array([[0.0, 2.0, 0.0], [-1.0, 0.0, 0.5], [0.0, 0.0, 3.0]])
 CURVES = {
@@ -168,8 +169,8 @@ def test_what_makes_no_curve_is_an_input_error(make, words):
 def test_a_placed_curve_is_the_curve_after_the_map(curve):
     placed = PlacedCurve(curve, FORMS, (7, 8, 9))
     t = parameters(curve)
-    assert np.array_equal(placed.points(t), curve.points(t) @ FORMS + (7, 8, 9))
-    assert np.array_equal(placed.tangents(t), curve.tangents(t) @ FORMS)
+    assert np.array_equal(placed.points(t), matmul(curve.points(t), FORMS) + np.array((7, 8, 9)))
+    assert np.array_equal(placed.tangents(t), matmul(curve.tangents(t), FORMS))
     assert (placed.start, placed.end, placed.closed) == (curve.start, curve.end, curve.closed)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.scene.pages.page import Page
@@ -22,7 +23,7 @@ def page_from_world(camera: Camera, bounds: Floats) -> Floats:
 
 def on_page(matrix: Floats, points: Floats) -> Floats:
     """(...,2) points (...,3) of the world in mm."""
-    place = np.concatenate([points, np.ones((*points.shape[:-1], 1))], axis=-1) @ matrix.T
+    place = matmul(np.concatenate([points, np.ones((*points.shape[:-1], 1))], axis=-1), matrix.T)
     return np.asarray(place[..., :2] / place[..., 3:])
 
 

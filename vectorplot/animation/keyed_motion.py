@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.animation.tracks import Track
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera, Point
 from vectorplot.geometry.motions.movable import scale_matrix, shift_matrix, turn_matrix
 from vectorplot.scene.item import Item
@@ -67,7 +68,7 @@ class ItemTrack:
         else:
             done = scale_matrix(value[0], value[1], value[2]) if len(value) > 1 else scale_matrix(value[0], None, None)
         x, y, z = self.about
-        return np.asarray(shift_matrix(x, y, z) @ done @ shift_matrix(-x, -y, -z))
+        return np.asarray(matmul(matmul(shift_matrix(x, y, z), done), shift_matrix(-x, -y, -z)))
 
 
 @dataclass(frozen=True, eq=False)
@@ -147,7 +148,7 @@ class KeyedMotion:
         for track in self.items:
             matrix = track.matrix(time)
             for number in self._moved(track.name):
-                matrices[number] = matrix @ matrices[number] if number in matrices else matrix
+                matrices[number] = matmul(matrix, matrices[number]) if number in matrices else matrix
         items = list(self.scene.items)
         for number, matrix in matrices.items():
             if not np.array_equal(matrix, np.eye(4)):

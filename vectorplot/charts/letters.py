@@ -7,6 +7,7 @@ from typing import Literal
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import matmul
 
 CAPITAL = 6.0
 """Units from the foot of a letter to the top of a capital; small letters reach two thirds of that."""
@@ -130,7 +131,7 @@ def letters(
     width = max(place - GAP, 0.0)
     shift = {"left": 0.0, "middle": 0.5 * width, "right": width}[along]
     turn = np.array([(0.0, 1.0), (-1.0, 0.0)]) if upwards else np.eye(2)
-    return [np.asarray(unit * (stroke - np.array([shift, 0.0])) @ turn + at) for stroke in strokes]
+    return [np.asarray(matmul(unit * (stroke - np.array([shift, 0.0])), turn) + at) for stroke in strokes]
 
 
 def text_width(text: str, height: float) -> float:

@@ -13,6 +13,7 @@ from vectorplot.curves.breaks import breaks_of
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.placed_curve import MovableCurve
 from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces, nothing_beside
 from vectorplot.tolerances.of_numbers import ROUNDING
 
@@ -126,11 +127,11 @@ def _zeros(curve: Curve, t: Floats, points: Floats, plane: HalfSpaces, near: flo
     """(k,) parameters at which a curve passes a plane, from its points at rising t."""
     height = plane.heights(points)[0]
     height = np.where(np.abs(height) <= near, 0.0, height)
-    slope = curve.tangents(t) @ np.array(plane.normals[0])
+    slope = matmul(curve.tangents(t), np.array(plane.normals[0]))
     low, high = t[:-1], t[1:]
     # Between two places on one side the curve may come nearer, and pass the plane twice.
     comes = (height[:-1] * height[1:] > 0.0) & (height[:-1] * slope[:-1] < 0.0) & (height[1:] * slope[1:] > 0.0)
-    turn = _halved(lambda at: curve.tangents(at) @ np.array(plane.normals[0]), low[comes], high[comes])
+    turn = _halved(lambda at: matmul(curve.tangents(at), np.array(plane.normals[0])), low[comes], high[comes])
     t = np.union1d(t, turn)
     height = plane.heights(curve.points(t))[0]
     height = np.where(np.abs(height) <= near, 0.0, height)

@@ -7,6 +7,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import determinant
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.tolerances.of_values import SINGULAR_DETERMINANT
 
@@ -49,7 +51,7 @@ def invertible(name: str, matrix: ArrayLike) -> Floats:
     largest = float(np.abs(m).max()) or 1.0
     # Of a matrix of the size of one nothing overflows, or vanishes.
     unit = m / largest
-    if abs(np.linalg.det(unit)) <= SINGULAR_DETERMINANT * np.linalg.norm(unit) ** 3:
+    if abs(determinant(unit)) <= SINGULAR_DETERMINANT * norm(unit.ravel()) ** 3:
         raise InputError(f"{name} needs a matrix that can be inverted")
     return m
 

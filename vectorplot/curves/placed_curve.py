@@ -12,6 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import invertible, vector
 from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.motions.movable import Movable
 
 
@@ -34,15 +35,15 @@ class Placed:
         rows, shift = rows_and_shift(matrix)
         # What overflows is refused, as any matrix that is not finite.
         with np.errstate(over="ignore", invalid="ignore"):
-            return np.asarray(self.matrix) @ rows, np.asarray(self.shift) @ rows + shift
+            return matmul(np.asarray(self.matrix), rows), matmul(np.asarray(self.shift), rows) + shift
 
     def placed_points(self, points: Floats) -> Floats:
         """(..., 3) where points (..., 3) are placed."""
-        return np.asarray(points @ np.asarray(self.matrix) + np.asarray(self.shift))
+        return np.asarray(matmul(points, np.asarray(self.matrix)) + np.asarray(self.shift))
 
     def placed_vectors(self, vectors: Floats) -> Floats:
         """(..., 3) what vectors (..., 3) become, such as derivatives: they are turned and scaled, not shifted."""
-        return np.asarray(vectors @ np.asarray(self.matrix))
+        return np.asarray(matmul(vectors, np.asarray(self.matrix)))
 
 
 def rows_and_shift(matrix: ArrayLike) -> tuple[Floats, Floats]:

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import Fills
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import determinant, linear_solution
 from vectorplot.geometry.mesh import TRIANGLE, next_positions
 from vectorplot.geometry.regions import (
     POLYGON,
@@ -229,9 +230,9 @@ def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats
     right = np.stack([-(rows[k, :, :3] * first).sum(axis=1) - rows[k, :, 3] for k in (0, 1)], axis=1)
     system[:, :2] /= (size := np.linalg.norm(system[:, :2], axis=2, keepdims=True))
     right = np.concatenate([right / size[..., 0], np.zeros((len(points), 1))], axis=1)
-    steep = np.abs(np.linalg.det(system)) > EDGE_ON_SINE
+    steep = np.abs(determinant(system)) > EDGE_ON_SINE
     found = first.copy()
-    found[steep] += np.linalg.solve(system[steep], right[steep][..., None])[..., 0]
+    found[steep] += linear_solution(system[steep], right[steep][..., None])[..., 0]
     return found
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
@@ -88,7 +89,7 @@ def _between(item: Item, camera: Camera, tolerance: float) -> Item:
 
 def depths(points: Floats, camera: Camera) -> Floats:
     """(n,) how far points (n,3) are from the eye along the line to the target, in world units."""
-    return np.asarray(camera.distance - (points - np.asarray(camera.target)) @ camera.axes[2])
+    return np.asarray(camera.distance - matmul(points - np.asarray(camera.target), camera.axes[2]))
 
 
 def _planes(camera: Camera) -> list[tuple[float, float]]:

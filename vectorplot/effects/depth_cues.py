@@ -14,6 +14,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated, sections, unrolled
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.scene.depth_cue import DepthCue
 from vectorplot.scene.view import View
 from vectorplot.shading.light.depth_cueing import depth_shades
@@ -90,7 +91,7 @@ def _divided(paths: Paths, level: Floats, step: Ints, page_from_world: Floats) -
     share = (of_piece + (way < 0) - level[segment]) / np.where(run != 0.0, run, 1.0)
     low = np.where(place > 0, np.clip(share, 0.0, 1.0), 0.0)
     # A division in the world comes out nearer the far end on the page.
-    weight = np.abs(paths.points3d @ page_from_world[3, :3] + page_from_world[3, 3])
+    weight = np.abs(matmul(paths.points3d, page_from_world[3, :3]) + page_from_world[3, 3])
     far = low * weight[segment + 1]
     low = far / ((1.0 - low) * weight[segment] + far)
     high = np.where(np.append(place[1:], 0) > 0, np.append(low[1:], 0.0), 1.0)

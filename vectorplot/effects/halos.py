@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import HALO_MARGIN
 from vectorplot.tolerances.of_lengths import UNION_OF_SEGMENT
@@ -95,7 +96,7 @@ def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility
 
 def _diameter(image: Floats) -> float:
     """At least the distance of any two points (2,n)."""
-    return float(np.linalg.norm(np.ptp(image, axis=1)))
+    return float(norm(np.ptp(image, axis=1)))
 
 
 def _zones(

@@ -13,10 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.geometry.repair.circulation import faces_are_closed
 from vectorplot.geometry.repair.pieces import pieces_of_faces
 from vectorplot.geometry.vectors import cross
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 
 def next_positions(offsets: Ints, position: Ints) -> Ints:
@@ -272,8 +274,8 @@ class Mesh(Movable["Mesh"]):
         """
         m = np.asarray(matrix, dtype=np.float64)
         with np.errstate(over="ignore", invalid="ignore"):
-            vertices = self.vertices @ m[:3, :3].T + m[:3, 3]
-        if np.linalg.slogdet(m[:3, :3])[0] >= 0.0:
+            vertices = matmul(self.vertices, m[:3, :3].T) + m[:3, 3]
+        if determinant(m[:3, :3] / max(float(np.abs(m[:3, :3]).max()), LEAST_DIVISOR)) >= 0.0:
             return Mesh(vertices, self.corners, self.offsets, self.present)
         return Mesh(vertices, self.corners, self.offsets, self.present).reversed()
 

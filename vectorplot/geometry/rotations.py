@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import normalize, spherical_coordinates
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
@@ -204,7 +205,7 @@ def rotation_about(axis: ArrayLike, angle: ArrayLike) -> Floats:
     True
     """
     frame = axis_frame(axis)
-    return np.asarray(inverse_rotation(frame) @ rotation_z(angle) @ frame)
+    return np.asarray(matmul(matmul(inverse_rotation(frame), rotation_z(angle)), frame))
 
 
 def rotated_about_line(points: ArrayLike, on_line: ArrayLike, axis: ArrayLike, angle: float) -> Floats:
@@ -241,7 +242,7 @@ def rotated_about_line(points: ArrayLike, on_line: ArrayLike, axis: ArrayLike, a
     True
     """
     a = np.asarray(on_line, dtype=np.float64)
-    return np.asarray((np.asarray(points, dtype=np.float64) - a) @ rotation_about(axis, angle) + a)
+    return np.asarray(matmul(np.asarray(points, dtype=np.float64) - a, rotation_about(axis, angle)) + a)
 
 
 def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
@@ -282,7 +283,9 @@ def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
     """
     spherical = spherical_coordinates(normalize(centres))
     gamma, beta = np.pi / 2.0 + spherical[..., 1], np.pi / 2.0 - spherical[..., 2]
-    return np.asarray(rotation_z(-gamma) @ rotation_x(-beta) @ rotation_z(-np.asarray(twist, dtype=np.float64)))
+    return np.asarray(
+        matmul(matmul(rotation_z(-gamma), rotation_x(-beta)), rotation_z(-np.asarray(twist, dtype=np.float64)))
+    )
 
 
 def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import upright_turn
+from vectorplot.geometry.vectors import norm
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.scene.scene import Scene
 
@@ -39,7 +40,7 @@ def upwards_hint(path: str, scene: Scene) -> str | None:
 def stood_up(scene: Scene, up: ArrayLike) -> Scene:
     """The scene turned on the shortest way so that a direction points upwards, along z. Errors: InputError for none."""
     way = np.asarray(up, dtype=np.float64)
-    length = float(np.linalg.norm(way))
+    length = float(norm(way))
     if not 0.0 < length < np.inf:
         raise InputError("up: expected a direction")
     matrix = np.eye(4)

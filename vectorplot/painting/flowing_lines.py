@@ -22,6 +22,7 @@ from vectorplot.features.meshes.mesh_curves import MeshCurves, face_triangles
 from vectorplot.features.parametric.curve_tracing import Tracing, extent
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import cross, norm
@@ -197,7 +198,7 @@ def _normals(item: Item, curves: SurfaceCurves | MeshCurves, at: Ints) -> Floats
 
 def on_page(points: Floats, ways: Floats, page_from_world: Floats) -> Floats:
     """(...,2) by how many mm points of the page move where points (...,3) move along ways (...,3)."""
-    rows = points @ page_from_world[:, :3].T + page_from_world[:, 3]
-    step = ways @ page_from_world[:, :3].T
+    rows = matmul(points, page_from_world[:, :3].T) + page_from_world[:, 3]
+    step = matmul(ways, page_from_world[:, :3].T)
     depth = rows[..., 3:]
     return np.asarray(step[..., :2] / depth - rows[..., :2] * step[..., 3:] / (depth * depth))

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.scene import Scene
@@ -65,7 +66,7 @@ class Placement:
         """(4,4) matrix from points (x,y,z,1) of the world to homogeneous points of the page in mm; the third row keeps
         z."""
         unit = 1.0 / self.projection.scale
-        rows = self.page_from_image @ np.diag([unit, unit, 1.0]) @ self.projection.image_from_world
+        rows = matmul(matmul(self.page_from_image, np.diag([unit, unit, 1.0])), self.projection.image_from_world)
         return np.vstack([rows[:2], [0.0, 0.0, 1.0, 0.0], rows[2:]])
 
     def on_page(self, image: Floats) -> Floats:
@@ -81,7 +82,7 @@ class Placement:
         (n, 2) array of float
             In mm, y upwards.
         """
-        return np.asarray((self.page_from_image[:2, :2] @ image).T + self.page_from_image[:2, 2])
+        return np.asarray((matmul(self.page_from_image[:2, :2], image)).T + self.page_from_image[:2, 2])
 
 
 def field_of_vision(projection: Projection, page: Page, fit: bool) -> Placement:

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.rotations import upright_turn
 from vectorplot.geometry.vectors import normalize
@@ -30,7 +31,7 @@ def camera_around(bounds: Floats, up: Point = (0.0, 0.0, 1.0)) -> Camera:
     """The same, of a scene with these bounds (2,3)."""
     low, high = bounds
     centre, size = (low + high) / 2.0, math.dist(low, high)
-    direction = normalize(np.array([0.45, -0.8, 0.45]) @ upright_turn(up))
+    direction = normalize(matmul(np.array([0.45, -0.8, 0.45]), upright_turn(up)))
     eye = centre + direction * 2.2 * (size if size > 0.0 else 1.0)
     return Camera(eye=tuple(eye.tolist()), target=tuple(centre.tolist()))
 

@@ -12,7 +12,9 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import determinant
 from vectorplot.geometry.cuts.half_spaces import moved_planes
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.lines.integral_lines import IntegralLines
 from vectorplot.scene.terrains.terrain_lines import TerrainLines
 from vectorplot.tolerances.of_numbers import ROUNDING
@@ -83,9 +85,9 @@ class Section:
         if normal.shape != (3,) or not np.isfinite(normal).all() or not normal.any():
             raise InputError("sections: expected a normal of three finite numbers, not all zero")
         # Divided by the largest first: squares of very long normals would overflow. A unit vector stays what it is.
-        if abs(np.linalg.norm(normal / np.abs(normal).max()) * np.abs(normal).max() - 1.0) > ROUNDING:
+        if abs(norm(normal / np.abs(normal).max()) * np.abs(normal).max() - 1.0) > ROUNDING:
             normal /= np.abs(normal).max()
-            normal /= np.linalg.norm(normal)
+            normal /= norm(normal)
         x, y, z = normal.tolist()
         object.__setattr__(self, "normal", (x, y, z))
         object.__setattr__(self, "offsets", _numbers("sections", self.offsets))
@@ -342,7 +344,7 @@ class SurfaceLines:
 def linear_growth(matrix: Floats) -> float:
     """How many times longer lengths become, on average, under a matrix (4,4) that acts on columns."""
     with np.errstate(over="ignore"):
-        return float(np.cbrt(abs(np.linalg.det(matrix[:3, :3]))))
+        return float(np.cbrt(abs(determinant(matrix[:3, :3]))))
 
 
 NO_LINES = SurfaceLines()

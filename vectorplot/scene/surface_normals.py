@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.geometry.algebra import determinant, inverse_matrix, matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.triangles.triangle_places import PlacedTriangles
 from vectorplot.geometry.vectors import norm
@@ -50,7 +51,7 @@ class SurfaceNormals:
         """The normals of the surface under a 4x4 matrix acting on columns."""
         linear = np.asarray(matrix, dtype=np.float64)[:3, :3]
         # The adjugate turns normals as the inverse does, and mirrors them as faces are.
-        turned = self.at_vertices @ (np.linalg.inv(linear) * abs(np.linalg.det(linear)))
+        turned = matmul(self.at_vertices, inverse_matrix(linear) * abs(determinant(linear)))
         length = norm(turned)[:, None]
         return SurfaceNormals(self.mesh.transformed(matrix), turned / np.where(length > 0.0, length, 1.0), self.on_edge)
 

@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from vectorplot.geometry.algebra import matmul
 from vectorplot.speed.clock import cpu_seconds
 
 COUNT = 1 << 18
@@ -91,7 +92,7 @@ def point_cost() -> float:
     points, axes = rng.normal(size=(3, COUNT)), rng.normal(size=(3, 3))
 
     def project() -> object:
-        x, y, z = axes @ points
+        x, y, z = matmul(axes, points)
         z += 10.0
         return x / z, y / z, np.argsort(z, kind="stable")
 

@@ -8,6 +8,7 @@ from typing import Any
 
 import numpy as np
 
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
@@ -42,7 +43,9 @@ def bars(count: int) -> Scene:
     bar = box((-0.01 * size, -0.01 * size, -2.0 * size), (0.01 * size, 0.01 * size, 2.0 * size))
     centres, axes = rng.uniform(0.0, 10.0, (count, 3)), rng.normal(size=(count, 3))
     places = enumerate(zip(centres, axes, strict=True))
-    shapes = ((k, Mesh(bar.vertices @ axis_frame(axis) + c, bar.corners, bar.offsets)) for k, (c, axis) in places)
+    shapes = (
+        (k, Mesh(matmul(bar.vertices, axis_frame(axis)) + c, bar.corners, bar.offsets)) for k, (c, axis) in places
+    )
     return Scene(tuple(Item(f"bar {k}", shape) for k, shape in shapes))
 
 

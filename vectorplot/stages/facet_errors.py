@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
 from vectorplot.shading.light.fineness.faceted import FacetedScene
@@ -48,7 +49,7 @@ def _side_error(facets: FacetedScene, view: View, placement: Placement, sides: I
     for item, own in enumerate(facets.normals):
         if own is not None:
             part = slice(view.item_vertices[item], view.item_vertices[item + 1])
-            normals[:, part] = np.where(own.on_edge, 0.0, (own.at_vertices @ view.axes.T).T)
+            normals[:, part] = np.where(own.on_edge, 0.0, (matmul(own.at_vertices, view.axes.T)).T)
     start, end = view.corners[sides], view.corners[ragged.following(view.offsets)[sides]]
     known = np.flatnonzero((normals[:, start] * normals[:, end]).sum(axis=0) > TURNED)
     known = known[:: 1 + len(known) // MOST]

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.placed_curve import Placed, PlacedCurve, rows_and_shift
+from vectorplot.geometry.algebra import inverse_matrix, matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
 from vectorplot.surfaces.jets import FirstJets, SecondJets, first_jets, second_jets
@@ -127,14 +128,14 @@ def placed_once(surface: Surface, matrix: ArrayLike, shift: ArrayLike, origin: A
         if isinstance(surface, PlacedSurface):
             # The last placement of these stands outermost: points go through the inner ones first.
             inner, inner_shift = np.asarray(surface.matrix), np.asarray(surface.shift)
-            away, own, surface = inner_shift @ own + away, inner @ own, surface.surface
+            away, own, surface = matmul(inner_shift, own) + away, matmul(inner, own), surface.surface
         elif isinstance(surface, Centred):
-            away, surface = surface.place @ own + away, surface.about_origin()
+            away, surface = matmul(surface.place, own) + away, surface.about_origin()
             break
         else:
             break
     m = np.asarray(matrix)
-    return PlacedSurface(surface, own @ m, (away - np.asarray(origin)) @ m + np.asarray(shift))
+    return PlacedSurface(surface, matmul(own, m), matmul(away - np.asarray(origin), m) + np.asarray(shift))
 
 
 @dataclass(frozen=True, eq=False)
@@ -189,18 +190,18 @@ class PlacedImplicit(Placed, MovableImplicit):
 
     def gradients(self, points: Floats) -> Floats:
         """(..., 3) gradients."""
-        return np.asarray(self.surface.gradients(self._home(points)) @ self._inverse.T)
+        return np.asarray(matmul(self.surface.gradients(self._home(points)), self._inverse.T))
 
     def hessians(self, points: Floats) -> Floats:
         """(..., 3, 3) second derivatives."""
-        return np.asarray(self._inverse @ hessians(self.surface, self._home(points)) @ self._inverse.T)
+        return np.asarray(matmul(matmul(self._inverse, hessians(self.surface, self._home(points))), self._inverse.T))
 
     @cached_property
     def _inverse(self) -> Floats:
-        return np.linalg.inv(np.asarray(self.matrix))
+        return inverse_matrix(np.asarray(self.matrix))
 
     def _home(self, points: Floats) -> Floats:
-        return np.asarray((points - np.asarray(self.shift)) @ self._inverse)
+        return np.asarray(matmul(points - np.asarray(self.shift), self._inverse))
 
 
 _PICKS = [(i, j, k) for i in (0, 1) for j in (0, 1) for k in (0, 1)]

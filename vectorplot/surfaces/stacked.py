@@ -14,6 +14,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.algebra import matmul
 from vectorplot.surfaces.jets import FirstJets, SecondJets, first_jets, second_jets
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain, Surface
@@ -84,7 +85,7 @@ class StackedSurfaces:
         for kind in self.kinds:
             own_u, own_v = (t if len(t) == 1 else t[kind.rows] for t in (u, v))
             at_home = kind.at(kind.rows[:, None]).points(own_u, own_v)
-            result[kind.rows] = at_home @ self.matrices[kind.rows] + self.shifts[kind.rows, None]
+            result[kind.rows] = matmul(at_home, self.matrices[kind.rows]) + self.shifts[kind.rows, None]
         return result
 
     @cached_property
@@ -217,7 +218,7 @@ class ExactRows(SurfaceRows):
     def _turned(self, vectors: Sequence[Floats]) -> Floats:
         """(n,...,k,3) some vectors (...,k,3) as they are placed, each by a product of its own."""
         matrices = self.stack.matrices.take(self.row, axis=0)
-        return np.asarray((np.array(vectors)[..., None, :] @ matrices)[..., 0, :])
+        return np.asarray((matmul(np.array(vectors)[..., None, :], matrices))[..., 0, :])
 
 
 def of_some(surface: Surface, which: Ints | Bools) -> Surface:

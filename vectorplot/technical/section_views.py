@@ -21,6 +21,7 @@ from vectorplot.drawing.lettering.text import lettered
 from vectorplot.drawing.sheets.page_strokes import page_strokes
 from vectorplot.drawing.strokes.dashes import CHAIN_MM, dashed
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.technical.arranged_views import LETTERS
 
@@ -89,13 +90,13 @@ class SheetSection:
         across = camera.axes[:2]
         normal = across[:, self.axis]
         along = np.array([abs(normal[1]), abs(normal[0])])
-        way = across @ -sight.direction
+        way = matmul(across, -sight.direction)
         centre, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
         place = np.array(middle) + factor * (self.offset - centre[self.axis]) * normal
-        reaches = factor * float(along @ (np.abs(across) @ half)) + BEYOND_MM + room @ along
-        beside = (written - place) @ np.where(along > 0.5, 0.0, 1.0)
+        reaches = factor * float(matmul(along, matmul(np.abs(across), half))) + BEYOND_MM + matmul(room, along)
+        beside = matmul(written - place, np.where(along > 0.5, 0.0, 1.0))
         near = (beside.min(axis=1) < CLEAR_MM) & (beside.max(axis=1) > -CLEAR_MM)
-        far = ((written - place) @ along)[near]
+        far = (matmul(written - place, along))[near]
         reaches = np.maximum(reaches, [_beyond(-far, reaches[0]), _beyond(far, reaches[1])])
         sides = list(zip((-1.0, 1.0), reaches.tolist(), strict=True))
         ends = [place + sign * reach * along for sign, reach in sides]

@@ -19,6 +19,7 @@ from vectorplot.drawing.sheets.title_block import BLOCK_MM, TitleBlock
 from vectorplot.effects.cutting.cut_scenes import cut, cut_scene
 from vectorplot.effects.cutting.hatches import InSpace
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import VIEWS, Camera, Point
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
@@ -101,8 +102,8 @@ class _Part:
         found = []
         for (name, camera), notes in zip(named, self.notes(), strict=True):
             across = camera.axes[:2]
-            world = np.tile(np.abs(across) @ half, (2, 1))
-            beside = [(one.points - middle) @ across.T for one in notes]
+            world = np.tile(matmul(np.abs(across), half), (2, 1))
+            beside = [matmul(one.points - middle, across.T) for one in notes]
             for places in beside:
                 world = np.maximum(world, [-places.min(axis=0), places.max(axis=0)])
             # Cutting lines end outside of dimensions.

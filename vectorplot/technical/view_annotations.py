@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.lettering.scene_labels import NO_ITEM
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import annotation_points, is_annotation, leader_tips
@@ -59,7 +60,7 @@ class Annotation:
 
     def length_in(self, camera: Camera) -> float:
         """How far it reaches across a view."""
-        return float(np.hypot(*np.ptp(self.points @ camera.axes[:2].T, axis=0)))
+        return float(np.hypot(*np.ptp(matmul(self.points, camera.axes[:2].T), axis=0)))
 
     @property
     def may_be_of_circle(self) -> bool:
@@ -82,13 +83,13 @@ class Annotation:
     def before(self, camera: Camera, bounds: Floats) -> Scene:
         """It where nothing within bounds (2,3) hides it from a view, at the same place in its picture."""
         back = camera.axes[2]
-        nearest = float(bounds.mean(axis=0) @ back + 0.5 * np.ptp(bounds, axis=0) @ np.abs(back))
-        way = max(nearest - float((self.points @ back).min()), 0.0) * back
+        nearest = float(matmul(bounds.mean(axis=0), back) + matmul(0.5 * np.ptp(bounds, axis=0), np.abs(back)))
+        way = max(nearest - float((matmul(self.points, back)).min()), 0.0) * back
         return self.scene.moved(*way.tolist()) if way.any() else self.scene
 
     def is_square_to(self, camera: Camera, extent: float) -> bool:
         """Whether a view shows all of it in its true shape, and not as a point."""
-        seen = self.points @ camera.axes.T
+        seen = matmul(self.points, camera.axes.T)
         zero = ZERO_OF_EXTENT * extent
         return bool(np.ptp(seen[:, 2]) <= zero and np.ptp(seen[:, :2], axis=0).max() > zero)
 
@@ -162,14 +163,14 @@ class OverallDimension:
         middle, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
         low, high = (middle + sign * half[self.axis] * np.eye(3)[self.axis] for sign in (-1.0, 1.0))
         # Before the part, so that it does not lie in the dimension's way.
-        nearest = float(np.abs(back) @ half) * back
+        nearest = float(matmul(np.abs(back), half)) * back
         level = self.is_level(camera)
-        beside = -(float(np.abs(up) @ half) * up if level else float(np.abs(right) @ half) * right)
+        beside = -(float(matmul(np.abs(up), half)) * up if level else float(matmul(np.abs(right), half)) * right)
         ends = [point + nearest + beside for point in (low, high)]
         along = right if level else up
-        start, end = sorted(ends, key=lambda point: float(point @ along))
+        start, end = sorted(ends, key=lambda point: float(matmul(point, along)))
         outwards = up if level else right
-        others = float(world[0, 1 if level else 0]) - float(np.abs(outwards) @ half)
+        others = float(world[0, 1 if level else 0]) - float(matmul(np.abs(outwards), half))
         off = -outwards * (max(others, 0.0) + OFFSET_MM / factor)
         gap, beyond = GAP_MM / factor, BEYOND_MM / factor
         return Annotation(dimension(start, end, off, gap=gap, beyond=beyond))

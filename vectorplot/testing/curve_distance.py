@@ -81,7 +81,7 @@ def worst_of_both(
     if first.ends.shape[2] != second.ends.shape[2]:
         raise InputError("one curve lies in the plane, the other in space")
     corners = np.concatenate([first.ends, second.ends]).reshape(-1, first.ends.shape[2])
-    middle, extent = corners.mean(axis=0), float(np.linalg.norm(np.ptp(corners, axis=0)))
+    middle, extent = corners.mean(axis=0), float(norm(np.ptp(corners, axis=0)))
     # Below the rounding of the coordinates nothing can be told.
     rounding = 16.0 * float(np.spacing(np.abs(corners).max()))
     fine = max(DISTANCE_ACCURACY * extent if accuracy is None else accuracy, rounding)

@@ -68,7 +68,7 @@ def icosahedron() -> tuple[Floats, Ints]:
     i, j, k = np.nonzero(near[:, :, None] & near[None, :, :] & near[:, None, :])
     outside = np.einsum("ij,ij->i", np.cross(vertices[i], vertices[j]), vertices[k]) > 1.0
     kept = outside & (i < j) & (i < k)
-    return vertices / np.linalg.norm(vertices[0]), np.stack([i, j, k], axis=1)[kept]
+    return vertices / norm(vertices[0]), np.stack([i, j, k], axis=1)[kept]
 
 
 def bumpy_icosphere(halvings: int = 3, bump: float = 0.15) -> Mesh:

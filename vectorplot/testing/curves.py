@@ -11,7 +11,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.vectors import length, normalize
+from vectorplot.geometry.vectors import length, norm, normalize
 from vectorplot.scene.light import Light
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
@@ -355,7 +355,7 @@ def branch_count(curves: Curves, tolerance: float | None = None) -> BranchCount:
     if not parts:
         return BranchCount(0, 0, 0)
     ends = points_of([end for part in parts for end in (part[:1], part[-1:])]).points
-    extent = float(np.linalg.norm(np.ptp(np.concatenate(parts), axis=0)))
+    extent = float(norm(np.ptp(np.concatenate(parts), axis=0)))
     pairs = cKDTree(ends).query_pairs(
         ZERO_OF_EXTENT * extent if tolerance is None else tolerance, output_type="ndarray"
     )
@@ -386,7 +386,7 @@ def _implicit_places(surface: ImplicitSurface, points: Floats) -> Places:
         distance = np.where(value == 0.0, 0.0, value / slope)
         normals = gradient / slope[:, None]
     distance = np.where(np.isnan(distance), np.inf, distance)
-    extent = float(np.linalg.norm(np.ptp(np.asarray(surface.box), axis=0)))
+    extent = float(norm(np.ptp(np.asarray(surface.box), axis=0)))
     return Places(distance[:, None], normals[:, None], None, extent)
 
 

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Drawing
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.compare import path_segments
@@ -115,7 +116,7 @@ def assert_shown(
 
     wanted = np.asarray(must_show, dtype=np.float64).reshape(-1, 3)
     sight = visible_by_rays(scene, camera, wanted)
-    place = np.c_[wanted, np.ones(len(wanted))] @ drawing.page_from_world.T
+    place = matmul(np.c_[wanted, np.ones(len(wanted))], drawing.page_from_world.T)
     front = place[:, 3] > 0.0
     page = place[:, :2] / np.where(front, place[:, 3], 1.0)[:, None]
     border = np.array([drawing.width_mm, drawing.height_mm]) - margin_mm

@@ -6,8 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import cross, dot, norm, normalize
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, moebius_strip, torus_mesh
@@ -42,9 +43,12 @@ def without(mesh: Mesh, *faces: int) -> Mesh:
 
 def rotation(random: np.random.Generator) -> Floats:
     """A random rotation (3,3)."""
-    q, r = np.linalg.qr(random.normal(size=(3, 3)))
-    q = q * np.sign(np.diag(r))
-    return np.asarray(q if np.linalg.det(q) > 0.0 else q[:, [1, 0, 2]])
+    a, b, c = random.normal(size=(3, 3)).T
+    x = normalize(a)
+    y = normalize(b - dot(x, b) * x)
+    if dot(cross(x, y), c) < 0.0:
+        x, y = y, x
+    return np.stack([x, y, cross(x, y)], axis=1)
 
 
 def scene_of(**shapes: Mesh) -> Scene:
@@ -85,7 +89,7 @@ def cyclic_bars() -> Scene:
         c, s, a, b = np.cos(turn), np.sin(turn), np.cos(tilt), np.sin(tilt)
         about_z = np.array([[c, -s, 0, 0], [s, c, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
         about_y = np.array([[a, 0, b, 0], [0, 1, 0, -1.0], [-b, 0, a, 0], [0, 0, 0, 1]])
-        bars.append(bar.transformed(about_z @ about_y))
+        bars.append(bar.transformed(matmul(about_z, about_y)))
     return numbered(bars)
 
 

@@ -94,8 +94,9 @@ SINGULAR_DETERMINANT = 1e-12
 """A determinant below this part of what columns of the same length could have is zero: the matrix has no inverse, the
 conic no area."""
 
-REAL_EIGENVALUE = 1e-12
-"""Part of the largest eigenvalue that the imaginary part of one may be that is real."""
+INVERSE_SHIFT = 1e-15
+"""Part of the largest entry that is added to the diagonal of the equations of an ellipse, so that points that lie
+exactly on one leave them solvable."""
 
 RIDGE = 1e-5
 """Part of the size of the equations of handles that is added to them: where handles hardly change the shape, as on a

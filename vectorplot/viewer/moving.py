@@ -14,6 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import mesh_edges
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.light.palettes import palette
 
@@ -70,7 +71,7 @@ def _edges(mesh: Mesh) -> Floats:
 def _lines(scene: Scene) -> Floats:
     """What a wireframe from afar shows of surfaces and curves."""
     low, high = scene.bounds
-    middle, size = (low + high) / 2.0, float(np.linalg.norm(high - low)) or 1.0
+    middle, size = (low + high) / 2.0, float(norm(high - low)) or 1.0
     x, y, z = (middle + size * np.array([2.0, -3.0, 2.0])).tolist()
     camera = Camera((x, y, z), tuple(middle.tolist()), parallel=True, height=size)
     found = []

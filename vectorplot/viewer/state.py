@@ -12,7 +12,9 @@ import numpy as np
 from vectorplot.animation.modes import MODES
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera, Point
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.point_of_view import camera_of, default_camera
@@ -193,7 +195,7 @@ def seen_from(camera: Camera) -> ViewerState:
     azimuth, elevation = math.atan2(back[1], back[0]), math.asin(min(1.0, max(-1.0, back[2])))
     level = ViewerState(azimuth, elevation)
     right, up, _ = axes_of(level)
-    twist = math.atan2(float(camera.axes[0] @ up), float(camera.axes[0] @ right))
+    twist = math.atan2(float(matmul(camera.axes[0], up)), float(matmul(camera.axes[0], right)))
     fov = math.degrees(2.0 * math.atan(camera.picture_height / (2.0 * camera.distance)))
     return replace(
         level, twist=twist, distance=camera.distance, target=camera.target, fov_deg=fov, parallel=camera.parallel
@@ -235,12 +237,12 @@ def fitting_fov_deg(state: ViewerState, scene: Scene) -> float:
     low, high = scene.bounds
     corners = np.array(np.meshgrid(*np.stack([low, high], axis=1))).reshape(3, -1).T - state.target
     right, up, back = axes_of(state)
-    depth = np.full(8, state.distance) if state.parallel else state.distance - corners @ back
+    depth = np.full(8, state.distance) if state.parallel else state.distance - matmul(corners, back)
     page = page_of_state(state, scene)
     wide, high_mm = page.width_mm - 2.0 * page.margin_mm, page.height_mm - 2.0 * page.margin_mm
     if not (depth > 0.0).all() or not scene.items:
         return state.fov_deg
-    across = np.maximum(np.abs(corners @ up) / high_mm, np.abs(corners @ right) / wide) * page.height_mm
+    across = np.maximum(np.abs(matmul(corners, up)) / high_mm, np.abs(matmul(corners, right)) / wide) * page.height_mm
     slope = float((across / depth).max())
     found = math.degrees(2.0 * math.atan(slope))
     return min(found, WIDEST_DEG) if found > 0.0 and math.isfinite(found) else state.fov_deg
@@ -299,7 +301,7 @@ def lights_of_state(state: ViewerState, scene: Scene) -> tuple[Light, ...] | Non
     if not turn and not lift:
         return None
     low, high = scene.bounds
-    middle, size = (low + high) / 2.0, float(np.linalg.norm(high - low)) or 1.0
+    middle, size = (low + high) / 2.0, float(norm(high - low)) or 1.0
     if not scene.lights:
         base = seen_from(camera_of(None, scene))
         return (Light(_turned(middle, 2.0 * size, base.azimuth + _LAMP[0] + turn, _LAMP[1] + lift)),)

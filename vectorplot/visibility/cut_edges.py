@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -50,8 +51,8 @@ def _onto_cuts(regions: tuple[HalfSpaces, ...], view: View, lines: Lines, planes
     of them do so on so many planes. Rims of holes are looked at from a little inside of the surface."""
     ways, found = np.zeros((2, 3, len(lines))), np.zeros(len(lines), dtype=np.intp)
     for region in regions:
-        normals = np.array(region.normals) @ view.axes.T
-        offsets = (np.array(region.offsets) - np.array(region.normals) @ view.centre) / view.scale
+        normals = matmul(np.array(region.normals), view.axes.T)
+        offsets = (np.array(region.offsets) - matmul(np.array(region.normals), view.centre)) / view.scale
         here = HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(offsets.tolist()))
         heights = np.stack([here.heights(points.T) for points in (lines.start, lines.end)])
         before = (heights >= -CUT_EDGE_OF_EXTENT).all(axis=(0, 1))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision
 from vectorplot.scene.view import View
@@ -21,7 +22,7 @@ def window_planes(view: View, low: Floats, high: Floats) -> Floats:
     d = view.focus
     normals = np.array([[d, 0, left], [-d, 0, -right], [0, d, bottom], [0, -d, -top]])
     normals /= np.sqrt((normals * normals).sum(axis=1))[:, None]
-    return np.column_stack([normals, normals @ view.eye])
+    return np.column_stack([normals, matmul(normals, view.eye)])
 
 
 def near_plane(view: View) -> Floats:

@@ -14,6 +14,7 @@ from vectorplot.features.integral.integral_curves import integral_curves
 from vectorplot.features.integral.integration import USUAL, Accuracy
 from vectorplot.features.integral.tangent_fields import loxodromes
 from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.textbook.field_steps import euler_curves, runge_kutta_curves
 from vectorplot.tolerances.of_measuring import FINEST_OF_EXTENT
@@ -47,7 +48,7 @@ def loxodrome_end() -> Floats:
 
 
 def _error(truth: Floats, found: Floats) -> float:
-    return float(np.linalg.norm(found[-1] - truth))
+    return float(norm(found[-1] - truth))
 
 
 def adaptive(accuracy: Accuracy) -> Floats:

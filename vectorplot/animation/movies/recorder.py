@@ -11,6 +11,7 @@ from vectorplot.animation.movies.movie import MOST_PALETTES, Movie, MovieFrame, 
 from vectorplot.animation.movies.pruning import pruned
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Drawing
+from vectorplot.geometry.algebra import matmul
 from vectorplot.shading.light.palettes import PALETTE_LIMITS
 
 OFF_BY = 1.5
@@ -128,7 +129,9 @@ class _Palettes:
 def _off(colours: Floats, low: Floats, high: Floats) -> tuple[Floats, Floats]:
     """(k,) how far colours (k,3) are from a palette, and (k,) where along it they are nearest."""
     span = high - low
-    along = np.clip(np.rint(255.0 * (colours - low) @ span / max(float(span @ span), 1.0)), 0, 255) / 255.0
+    along = (
+        np.clip(np.rint(matmul(255.0 * (colours - low), span) / max(float(matmul(span, span)), 1.0)), 0, 255) / 255.0
+    )
     return np.abs(colours - np.floor(low + along[:, None] * span + 0.5)).max(axis=1), along
 
 

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry.algebra import matmul
 
 ERROR = 1.5
 """By how many steps of 255 colours may be off their ramp: three times what rounding makes of them."""
@@ -47,7 +48,7 @@ def item_ramps(colours: Floats, item: Ints) -> Ramps:
         way = last - first
         if not way.any():
             continue
-        part = (own - first) @ way / (way @ way)
+        part = matmul(own - first, way) / (matmul(way, way))
         if np.abs(own - first - part[:, None] * way).max() <= ERROR:
             of_item[number] = len(ends) - 1
             ends.append(np.stack((first, last))[None])

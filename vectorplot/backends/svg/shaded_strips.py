@@ -14,6 +14,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.backends.page.areas import Areas, Polygons, rounded
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul, pseudo_inverse, singular_decomposition
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
 from vectorplot.tolerances.of_lengths import NARROW_OF_LENGTH
@@ -94,8 +95,8 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
     across it. A strip has the colours of its middle line.
     """
     slopes = _slopes(corners, colours)
-    directions, sizes, _ = np.linalg.svd(slopes, full_matrices=False)
-    local = (corners - corners[:, :1]) @ directions
+    directions, sizes, _ = singular_decomposition(slopes)
+    local = matmul(corners - corners[:, :1], directions)
     low, high = local.min(axis=1), local.max(axis=1)
     number = np.ceil((high[:, 1] - low[:, 1]) * sizes[:, 1] / (2.0 * SHADE_ERROR))
     number = np.maximum(number, 1.0).astype(np.intp)
@@ -107,21 +108,21 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
     before, behind = np.where(step == 0, 1.0, 0.5) * width, np.where(step == number[owner] - 1, 1.0, 0.5) * width
     reach = (high - low).max(axis=1)[owner]
     slabs = _rectangles(low[owner, 0] - reach, high[owner, 0] + reach, middle - before, middle + behind)
-    quads = corners[owner, :1] + slabs @ directions[owner].transpose(0, 2, 1)
+    quads = corners[owner, :1] + matmul(slabs, directions[owner].transpose(0, 2, 1))
     microns, offsets, strip = _cut(corners[owner], quads)
     owner, middle = owner[strip], middle[strip]
     size = np.diff(offsets)
     from_first = microns - np.repeat(corners[owner, 0], size, axis=0)
     along = np.einsum("pi,pi->p", from_first, np.repeat(directions[owner, :, 0], size, axis=0))
     ways = np.stack([np.stack((end, middle), axis=-1) for end in _extremes(along, offsets)], axis=1)
-    ways = ways @ directions[owner].transpose(0, 2, 1)
-    return Strips(microns, offsets, owner, corners[owner, :1] + ways, colours[owner, :1] + ways @ slopes[owner])
+    ways = matmul(ways, directions[owner].transpose(0, 2, 1))
+    return Strips(microns, offsets, owner, corners[owner, :1] + ways, colours[owner, :1] + matmul(ways, slopes[owner]))
 
 
 def _slopes(corners: Floats, colours: Floats) -> Floats:
     """(t,2,3): a way on the page times it is the change of colour. Across triangles too thin for that there is none."""
     sides, changes = corners[:, 1:] - corners[:, :1], colours[:, 1:] - colours[:, :1]
-    return np.asarray(np.linalg.pinv(sides, rcond=NARROW_OF_LENGTH) @ changes)
+    return np.asarray(matmul(pseudo_inverse(sides, rcond=NARROW_OF_LENGTH), changes))
 
 
 def _cut(triangles: Floats, quads: Floats) -> tuple[Ints, Ints, Ints]:

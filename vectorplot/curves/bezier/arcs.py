@@ -9,11 +9,24 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.bezier.paths import BezierPath
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import (
+    determinant,
+    least_squares,
+    linear_solution,
+    matmul,
+    singular_decomposition,
+    symmetric_eigen,
+)
+from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_angles import LOOP_TURN, WHOLE_TURN
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
-from vectorplot.tolerances.of_values import RANK_OF_FIT, REAL_EIGENVALUE, SINGULAR_DETERMINANT
+from vectorplot.tolerances.of_values import INVERSE_SHIFT, RANK_OF_FIT, SINGULAR_DETERMINANT
 
 _MOST_SEGMENTS = 1 << 16
+
+_INVERSE_STEPS = 8
+"""Each step shortens what is not the wanted vector by the ratio of the two least eigenvalues."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +81,7 @@ class EllipseArc:
 
         Source: Rytz: the axes are the singular vectors of (first, second).
         """
-        left, size, _ = np.linalg.svd(np.stack((self.first, self.second), axis=1), full_matrices=False)
+        left, size, _ = singular_decomposition(np.stack((self.first, self.second), axis=1))
         return np.asarray((left * size).T)
 
 
@@ -117,7 +130,7 @@ def arc_path(arc: EllipseArc, *, tolerance: float) -> BezierPath:
     >>> path.control.shape, path.closed, bool(path.error < 3e-4)
     ((4, 4, 2), True, True)
     """
-    radius = float(np.linalg.norm(arc.semi_axes()[0]))
+    radius = float(norm(arc.semi_axes()[0]))
     angle = abs(arc.end - arc.start)
     if not tolerance > 0.0:
         raise InputError(f"an arc needs a positive tolerance, not {tolerance:g}")
@@ -166,11 +179,11 @@ def recognised_arc(points: Floats, *, tolerance: float, closed: bool = False) ->
 
 def _followed(points: Floats, centre: Floats, axes: Floats, tolerance: float, closed: bool) -> EllipseArc | None:
     """The arc of an ellipse with these semi-axes (columns) that points run along, or None if they do not."""
-    if abs(np.linalg.det(axes)) < SINGULAR_DETERMINANT * np.abs(axes).max() ** 2:
+    if abs(determinant(axes)) < SINGULAR_DETERMINANT * np.abs(axes).max() ** 2:
         return None
-    unit = np.linalg.solve(axes, (points - centre).T)
+    unit = linear_solution(axes, (points - centre).T)
     angle = np.arctan2(unit[1], unit[0])
-    off = np.linalg.norm(points - centre - (axes @ np.stack((np.cos(angle), np.sin(angle)))).T, axis=1)
+    off = np.linalg.norm(points - centre - (matmul(axes, np.stack((np.cos(angle), np.sin(angle))))).T, axis=1)
     steps = np.diff(angle, append=angle[:1]) if closed else np.diff(angle)
     steps = np.mod(steps + np.pi, 2.0 * np.pi) - np.pi
     total = float(steps.sum())
@@ -189,7 +202,7 @@ def _followed(points: Floats, centre: Floats, axes: Floats, tolerance: float, cl
 def _circle(points: Floats) -> Floats | None:
     """(2,3) semi-axes and centre of the circle nearest to points."""
     system = np.column_stack((2.0 * points, np.ones(len(points))))
-    (x, y, c), _, rank, _ = np.linalg.lstsq(system, (points**2).sum(axis=1), rcond=RANK_OF_FIT)
+    (x, y, c), rank = least_squares(system, component_sum(points * points), rcond=RANK_OF_FIT)
     square = c + x * x + y * y
     if rank < 3 or not square > 0.0:
         return None
@@ -201,22 +214,30 @@ def _ellipse(points: Floats) -> Floats | None:
     x, y = points.T
     squares = np.column_stack((x * x, x * y, y * y))
     rest = np.column_stack((x, y, np.ones(len(points))))
-    solved, _, rank, _ = np.linalg.lstsq(rest, squares, rcond=RANK_OF_FIT)
+    solved, rank = least_squares(rest, squares, rcond=RANK_OF_FIT)
     if rank < 3:
         return None
-    reduced = squares.T @ (squares - rest @ solved)
+    reduced = matmul(squares.T, squares - matmul(rest, solved))
     # The ellipse has 4 a c - b^2 = 1: a small eigenvalue problem with that form.
-    value, vector = np.linalg.eig(np.stack((reduced[2] / 2.0, -reduced[1], reduced[0] / 2.0)))
-    vector = np.real(vector[:, np.abs(np.imag(value)) <= REAL_EIGENVALUE * np.abs(value).max()])
-    form = 4.0 * vector[0] * vector[2] - vector[1] ** 2
-    if not (form > 0.0).any():
+    a, b, c = _least_vector(np.stack((reduced[2] / 2.0, -reduced[1], reduced[0] / 2.0)))
+    if not 4.0 * a * c - b * b > 0.0:
         return None
-    a, b, c = vector[:, int(np.argmax(form))]
-    d, e, f = -solved @ np.array([a, b, c])
+    d, e, f = matmul(-solved, np.array([a, b, c]))
     quadratic = np.array([[a, b / 2.0], [b / 2.0, c]])
-    centre = np.linalg.solve(quadratic, [-d / 2.0, -e / 2.0])
+    centre = linear_solution(quadratic, [-d / 2.0, -e / 2.0])
     level = -(f + (d * centre[0] + e * centre[1]) / 2.0)
-    sizes, turn = np.linalg.eigh(quadratic)
+    sizes, turn = symmetric_eigen(quadratic)
     if not (level / sizes > 0.0).all():
         return None
     return np.column_stack((turn * np.sqrt(level / sizes), centre))
+
+
+def _least_vector(matrix: Floats) -> Floats:
+    """(3,) the eigenvector of a matrix (3,3) to its eigenvalue nearest to zero, by inverse iteration from a circle."""
+    # What is added makes an exact fit solvable, and is far below what any fit leaves.
+    shifted = matrix + INVERSE_SHIFT * np.abs(matrix).max() * np.eye(3)
+    vector = np.array([1.0, 0.0, 1.0])
+    for _ in range(_INVERSE_STEPS):
+        vector = linear_solution(shifted, vector)
+        vector = vector / np.abs(vector).max()
+    return vector

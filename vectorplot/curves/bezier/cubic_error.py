@@ -11,6 +11,8 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import least_squares, linear_solution
+from vectorplot.tolerances.of_numbers import ROUNDING
 
 MOST_OF_ENDS = 1.0 / 16.0
 """The largest value of t^2 (1 - t)^2 between 0 and 1."""
@@ -42,8 +44,8 @@ def cubic_error(degree: int, off: Floats, weights: Floats | None) -> Floats:
     if weights is not None:
         rest = rest * weights[1:-1, :, None]
         whole = np.concatenate([[0.0], t, [1.0]])
-        least = np.linalg.lstsq(bernstein(degree, whole), weights, rcond=None)[0].min(axis=0)
-    own = np.linalg.solve(bernstein(count - 1, t), rest.reshape(count, -1)).reshape(rest.shape)
+        least = least_squares(bernstein(degree, whole), weights, rcond=ROUNDING)[0].min(axis=0)
+    own = linear_solution(bernstein(count - 1, t), rest.reshape(count, -1)).reshape(rest.shape)
     size = MOST_OF_ENDS * np.sqrt((own * own).sum(axis=2)).max(axis=0)
     return np.where(least > 0.0, size / np.where(least > 0.0, least, 1.0), np.inf)
 

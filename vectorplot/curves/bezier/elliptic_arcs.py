@@ -12,6 +12,7 @@ from vectorplot.curves.bezier.arcs import arc_error
 from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.algebra import determinant, linear_solution, symmetric_eigen
 from vectorplot.tolerances.of_angles import LOOP_TURN, WHOLE_TURN
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
 from vectorplot.tolerances.of_values import SINGULAR_DETERMINANT
@@ -182,11 +183,11 @@ def _ellipses(points: Floats, first: Ints, count: Ints, closed: Bools) -> tuple[
     at = local[:, 2]
     conic = one * _value(two, at)[:, None, None] - two * _value(one, at)[:, None, None]
     quadratic, linear = conic[:, :2, :2], conic[:, :2, 2]
-    good = np.linalg.det(quadratic) > SINGULAR_DETERMINANT * np.abs(quadratic).max(axis=(1, 2)) ** 2
+    good = determinant(quadratic) > SINGULAR_DETERMINANT * np.abs(quadratic).max(axis=(1, 2)) ** 2
     quadratic = np.where(good[:, None, None], quadratic, np.eye(2))
-    centre = -np.linalg.solve(quadratic, linear[:, :, None])[:, :, 0]
+    centre = -linear_solution(quadratic, linear[:, :, None])[:, :, 0]
     level = -(conic[:, 2, 2] + (linear * centre).sum(axis=1))
-    sizes, turn = np.linalg.eigh(quadratic)
+    sizes, turn = symmetric_eigen(quadratic)
     square = level[:, None] / sizes
     good &= (square > 0.0).all(axis=1)
     axes = np.sqrt(np.where(good[:, None], square, 1.0))[:, :, None] * turn.transpose(0, 2, 1)

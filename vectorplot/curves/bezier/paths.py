@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 from vectorplot.tolerances.of_lengths import LENGTH_SETTLED
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
@@ -230,4 +231,4 @@ def lengths(control: Floats) -> Floats:
 def _integrated(control: Floats, node: Floats, weight: Floats) -> Floats:
     t = np.broadcast_to((node + 1.0) / 2.0, (len(control), len(node)))
     speed = np.linalg.norm(bezier_tangents(control[:, None], t), axis=2)
-    return np.asarray(speed @ weight / 2.0)
+    return np.asarray(matmul(speed, weight) / 2.0)

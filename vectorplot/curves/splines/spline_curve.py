@@ -22,6 +22,7 @@ from vectorplot.curves.splines.weighted_controls import (
     second_quotient,
 )
 from vectorplot.errors import InputError
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import ROUNDING
 
@@ -275,14 +276,14 @@ class SplineCurve(MovableCurve):
     def _least(self) -> float:
         """What is no distance beside the extent of the curve."""
         controls = np.asarray(self.controls)
-        extent = np.linalg.norm(np.ptp(controls, axis=0))
+        extent = norm(np.ptp(controls, axis=0))
         return float(max(ZERO_OF_EXTENT * extent, ROUNDING * np.abs(controls).max()))
 
     @property
     def _comes_back(self) -> bool:
         """Whether it ends where it begins, but for rounding."""
         pieces, _ = self.bezier_pieces()
-        return bool(np.linalg.norm(pieces[-1, -1] - pieces[0, 0]) <= self._least)
+        return bool(norm(pieces[-1, -1] - pieces[0, 0]) <= self._least)
 
 
 def _first_way(pieces: Floats, least: float) -> Floats:

@@ -9,7 +9,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills_without_overlaps import in_space, planes_of_fills
 from vectorplot.drawing.hatching.toned_regions import TonedRegions
-from vectorplot.geometry.vectors import cross, dot
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.tolerances.of_angles import FLAT_SLOPE, SAME_PLANE_SINE
 from vectorplot.tolerances.of_extent import SAME_PLANE_OF_EXTENT
 
@@ -23,7 +24,7 @@ class PageFrame:
     def coordinates(self, regions: TonedRegions) -> tuple[Floats, Floats]:
         """Where the corners (c,) of regions are along the lines and across them."""
         along, across = self._axes()
-        return along @ regions.points, across @ regions.points
+        return matmul(along, regions.points), matmul(across, regions.points)
 
     def sheet(self, regions: TonedRegions) -> Ints:
         """(n,) what regions share where their lines run on from one to the other."""
@@ -88,7 +89,7 @@ def plane_frame(regions: TonedRegions, angle: float, page_from_world: Floats) ->
     normal, place = (column[regions.source] for column in planes_of_fills(regions.fills))
     low, high = corners.min(axis=0), corners.max(axis=0)
     middle = (low + high) / 2.0
-    plane = _plane_numbers(regions.item, normal, dot(normal, place - middle), float(np.linalg.norm(high - low)))
+    plane = _plane_numbers(regions.item, normal, dot(normal, place - middle), float(norm(high - low)))
     _, first = np.unique(plane, return_index=True)
     normal = normal[first][plane]
     level = cross(np.array([0.0, 0.0, 1.0]), normal)
@@ -117,13 +118,13 @@ def _plane_numbers(item: Ints, normal: Floats, height: Floats, extent: float) ->
 
 
 def _on_page(points: Floats, page_from_world: Floats) -> Floats:
-    rows = points @ page_from_world[:, :3].T + page_from_world[:, 3]
+    rows = matmul(points, page_from_world[:, :3].T) + page_from_world[:, 3]
     return np.asarray(rows[:, :2] / rows[:, 3:])
 
 
 def _slope(points: Floats, direction: Floats, page_from_world: Floats) -> Floats:
     """(n,2) by how many mm points of the page move where points (n,3) move along directions (n,3)."""
-    rows = points @ page_from_world[:, :3].T + page_from_world[:, 3]
-    step = direction @ page_from_world[:, :3].T
+    rows = matmul(points, page_from_world[:, :3].T) + page_from_world[:, 3]
+    step = matmul(direction, page_from_world[:, :3].T)
     depth = rows[:, 3:]
     return np.asarray(step[:, :2] / depth - rows[:, :2] * step[:, 3:] / (depth * depth))

@@ -11,6 +11,7 @@ from vectorplot.drawing.hatching.hatching_frames import PageFrame
 from vectorplot.drawing.hatching.scan import scanned
 from vectorplot.drawing.hatching.toned_regions import TonedRegions
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.chunks import workers
 from vectorplot.scene.hatching import Stippling
 from vectorplot.words import LineKind
@@ -76,7 +77,7 @@ def _pitch(regions: TonedRegions, stippling: Stippling) -> float:
     outer = np.append(True, regions.of[1:] != regions.of[:-1])
     area = np.where(outer, np.abs(signed), -np.abs(signed))
     dark = (regions.lowest + regions.highest) / 2.0
-    ink = float(area.sum() if stippling.by == "even" else area @ dark[regions.of])
+    ink = float(area.sum() if stippling.by == "even" else matmul(area, dark[regions.of]))
     return max(float(np.sqrt(max(ink, 0.0) / (PLACES * stippling.dots))), FINEST_MM)
 
 

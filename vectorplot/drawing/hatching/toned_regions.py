@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.fills_without_overlaps import visible_regions
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.tolerances.of_the_page import GRID_MM
 
 LUMINANCE = np.array([0.2126, 0.7152, 0.0722])
@@ -136,7 +137,7 @@ def _darkness(fills: Fills) -> tuple[Floats, Floats, Floats]:
     Degenerate: triangles without area are as dark as the mean of their corners.
     """
     first = fills.offsets[:-1]
-    dark = (1.0 - fills.colours @ LUMINANCE / 255.0) * np.repeat(fills.opacity, np.diff(fills.offsets))
+    dark = (1.0 - matmul(fills.colours, LUMINANCE) / 255.0) * np.repeat(fills.opacity, np.diff(fills.offsets))
     dark = np.clip(dark, 0.0, 1.0)
     if not len(fills):
         return np.zeros((0, 3)), np.zeros(0), np.zeros(0)

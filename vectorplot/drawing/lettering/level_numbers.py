@@ -16,6 +16,7 @@ from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.features.terrains.label_places import label_places
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import segments
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM
@@ -123,7 +124,7 @@ def _levels(scene: Scene, strokes: Paths) -> tuple[Ints, Ints, Floats]:
         kinds = [int(section.kind) for section, _ in planes]
         own = (strokes.item[seen] == number) & np.isin(strokes.kind[seen], kinds)
         normals, offsets = np.array([section.normal for section, _ in planes]), np.array([d for _, d in planes])
-        away = np.abs(ends[:, own] @ normals.T - offsets).max(axis=0)
+        away = np.abs(matmul(ends[:, own], normals.T) - offsets).max(axis=0)
         which.append(seen[own])
         level.append(len(heights) + away.argmin(axis=1))
         upright = np.abs(normals[:, 2]) == 1.0

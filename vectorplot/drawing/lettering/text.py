@@ -24,6 +24,7 @@ from vectorplot.drawing.lettering.glyph_setting import (
 from vectorplot.drawing.lettering.hershey import Glyph, clusters, glyph
 from vectorplot.drawing.texts import Texts
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import Polylines
 
 ALIGNED = {"left": 0.0, "centre": 0.5, "right": 1.0}
@@ -155,7 +156,7 @@ def lettered(
     along = passed[:-1] - passed[ragged.starts(counts)][line]
     place = np.stack([layout.begin[line] + along, layout.foot[line]], axis=1)
     turn = turned(np.full(len(advance), rotation_deg))
-    return Lettering(set_glyphs([*chain(*lines)], unit, origin + place @ layout.turn.T, turn), layout.boxes)
+    return Lettering(set_glyphs([*chain(*lines)], unit, origin + matmul(place, layout.turn.T), turn), layout.boxes)
 
 
 def typeset(
@@ -206,7 +207,7 @@ def typeset(
     count = len(rows)
     texts = Texts(
         tuple(written[k].strip() for k in rows),
-        origin + foot @ layout.turn.T,
+        origin + matmul(foot, layout.turn.T),
         np.full(count, size_mm),
         np.full(count, rotation_deg),
         np.full(count, ALIGNED[align]),
@@ -241,5 +242,5 @@ def _layout(
     rows = np.flatnonzero(reach[:, 1] > reach[:, 0])
     low_left = np.stack([begin, foot + reach[:, 0]], axis=1)[rows]
     turn = turned(np.array([rotation_deg]))[0]
-    boxes = rectangles(low_left, length[rows], np.ptp(reach[rows], axis=1)) @ turn.T + origin
+    boxes = matmul(rectangles(low_left, length[rows], np.ptp(reach[rows], axis=1)), turn.T) + origin
     return _Layout(begin, np.asarray(foot), np.asarray(length), turn, np.asarray(boxes))

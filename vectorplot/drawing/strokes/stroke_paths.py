@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import joined, some, with_points
 
 
@@ -119,7 +120,7 @@ def _divided(paths: Paths, segment: Ints, t: Floats, page_from_world: Floats) ->
     # Depths count by their ratio alone: powers of two keep what is very large within range, and all digits.
     reach, weight = (int(np.frexp(np.abs(some).max(initial=1.0))[1]) for some in ((a3, b3), page_from_world[3]))
     row = np.ldexp(page_from_world[3], (-weight, -weight, -weight, -weight - reach))
-    depth_a, depth_b = (np.abs(np.ldexp(ends, -reach) @ row[:3] + row[3]) for ends in (a3, b3))
+    depth_a, depth_b = (np.abs(matmul(np.ldexp(ends, -reach), row[:3]) + row[3]) for ends in (a3, b3))
     whole = t * depth_a + (1.0 - t) * depth_b
     # Both depths vanish only for points that have no image; they are divided as on the page.
     s = np.where(whole > 0.0, t * depth_a / np.where(whole > 0.0, whole, 1.0), t)

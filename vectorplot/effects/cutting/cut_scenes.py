@@ -32,6 +32,7 @@ from vectorplot.geometry.cuts.divided_meshes import divided_mesh
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces, nothing_beside
 from vectorplot.geometry.cuts.section_faces import PlaneFrame, mesh_of_regions
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.io.anything import scene_of
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.hatching import Hatching
@@ -309,7 +310,7 @@ def _away(scene: Scene, cut: Cut, body: Body, region: HalfSpaces, before: list[H
 def _shift(scene: Scene, cut: Cut, region: HalfSpaces) -> tuple[float, float, float]:
     """How far what a cut takes away is moved: along its normals."""
     way = np.array(region.normals).sum(axis=0)
-    length = float(np.linalg.norm(way))
+    length = float(norm(way))
     if cut.away == "moved" and length <= EDGE_ON_SINE:
         raise InputError("cut: what lies between parallel planes cannot be moved along their normals")
     x, y, z = (way * (MOVED * float(np.ptp(scene.bounds, axis=0).max()) / max(length, EDGE_ON_SINE))).tolist()

@@ -9,9 +9,10 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.layers import PENS
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cuts.section_faces import PlaneFrame
-from vectorplot.geometry.vectors import dot, normalize
+from vectorplot.geometry.vectors import dot, norm, normalize
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.scene import Scene
@@ -145,17 +146,17 @@ def _foreshortened(frame: PlaneFrame, points: Floats, angles_deg: Floats, camera
     sight = np.broadcast_to(camera.axes[2], points.shape) if camera.parallel else normalize(camera.eye - points)
     along = np.stack([stroke_axes(frame, angle)[0] for angle in angles_deg.tolist()])
     seen = np.sqrt(np.maximum(1.0 - dot(along, sight) ** 2, FLATTEST**2))
-    return np.asarray(np.maximum(np.abs(sight @ np.cross(*frame.axes)) / seen, FLATTEST))
+    return np.asarray(np.maximum(np.abs(matmul(sight, np.cross(*frame.axes))) / seen, FLATTEST))
 
 
 def stroke_axes(frame: PlaneFrame, angle_deg: float) -> Floats:
     """(2,3) the unit vectors along strokes and across them, at an angle from what is level in a plane."""
     normal = np.cross(*frame.axes)
     level = np.array([-normal[1], normal[0], 0.0])
-    if float(np.linalg.norm(level)) <= NO_AZIMUTH_SINE:
+    if float(norm(level)) <= NO_AZIMUTH_SINE:
         level = np.array([1.0, 0.0, 0.0])
-    level -= normal * float(normal @ level)
-    level /= np.linalg.norm(level)
+    level -= normal * float(matmul(normal, level))
+    level /= norm(level)
     upward, angle = np.cross(normal, level), np.radians(angle_deg)
     return np.asarray(np.cos(angle) * np.stack([level, upward]) + np.sin(angle) * np.stack([upward, -level]))
 
@@ -164,8 +165,8 @@ def hatch_section(frame: PlaneFrame, points: Floats, angle_deg: float, spacing: 
     """The planes, so far apart, whose sections of a plane face with corners points (n,3) are its hatch."""
     _, across = stroke_axes(frame, angle_deg)
     # Counted from the frame, so that all faces of a part in a plane have one set of strokes.
-    base = float(frame.origin @ across)
-    heights = (points - frame.origin) @ across
+    base = float(matmul(frame.origin, across))
+    heights = matmul(points - frame.origin, across)
     numbers = np.arange(np.ceil(heights.min() / spacing - 0.5), np.floor(heights.max() / spacing - 0.5) + 1.0)
     x, y, z = across.tolist()
     return Section((x, y, z), tuple((base + (numbers + 0.5) * spacing).tolist()))

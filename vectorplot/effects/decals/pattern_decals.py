@@ -9,6 +9,7 @@ from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals, no_decals
 from vectorplot.features.meshes.patterns import face_frames
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
 from vectorplot.scene.item import Item
@@ -37,7 +38,7 @@ def _item_patterns(view: View, number: int, item: Item) -> Decals:
     flat = np.concatenate([pattern.points for pattern in patterns]).T / view.scale
     flat, offsets, source = _convex_parts(flat, offsets, view.tolerance)
     origin, along, left = face_frames(mesh, owner)
-    frame = np.stack([view.points_of(origin), view.axes @ along.T, view.axes @ left.T])
+    frame = np.stack([view.points_of(origin), matmul(view.axes, along.T), matmul(view.axes, left.T)])
     faces, face_source = _faces_of(view, number, item)
     # Every part against every face of the view that is its face, or a piece of it.
     order = np.argsort(face_source, kind="stable")

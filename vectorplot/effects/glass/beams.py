@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.glass.refracted_polygons import Soup, joined_soups
 from vectorplot.effects.glass.sight_rays import Rays, SightWays, traced, virtual_points
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.view import View
@@ -63,7 +64,7 @@ class Solid:
         planes = planes_of(normal, view.points[:, first])
         corner, offsets = ragged.take(view.offsets, face)
         middle = view.points[:, view.item_vertices[item] : view.item_vertices[item + 1]].mean(axis=1)
-        planes[:, middle @ planes[:3] > planes[3]] *= -1.0
+        planes[:, matmul(middle, planes[:3]) > planes[3]] *= -1.0
         exits = np.ones(len(face), dtype=np.bool_)
         return cls(face, view.points[:, view.corners[corner]], offsets, planes, constant, exits)
 

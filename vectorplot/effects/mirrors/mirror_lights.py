@@ -16,6 +16,7 @@ from vectorplot.effects.mirrors.reflections import Mirrors, doubled, half_of_vie
 from vectorplot.effects.shadows.light_system import FacePlanes, LightSystem, light_system
 from vectorplot.effects.shadows.shadow_decals import shadow_decals
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, cut_by_planes, planes_of
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
@@ -46,10 +47,10 @@ def light_doubles(view: View, mirrors: Mirrors, lights: Sequence[Light]) -> tupl
     for source, light in enumerate(lights):
         given = 1.0 / np.sqrt(len(lights)) if light.intensity is None else light.intensity
         for plane in range(len(mirrors)):
-            normal = view.axes.T @ mirrors.normal[:, plane]
+            normal = matmul(view.axes.T, mirrors.normal[:, plane])
             place = np.asarray(light.position, dtype=np.float64)
             point = np.zeros(3) if light.parallel else view.world_of(mirrors.point[:, plane : plane + 1])[0]
-            height = float((place - point) @ normal)
+            height = float(matmul(place - point, normal))
             size = float(np.abs(place).max()) if light.parallel else view.scale
             if height > view.tolerance * size:
                 x, y, z = (place - 2.0 * height * normal).tolist()

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.effects.decals.decal_polygons import Decals, joined_decals
 from vectorplot.effects.mirrors.reflections import Mirrors, doubled
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
@@ -62,5 +63,5 @@ def double_decals(
 def _in_world(view: View, light: Light) -> Light:
     """A light of the view in the world's coordinates."""
     place: Floats = np.array(light.position, dtype=np.float64)
-    x, y, z = (view.axes.T @ place if light.parallel else view.world_of(place[:, None])[0]).tolist()
+    x, y, z = (matmul(view.axes.T, place) if light.parallel else view.world_of(place[:, None])[0]).tolist()
     return replace(light, position=(x, y, z))

@@ -16,6 +16,7 @@ from vectorplot.effects.decals.decal_polygons import Decals
 from vectorplot.effects.mirrors.reflections import DIMMED, Mirrors, backwards, doubled, reflections
 from vectorplot.effects.windows.window_fills import mixed, seen_fills
 from vectorplot.effects.windows.window_polygons import SeenThrough
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL
 from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement
@@ -108,4 +109,4 @@ def _reflected(light: Light, mirrors: Mirrors, number: int) -> tuple[float, floa
 def _turned(directions: Floats, mirrors: Mirrors, number: int) -> Floats:
     """(3,n) directions as they are in the mirror."""
     normal = mirrors.normal[:, number]
-    return np.asarray(directions - 2.0 * normal[:, None] * (normal @ directions))
+    return np.asarray(directions - 2.0 * normal[:, None] * (matmul(normal, directions)))

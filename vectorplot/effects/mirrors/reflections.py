@@ -15,6 +15,7 @@ from vectorplot.effects.windows.window_polygons import (
     seen_through,
 )
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -42,7 +43,7 @@ class Mirrors:
 
     def heights(self, plane: int, points: Floats) -> Floats:
         """(n,) heights of points (3,n) above one of the planes."""
-        return np.asarray(self.normal[:, plane] @ (points - self.point[:, plane : plane + 1]), dtype=np.float64)
+        return np.asarray(matmul(self.normal[:, plane], points - self.point[:, plane : plane + 1]), dtype=np.float64)
 
     def reflected(self, plane: int, points: Floats) -> Floats:
         """(3,n) the mirror images of points (3,n) in one of the planes. Source: Glaeser, section 6.4."""
@@ -75,7 +76,7 @@ def mirrors_of(view: View, face: Ints) -> Mirrors:
     while (plane < 0).any():
         leader = int(np.argmax(plane < 0))
         same = (plane < 0) & _in_plane(view, face, normal[:, leader], point[:, leader])
-        same &= normal[:, leader] @ normal > 0.0
+        same &= matmul(normal[:, leader], normal) > 0.0
         same[leader] = True
         plane[same] = len(kept)
         kept.append(leader)
@@ -85,7 +86,7 @@ def mirrors_of(view: View, face: Ints) -> Mirrors:
 def _in_plane(view: View, face: Ints, normal: Floats, point: Floats) -> Bools:
     """(n,) which faces have all corners in a plane."""
     corner, ends = ragged.take(view.offsets, face)
-    height = np.abs(normal @ (view.points[:, view.corners[corner]] - point[:, None]))
+    height = np.abs(matmul(normal, view.points[:, view.corners[corner]] - point[:, None]))
     return np.maximum.reduceat(height, ends[:-1]) <= view.tolerance
 
 

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.drawing.drawing import NO_CURVE, Paths
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.panoramic_view import Panorama
 from vectorplot.scene.pages.page import Page
@@ -70,7 +71,7 @@ def bearings_and_elevations(ways: Floats, ahead: Floats, middle: float) -> Float
     """(k,2) of ways (k,3) from the eye, of which those ahead have the bearing middle."""
     right = np.array([ahead[1], -ahead[0], 0.0])
     level = np.hypot(ways[:, 0], ways[:, 1])
-    bearing = middle + np.arctan2(ways @ right, ways @ ahead)
+    bearing = middle + np.arctan2(matmul(ways, right), matmul(ways, ahead))
     return np.stack([bearing, np.arctan2(ways[:, 2], level)], axis=1)
 
 

@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.families.line import Line
 from vectorplot.drawing.lettering.text import typeset
 from vectorplot.effects.scales.axis_numbers import AxisNumbers, axis_numbers, single_number
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import Projection, projection_of
 from vectorplot.scene.item import Item
@@ -156,7 +157,7 @@ class _Edge:
         ends = _image(projection, np.stack([place - self.out, place]))
         way = ends[1] - ends[0]
         long = float(np.hypot(*way))
-        return way / long if way @ self.upright > SLANTED * long else self.upright
+        return way / long if matmul(way, self.upright) > SLANTED * long else self.upright
 
 
 def _edge(axis: int, projection: Projection, sides: tuple[Floats, Floats], far: Floats, near: Floats) -> _Edge:
@@ -176,7 +177,7 @@ def _edge(axis: int, projection: Projection, sides: tuple[Floats, Floats], far: 
     start, end = _image(projection, ends)
     (across, up), long = end - start, float(np.hypot(*(end - start)))
     upright = np.array([-up, across]) / long if long > 0.0 else np.array([0.0, 1.0])
-    inward = float(upright @ (_image(projection, middle[None])[0] - start))
+    inward = float(matmul(upright, _image(projection, middle[None])[0] - start))
     return _Edge(corner, out, -upright if inward > 0.0 else upright, long)
 
 
@@ -191,8 +192,8 @@ def _beside(
     """The room of a text in a direction away from a point of an edge, a gap off the edge; and how far from the edge
     that ends. upright (2,): unit normal of the edge."""
     half = 0.5 * np.ptp(typeset(text, size_mm=size_mm).bounds, axis=0)
-    deep = float(np.abs(upright) @ half)
-    middle = (gap + deep) / float(away @ upright) * away
+    deep = float(matmul(np.abs(upright), half))
+    middle = (gap + deep) / float(matmul(away, upright)) * away
     (left, bottom), (right, top) = (middle - half).tolist(), (middle + half).tolist()
     x, y, z = at.tolist()
     return BesidePoint((x, y, z), (left, bottom), (right, top)), gap + 2.0 * deep

@@ -22,6 +22,7 @@ from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.cuts.level_bands import level_bands
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.geometry.repair.mesh_repair import welded
+from vectorplot.geometry.vectors import norm
 from vectorplot.io.expressions.expression import parse_expression
 from vectorplot.scene.fields import Fields
 from vectorplot.scene.item import Item
@@ -97,7 +98,7 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
     finite anywhere.
     """
     colours = map_colours(colouring.colour_map, colouring.steps)
-    size = float(np.linalg.norm(np.ptp(scene.bounds, axis=0)))
+    size = float(norm(np.ptp(scene.bounds, axis=0)))
     field = isinstance(colouring.by, str) and any(_has_field(item, colouring.by) for item in scene.items)
     plain = (
         is_curve(item.shape) or item.is_cut_face or (field and not _has_field(item, str(colouring.by)))

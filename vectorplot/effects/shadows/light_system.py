@@ -13,6 +13,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.geometry.convex.plane_cuts import planes_of
 from vectorplot.scene.light import Light
@@ -93,7 +94,7 @@ def light_system(view: View, light: Light) -> LightSystem:
     if given.shape != (3,) or not np.isfinite(given).all():
         raise InputError(f"light {light.name}: its position must be three finite numbers")
     if light.parallel:
-        position = view.axes @ _unit(given, light)
+        position = matmul(view.axes, _unit(given, light))
     else:
         position = view.points_of(given[None])[:, 0]
         if not np.isfinite(position).all():
@@ -103,7 +104,7 @@ def light_system(view: View, light: Light) -> LightSystem:
     away = -_unit(position, light) if distance > 0.0 else np.array([0.0, 0.0, -1.0])
     if parallel:
         return LightSystem(-away, True, _axes(away)[None], False)
-    depth = away @ (view.points - position[:, None])
+    depth = matmul(away, view.points - position[:, None])
     if depth.size and not depth.min() > NEAREST_OF_FARTHEST * depth.max():
         return LightSystem(position, False, CUBE, True)
     return LightSystem(position, False, _axes(away)[None], False)
@@ -114,13 +115,13 @@ def _unit(vector: Floats, light: Light) -> Floats:
     if not largest > 0.0:
         raise InputError(f"light {light.name}: parallel rays need a direction that is not zero")
     scaled = vector / largest
-    return np.asarray(scaled / np.sqrt(scaled @ scaled), dtype=np.float64)
+    return np.asarray(scaled / np.sqrt(matmul(scaled, scaled)), dtype=np.float64)
 
 
 def _axes(away: Floats) -> Floats:
     """(3,3) right, up and away from the light."""
     right = np.cross(np.eye(3)[int(np.argmin(np.abs(away)))], away)
-    right = right / np.sqrt(right @ right)
+    right = right / np.sqrt(matmul(right, right))
     return np.array([right, np.cross(away, right), away])
 
 
@@ -152,7 +153,7 @@ def light_boxes(view: View, system: LightSystem, faces: Ints) -> list[LightBoxes
     numbers = np.arange(len(faces))
     result = []
     for axes in system.axes:
-        x, y, depth = axes @ points
+        x, y, depth = matmul(axes, points)
         which, ends = numbers, offsets
         if system.windowed:
             (x, y, depth), ends, which = _in_window(np.stack([x, y, depth]), offsets, view.tolerance)

@@ -23,6 +23,7 @@ from vectorplot.effects.shadows.lit_outlines import (
 from vectorplot.effects.shadows.shadow_casters import Casters, turned_to_light
 from vectorplot.effects.shadows.shadow_pairs import Receivers
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, planes_of
 from vectorplot.geometry.mesh import next_positions
@@ -75,7 +76,7 @@ class LitBodies:
         if not len(filled) or not len(receivers.face):
             return np.zeros(0, dtype=np.intp)
         points = receivers.points if self.system.parallel else receivers.points - self.system.position[:, None]
-        x, y, away = self.system.axes[0] @ points
+        x, y, away = matmul(self.system.axes[0], points)
         flat = np.stack([x, y]) if self.system.parallel else np.stack([x, y]) / away
         tree = shapely.STRtree(polygons_of(flat, receivers.offsets))
         body, receiver = tree.query(self.regions[filled], predicate="contains")
@@ -108,7 +109,7 @@ class Depths:
         a, b, c, d = self.lit_side[:, face]
         x, y, z, radius = self.ball[:, body]
         result |= a * x + b * y + c * z - radius >= d - tolerance
-        normal = self.view.axes.T @ self.lit_side[:3, face]
+        normal = matmul(self.view.axes.T, self.lit_side[:3, face])
         lowest = np.where(normal > 0.0, self.box[0][:, body], self.box[1][:, body])
         result |= (lowest * normal).sum(axis=0) >= d - tolerance
         return np.asarray(result, dtype=np.bool_)
@@ -174,9 +175,9 @@ def _bounds(view: View, item: Ints) -> tuple[Floats, Floats]:
     points = view.points[:, vertex]
     if not len(item):
         return np.zeros((2, 3, 0)), np.zeros((4, 0))
-    world = view.axes.T @ points
+    world = matmul(view.axes.T, points)
     box = np.stack([f.reduceat(world, first[:-1], axis=1) for f in (np.minimum, np.maximum)])
-    middle = view.axes @ box.mean(axis=0)
+    middle = matmul(view.axes, box.mean(axis=0))
     way = points - np.repeat(middle, np.diff(first), axis=1)
     radius = np.sqrt(np.maximum.reduceat((way * way).sum(axis=0), first[:-1]))
     return box, np.concatenate([middle, radius[None]])
@@ -189,6 +190,6 @@ def _nearest(view: View, planes: FacePlanes, system: LightSystem) -> Floats:
         return np.zeros(0)
     points = directions(view, system, view.corners)
     if system.parallel:
-        return np.asarray(np.minimum.reduceat(-(system.position @ points), view.offsets[:-1]))
+        return np.asarray(np.minimum.reduceat(-(matmul(system.position, points)), view.offsets[:-1]))
     square = np.minimum.reduceat((points * points).sum(axis=0), view.offsets[:-1])
     return np.sqrt(np.maximum(square - 2.0 * planes.arm * planes.arm, 0.0))

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.shadows.light_system import LightSystem
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.regions import POLYGON, unions
 from vectorplot.scene.view import View
@@ -57,7 +58,7 @@ def reach(view: View, system: LightSystem, face: Ints, body: Ints) -> Floats:
     """(k,) the greatest distances of corners of the faces of bodies, as of Depths."""
     position, offsets = ragged.take(view.offsets, face)
     points = directions(view, system, view.corners[position])
-    distance = -(system.position @ points) if system.parallel else np.sqrt((points * points).sum(axis=0))
+    distance = -(matmul(system.position, points)) if system.parallel else np.sqrt((points * points).sum(axis=0))
     starts = offsets[np.flatnonzero(np.diff(body, prepend=-1))] if len(face) else offsets[:0]
     return np.asarray(np.maximum.reduceat(distance, starts) if len(starts) else distance)
 

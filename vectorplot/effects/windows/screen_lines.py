@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -66,7 +67,7 @@ def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, a
     step = np.broadcast_to(np.asarray(every, dtype=np.intp), (count,))
     turn = np.radians(angle_deg)
     along, across = np.array([np.cos(turn), np.sin(turn)]), np.array([-np.sin(turn), np.cos(turn)])
-    u, v = along @ points[:2], across @ points[:2]
+    u, v = matmul(along, points[:2]), matmul(across, points[:2])
     owner = ragged.owner(np.diff(offsets))
     after = next_positions(offsets, np.arange(len(u))) if count else owner
     drawn = step[owner] > 0

@@ -30,7 +30,7 @@ def implicit_feature_lines(
 ) -> dict[LineKind, ImplicitCurves]:
     """The feature lines of an implicit surface of each of these kinds, every point exact, one for every side that they
     cross of the triangles of a mesh, whose vertices are on the surface."""
-    extent = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0))) if mesh.face_count else 0.0
+    extent = float(norm(np.ptp(mesh.bounds, axis=0))) if mesh.face_count else 0.0
     found = {kind: _curves(np.zeros((0, 3)), np.zeros((0, 2), dtype=np.intp)) for kind in kinds}
     if not extent > 0.0:
         return found

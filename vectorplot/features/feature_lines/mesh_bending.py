@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.feature_lines.bending import Bending
 from vectorplot.features.meshes.mesh_curves import FaceTriangles
+from vectorplot.geometry.algebra import linear_solution
 from vectorplot.geometry.chunks import slices
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.tolerances.of_extent import ROUNDING_OF_POINTS
@@ -125,7 +126,7 @@ def _fitted(
     trace = np.maximum(np.einsum("nii->n", matrix), LEAST_DIVISOR)
     matrix += SETTLED_FIT * trace[:, None, None] * np.eye(UNKNOWN)
     three = np.broadcast_to(np.eye(UNKNOWN)[:, :3], (count, UNKNOWN, 3))
-    solved = np.linalg.solve(matrix, np.concatenate([right, three], axis=2))
+    solved = linear_solution(matrix, np.concatenate([right, three], axis=2))
     found, spread = solved[:, :, 0], np.einsum("nii->ni", solved[:, :3, 1:]).max(axis=1)
     squares = weight * (slopes[0] ** 2 + slopes[1] ** 2)
     left = _left_over(squares, weight, found, right[:, :, 0], spread, row)

@@ -31,7 +31,7 @@ def mesh_feature_lines(
         # Nothing bends. Scenes may have hundreds of such items: panes, signs, shadows.
         return found
     faces = face_triangles(mesh)
-    extent = float(np.linalg.norm(np.ptp(mesh.bounds, axis=0)))
+    extent = float(norm(np.ptp(mesh.bounds, axis=0)))
     if not (len(faces.triangles) and extent > 0.0):
         return found
     bending = mesh_bending(faces)

@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.features.feature_lines.bending import Bending
 from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, hessians
 from vectorplot.tolerances.of_extent import THIRD_DIFFERENCE_IN_SPACE
@@ -116,4 +117,4 @@ def _implicit_operator(surface: ImplicitSurface, points: Floats) -> Floats:
     long = norm(slopes)
     normal = slopes / long[:, None]
     onto = np.eye(3) - normal[:, :, None] * normal[:, None]
-    return np.asarray(-onto @ hessians(surface, points) @ onto / long[:, None, None])
+    return np.asarray(matmul(matmul(-onto, hessians(surface, points)), onto) / long[:, None, None])

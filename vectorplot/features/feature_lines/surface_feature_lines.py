@@ -39,7 +39,7 @@ def surface_feature_lines(
     bending = surface_bending(surface, *grid.places.T)
     points = bending.points
     finite = np.isfinite(points).all(axis=1)
-    extent = float(np.linalg.norm(np.ptp(points[finite], axis=0))) if finite.any() else 0.0
+    extent = float(norm(np.ptp(points[finite], axis=0))) if finite.any() else 0.0
     if not extent > 0.0:
         return found
     outward = _outward(points, grid) if grid.is_closed else None

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import dot, norm, normalize
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
 
@@ -51,7 +52,7 @@ class ImplicitCentralContour:
         """The largest distance of the eye from points of the box of the surface: no value is larger."""
         low, high = np.asarray(self.surface.box, dtype=np.float64)
         eye = np.asarray(self.eye)
-        return float(np.linalg.norm(np.maximum(np.abs(low - eye), np.abs(high - eye))))
+        return float(norm(np.maximum(np.abs(low - eye), np.abs(high - eye))))
 
     def values(self, points: Floats) -> Floats:
         """(...,) distances of the eye from the tangent planes."""
@@ -80,7 +81,7 @@ class ImplicitParallelContour:
 
     def values(self, points: Floats) -> Floats:
         """(...,) cosines of the angles between normal and direction."""
-        return np.asarray(implicit_unit_normals(self.surface, points) @ np.asarray(self.direction))
+        return np.asarray(matmul(implicit_unit_normals(self.surface, points), np.asarray(self.direction)))
 
     def gradients(self, points: Floats) -> Floats:
         """(..., 3) gradients."""
@@ -105,7 +106,7 @@ class ImplicitIsophote:
 
     def values(self, points: Floats) -> Floats:
         """(...,) cosines of the angles between normal and light, less c."""
-        return np.asarray(implicit_unit_normals(self.surface, points) @ np.asarray(self.light) - self.cosine)
+        return np.asarray(matmul(implicit_unit_normals(self.surface, points), np.asarray(self.light)) - self.cosine)
 
     def gradients(self, points: Floats) -> Floats:
         """(..., 3) gradients."""
@@ -178,7 +179,7 @@ class MeetsPlane:
 
     def values(self, points: Floats) -> Floats:
         """(...,) distances from the plane, positive on the side of its normal."""
-        return np.asarray(points @ np.asarray(self.normal) - self.offset)
+        return np.asarray(matmul(points, np.asarray(self.normal)) - self.offset)
 
     def gradients(self, points: Floats) -> Floats:
         """(..., 3) the normal, everywhere."""

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.geometry.algebra import matmul, pseudo_inverse
 from vectorplot.geometry.cuts.half_spaces import nothing_beside
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.surfaces.trims.cut_implicit import CutImplicit
@@ -37,7 +38,7 @@ class Plane:
         return np.asarray(points - self._heights(points)[:, None] * self.normal)
 
     def _heights(self, points: Floats) -> Floats:
-        return np.asarray((points - self.offset * self.normal) @ self.normal)
+        return np.asarray(matmul(points - self.offset * self.normal, self.normal))
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +69,9 @@ class Sides:
         for number in np.flatnonzero(patterns[:, BOXED:].any(axis=1)).tolist():
             normals = self.normals[patterns[number]]
             rows = which.reshape(-1) == number
-            free[rows] = vectors[rows] @ (np.eye(3) - np.linalg.pinv(normals, rcond=SAME_DIRECTION_SINE) @ normals)
+            free[rows] = matmul(
+                vectors[rows], np.eye(3) - matmul(pseudo_inverse(normals, rcond=SAME_DIRECTION_SINE), normals)
+            )
         return free
 
     def has(self, points: Floats) -> Bools:

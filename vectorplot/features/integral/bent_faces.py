@@ -13,6 +13,7 @@ from vectorplot.features.feature_lines.mesh_bending import noisy_bending
 from vectorplot.features.meshes.mesh_curves import face_triangles
 from vectorplot.features.meshes.smooth_patches import apart_at_creases
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
 
@@ -51,7 +52,7 @@ class BentFaces:
         axes = np.stack([bending.along, bending.aside], axis=1)
         p, m, q = bending.second.T
         forms = np.stack([np.stack([p, m], axis=1), np.stack([m, q], axis=1)], axis=1)
-        own = (np.swapaxes(axes, 1, 2) @ forms @ axes).reshape(-1, 9)
+        own = (matmul(matmul(np.swapaxes(axes, 1, 2), forms), axes)).reshape(-1, 9)
         corner, owner = smooth.corners, ragged.owner(np.diff(mesh.offsets))
         # Where some corners are not at rims, the others do not count.
         best = np.maximum.reduceat(trust[corner], mesh.offsets[:-1])

@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.triangle_pairs import Boxes, overlapping_in_cells
 from vectorplot.geometry import records
+from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.geometry.vectors import norm
@@ -219,7 +220,7 @@ class _Pass:
         slope = self.slopes[0] - self.slopes[1] + np.einsum("kij,kj->ki", self.bends[0] + self.bends[1], half)
         bend = self.bends[0] - self.bends[1]
         good = np.isfinite(bend).all(axis=(1, 2))
-        size, turned = np.linalg.eigh(np.where(good[:, None, None], bend, 0.0))
+        size, turned = symmetric_eigen(np.where(good[:, None, None], bend, 0.0))
         steep = np.abs(size) > FLAT_CONTACT * np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0)[:, None]
         along = np.einsum("kji,kj->ki", turned, slope)
         with np.errstate(all="ignore"):
@@ -236,7 +237,7 @@ class _Pass:
         these directions and the normal; extent (k,): of the larger patch."""
         bend = self.bends[0] - self.bends[1]
         good = np.isfinite(bend).all(axis=(1, 2)) & np.isfinite(self.frames).all(axis=(1, 2))
-        size, turned = np.linalg.eigh(np.where(good[:, None, None], bend, 0.0))
+        size, turned = symmetric_eigen(np.where(good[:, None, None], bend, 0.0))
         directions = np.einsum("kji,kjc->kic", turned, self.frames[:, :2])
         least = FLAT_CONTACT * np.maximum(
             np.abs(self.bends).max(axis=(0, 2, 3), initial=0.0), 1.0 / np.maximum(extent, LEAST_DIVISOR)

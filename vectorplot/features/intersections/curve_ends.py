@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.features.intersections.double_curves import Course, followed
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.surface_patches import SurfacePatch
+from vectorplot.geometry.algebra import least_squares, matmul
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_extent import END_RESIDUAL, END_SETTLED, ROUNDING_OF_POINTS, ZERO_OF_EXTENT
@@ -74,7 +75,7 @@ def _led(patch: SurfacePatch, course: Course) -> Course:
         found.append(solved)
     squares = np.array(SHRINKING) ** 2
     weights = np.array([np.prod([s / (s - t) for s in squares if s != t]) for t in squares])
-    end = weights @ np.array([f.middle for f in found]) * patch.cell
+    end = matmul(weights, np.array([f.middle for f in found])) * patch.cell
     if np.abs((end - found[-1].middle * patch.cell) / patch.cell).max() > half or not _inside(patch, end):
         return course
     kept = [found[k] for k in (1, 2, 4)]
@@ -100,7 +101,7 @@ def _solved(patch: SurfacePatch, start: _Pairs) -> _Pairs | None:
         gap = (points[0] - points[1]) / (2.0 * now.half)
         if not np.isfinite(jacobian).all() or not np.isfinite(gap).all():
             return None
-        step = np.linalg.lstsq(jacobian, -gap, rcond=RANK_OF_END)[0]
+        step = least_squares(jacobian, -gap, rcond=RANK_OF_END)[0]
         middle, angle = middle + step[:2], angle + float(step[2])
         if np.abs(middle - start.middle).max() > 2.0 * NEAR_SELF:
             return None

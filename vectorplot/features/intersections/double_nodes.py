@@ -11,6 +11,7 @@ from vectorplot.features.intersections.contacts import Contacts
 from vectorplot.features.intersections.double_curves import Course, followed
 from vectorplot.features.intersections.meeting_points import in_planes, meetings
 from vectorplot.features.intersections.patches import Patch
+from vectorplot.geometry.algebra import matmul
 
 RADIUS = 2.0
 """Cells around a node within which its branches are put together anew."""
@@ -92,7 +93,7 @@ def _opened(one: Patch, two: Patch, courses: list[Course], at: Contacts, same: b
         for last in (False, True):
             if away[-1 if last else 0] <= REACH:
                 arm = one.points(course.one[[-1 if last else 0]])[0] - at.points[0]
-                x, y = at.frames[0, :2] @ arm
+                x, y = matmul(at.frames[0, :2], arm)
                 ends.append(_End(k, last, float(np.arctan2(y, x)), np.array([x, y])))
     return result, ends
 
@@ -205,7 +206,7 @@ def missed_loops(
         radii = np.sqrt(2.0 * np.abs(hills.heights[k] / hills.bends[k]))
         if radii.max() > LARGEST_LOOP * hills.cells[k]:
             continue
-        arm = (points - hills.points[k]) @ hills.frames[k].T
+        arm = matmul(points - hills.points[k], hills.frames[k].T)
         round_ = np.hypot(*(arm[:, :2] / radii).T)
         if ((np.abs(round_ - 1.0) < 0.6) & (np.abs(arm[:, 2]) < radii.max())).any():
             continue

@@ -18,7 +18,7 @@ from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.tessellation import FREE, Tessellation
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.triangles.triangle_edges import edges_of
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
 
 DEFAULT = ImplicitTracing()
@@ -52,7 +52,7 @@ class ImplicitPatch(SingleShape):
     def size(self) -> tuple[float, float]:
         """The diagonal of the box around the mesh, and its largest coordinate."""
         points = self.mesh.vertices
-        return float(np.linalg.norm(np.ptp(points, axis=0))), float(np.abs(points).max())
+        return float(norm(np.ptp(points, axis=0))), float(np.abs(points).max())
 
     @cached_property
     def cell(self) -> float:

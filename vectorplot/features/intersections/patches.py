@@ -16,7 +16,7 @@ from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.triangles.triangle_edges import edges_of
-from vectorplot.geometry.vectors import cross
+from vectorplot.geometry.vectors import cross, norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 
@@ -102,7 +102,7 @@ class MeshPatch(SingleShape):
         vertices = self.mesh.vertices
         if not len(vertices):
             return 0.0, 0.0
-        return float(np.linalg.norm(np.ptp(vertices, axis=0))), float(np.abs(vertices).max())
+        return float(norm(np.ptp(vertices, axis=0))), float(np.abs(vertices).max())
 
     @cached_property
     def faces(self) -> Ints:

@@ -12,8 +12,10 @@ from vectorplot.features.intersections.surface_intersection import double_curves
 from vectorplot.features.intersections.surface_patches import SurfacePatch
 from vectorplot.features.intersections.triangle_pairs import overlapping_within, piercings
 from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.outline import concat
+from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.vectors import cross, norm
 from vectorplot.surfaces.surface import Surface
 
@@ -94,9 +96,9 @@ def _stands_over_a_plane(patch: SurfacePatch) -> bool:
     a, b, c = (own.points[own.triangles[:, k]] for k in range(3))
     normals = cross(b - a, c - a)
     along = normals.sum(axis=0)
-    if not (normals @ along > LEAST_COSINE * norm(normals) * norm(along)).all():
+    if not (matmul(normals, along) > LEAST_COSINE * norm(normals) * norm(along)).all():
         return False
     at = np.arange((columns + 1) * (rows + 1)).reshape(columns + 1, rows + 1)
     ring = np.concatenate([at[:-1, 0], at[-1, :-1], at[:0:-1, -1], at[0, ::-1]])
-    level = np.linalg.svd(along[None])[2][1:]
-    return bool(shapely.LineString(own.points[ring] @ level.T).is_simple)
+    level = axis_frame(along)[:2]
+    return bool(shapely.LineString(matmul(own.points[ring], level.T)).is_simple)

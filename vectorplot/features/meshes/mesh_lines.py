@@ -20,6 +20,7 @@ from vectorplot.features.meshes.mesh_curves import (
     without_inner,
 )
 from vectorplot.features.meshes.smooth_patches import apart_at_creases
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import face_barycentres
@@ -69,8 +70,8 @@ def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> Me
     n = normalize(vector("plane sections: normal", normal))
     levels = _finite("plane sections: offsets", offsets)
     faces = face_triangles(mesh)
-    height = (mesh.vertices - faces.centre) @ n
-    middle = float(faces.centre @ n)
+    height = matmul(mesh.vertices - faces.centre, n)
+    middle = float(matmul(faces.centre, n))
     found = curves_of_values(faces, levels, lambda d: _snapped(height - (d - middle), faces.rounding))
     return without_inner(found, faces.extent)
 
@@ -154,7 +155,7 @@ def mesh_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike, crease_angl
     """
     towards = normalize(vector("isophotes: light", light))
     whole = _apart(mesh, crease_angle_deg)
-    return _across_faces(whole, lambda points, normals: np.asarray(normals @ towards), _cosines(cosines))
+    return _across_faces(whole, lambda points, normals: np.asarray(matmul(normals, towards)), _cosines(cosines))
 
 
 def mesh_point_light_isophotes(
@@ -238,7 +239,7 @@ def mesh_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> Mes
     ([True], {2.0})
     """
     towards = normalize(vector("isophotes: light", light))
-    return _along_edges(mesh, np.asarray(mesh.face_normals @ towards), _cosines(cosines))
+    return _along_edges(mesh, np.asarray(matmul(mesh.face_normals, towards)), _cosines(cosines))
 
 
 def mesh_point_light_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
@@ -356,7 +357,7 @@ def mesh_parallel_contour_across_faces(mesh: Mesh, direction: ArrayLike) -> Mesh
     (1, True)
     """
     d = normalize(vector("contour: direction", direction))
-    return _across_faces(mesh, lambda points, normals: np.asarray(normals @ d), np.zeros(1))
+    return _across_faces(mesh, lambda points, normals: np.asarray(matmul(normals, d)), np.zeros(1))
 
 
 def vertex_normals(mesh: Mesh) -> Floats:

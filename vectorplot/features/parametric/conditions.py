@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import dot, normalize
 from vectorplot.surfaces.normals import (
     normal_partials,
@@ -180,7 +181,7 @@ class ParallelContour(_Alike):
 
     def values(self, u: Floats, v: Floats) -> Floats:
         """(...,) cosines of the angles between normal and direction."""
-        return np.asarray(unit_normals(self.surface, u, v) @ np.asarray(self.direction))
+        return np.asarray(matmul(unit_normals(self.surface, u, v), np.asarray(self.direction)))
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
@@ -216,7 +217,7 @@ class Isophote(_Alike):
 
     def values(self, u: Floats, v: Floats) -> Floats:
         """(...,) cosines of the angles between normal and light, less c."""
-        return np.asarray(unit_normals(self.surface, u, v) @ np.asarray(self.light) - self.cosine)
+        return np.asarray(matmul(unit_normals(self.surface, u, v), np.asarray(self.light)) - self.cosine)
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
@@ -309,12 +310,14 @@ class PlaneSection(_Alike):
 
     def values(self, u: Floats, v: Floats) -> Floats:
         """(...,) distances from the plane, positive on the side of its normal."""
-        return np.asarray(self.surface.points(u, v) @ np.asarray(self.normal) - self.offset)
+        return np.asarray(matmul(self.surface.points(u, v), np.asarray(self.normal)) - self.offset)
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
         along_u, along_v = self.surface.partials(u, v)
-        return np.asarray(along_u @ np.asarray(self.normal)), np.asarray(along_v @ np.asarray(self.normal))
+        return np.asarray(matmul(along_u, np.asarray(self.normal))), np.asarray(
+            matmul(along_v, np.asarray(self.normal))
+        )
 
 
 @dataclass(frozen=True, eq=False)
@@ -345,7 +348,10 @@ class ParameterCondition:
 def _turning_towards(surface: Surface, direction: Floats, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
     """(...,) N.d, and its derivatives by u and by v."""
     unit, by_u, by_v = normal_partials(surface, u, v)
-    return np.asarray(unit @ direction), (np.asarray(by_u @ direction), np.asarray(by_v @ direction))
+    return np.asarray(matmul(unit, direction)), (
+        np.asarray(matmul(by_u, direction)),
+        np.asarray(matmul(by_v, direction)),
+    )
 
 
 def check_cosine(cosine: float) -> None:

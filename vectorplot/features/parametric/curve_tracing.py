@@ -28,7 +28,7 @@ from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.chunks import slices
 from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.polylines import some
-from vectorplot.geometry.vectors import from_components
+from vectorplot.geometry.vectors import from_components, norm
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
 from vectorplot.tolerances.of_parameters import RESOLUTION
@@ -100,7 +100,7 @@ def extent_of(points: Floats) -> tuple[float, float]:
     """The diagonal of the box around points (k,3), and their largest coordinate; 0 without any."""
     if not len(points):
         return 0.0, 0.0
-    return float(np.linalg.norm(np.ptp(points, axis=0))), float(np.abs(points).max())
+    return float(norm(np.ptp(points, axis=0))), float(np.abs(points).max())
 
 
 def samples(surface: Surface) -> tuple[Floats, Floats, Floats]:

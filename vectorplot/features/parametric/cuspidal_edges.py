@@ -13,7 +13,7 @@ from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.features.zeros.zero_manifold import check_grid
 from vectorplot.geometry.narrowing import narrowed
 from vectorplot.geometry.polylines import some
-from vectorplot.geometry.vectors import cross, dot
+from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.over_domain import OverDomain
 from vectorplot.surfaces.surface import Domain, Surface, normals
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
@@ -167,7 +167,7 @@ def _singular_only(surface: Surface, found: SurfaceCurves, size: float) -> Surfa
         )
     home = wrapped(surface.domain, found.u, found.v)
     rest = np.linalg.norm(normals(surface, *home), axis=-1)
-    extent = float(np.linalg.norm(np.ptp(samples(surface)[2], axis=0)))
+    extent = float(norm(np.ptp(samples(surface)[2], axis=0)))
     kept, single = [], []
     for k in range(len(found)):
         own = slice(int(found.offsets[k]), int(found.offsets[k + 1]))

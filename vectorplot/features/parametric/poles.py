@@ -9,7 +9,9 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.zero_manifold import ZeroManifold
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.components import all_finite
+from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_parameters import BORDER_SEEN_FROM
@@ -55,7 +57,7 @@ def _points(surface: Surface, axis: int, along: Floats, place: float) -> Floats:
 
 def _spread(points: Floats) -> float:
     """The diagonal of the box around points, those in holes left out."""
-    return float(np.linalg.norm(np.ptp(points[all_finite(points)], axis=0)))
+    return float(norm(np.ptp(points[all_finite(points)], axis=0)))
 
 
 def through_poles(surface: Surface, found: ZeroManifold) -> ZeroManifold:
@@ -139,7 +141,7 @@ def _joined(
     ways = surface.partials(at[:, 0], at[:, 1])[pole.axis] * pole.inwards
     with np.errstate(invalid="ignore", divide="ignore"):
         ways = ways / np.linalg.norm(ways, axis=1, keepdims=True)
-    cosines = np.where(np.isfinite(ways @ ways.T), ways @ ways.T, 1.0)
+    cosines = np.where(np.isfinite(matmul(ways, ways.T)), matmul(ways, ways.T), 1.0)
     np.fill_diagonal(cosines, 1.0)
     open_ends = {end: end for end in ends}
     lines, closed = list(lines), list(closed)

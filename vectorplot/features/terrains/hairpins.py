@@ -13,6 +13,7 @@ from vectorplot.features.integral.on_meshes.mesh_courses import MeshCourses, mes
 from vectorplot.features.integral.on_meshes.mesh_flows import Onward
 from vectorplot.features.terrains.hillsides import Hillsides, SlopeFlow
 from vectorplot.features.terrains.places import Ground
+from vectorplot.geometry.algebra import matmul
 from vectorplot.tolerances.of_extent import ROAD_ARRIVES
 
 FARTHEST_TURN = 1.5 * np.pi
@@ -61,7 +62,7 @@ class Climb:
 
     def aside(self, points: Floats) -> Floats:
         """(k,) how far to the left of the straight line between both points others (k,3) are, in the plan."""
-        return np.asarray((points[:, :2] - self.points[0, :2]) @ self._across)
+        return np.asarray(matmul(points[:, :2] - self.points[0, :2], self._across))
 
     @cached_property
     def _across(self) -> Floats:

@@ -15,7 +15,9 @@ from vectorplot.features.meshes.mesh_curves import NO_FACE, MeshCurves
 from vectorplot.features.terrains.hillsides import Hillsides, SlopeFlow, hillsides_of
 from vectorplot.features.terrains.places import places_on_terrain
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ROAD_ARRIVES, ZERO_OF_EXTENT
 
 USUAL_LONGEST = 6.0
@@ -84,7 +86,7 @@ def roads(mesh: Mesh, start: ArrayLike, end: ArrayLike, *, longest: float | None
     faces, points = places_on_terrain(mesh, np.array([start, end], dtype=np.float64), "road")
     extent = float(np.ptp(mesh.bounds, axis=0).max())
     rise = float(points[1, 2] - points[0, 2])
-    distance = float(np.linalg.norm(points[1] - points[0]))
+    distance = float(norm(points[1] - points[0]))
     if distance <= ZERO_OF_EXTENT * extent:
         raise InputError("road: both ends are in one place")
     if abs(rise) <= ZERO_OF_EXTENT * extent:
@@ -124,7 +126,7 @@ class _Search:
         start, end = self.points
         rise = float(end[2] - start[2])
         steepest = float(np.nanmax(self.hills.sine, initial=0.0))
-        high = min(rise / float(np.linalg.norm(end - start)), steepest)
+        high = min(rise / float(norm(end - start)), steepest)
         low = rise / longest
         if not 0.0 < low < high:
             return None
@@ -148,7 +150,7 @@ class _Search:
             low, high = float(tried[passing[-1]]), float(tried[passing[-1] + 1])
         best = int(np.where(reached, np.abs(off), np.inf).argmin())
         end = self.points[1]
-        if np.linalg.norm(found.last[best] - end) > ROAD_ARRIVES * self.extent:
+        if norm(found.last[best] - end) > ROAD_ARRIVES * self.extent:
             return None
         # One that begins on an edge may leave its first face at once.
         rows = (found.line == best) & (found.begin != found.end).any(axis=1)
@@ -169,7 +171,7 @@ class _Search:
         )
         way = found.last - end
         reached = np.abs(way[:, 2]) <= ROAD_ARRIVES * self.extent
-        return reached, np.asarray(way @ self.hills.left[self.faces[1]]), found
+        return reached, np.asarray(matmul(way, self.hills.left[self.faces[1]])), found
 
 
 def _passing(reached: Bools, off: Floats) -> Ints:

@@ -16,6 +16,7 @@ from vectorplot.features.terrains.draped import draped
 from vectorplot.features.terrains.hairpins import TURNS, Bends, Climb, Legs, turned
 from vectorplot.features.terrains.hillsides import hillsides_of
 from vectorplot.features.terrains.places import Ground, places_on_terrain
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ROAD_ARRIVES, ZERO_OF_EXTENT
@@ -109,7 +110,7 @@ def serpentine(
     faces, points = places_on_terrain(mesh, np.array([start, end], dtype=np.float64), "serpentine")
     extent = float(np.ptp(mesh.bounds, axis=0).max())
     rise = float(points[1, 2] - points[0, 2])
-    distance = float(np.linalg.norm((points[1] - points[0])[:2]))
+    distance = float(norm((points[1] - points[0])[:2]))
     if distance <= ZERO_OF_EXTENT * extent:
         raise InputError("serpentine: both ends are in one place")
     if abs(rise) <= ZERO_OF_EXTENT * extent:
@@ -208,7 +209,7 @@ class _Search:
             done = road[legs.arrived]
             ends.reached[done] = True
             beside = legs.last[legs.arrived] - self.climb.points[1]
-            ends.off[done], ends.far[done] = beside @ self.climb.hills.left[self.faces[1]], norm(beside)
+            ends.off[done], ends.far[done] = matmul(beside, self.climb.hills.left[self.faces[1]]), norm(beside)
             ends.bends[done] = number_of_bends
             bends = self.climb.bends(legs, side[road])
             stages.append(_Stage(road, legs, bends))

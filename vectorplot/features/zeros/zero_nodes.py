@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.zeros.scalar_field import ScalarFields, moved, number
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.components import all_finite, component_sum
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_lengths import NODE_SETTLED_OF_CELL
@@ -144,7 +145,7 @@ def _critical(field: ScalarFields, starts: Floats, cell: Floats) -> tuple[Floats
         h = field.hessians(points[active]) * (own[:, :, None] * own[:, None, :])
         sound = all_finite(g) & np.isfinite(h).all(axis=(1, 2))
         active, g, h = active[sound], g[sound], h[sound]
-        bend, axes = np.linalg.eigh(h)
+        bend, axes = symmetric_eigen(h)
         curvature[active] = bend
         bent[active] = np.where(np.isnan(bent[active]), np.abs(bend).max(axis=1, initial=0.0), bent[active])
         # Along a flat direction there is nothing to solve for, and the difference quotients are noise.

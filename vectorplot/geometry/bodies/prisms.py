@@ -12,9 +12,11 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.bodies.solids import BOTH_CAPS, checked_points
 from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, plane_axes
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import FLAT_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
@@ -86,7 +88,7 @@ def is_planar(points: ArrayLike) -> bool:
     corners = np.asarray(points, dtype=np.float64)
     arm, extent = corners - corners[0], float(np.ptp(corners, axis=0).max())
     area = area_vector(corners)
-    return not np.abs(arm @ area).max() > FLAT_OF_EXTENT * extent * float(np.linalg.norm(area))
+    return not np.abs(matmul(arm, area)).max() > FLAT_OF_EXTENT * extent * float(norm(area))
 
 
 def swept_polygon(
@@ -99,12 +101,9 @@ def swept_polygon(
     step = _vector(vector, "trans_vector")
     extent = max(float(np.ptp(base, axis=0).max()), LEAST_DIVISOR)
     area = area_vector(base)
-    size = float(np.linalg.norm(area))
-    height = float(area @ step)
-    if (
-        not abs(height) > ZERO_OF_EXTENT * size * float(np.linalg.norm(step))
-        or not size > ZERO_OF_EXTENT * extent * extent
-    ):
+    size = float(norm(area))
+    height = float(matmul(area, step))
+    if not abs(height) > ZERO_OF_EXTENT * size * float(norm(step)) or not size > ZERO_OF_EXTENT * extent * extent:
         raise InputError("trans_vector lies in the plane of the base, or the base has no area")
     normal = area / size
     rings = [base, *_checked_holes(base, normal, holes)]
@@ -142,9 +141,9 @@ def _checked_holes(base: Floats, normal: Floats, holes: Sequence[ArrayLike]) -> 
         if len(hole) < 3:
             raise InputError(f"hole {number} needs at least three points, not {len(hole)}")
         both = np.concatenate([base, hole])
-        if np.abs((both - base[0]) @ normal).max() > FLAT_OF_EXTENT * float(np.ptp(both, axis=0).max()):
+        if np.abs(matmul(both - base[0], normal)).max() > FLAT_OF_EXTENT * float(np.ptp(both, axis=0).max()):
             raise InputError(f"hole {number} and the base do not lie in one plane")
-        found.append(hole[::-1] if area_vector(hole) @ normal > 0.0 else hole)
+        found.append(hole[::-1] if matmul(area_vector(hole), normal) > 0.0 else hole)
     return found
 
 
@@ -155,7 +154,7 @@ def _bottom(rings: list[Floats], normal: Floats) -> list[Ints]:
     import shapely
 
     axes = np.stack(plane_axes(normal), axis=1)
-    outline, *holes = ((ring - rings[0][0]) @ axes for ring in rings)
+    outline, *holes = (matmul(ring - rings[0][0], axes) for ring in rings)
     whole, cut = shapely.Polygon(outline), [shapely.Polygon(hole) for hole in holes]
     for number, hole in enumerate(cut, 1):
         if not hole.is_valid or not hole.area > 0.0:
@@ -209,13 +208,13 @@ def regular_polygon(
         raise InputError(f"a regular polygon of radius {radius:g}: expected more than 0")
     middle = _vector(centre, "the centre of a regular polygon")
     up = _vector(normal, "the normal of a regular polygon")
-    length = float(np.linalg.norm(up))
+    length = float(norm(up))
     if not length > 0.0:
         raise InputError("the normal of a regular polygon has no length")
     angle = 2.0 * np.pi / count * np.arange(count)
     around = np.column_stack([np.cos(angle), np.sin(angle)])
     first, second = plane_axes(up / length)
-    return np.asarray(middle + radius * around @ np.stack([-second, first]))
+    return np.asarray(middle + matmul(radius * around, np.stack([-second, first])))
 
 
 def _vector(numbers: ArrayLike, what: str) -> Floats:

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul, singular_decomposition
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import ROUNDING
@@ -240,7 +241,7 @@ def has_convex_outline(mesh: Mesh) -> bool:
     # In pieces of planes, so that the table of distances never gets large; most non-convex bodies fail in the first.
     piece = max(1, DISTANCES_AT_ONCE // len(points))
     for start in range(0, len(normals), piece):
-        if (arms @ normals[start : start + piece].T - constants[start : start + piece]).max() > zero:
+        if (matmul(arms, normals[start : start + piece].T) - constants[start : start + piece]).max() > zero:
             return False
     return True
 
@@ -258,8 +259,8 @@ def _touch_hull(points: Floats, normals: Floats, constants: Floats, zero: float)
         hull = ConvexHull(points / reach).equations
         sides, ends = hull[:, :3], -reach * hull[:, 3]
     except QhullError:
-        sides = np.linalg.svd(points, full_matrices=False)[2][2] * np.array([[1.0], [-1.0]])
-        ends = (points @ sides.T).max(axis=0)
+        sides = singular_decomposition(points)[2][2] * np.array([[1.0], [-1.0]])
+        ends = (matmul(points, sides.T)).max(axis=0)
     _, nearest = cKDTree(sides).query(normals)
     turned = np.linalg.norm(normals - sides[nearest], axis=1)
     return np.asarray((ends[nearest] + turned * reach <= constants + zero) | ~normals.any(axis=1))

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.bounds.boxes import overlapping_boxes
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import normalize
@@ -32,7 +33,7 @@ class SlabHulls:
     def of(cls, points: Floats, sizes: Ints) -> SlabHulls:
         """Those of points (p,3), set after set of these sizes (s,), none of them empty."""
         first = ragged.starts(sizes)
-        along = DIRECTIONS @ points.T
+        along = matmul(DIRECTIONS, points.T)
         low, high = (best.reduceat(along, first, axis=1) for best in (np.minimum, np.maximum))
         middle = 0.5 * (low[:3] + high[:3]).T
         away = points - np.repeat(middle, sizes, axis=0)

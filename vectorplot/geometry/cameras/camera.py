@@ -10,8 +10,10 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.lens import field_of_vision_deg
 from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z, upright_turn
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_angles import NO_AZIMUTH_SINE, SAME_DIRECTION_SINE, VERTICAL_SINE
 
 Point = tuple[float, float, float]
@@ -106,8 +108,8 @@ class Camera:
         if self.eye == self.target or not self.distance > 0.0:
             raise InputError("camera: the eye is in the target")
         if self.up is not None:
-            length = float(np.linalg.norm(_direction_upwards(self.up)))
-            across = np.linalg.norm(np.cross(self.up, self.direction))
+            length = float(norm(_direction_upwards(self.up)))
+            across = norm(np.cross(self.up, self.direction))
             if not across > SAME_DIRECTION_SINE * length:
                 raise InputError("camera: the up vector lies along the view")
 
@@ -121,7 +123,7 @@ class Camera:
         """(3,) unit vector from the target to the eye."""
         ray = np.subtract(self.eye, self.target)
         ray = ray / np.abs(ray).max()
-        return np.asarray(ray / np.linalg.norm(ray), dtype=np.float64)
+        return np.asarray(ray / norm(ray), dtype=np.float64)
 
     @cached_property
     def axes(self) -> Floats:
@@ -133,7 +135,7 @@ class Camera:
             right = np.array([0.0, 1.0, 0.0])
         else:
             right = np.array([-back[1], back[0], 0.0])
-        right = right / np.linalg.norm(right)
+        right = right / norm(right)
         upward = np.cross(back, right)
         angle = np.radians(self.twist_deg)
         cos, sin = np.cos(angle), np.sin(angle)
@@ -204,7 +206,7 @@ class Camera:
         """
         if not (0.0 < distance < np.inf and np.isfinite((alpha, beta, gamma)).all()):
             raise InputError("camera: distance and angles must be finite numbers, the distance positive")
-        axes = rotation_z(alpha) @ rotation_x(beta) @ rotation_z(gamma)
+        axes = matmul(matmul(rotation_z(alpha), rotation_x(beta)), rotation_z(gamma))
         x, y, z = (float(t) + distance * float(w) for t, w in zip(target, axes[2], strict=True))
         # Near the zenith the eye's azimuth has no digits: there the up vector says how the picture stands.
         upright = float(np.hypot(axes[2, 0], axes[2, 1])) < NO_AZIMUTH_SINE
@@ -291,8 +293,8 @@ class Camera:
         if name not in VIEWS:
             raise InputError(f"view {name!r}: expected one of {', '.join(VIEWS)}")
         turn = upright_turn(_direction_upwards(up))
-        direction, upwards = (np.array(one) @ turn for one in VIEWS[name])
-        ray = direction * (distance / np.linalg.norm(direction))
+        direction, upwards = (matmul(np.array(one), turn) for one in VIEWS[name])
+        ray = direction * (distance / norm(direction))
         x, y, z = (upwards + 0.0).tolist()
         eye = (target[0] + ray[0], target[1] + ray[1], target[2] + ray[2])
         return cls(eye=eye, target=target, up=(x, y, z), parallel=True)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.collineation import project, unproject
 from vectorplot.geometry.cameras.pixel_window import PixelWindow
@@ -202,7 +203,7 @@ class CoordinateSystem:
         (..., 3) array of float
             In world units.
         """
-        return np.asarray((np.asarray(points, dtype=np.float64) - self.target) @ self.rotation)
+        return np.asarray(matmul(np.asarray(points, dtype=np.float64) - self.target, self.rotation))
 
     def forbidden(self, points: ArrayLike) -> Bools:
         """Which world points lie on or behind the neutral plane through the eye: they have no image.
@@ -265,7 +266,7 @@ class CoordinateSystem:
         """
         images = np.array(points, dtype=np.float64)
         images[..., :2] = (images[..., :2] - np.array(self.middle)) / np.array(self.scale)
-        return np.asarray(unproject(images, self.distance) @ self.rotation.T + self.target)
+        return np.asarray(matmul(unproject(images, self.distance), self.rotation.T) + self.target)
 
     def homogeneous(self, points: ArrayLike) -> Floats:
         """World points after T2, in homogeneous coordinates of pixels x, y and depth z*.
@@ -291,6 +292,6 @@ class CoordinateSystem:
         depth = back if self.distance == INFINITE else sunk
         # One product of matrices: millions of points pass here.
         rows = np.stack([across * right - x * sunk, upward * up - y * sunk, depth, -sunk], axis=1)
-        result = (np.asarray(points, dtype=np.float64) - self.target) @ rows
+        result = matmul(np.asarray(points, dtype=np.float64) - self.target, rows)
         result += (x, y, 0.0, 1.0)
         return np.asarray(result)

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE, NO_DIGITS_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LARGEST_VIEW, ULP
@@ -124,7 +125,7 @@ class Projection:
         (3, n) array of float
             About -1 to 1 for what is in the scene.
         """
-        return np.asarray((self.axes / self.scale) @ (world - self.centre).T, dtype=np.float64)
+        return np.asarray(matmul(self.axes / self.scale, (world - self.centre).T), dtype=np.float64)
 
     def world_of(self, points: Floats) -> Floats:
         """Points of the projection in world coordinates.
@@ -139,14 +140,14 @@ class Projection:
         (n, 3) array of float
             In world units.
         """
-        return np.ascontiguousarray((self.scale * self.axes.T @ points).T + self.centre)
+        return np.ascontiguousarray((matmul(self.scale * self.axes.T, points)).T + self.centre)
 
     @cached_property
     def image_from_world(self) -> Floats:
         """(3,4) homogeneous image coordinates, as of image but in world units, from world points (x,y,z,1)."""
         rotation = np.zeros((4, 4))
         rotation[:3, :3] = self.axes / self.scale
-        rotation[:3, 3] = -self.axes @ (self.centre / self.scale)
+        rotation[:3, 3] = matmul(-self.axes, self.centre / self.scale)
         rotation[3, 3] = 1.0
         if self.eye is None:
             rows = np.array([[1.0, 0, 0, -self.target[0]], [0, 1.0, 0, -self.target[1]], [0, 0, 0, 1.0]])
@@ -155,7 +156,7 @@ class Projection:
             d = self.focus
             rows = np.array([[d, 0, 0, -d * x], [0, d, 0, -d * y], [0, 0, -1.0, z]])
         rows[:2] *= self.scale
-        return np.asarray(rows @ rotation, dtype=np.float64)
+        return np.asarray(matmul(rows, rotation), dtype=np.float64)
 
     @property
     def distance(self) -> float:
@@ -235,11 +236,11 @@ def projection_of(camera: Camera, bounds: Floats) -> Projection:
     if not camera.parallel and camera.distance <= ULPS * ULP * scale:
         raise InputError("the eye is too near to its target for a scene of this size: nothing keeps them apart")
     axes = camera.axes
-    eye = None if camera.parallel else axes @ ((np.asarray(camera.eye) - centre) / scale)
+    eye = None if camera.parallel else matmul(axes, (np.asarray(camera.eye) - centre) / scale)
     focus = 1.0 if eye is None else max(float(eye[2]), 1.0)
     return Projection(
         eye=eye,
-        target=axes @ ((np.asarray(camera.target) - centre) / scale),
+        target=matmul(axes, (np.asarray(camera.target) - centre) / scale),
         focus=focus,
         near=-np.inf if eye is None else NEAR_OF_DISTANCE * min(camera.distance / scale, 1.0),
         picture_height=camera.picture_height / scale * (1.0 if eye is None else focus * scale / camera.distance),

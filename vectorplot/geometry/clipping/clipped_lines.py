@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping.clip_windows import Box, Window, region_codes
 
 Drawn = TypeVar("Drawn")
@@ -114,7 +115,7 @@ def clip_lines_3d(start: ArrayLike, end: ArrayLike, box: Box) -> ClippedLines:
     ([[0.0, 0.0, 0.0]], [[0.0, 0.0, 4.0]])
     """
     p, q = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
-    low, high, exists, clipped = _inside_part(p @ box.planes.T, q @ box.planes.T)
+    low, high, exists, clipped = _inside_part(matmul(p, box.planes.T), matmul(q, box.planes.T))
     ends = [
         np.where((t < 0.5)[:, None], p + t[:, None] * (q - p), q - (1.0 - t)[:, None] * (q - p)) for t in (low, high)
     ]

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping.clip_windows import Box, Window
 from vectorplot.geometry.clipping.clipped_lines import divided
 from vectorplot.geometry.polylines import EACH_POINT
@@ -172,6 +173,6 @@ def clip_polygons_3d(polygons: Polygons, box: Box) -> Polygons:
     [2.0, -1.0, 1.0]
     """
     for plane in box.planes:
-        polygons, _ = cut_polygons(polygons, polygons.points @ plane)
+        polygons, _ = cut_polygons(polygons, matmul(polygons.points, plane))
     points = polygons.points
     return Polygons(divided(points, np.ones(len(points), dtype=np.bool_)), polygons.offsets)

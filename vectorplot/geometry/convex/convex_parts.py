@@ -14,6 +14,7 @@ from vectorplot.geometry.bodies.prisms import prism
 from vectorplot.geometry.bodies.solids import checked_points, polyhedron
 from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, flattened, signed_area
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 
@@ -99,7 +100,7 @@ def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float
         profile = profile[::-1]
     extent = float(np.abs(profile - [0.0, profile[0, 1]]).max())
     azimuth = points[int(np.argmax(np.hypot(points[:, 0], points[:, 1]))), :2]
-    azimuth = azimuth / np.linalg.norm(azimuth)
+    azimuth = azimuth / norm(azimuth)
     if (np.diff(profile[:, 1]) > ZERO_OF_EXTENT * extent).all() and (angle_deg == FULL_TURN or angle_deg <= HALF_TURN):
         slices = [_in_space(profile[a : b + 1], azimuth) for a, b in _arches(profile)]
         return [revolution(piece, order, angle_deg=angle_deg) for piece in slices]

@@ -9,6 +9,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 
@@ -134,7 +136,7 @@ def _joined(points: Floats, triangles: Ints) -> list[Ints]:
 def flattened(points: Floats, normal: Floats) -> tuple[Floats, Ints]:
     """(n,2) a planar polygon in its plane, counter-clockwise about the normal, and the numbers (n,) of its points."""
     x, y = plane_axes(normal)
-    flat = (points - points[0]) @ np.stack([x, y], axis=1)
+    flat = matmul(points - points[0], np.stack([x, y], axis=1))
     numbers = np.arange(len(points))
     if signed_area(flat) < 0.0:
         flat, numbers = flat[::-1], numbers[::-1]
@@ -144,9 +146,9 @@ def flattened(points: Floats, normal: Floats) -> tuple[Floats, Ints]:
 def plane_axes(normal: Floats) -> tuple[Floats, Floats]:
     """Two unit vectors that span the plane across a normal; right-handed with it."""
     x = np.cross(normal, np.eye(3)[int(np.argmin(np.abs(normal)))])
-    x = x / np.linalg.norm(x)
+    x = x / norm(x)
     y = np.cross(normal, x)
-    return x, y / np.linalg.norm(y)
+    return x, y / norm(y)
 
 
 def signed_area(points: Floats) -> float:

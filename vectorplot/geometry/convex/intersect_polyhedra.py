@@ -8,11 +8,13 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.bodies.solids import has_convex_outline, zero_distance
 from vectorplot.geometry.convex.convex_parts import split_faces
 from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, plane_axes, signed_area
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.winding import is_closed_oriented
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 MAX_PLANES = 10_000
@@ -85,7 +87,7 @@ def cut_face(points: ArrayLike, normal: ArrayLike, constant: float) -> Floats:
     corners = np.asarray(points, dtype=np.float64)
     n = np.asarray(normal, dtype=np.float64)
     extent = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
-    distance = (corners @ n - constant) / float(np.linalg.norm(n))
+    distance = (matmul(corners, n) - constant) / float(norm(n))
     side = _sides(distance, ZERO_OF_EXTENT * extent)
     if not (side < 0).any() and (side != 0).any():
         return np.zeros((0, 3))
@@ -137,14 +139,14 @@ def cut_body(body: Mesh, normal: Floats, point: Floats, zero: float, shown: bool
     >>> corner.face_count, sorted(corner.face_sizes.tolist())
     (7, [3, 4, 4, 4, 5, 5, 5])
     """
-    distance = (body.vertices - point) @ normal
+    distance = matmul(body.vertices - point, normal)
     side = _sides(distance, zero)
     if not (side[body.corners] > 0).any():
         return body
     body, corner_side = _splittable(body, side)
     starts = body.offsets[:-1]
     lowest, highest = np.minimum.reduceat(corner_side, starts), np.maximum.reduceat(corner_side, starts)
-    stays = (lowest < 0) | ((lowest == 0) & (highest == 0) & (body.area_vectors @ normal > 0.0))
+    stays = (lowest < 0) | ((lowest == 0) & (highest == 0) & (matmul(body.area_vectors, normal) > 0.0))
     vertices, crossing = _crossings(body, distance, corner_side)
     # Every corner gives itself if it is not outside, and the crossing behind it if there is one.
     woven = np.stack([body.corners, crossing], axis=1)
@@ -204,7 +206,7 @@ def _caps(vertices: Floats, border: list[tuple[int, int]], normal: Floats) -> li
     if not border:
         return []
     x, y = plane_axes(normal)
-    flat = vertices @ np.stack([x, y], axis=1)
+    flat = matmul(vertices, np.stack([x, y], axis=1))
     loops = [np.array(loop, dtype=np.intp) for loop in _loops(border, flat)]
     areas = [signed_area(flat[loop]) for loop in loops]
     outer = [loop for loop, area in zip(loops, areas, strict=True) if area > 0.0]

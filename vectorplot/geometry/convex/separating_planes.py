@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_extent import THINNEST_BOX, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -159,7 +160,7 @@ def _outer_planes(mesh: Mesh) -> Floats:
     limit = ZERO_OF_EXTENT * float(np.ptp(mesh.vertices, axis=0).max(initial=0.0))
     for low in range(0, len(wide), max(PRODUCTS_AT_ONCE // max(len(mesh.vertices), 1), 1)):
         part = slice(low, low + max(PRODUCTS_AT_ONCE // len(mesh.vertices), 1))
-        if (normal[part] @ mesh.vertices.T - constant[part, None] > limit).any():
+        if (matmul(normal[part], mesh.vertices.T) - constant[part, None] > limit).any():
             return np.zeros((0, 4))
     return np.column_stack([normal, constant])
 
@@ -224,7 +225,7 @@ class Separations:
         place = np.asarray(eye, dtype=np.float64)
         finite = len(place) == 3
         constant = np.where(np.isnan(self.planes[:, 3]), 0.0, self.planes[:, 3])
-        side = np.nan_to_num(self.planes[:, :3]) @ place[:3] - (constant if finite else 0.0)
+        side = matmul(np.nan_to_num(self.planes[:, :3]), place[:3]) - (constant if finite else 0.0)
         by_plane = np.sign(side) * np.where(np.abs(self.info) == 1, self.info, 0)
         power = spheres_power(self.spheres.reshape(-1, 4), place).reshape(-1, 2)
         by_spheres = np.sign(power[:, 1] - power[:, 0])
@@ -261,7 +262,7 @@ def spheres_power(spheres: Floats, eye: ArrayLike) -> Floats:
     """
     place = np.asarray(eye, dtype=np.float64)
     if len(place) == 4:
-        return np.asarray(-(spheres[:, :3] @ place[:3]))
+        return np.asarray(-(matmul(spheres[:, :3], place[:3])))
     arm = spheres[:, :3] - place
     return np.asarray((arm * arm).sum(axis=1) - spheres[:, 3] ** 2)
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.convex.convex_faces import convex_faces
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces, nothing_beside
 from vectorplot.geometry.mesh import Mesh
@@ -137,7 +138,7 @@ def _sides(polygons: _Polygons, height: Floats, points: Floats, normal: tuple[fl
         in_plane[flat] = True
         some = polygons.some(in_plane)
         areas = Mesh(points, some.corners, some.offsets).area_vectors
-        side[flat] = np.where(areas @ np.array(normal) < 0.0, 1, -1)
+        side[flat] = np.where(matmul(areas, np.array(normal)) < 0.0, 1, -1)
     return side
 
 

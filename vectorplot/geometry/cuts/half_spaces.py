@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import linear_solution, matmul
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import ROUNDING
 
@@ -52,7 +53,7 @@ class HalfSpaces:
         normals = np.array(self.normals)
         feet = normals * np.array(self.offsets)[:, None]
         # From a point of the plane: far from the origin nothing is lost.
-        return np.stack([(points - foot) @ normal for normal, foot in zip(normals, feet, strict=True)])
+        return np.stack([matmul(points - foot, normal) for normal, foot in zip(normals, feet, strict=True)])
 
     def is_inside(self, points: Floats) -> np.ndarray:
         """Which points are in the region.
@@ -111,9 +112,9 @@ def moved_planes(normals: Floats, offsets: Floats, matrix: Floats) -> tuple[Floa
 
     Degenerate: numpy's LinAlgError for a matrix that flattens space.
     """
-    moved = np.linalg.solve(matrix[:3, :3].T, normals.T).T
+    moved = linear_solution(matrix[:3, :3].T, normals.T).T
     lengths = np.linalg.norm(moved, axis=1)
-    return moved / lengths[:, None], (offsets + moved @ matrix[:3, 3]) / lengths
+    return moved / lengths[:, None], (offsets + matmul(moved, matrix[:3, 3])) / lengths
 
 
 def nothing_beside(points: Floats) -> float:

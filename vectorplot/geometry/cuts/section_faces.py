@@ -9,9 +9,11 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.regions import areas_of, corners_of, without_holes
+from vectorplot.geometry.vectors import norm
 
 
 @dataclass(frozen=True, eq=False)
@@ -26,17 +28,17 @@ class PlaneFrame:
         """Those in one of the planes of a region, with the origin below a point (3,)."""
         normal = np.array(region.normals[number])
         first = np.cross(normal, np.eye(3)[np.argmin(np.abs(normal))])
-        first /= np.linalg.norm(first)
-        foot = near - normal * float(normal @ (near - region.offsets[number] * normal))
+        first /= norm(first)
+        foot = near - normal * float(matmul(normal, near - region.offsets[number] * normal))
         return cls(foot, np.stack([first, np.cross(normal, first)]))
 
     def places(self, points: Floats) -> Floats:
         """(..., 2) the coordinates of points (..., 3)."""
-        return np.asarray((points - self.origin) @ self.axes.T)
+        return np.asarray(matmul(points - self.origin, self.axes.T))
 
     def points(self, places: Floats) -> Floats:
         """(..., 3) the points with coordinates (..., 2)."""
-        return np.asarray(self.origin + places @ self.axes)
+        return np.asarray(self.origin + matmul(places, self.axes))
 
 
 def region_of_sides(start: Floats, end: Floats) -> Any:
@@ -86,8 +88,8 @@ def window(region: HalfSpaces, number: int, frame: PlaneFrame, bounds: tuple[flo
     for one, (normal, offset) in enumerate(zip(region.normals, region.offsets, strict=True)):
         if one == number or not len(corners):
             continue
-        slope = frame.axes @ np.array(normal)
-        height = corners @ slope + float((frame.origin - offset * np.array(normal)) @ np.array(normal))
+        slope = matmul(frame.axes, np.array(normal))
+        height = matmul(corners, slope) + float(matmul(frame.origin - offset * np.array(normal), np.array(normal)))
         corners = _above(corners, height)
     return shapely.Polygon(corners) if len(corners) > 2 else shapely.Polygon()
 

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.chunks import mapped, slices
 
 # Work in pieces that stay in the processor's cache.
@@ -128,7 +129,7 @@ def close_points(points: Floats, tolerance: float) -> Ints:
     Points are sorted along a direction in general position, so that only neighbours in that order are compared, and of
     these none that has only points of its own chain about it: a crowd within the tolerance costs a few rounds.
     """
-    heights = points @ np.array([0.5773, 0.6132, 0.5393])
+    heights = matmul(points, np.array([0.5773, 0.6132, 0.5393]))
     order = np.argsort(heights, kind="stable")
     ordered, rising = points[order], heights[order]
     stop = np.searchsorted(rising, np.nextafter(rising + tolerance, np.inf), side="right")

@@ -12,6 +12,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import distinct_points
 from vectorplot.io.meshes.mesh_file import MeshFile, file_bytes, shown
@@ -131,8 +132,8 @@ def _parts(name: str, tree: dict[str, Any], binary: bytes) -> list[tuple[str, Fl
         if total > most:
             _fail(name, f"its nodes show more than {most} triangles")
         with np.errstate(all="ignore"):
-            x, y, z = (points @ matrix[:3, :3].T + matrix[:3, 3]).T
-            mirrored = np.linalg.det(matrix[:3, :3]) < 0.0
+            x, y, z = (matmul(points, matrix[:3, :3].T) + matrix[:3, 3]).T
+            mirrored = determinant(matrix[:3, :3]) < 0.0
         vertices = np.stack([x, -z, y], axis=1)
         if not np.isfinite(vertices).all():
             _fail(name, f"node {number}: a coordinate is not a finite number")
@@ -156,7 +157,7 @@ def _matrices(tree: dict[str, Any]) -> list[tuple[int, Floats]]:
             raise IndexError(f"node {number}")
         node = nodes[number]
         with np.errstate(all="ignore"):
-            matrix = above @ _matrix(node)
+            matrix = matmul(above, _matrix(node))
         waiting += [(child, matrix) for child in node.get("children", [])]
         if "mesh" in node:
             found[number] = matrix

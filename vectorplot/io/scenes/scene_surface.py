@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.bodies.solids import IDENTITY
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
@@ -84,13 +85,13 @@ def even_offsets(
     Errors: InputError for a shape that lies in one such plane.
     """
     if normal in AXES.values():
-        heights = bounds @ normal
+        heights = matmul(bounds, normal)
     elif isinstance(shape, Mesh):
-        heights = shape.vertices @ normal
+        heights = matmul(shape.vertices, normal)
     elif is_parametrised(shape):
         heights = smooth_bounds(PlacedSurface(shape, axis_frame(normal).T))[:, 2]
     else:
-        heights = np.stack(np.meshgrid(*bounds.T, indexing="ij"), axis=-1) @ normal
+        heights = matmul(np.stack(np.meshgrid(*bounds.T, indexing="ij"), axis=-1), normal)
     low, high = float(heights.min()), float(heights.max())
     if not high - low > least_extent(bounds, low, high):
         raise InputError("sections: the surface has no extent along their normal")

@@ -21,6 +21,7 @@ from vectorplot.curves.function_curve import FunctionCurve
 from vectorplot.curves.placed_curve import PlacedCurve
 from vectorplot.curves.splines.spline_curve import SplineCurve
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.io.scenes.scene_formulas import Formulas
 from vectorplot.scene.light import Light
 from vectorplot.scene.surface_lines import SurfaceLines
@@ -55,8 +56,8 @@ def surface_text(shape: Surface | ImplicitSurface) -> str:
     if isinstance(shape, PlacedSurface | PlacedImplicit):
         matrix, shift, inner = np.asarray(shape.matrix), np.asarray(shape.shift), shape.surface
         while isinstance(inner, PlacedSurface | PlacedImplicit):
-            shift = np.asarray(inner.shift) @ matrix + shift
-            matrix, inner = np.asarray(inner.matrix) @ matrix, inner.surface
+            shift = matmul(np.asarray(inner.shift), matrix) + shift
+            matrix, inner = matmul(np.asarray(inner.matrix), matrix), inner.surface
         return surface_text(inner) + _placement(matrix, shift)
     if isinstance(shape, TrimmedSurface):
         return _trimmed(shape)

@@ -10,8 +10,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_angles import EDGE_ON_SINE
 from vectorplot.words import check_colour, check_word
 
@@ -214,8 +216,8 @@ def _side_of_eye(plane: CutPlane, camera: Camera) -> float:
     way = camera.axes[2] if camera.parallel else np.asarray(camera.eye) - foot
     # To length 1 at most, for squares of large numbers have no room.
     way = way / max(float(np.abs(way).max()), 1.0)
-    height = float(way @ normal)
-    if abs(height) <= EDGE_ON_SINE * float(np.linalg.norm(way)):
+    height = float(matmul(way, normal))
+    if abs(height) <= EDGE_ON_SINE * float(norm(way)):
         raise InputError(f"cut: the plane {_equation(plane)} is seen edge-on: say < or >")
     return float(np.sign(height))
 

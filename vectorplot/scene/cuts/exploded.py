@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.curves.families.line import Line
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import shift_matrix
 from vectorplot.geometry.rotations import axis_frame
@@ -102,7 +103,7 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
         if shifts[key] - start <= zero:
             continue
         middle = boxes[key].mean(axis=0)
-        foot = middle + (low - float(middle @ way)) * way
+        foot = middle + (low - float(matmul(middle, way))) * way
         line = Line.through(foot + start * way, foot + shifts[key] * way)
         name = scene.items[parts[key][0]].name
         items.append(Item(f"{name} trace", line, "black", lines=("trace",), occludes=False))
@@ -129,7 +130,7 @@ def _spans(items: list[Item], ways: Floats) -> Floats:
         box = _box([item])
         corners = box[np.array(list(np.ndindex(2, 2, 2))), np.arange(3)]
         places.append(item.shape.vertices if isinstance(item.shape, Mesh) and len(item.shape.vertices) else corners)
-    heights = np.concatenate(places) @ ways.T
+    heights = matmul(np.concatenate(places), ways.T)
     return np.stack([heights.min(axis=0), heights.max(axis=0)], axis=-1)
 
 

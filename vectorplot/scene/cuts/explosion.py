@@ -10,6 +10,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.vectors import norm
 
 AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 """Axes by their names."""
@@ -71,7 +73,7 @@ class Explosion:
         >>> Explosion("x").transformed(np.diag([-2.0, 1.0, 1.0, 1.0])).way.tolist()
         [-1.0, 0.0, 0.0]
         """
-        x, y, z = (np.asarray(matrix, dtype=np.float64)[:3, :3] @ self.way).tolist()
+        x, y, z = (matmul(np.asarray(matrix, dtype=np.float64)[:3, :3], self.way)).tolist()
         return replace(self, axis=(x, y, z))
 
 
@@ -81,4 +83,4 @@ def direction_of(axis: str | Sequence[float] | ArrayLike) -> Floats:
     if way.shape != (3,) or not np.isfinite(way).all() or not way.any():
         raise InputError(f"explode: an axis {axis!r}: expected x, y, z or a direction")
     way = way / np.abs(way).max()
-    return np.asarray(way / np.linalg.norm(way))
+    return np.asarray(way / norm(way))

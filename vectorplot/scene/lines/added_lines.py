@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
@@ -267,7 +268,7 @@ def _surfaces(scene: Scene) -> Scene:
 def _extent_along(scene: Scene, normal: Vector) -> tuple[float, float]:
     """The lowest and the highest point along a unit normal."""
     if np.count_nonzero(normal) == 1:
-        heights = scene.bounds @ np.array(normal)
+        heights = matmul(scene.bounds, np.array(normal))
     else:
         turn = np.eye(4)
         turn[:3, :3] = axis_frame(normal)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
@@ -21,7 +22,7 @@ def curve_light(scene: Scene, view: View, item: Item) -> Light:
     """
     number = item.curves.light
     if not scene.lights and number is None:
-        x, y, z = (view.axes.T @ np.array(UPPER_LEFT)).tolist()
+        x, y, z = (matmul(view.axes.T, np.array(UPPER_LEFT))).tolist()
         return Light((x, y, z), parallel=True)
     if (number or 0) >= len(scene.lights):
         raise InputError(f"{item.name}: isophotes of light {number}: the scene has {len(scene.lights)} lights")

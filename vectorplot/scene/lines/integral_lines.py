@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 
 if TYPE_CHECKING:
     # What runs along fields is loaded when they are traced.
@@ -132,7 +133,7 @@ class GeodesicLines:
         length, starts = None if self.length is None else larger * self.length, self.starts
         if starts and len(starts[0]) == ON_MESHES.starts:
             points = _moved(tuple(row[:3] for row in starts), matrix)
-            ways = np.array(starts)[:, 3:] @ matrix[:3, :3].T
+            ways = matmul(np.array(starts)[:, 3:], matrix[:3, :3].T)
             starts = tuple((*point, *way) for point, way in zip(points, ways.tolist(), strict=True))
         return replace(self, length=length, starts=starts)
 
@@ -239,7 +240,7 @@ class KnownCurves:
 
     def transformed(self, matrix: Floats, larger: float) -> KnownCurves:
         """The same curves under a 4x4 matrix acting on columns."""
-        points = self.curves.points @ matrix[:3, :3].T + matrix[:3, 3]
+        points = matmul(self.curves.points, matrix[:3, :3].T) + matrix[:3, 3]
         return KnownCurves(replace(self.curves, points=points))
 
 
@@ -278,4 +279,4 @@ def _moved(points: tuple[tuple[float, ...], ...], matrix: Floats) -> tuple[tuple
     """Points in space under a matrix (4,4); parameters as they are."""
     if not points or len(points[0]) != ON_MESHES.points:
         return points
-    return tuple(map(tuple, (np.array(points) @ matrix[:3, :3].T + matrix[:3, 3]).tolist()))
+    return tuple(map(tuple, (matmul(np.array(points), matrix[:3, :3].T) + matrix[:3, 3]).tolist()))

@@ -13,7 +13,8 @@ from vectorplot.curves.families.circle import Circle
 from vectorplot.curves.families.line import Line
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
-from vectorplot.geometry.vectors import cross, normalize
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.vectors import cross, norm, normalize
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import thin_line
 from vectorplot.scene.naming.labels import USUAL_SIZE_MM, Along, Label, OnCurve
@@ -75,10 +76,10 @@ def dimension(
     '5'
     """
     one, other, off = (vector("dimension: a point", point) for point in (start, end, offset))
-    long = float(np.linalg.norm(other - one))
+    long = float(norm(other - one))
     if not long > 0.0 or not np.any(off):
         raise InputError("dimension: two different points and an offset are needed")
-    reach = float(np.linalg.norm(off))
+    reach = float(norm(off))
     before = SHORT if gap is None else gap / reach
     behind = BEYOND if beyond is None else beyond / reach
     if not (0.0 <= before < 1.0 and 0.0 <= behind < np.inf):
@@ -138,7 +139,7 @@ def angle(
     middle = vector("angle: vertex", vertex)
     first, second = (normalize(vector("angle: a point", point) - middle) for point in (one, other))
     axis = cross(first, second)
-    sine, cosine = float(np.linalg.norm(axis)), float(first @ second)
+    sine, cosine = float(norm(axis)), float(matmul(first, second))
     if not sine > 0.0 or not 0.0 < radius < np.inf:
         raise InputError("angle: two sides that are not in one line, and a positive radius are needed")
     begins = _angle_on(Circle(middle, radius, axis), middle, first)
@@ -350,7 +351,7 @@ def _heads(name: str, size_mm: float) -> tuple[Label, ...]:
 
 def _distance(what: str, one: Floats, other: Floats) -> float:
     """Between two points. Errors: InputError where they are one."""
-    long = float(np.linalg.norm(other - one))
+    long = float(norm(other - one))
     if not long > 0.0:
         raise InputError(f"{what}: two different points are needed")
     return long
@@ -364,4 +365,4 @@ def _place(point: Floats) -> str:
 def _angle_on(circle: Circle, middle: Floats, way: Floats) -> float:
     """The parameter of a circle in a direction from its middle."""
     right, left = (circle.points(np.array(at)) - middle for at in (0.0, 0.5 * np.pi))
-    return float(np.arctan2(way @ left, way @ right))
+    return float(np.arctan2(matmul(way, left), matmul(way, right)))

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.scene.pages.paper import MM_PER_POINT
 from vectorplot.words import check_word
 
@@ -251,7 +252,7 @@ class Label:
         """
         if not isinstance(self.at, tuple):
             return self
-        x, y, z = (np.asarray(matrix, dtype=np.float64)[:3] @ (*self.at, 1.0)).tolist()
+        x, y, z = (matmul(np.asarray(matrix, dtype=np.float64)[:3], (*self.at, 1.0))).tolist()
         return replace(self, at=(x, y, z))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, positive
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import determinant, matmul
 
 Pair = tuple[float, float]
 
@@ -167,7 +168,7 @@ class Serpentine:
     def transformed(self, matrix: Floats) -> Serpentine:
         """The same places under a 4x4 matrix acting on columns that keeps verticals, with lengths as areas of the plan
         grow. Errors: InputError for others."""
-        scale = float(np.sqrt(abs(np.linalg.det(matrix[:2, :2]))))
+        scale = float(np.sqrt(abs(determinant(matrix[:2, :2]))))
         radius, width = (None if size is None else scale * size for size in (self.radius, self.width))
         start, end = _moved("serpentine", (self.start, self.end), matrix)
         return Serpentine(start, end, self.slope_deg, radius, width)
@@ -191,4 +192,4 @@ def _pairs(name: str, pairs: tuple[Pair, ...]) -> tuple[Pair, ...]:
 def _moved(name: str, pairs: tuple[Pair, ...], matrix: Floats) -> tuple[Pair, ...]:
     if matrix[:2, 2].any() or matrix[2, :2].any():
         raise InputError(f"{name}: a terrain that is tilted has no places x and y any more")
-    return tuple((x, y) for x, y in (np.array(pairs) @ matrix[:2, :2].T + matrix[:2, 3]).tolist())
+    return tuple((x, y) for x, y in (matmul(np.array(pairs), matrix[:2, :2].T) + matrix[:2, 3]).tolist())

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.algebra import determinant
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import face_normals
 from vectorplot.shading.raster.scene_triangles import SceneTriangles
@@ -108,7 +109,7 @@ def _depth_planes(
     p, q, r = (homogeneous[scene.corners[leader, k]] for k in range(3))
     rows = np.stack([p, q, r], axis=1)
     # The plane through three homogeneous points: the minors of their coordinates.
-    plane = np.stack([(-1) ** k * np.linalg.det(np.delete(rows, k, axis=2)) for k in range(4)], axis=1)
+    plane = np.stack([(-1) ** k * determinant(np.delete(rows, k, axis=2)) for k in range(4)], axis=1)
     x, y, z, w = plane.T
     steep = np.abs(z) > ZERO_OF_EXTENT * np.abs(plane).max(axis=1)
     z = np.where(steep, z, 1.0)

@@ -12,6 +12,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.scene.view import View
 from vectorplot.shading.light.face_shades import face_normals as view_face_normals
 from vectorplot.tolerances.of_numbers import ROUNDING
@@ -53,7 +54,7 @@ def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle
     for item, own in enumerate(normals):
         if own is not None:
             part = slice(view.item_vertices[item], view.item_vertices[item + 1])
-            given[part] = own.at_vertices @ view.axes.T
+            given[part] = matmul(own.at_vertices, view.axes.T)
             known[part] = True
             on_edge[part] = own.on_edge
     return corner_normals(points, triangles, crease_angle_deg, given, known, on_edge, of_faces)

@@ -14,6 +14,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.columns import cross
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
@@ -382,5 +383,5 @@ def item_colours(items: Sequence[Item], item: Ints, shade: Floats, count: int = 
 def _in_view(view: View, light: Light) -> tuple[float, float, float]:
     """Where a light is in the view, or the direction it comes from there."""
     given = np.array(light.position, dtype=np.float64)
-    x, y, z = (view.axes @ given if light.parallel else view.points_of(given[None])[:, 0]).tolist()
+    x, y, z = (matmul(view.axes, given) if light.parallel else view.points_of(given[None])[:, 0]).tolist()
     return (x, y, z)

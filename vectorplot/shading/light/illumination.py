@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
@@ -425,7 +426,7 @@ def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Flo
     >>> shades([[0.5, 1.0]], [1.0], cue=[0.2, 0.1]).round(6).tolist()
     [0.6, 0.9]
     """
-    total = np.asarray(intensity, dtype=np.float64).T @ np.asarray(shares, dtype=np.float64)
+    total = matmul(np.asarray(intensity, dtype=np.float64).T, np.asarray(shares, dtype=np.float64))
     return np.asarray(np.clip(DIRECT_SHARE * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))
 
 
@@ -436,7 +437,9 @@ def fitting_factor(shares: ArrayLike, intensity: ArrayLike) -> float:
     For one picture; in a movie keep that of the first frame, or it flickers. Degenerate: in the dark it is 1.
     Source: Glaeser, section 4.5, equation 7.
     """
-    most = float((np.asarray(intensity, dtype=np.float64).T @ np.asarray(shares, dtype=np.float64)).max(initial=0.0))
+    most = float(
+        (matmul(np.asarray(intensity, dtype=np.float64).T, np.asarray(shares, dtype=np.float64))).max(initial=0.0)
+    )
     return 1.0 / most if most > 0.0 else 1.0
 
 

@@ -15,6 +15,7 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.features.edge_splitting import Edges, surface_numbers
 from vectorplot.features.facet_demands import INSIDE, AllSidesAlike, off_chords
 from vectorplot.geometry import ragged
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.item import Item
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
@@ -92,7 +93,7 @@ class Nearby:
 def triangles_of_items(items: Sequence[Item], boxes: Sequence[Floats]) -> list[tuple[Floats, float]]:
     """Of each of some items with these boxes (2,3) triangles (t,3,3) that are near all that there is of it, and how
     near; an infinite distance where they are not. Those of curves are sides, with one corner twice."""
-    extents = [float(np.linalg.norm(box[1] - box[0])) for box in boxes]
+    extents = [float(norm(box[1] - box[0])) for box in boxes]
     smooth = [k for k, item in enumerate(items) if is_parametrised(item.shape) or is_implicit(item.shape)]
     found: dict[int, Facets] = {}
     if smooth:
@@ -120,7 +121,7 @@ def _triangles(item: Item, extent: float, found: Facets | None) -> tuple[Floats,
 
 def nearby(triangles: Floats, off: float, box: Floats) -> Nearby:
     """What an item has in a box (2,3), by triangles (t,3,3) that are no farther off than a distance."""
-    extent = float(np.linalg.norm(box[1] - box[0]))
+    extent = float(norm(box[1] - box[0]))
     # Closer than the triangles are to the item no points need be, however small the box.
     longest = max(CLOSENESS * extent, off)
     # Corners, coordinates, triangles: sums along short axes take several times as long.

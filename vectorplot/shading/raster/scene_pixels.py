@@ -8,8 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.algebra import linear_solution, matmul
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.chunks import mapped, slices
+from vectorplot.geometry.vectors import norm
 from vectorplot.shading.depth.coplanar import CoplanarFaces, ranked
 from vectorplot.shading.depth.depth_buffer import DepthBuffer, layers_before, strip
 from vectorplot.shading.light.lighting import Lighting, shaded_points
@@ -181,13 +183,13 @@ def _reflection(picture: Picture, buffer: DepthBuffer, triangle: int, pixel: Int
     triangles, eye = picture.triangles, np.array(picture.lighting.eye)
     a, b, c = triangles.points[triangles.corners[triangle]]
     normal = np.cross(b - a, c - a)
-    normal /= np.linalg.norm(normal)
-    normal *= np.sign(eye[:3] @ normal - eye[3] * (a @ normal)) or 1.0
-    height = (triangles.points - a) @ normal
+    normal /= norm(normal)
+    normal *= np.sign(matmul(eye[:3], normal) - eye[3] * (matmul(a, normal))) or 1.0
+    height = matmul(triangles.points - a, normal)
     double = picture.system.homogeneous(triangles.points - 2.0 * height[:, None] * normal)
     # What is on the mirror's own side, as a half-space of the double.
-    side = HalfSpace(_in_pixels(picture.system, np.append(-normal, a @ normal)), ZERO_OF_EXTENT)
-    x, y, z = (eye[:3] - 2.0 * (eye[:3] @ normal - eye[3] * (a @ normal)) * normal).tolist()
+    side = HalfSpace(_in_pixels(picture.system, np.append(-normal, matmul(a, normal))), ZERO_OF_EXTENT)
+    x, y, z = (eye[:3] - 2.0 * (matmul(eye[:3], normal) - eye[3] * (matmul(a, normal))) * normal).tolist()
     lighting = replace(picture.lighting, eye=(x, y, z, float(eye[3])))
     flat = screen_triangles(double, triangles.corners, near=picture.system.near, sides=[side])
     flat = ranked(flat, triangles, double, picture.coplanar, lighting.eye, picture.outer_side)
@@ -214,5 +216,5 @@ def _in_pixels(system: CoordinateSystem, plane: Floats) -> tuple[float, float, f
     """A plane (4,) of space, products with (x, y, z, 1), as one of homogeneous points in pixels."""
     origin = system.homogeneous(np.zeros(3))
     matrix = np.column_stack([*(system.homogeneous(np.eye(3)) - origin), origin])
-    w, x, y, z = np.linalg.solve(matrix.T, plane).tolist()
+    w, x, y, z = linear_solution(matrix.T, plane).tolist()
     return (w, x, y, z)

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.cameras.pixel_window import PixelWindow
@@ -252,7 +253,7 @@ def screen_triangles(
         raise InputError(f"a near plane at {near:g} shows nothing")
     source = np.arange(len(corners), dtype=np.intp)
     for side in sides:
-        p, corners, source = _kept(p, corners, source, p @ np.asarray(side.normal) - side.limit)
+        p, corners, source = _kept(p, corners, source, matmul(p, np.asarray(side.normal)) - side.limit)
     # The near plane first, then the sides of the guard band.
     for axis, sign in ((3, 1.0), (0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
         inside = p[:, 3] - near if axis == 3 else sign * p[:, axis] + GUARD_BAND * p[:, 3]

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import determinant, linear_solution, matmul
 from vectorplot.geometry.cameras.collineation import depth_of
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.shading.raster.screen import HalfSpace, screen_triangles
@@ -146,7 +147,7 @@ def depths_seen(system: CoordinateSystem, points: Floats) -> tuple[float, float]
     """The smallest and the largest depth of points (n, 3) before the eye, in a parallel projection before the target;
     none nearer than the near plane."""
     parallel = system.distance == INFINITE
-    depth = ((system.target if parallel else system.centre) - points) @ system.rotation[:, 2]
+    depth = matmul((system.target if parallel else system.centre) - points, system.rotation[:, 2])
     least = -np.inf if parallel else system.near * system.distance
     return max(float(depth.min()), least), max(float(depth.max()), least)
 
@@ -217,7 +218,7 @@ def _box_corners(halves: Floats) -> Floats:
 
 def _cut_at(normals: Floats, limits: Floats, back: Floats, eye: Floats, near: float, far: float) -> Floats:
     """Corners of the half-spaces between two depths before the eye."""
-    ahead = float(back @ eye)
+    ahead = float(matmul(back, eye))
     planes = np.concatenate([normals, back[None], -back[None]])
     return half_space_corners(planes, np.append(limits, [ahead - near, far - ahead]))
 
@@ -229,7 +230,7 @@ def half_space_corners(normals: Floats, limits: Floats) -> Floats:
     n, d = normals / lengths[:, None], limits / lengths
     three = np.array(list(combinations(range(len(n)), 3)))
     planes = n[three]
-    good = np.abs(np.linalg.det(planes)) > ZERO_OF_EXTENT
-    points = np.linalg.solve(planes[good], d[three[good]][..., None])[..., 0]
+    good = np.abs(determinant(planes)) > ZERO_OF_EXTENT
+    points = linear_solution(planes[good], d[three[good]][..., None])[..., 0]
     slack = ZERO_OF_EXTENT * (1.0 + np.abs(points).max(axis=1, initial=0.0))
-    return np.asarray(points[(points @ n.T <= d + slack[:, None]).all(axis=1)])
+    return np.asarray(points[(matmul(points, n.T) <= d + slack[:, None]).all(axis=1)])

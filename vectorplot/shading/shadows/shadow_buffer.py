@@ -16,7 +16,9 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.algebra import linear_solution, matmul
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
 from vectorplot.shading.raster.screen import front_facing
 from vectorplot.shading.shadows.map_settings import MapSettings
@@ -212,9 +214,9 @@ def shape_of(frame: Floats, size: int) -> tuple[int, int]:
     Source: Martin and Tan, recipe, tips (textures that are no squares).
     """
     ends = np.array([[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0], np.ones(4)])
-    there = np.linalg.solve(frame, ends)
+    there = linear_solution(frame, ends)
     left, right, low, high = (there[:2] / there[2]).T
-    wide, long = float(np.linalg.norm(right - left)), float(np.linalg.norm(high - low))
+    wide, long = float(norm(right - left)), float(norm(high - low))
     stretch = np.sqrt(min(max(wide / long, 1.0 / LONGEST), LONGEST)) if long > 0.0 else 1.0
     return round(size * stretch), round(size / stretch)
 
@@ -279,8 +281,8 @@ def is_inside(light: Light, points: Floats) -> bool:
     corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low) + low
     place = np.asarray(light.position, dtype=np.float64)
     arm, middle = corners - place, (low + high) / 2.0 - place
-    cosine = arm @ middle
-    return bool((cosine <= WIDEST_COSINE * np.linalg.norm(arm, axis=1) * np.linalg.norm(middle)).any())
+    cosine = matmul(arm, middle)
+    return bool((cosine <= WIDEST_COSINE * np.linalg.norm(arm, axis=1) * norm(middle)).any())
 
 
 def _side_map(

@@ -17,6 +17,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import determinant, inverse_matrix, matmul
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.shading.depth.depth_buffer import depth_codes
@@ -85,7 +86,7 @@ class ShadowMap:
     @cached_property
     def light_from_texel(self) -> Floats:
         """(3, 3) the inverse of texel_from_light."""
-        return np.asarray(np.linalg.inv(self.texel_from_light))
+        return np.asarray(inverse_matrix(self.texel_from_light))
 
     @property
     def depth(self) -> Floats:
@@ -153,7 +154,7 @@ def in_texels(frame: Floats, columns: int, rows: int) -> Floats:
         raise InputError(f"a shadow map of {columns} x {rows} texels shows nothing")
     texels = np.diag([half[0], -half[1], 1.0])
     texels[:2, 2] = (columns - 1) / 2.0, (rows - 1) / 2.0
-    return np.asarray(texels @ frame)
+    return np.asarray(matmul(texels, frame))
 
 
 def shadow_map(
@@ -178,8 +179,8 @@ def shadow_map(
     if bits not in BITS:
         raise InputError(f"depths of {bits} bits: expected {', '.join(map(str, BITS))}")
     matrix = in_texels(frame, columns, rows)
-    inverse = np.asarray(np.linalg.inv(matrix), dtype=np.float64)
-    texels = system.homogeneous(points) @ four_by_four(matrix).T
+    inverse = np.asarray(inverse_matrix(matrix), dtype=np.float64)
+    texels = matmul(system.homogeneous(points), four_by_four(matrix).T)
     weight = np.array([inverse[2, 0], inverse[2, 1], 0.0, inverse[2, 2]])
     steep = np.array([0.0, 0.0, 0.0, 1.0]) - STEEPEST * weight
     sides = [HalfSpace((*weight.tolist(),), near), HalfSpace((*steep.tolist(),))]
@@ -204,7 +205,7 @@ def vertices_with_own_depth(system: CoordinateSystem, texel_from_light: Floats, 
     h = system.homogeneous(points)
     if not (h[:, 3] > 0.0).all():
         raise InputError("a point on or behind the neutral plane of the lamp has no image")
-    texels = h @ four_by_four(texel_from_light).T
+    texels = matmul(h, four_by_four(texel_from_light).T)
     texels[:, 2] = h[:, 2] / h[:, 3] * texels[:, 3]
     return np.asarray(texels)
 
@@ -289,7 +290,7 @@ def _constant_bias(found: ShadowMap, depth: Floats) -> Floats:
 def slopes(system: CoordinateSystem, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
     """How the depth after T2 of planes through world points (n, 3) with normals (n, 3) grows along x and y of a lamp's
     image plane, each (n,). Degenerate: a plane through the lamp rises without end: a very large number."""
-    n = normals @ system.rotation
+    n = matmul(normals, system.rotation)
     if system.distance == INFINITE:
         facing = n[:, 2]
     else:
@@ -332,5 +333,5 @@ def texels_per_unit(found: ShadowMap, points: ArrayLike) -> Floats:
     """
     p = light_plane(found.system, points)
     m = found.texel_from_light
-    weight = p @ m[2, :2] + m[2, 2]
-    return np.asarray(np.abs(np.linalg.det(m)) / np.abs(weight) ** 3)
+    weight = matmul(p, m[2, :2]) + m[2, 2]
+    return np.asarray(np.abs(determinant(m)) / np.abs(weight) ** 3)

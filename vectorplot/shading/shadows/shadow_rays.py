@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.vectors import cross
 from vectorplot.scene.light import Light
@@ -93,12 +94,12 @@ def _blocked(
         return result
     side = int(min(max(np.sqrt(len(here) / POINTS_OF_CELL), 1.0), MOST_CELLS))
     # In cells of the grid, which all points lie in.
-    frame = np.diag([side / 2.0, side / 2.0, 1.0]) @ standard_frame(flat[here, :2])
+    frame = matmul(np.diag([side / 2.0, side / 2.0, 1.0]), standard_frame(flat[here, :2]))
     frame[:2] += side / 2.0 * np.array([0.0, 0.0, 1.0])
-    places = np.column_stack([flat[here, :2] @ frame[:2, :2].T + frame[:2, 2], flat[here, 2]])
+    places = np.column_stack([matmul(flat[here, :2], frame[:2, :2].T) + frame[:2, 2], flat[here, 2]])
     x, y = np.ascontiguousarray(places[:, :2].T)
     light = system.homogeneous(v)
-    light[:, [0, 1]] = light[:, [0, 1, 3]] @ frame[:2].T
+    light[:, [0, 1]] = matmul(light[:, [0, 1, 3]], frame[:2].T)
     triangles = screen_triangles(light, corners, near=LAMP_OF_EXTENT)
     cells, sides = _sorted_into_cells(places, side), _Sides.of(triangles)
     planes = _Planes.of(system, v[corners], ZERO_OF_EXTENT * size)

@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 FOCUS_LINE = 0.8
@@ -82,7 +83,7 @@ class Axis:
         (...) array of float
             Positive towards F.
         """
-        return np.asarray((np.asarray(points, dtype=np.float64) - self.origin) @ self.direction)
+        return np.asarray(matmul(np.asarray(points, dtype=np.float64) - self.origin, self.direction))
 
     def across(self, points: ArrayLike) -> Floats:
         """Distances of points from the line of sight.
@@ -97,7 +98,7 @@ class Axis:
         (...) array of float
             Positive on the left.
         """
-        return np.asarray((np.asarray(points, dtype=np.float64) - self.origin) @ self.left)
+        return np.asarray(matmul(np.asarray(points, dtype=np.float64) - self.origin, self.left))
 
 
 def line_of_sight(points: ArrayLike, near: ArrayLike, far: ArrayLike) -> Axis:
@@ -140,7 +141,7 @@ def line_of_sight(points: ArrayLike, near: ArrayLike, far: ArrayLike) -> Axis:
     extent = float(np.ptp(p, axis=0).max())
     size = float(np.hypot(*arm))
     direction = arm / size if size > ZERO_OF_EXTENT * extent else np.array([1.0, 0.0])
-    t = (p - n) @ direction
+    t = matmul(p - n, direction)
     return Axis(n, direction, float(t.min()), float(t.max()))
 
 
@@ -174,7 +175,7 @@ def side_directions(points: ArrayLike, axis: Axis, eta: float) -> tuple[Floats, 
     q = axis.origin + (axis.top - eta) * axis.direction
     arm = np.asarray(points, dtype=np.float64) - q
     unit = arm / np.hypot(*arm.T)[:, None]
-    sine = unit @ axis.left
+    sine = matmul(unit, axis.left)
     return unit[sine.argmax()], unit[sine.argmin()]
 
 
@@ -219,7 +220,7 @@ def trapezoid(points: ArrayLike, axis: Axis, eta: float) -> Floats:
     q = axis.origin + (axis.top - eta) * axis.direction
     far = eta + axis.length
     reach = [(eta, left), (eta, right), (far, right), (far, left)]
-    return np.stack([q + t / (u @ axis.direction) * u for t, u in reach])
+    return np.stack([q + t / (matmul(u, axis.direction)) * u for t, u in reach])
 
 
 def widths(points: ArrayLike, axis: Axis) -> tuple[float, float]:
@@ -316,11 +317,14 @@ def tapered_map(points: ArrayLike, axis: Axis, taper: float) -> Floats:
     length = max(axis.length, ZERO_OF_EXTENT * extent) or 1.0
     plane = np.zeros((3, 3))
     # tau, distance from the line of sight, and one.
-    plane[0, :2], plane[0, 2] = axis.direction / length, -(axis.origin @ axis.direction + axis.top) / length
-    plane[1, :2], plane[1, 2] = -axis.left, axis.origin @ axis.left
+    plane[0, :2], plane[0, 2] = (
+        axis.direction / length,
+        -(matmul(axis.origin, axis.direction) + axis.top) / length,
+    )
+    plane[1, :2], plane[1, 2] = -axis.left, matmul(axis.origin, axis.left)
     plane[2, 2] = 1.0
     weight = plane[2] + taper * plane[0]
-    tau, across = (p @ row[:2] + row[2] for row in plane[:2])
+    tau, across = (matmul(p, row[:2]) + row[2] for row in plane[:2])
     spread = across / (1.0 + taper * np.clip(tau, 0.0, 1.0))
     low, high = float(spread.min()), float(spread.max())
     half = max((high - low) / 2.0, ZERO_OF_EXTENT * extent) or 0.5
@@ -332,7 +336,7 @@ def tapered_map(points: ArrayLike, axis: Axis, taper: float) -> Floats:
 def projective_images(matrix: Floats, points: ArrayLike) -> Floats:
     """(..., 2) points (..., 2) after a projective map (3, 3)."""
     p = np.asarray(points, dtype=np.float64)
-    h = p @ matrix[:, :2].T + matrix[:, 2]
+    h = matmul(p, matrix[:, :2].T) + matrix[:, 2]
     return np.asarray(h[..., :2] / h[..., 2:])
 
 

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import inverse_matrix, matmul
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 LARGEST_SHIFT = 1e4
@@ -89,7 +90,7 @@ def square_map(corners: ArrayLike) -> SquareMap:
     p = _checked(corners)
     if _length(p[1] - p[0]) > _length(p[3] - p[2]):
         turned = square_map_of_wide_base(p[[2, 3, 0, 1]])
-        return SquareMap(HALF_TURN @ turned.matrix, turned.shift, turned.stretch)
+        return SquareMap(matmul(HALF_TURN, turned.matrix), turned.shift, turned.stretch)
     return square_map_of_wide_base(p)
 
 
@@ -100,9 +101,9 @@ def square_map_of_wide_base(p: Floats) -> SquareMap:
     # Equation 23: first corner to the origin, top line along x.
     m[0] = y_a, -x_a, x_a * p[0, 1] - y_a * p[0, 0]
     m[1] = x_a, y_a, -(x_a * p[0, 0] + y_a * p[0, 1])
-    x_c3, y_c3 = m[:2, :2] @ p[3] + m[:2, 2]
+    x_c3, y_c3 = matmul(m[:2, :2], p[3]) + m[:2, 2]
     m[0] -= x_c3 / y_c3 * m[1]  # 27: the left side upright
-    x_d1, x_d2 = m[0, :2] @ p[1] + m[0, 2], m[0, :2] @ p[2] + m[0, 2]
+    x_d1, x_d2 = matmul(m[0, :2], p[1]) + m[0, 2], matmul(m[0, :2], p[2]) + m[0, 2]
     widening = x_d2 - x_d1
     if not abs(y_c3) < LARGEST_SHIFT * widening:
         return SquareMap(_affine(m, x_d2, y_c3), np.inf, np.inf)
@@ -140,22 +141,22 @@ def recipe_factors(corners: ArrayLike) -> tuple[Floats, ...]:
     def act(matrix: Floats) -> None:
         nonlocal total
         factors.append(matrix)
-        total = matrix @ total
+        total = matmul(matrix, total)
 
     act(_moved(-(t[2] + t[3]) / 2.0))
     x_u, y_u = (t[2] - t[3]) / _length(t[2] - t[3])
     act(_planar([[x_u, y_u], [y_u, -x_u]]))
-    act(_moved(-(total @ meeting)[:2]))
-    middle = total @ (points[2] + points[3]) / 2.0
+    act(_moved(-(matmul(total, meeting))[:2]))
+    middle = matmul(total, points[2] + points[3]) / 2.0
     act(_planar([[1.0, -middle[0] / middle[1]], [0.0, 1.0]]))
-    corner = total @ points[2]
+    corner = matmul(total, points[2])
     act(_planar([[1.0 / corner[0], 0.0], [0.0, 1.0 / corner[1]]]))
     perspective = np.eye(4)
     perspective[1, 3], perspective[3] = 1.0, (0.0, 1.0, 0.0, 0.0)
     act(perspective)
-    base, top = total @ points[0], total @ points[2]
+    base, top = matmul(total, points[0]), matmul(total, points[2])
     act(_moved(np.array([0.0, -(base[1] / base[3] + top[1] / top[3]) / 2.0])))
-    base = total @ points[0]
+    base = matmul(total, points[0])
     act(_planar([[1.0, 0.0], [0.0, -base[3] / base[1]]]))
     return tuple(factors)
 
@@ -193,7 +194,7 @@ def recipe_matrix(corners: ArrayLike) -> Floats:
     """
     total = np.eye(4)
     for factor in recipe_factors(corners):
-        total = factor @ total
+        total = matmul(factor, total)
     return total
 
 
@@ -207,15 +208,15 @@ def recipe_map(corners: ArrayLike) -> Floats:
     a, b = (t[2] - t[3]) / 2.0
     meeting = _meeting_point(t)
     m = np.array([[a, b, 0.0], [b, -a, 0.0], [0.0, 0.0, 1.0]])
-    m[:2, 2] = -m[:2, :2] @ meeting
-    (x2, y2), (x3, y3) = m[:2] @ h[2], m[:2] @ h[3]
+    m[:2, 2] = matmul(-m[:2, :2], meeting)
+    (x2, y2), (x3, y3) = matmul(m[:2], h[2]), matmul(m[:2], h[3])
     m[0] -= m[1] * (x2 + x3) / (y2 + y3)
-    m[:2] /= (m[:2] @ h[2])[:, None]
+    m[:2] /= (matmul(m[:2], h[2]))[:, None]
     m[2] = m[1]
     m[1, 2] += 1.0
-    base, top = m @ h[0], m @ h[2]
+    base, top = matmul(m, h[0]), matmul(m, h[2])
     m[1] -= m[2] * (base[1] / base[2] + top[1] / top[2]) / 2.0
-    base = m @ h[0]
+    base = matmul(m, h[0])
     m[1] *= -base[2] / base[1]
     return m
 
@@ -237,7 +238,7 @@ def quadrilateral_map(corners: ArrayLike) -> Floats:
     unit[:2, 0], unit[:2, 1], unit[:2, 2] = p[1] - p[0] + g * p[1], p[3] - p[0] + h * p[3], p[0]
     unit[2, :2] = g, h
     square = np.array([[2.0, 0.0, -1.0], [0.0, 2.0, -1.0], [0.0, 0.0, 1.0]])
-    return np.asarray(square @ np.linalg.inv(unit))
+    return np.asarray(matmul(square, inverse_matrix(unit)))
 
 
 def four_by_four(matrix: ArrayLike) -> Floats:

@@ -13,6 +13,7 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.parameters import parameter_range, positive, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import axis_frame
+from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.families.cylinder import Cylinder
 from vectorplot.surfaces.families.elliptic_sections import EllipticSections, Profile
 from vectorplot.surfaces.placed_surface import PlacedSurface
@@ -312,7 +313,7 @@ def rod(start: ArrayLike, end: ArrayLike, radius: float) -> PlacedSurface:
     """
     first, last = vector("rod: start", start), vector("rod: end", end)
     way = last - first
-    length = float(np.linalg.norm(way))
+    length = float(norm(way))
     if not length > 0.0:
         raise InputError("rod: both ends are the same point")
     return PlacedSurface(Capped(Cylinder(positive("rod: radius", radius), 0.0, length)), axis_frame(way), first)

@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.surfaces.families.quadric import checked_box
 from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.inversion import InvertedSurface
@@ -161,11 +162,11 @@ class ImplicitCyclide(MovableImplicit):
     def _constant(self) -> float:
         """|c|^2 + a^2 - b^2."""
         c = np.asarray(self.centre)
-        return float(c @ c) + (self.major - self.minor) * (self.major + self.minor)
+        return float(matmul(c, c)) + (self.major - self.minor) * (self.major + self.minor)
 
     def _parts(self, q: Floats) -> tuple[Floats, Floats]:
         """With n = q.q: n (|p|^2 + a^2 - b^2) (...,) and n p without height (..., 3), p the inverse of centre + q."""
         c, power = np.asarray(self.centre), self.radius**2
         n = (q * q).sum(axis=-1)
-        total = self._constant * n + 2.0 * power * (q @ c) + power * power
+        total = self._constant * n + 2.0 * power * (matmul(q, c)) + power * power
         return total, (n[..., None] * c + power * q) * np.array([1.0, 1.0, 0.0])

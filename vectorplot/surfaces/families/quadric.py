@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import positive, vector
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.placed_surface import MovableImplicit
@@ -78,12 +79,12 @@ class Quadric(MovableImplicit):
     def values(self, points: Floats) -> Floats:
         """(...,) F."""
         c, p = np.asarray(self.coefficients), points - np.asarray(self.origin)
-        return np.asarray(component_sum((p @ self.matrix + c[6:9]) * p) + c[9])
+        return np.asarray(component_sum((matmul(p, self.matrix) + c[6:9]) * p) + c[9])
 
     def gradients(self, points: Floats) -> Floats:
         """(..., 3) gradients."""
         p = points - np.asarray(self.origin)
-        return np.asarray(2.0 * p @ self.matrix + np.asarray(self.coefficients)[6:9])
+        return np.asarray(matmul(2.0 * p, self.matrix) + np.asarray(self.coefficients)[6:9])
 
     def hessians(self, points: Floats) -> Floats:
         """(..., 3, 3) second derivatives, everywhere the same."""

@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.derivatives import NumericFunction, cut_off, numeric_function
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.function_surface import ranges_of
 from vectorplot.surfaces.graphs.graph_regions import Disc, Region
@@ -318,7 +319,7 @@ def vertical(shape: object) -> Floats | None:
     inner = getattr(shape, "surface", None)
     along = None if inner is None else vertical(inner)
     if along is not None and hasattr(shape, "matrix"):
-        along = along @ np.asarray(shape.matrix)
+        along = matmul(along, np.asarray(shape.matrix))
     return along
 
 

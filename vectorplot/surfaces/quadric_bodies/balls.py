@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
 from vectorplot.surfaces.placed_surface import PlacedSurface
 
@@ -28,7 +29,7 @@ def ball_of(shape: object) -> Ball | None:
         return Ball(np.asarray(shape.centre), np.asarray(shape.semi_axes)[:, None] * _AXES)
     if isinstance(shape, PlacedSurface) and (inner := ball_of(shape.surface)):
         matrix = np.asarray(shape.matrix)
-        return Ball(inner.centre @ matrix + np.asarray(shape.shift), inner.frame @ matrix)
+        return Ball(matmul(inner.centre, matrix) + np.asarray(shape.shift), matmul(inner.frame, matrix))
     return None
 
 

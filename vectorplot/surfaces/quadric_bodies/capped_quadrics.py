@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.algebra import matmul
 from vectorplot.surfaces.families.capped import Capped, Frustum
 from vectorplot.surfaces.families.cylinder import Cone, Cylinder
 from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
@@ -34,7 +35,10 @@ def capped_quadric_of(shape: object) -> CappedQuadric | None:
     """The frustum or the part of a ball that a shape is the whole surface of, u its angle; else None."""
     if isinstance(shape, PlacedSurface) and (inner := capped_quadric_of(shape.surface)):
         matrix = np.asarray(shape.matrix)
-        centre, frame = inner.centre @ matrix + np.asarray(shape.shift), inner.frame @ matrix
+        centre, frame = (
+            matmul(inner.centre, matrix) + np.asarray(shape.shift),
+            matmul(inner.frame, matrix),
+        )
         return CappedQuadric(centre, frame, inner.low, inner.high, inner.radii, inner.is_round)
     if not isinstance(shape, Capped):
         return None

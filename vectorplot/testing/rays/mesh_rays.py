@@ -13,6 +13,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
@@ -158,8 +159,8 @@ def near_each(rays: Rays, some: slice, centre: Floats, radius: Floats) -> Bools:
     """(r,m) whether each of some rays comes nearer to each sphere than REACH_OF_CLEARANCE."""
     origin, direction = rays.origin[some], rays.direction[some]
     # Products of matrices instead of differences: within the unit cube, rounding is far below the reach.
-    along = direction @ centre.T - dot(direction, origin)[:, None]
-    square = dot(centre, centre) - 2.0 * (origin @ centre.T) + dot(origin, origin)[:, None]
+    along = matmul(direction, centre.T) - dot(direction, origin)[:, None]
+    square = dot(centre, centre) - 2.0 * (matmul(origin, centre.T)) + dot(origin, origin)[:, None]
     foot = np.clip(along, 0.0, rays.length[some, None])
     return np.asarray(square - foot * (2.0 * along - foot) <= (radius + 2.0 * REACH_OF_CLEARANCE) ** 2)
 

@@ -103,7 +103,7 @@ def _from_grid(surface: Surface, points: Floats, cells: int) -> Feet:
     # For so few questions a tree that is not balanced is good enough.
     tree = cKDTree(grid, balanced_tree=False, compact_nodes=False)
     _, start = tree.query(points, k=np.arange(1, count + 1))
-    extent = float(np.linalg.norm(np.ptp(grid, axis=0)))
+    extent = float(norm(np.ptp(grid, axis=0)))
     target = np.repeat(points, count, axis=0)
     found = [np.zeros((3, 0))]
     for first in range(0, len(target), CHUNK):

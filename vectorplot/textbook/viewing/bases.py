@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import length, normalize
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
@@ -138,5 +139,5 @@ def frame_from_world(origin: ArrayLike, basis: ArrayLike) -> Floats:
     """
     e, rows = np.asarray(origin, dtype=np.float64), np.asarray(basis, dtype=np.float64)
     matrix = np.eye(len(e) + 1)
-    matrix[:-1, :-1], matrix[:-1, -1] = rows, -rows @ e
+    matrix[:-1, :-1], matrix[:-1, -1] = rows, matmul(-rows, e)
     return matrix

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.collineation import depth_of
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.clipping.clip_windows import Box
@@ -103,4 +104,4 @@ class Frustum:
         (...) array of bool
             False for what lies behind the eye.
         """
-        return np.asarray((self.system.homogeneous(points) @ self.box.planes.T >= 0.0).all(axis=-1))
+        return np.asarray((matmul(self.system.homogeneous(points), self.box.planes.T) >= 0.0).all(axis=-1))

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 
 
 def homogeneous(points: ArrayLike) -> Floats:
@@ -88,4 +89,4 @@ def transformed(matrix: ArrayLike, points: ArrayLike) -> Floats:
     >>> transformed(viewport(100, 80), [(-1, -1, 0), (1, 1, 0)]).tolist()
     [[-0.5, -0.5, 0.0], [99.5, 79.5, 0.0]]
     """
-    return dehomogenized(homogeneous(points) @ np.asarray(matrix, dtype=np.float64).T)
+    return dehomogenized(matmul(homogeneous(points), np.asarray(matrix, dtype=np.float64).T))

@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.textbook.viewing.bases import basis_of_gaze, frame_from_world
 from vectorplot.textbook.viewing.homogeneous_points import dehomogenized, homogeneous
 
@@ -171,7 +172,7 @@ class ViewVolume:
     @cached_property
     def orthographic_perspective(self) -> Floats:
         """(4, 4) from the frustum to the cube: both in one."""
-        return np.asarray(self.orthographic @ self.perspective)
+        return np.asarray(matmul(self.orthographic, self.perspective))
 
 
 def camera_matrix(eye: ArrayLike, gaze: ArrayLike, up: ArrayLike) -> Floats:
@@ -235,7 +236,12 @@ def pixel_matrix(camera: ArrayLike, volume: ViewVolume, columns: int, rows: int)
     >>> transformed(matrix, [(0, 0, 4), (1, 1, 4)])[:, :2].round(6).tolist()
     [[49.5, 39.5], [99.5, 79.5]]
     """
-    return np.asarray(viewport(columns, rows) @ volume.orthographic_perspective @ np.asarray(camera, dtype=np.float64))
+    return np.asarray(
+        matmul(
+            matmul(viewport(columns, rows), volume.orthographic_perspective),
+            np.asarray(camera, dtype=np.float64),
+        )
+    )
 
 
 def segments_to_pixels(
@@ -285,15 +291,15 @@ def segments_to_pixels(
     ([True, False], 1.0)
     """
     camera = np.asarray(camera, dtype=np.float64)
-    p, q = (homogeneous(x) @ camera.T for x in (starts, ends))
+    p, q = (matmul(homogeneous(x), camera.T) for x in (starts, ends))
     above_p, above_q = p[:, 2] - volume.near, q[:, 2] - volume.near
     seen = (above_p <= 0.0) | (above_q <= 0.0)
     gap = np.where((above_p > 0.0) == (above_q > 0.0), 1.0, above_p - above_q)
     at_near = p + (above_p / gap)[:, None] * (q - p)
     at_near[:, 2] = volume.near
-    matrix = viewport(columns, rows) @ volume.orthographic_perspective
+    matrix = matmul(viewport(columns, rows), volume.orthographic_perspective)
     images = np.zeros((2, len(p), 3))
     for image, point, above in ((images[0], p, above_p), (images[1], q, above_q)):
         kept = np.where((above > 0.0)[:, None], at_near, point)[seen]
-        image[seen] = dehomogenized(kept @ matrix.T)
+        image[seen] = dehomogenized(matmul(kept, matrix.T))
     return images[0], images[1], np.asarray(seen)

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -55,7 +56,7 @@ def _directions(scene: Scene, view: View, number: int, face: Ints) -> Iterator[F
     """Directions (3,) of the view along which all faces of an item may show the same side."""
     own = vertical(scene.items[number].shape)
     if own is not None:
-        yield view.axes @ own
+        yield matmul(view.axes, own)
         return
     some = face[:: -(-len(face) // LOOKS)]
     normal, longest, _ = newell(view, some)
@@ -73,12 +74,12 @@ def _all_along(normal: Floats) -> Floats | None:
     unit = normal[:, length > 0.0] / length[length > 0.0]
     mean = unit.mean(axis=1) if unit.shape[1] else np.zeros(3)
     for _ in range(STEPS):
-        size = float(np.sqrt(mean @ mean))
+        size = float(np.sqrt(matmul(mean, mean)))
         # Of closed shapes nothing is left in the mean.
         if size < LEAST_MEAN:
             return None
         mean /= size
-        along = mean @ unit
+        along = matmul(mean, unit)
         worst = int(along.argmin())
         if along[worst] > 0.0:
             break
@@ -103,7 +104,7 @@ def field_order(view: View, face: Ints, direction: Floats) -> Precedence | None:
     if not frame[1:].any():
         return None
     corners = view.corners[view.offsets[face[0]] : view.offsets[face[-1] + 1]]
-    found = largest_plan(frame[:2] @ view.points, corners, ragged.offsets(view.face_sizes[face]))
+    found = largest_plan(matmul(frame[:2], view.points), corners, ragged.offsets(view.face_sizes[face]))
     if found is None:
         return None
     plan, kept = found
@@ -114,7 +115,7 @@ def field_order(view: View, face: Ints, direction: Floats) -> Precedence | None:
 def _side(direction: Floats, normal: Floats, zero: Floats) -> int:
     """1 if all faces with normals (3,f) show their outside along a direction (3,), or are edge-on, as far as zero (f,)
     tells, -1 if they show their inside, 0 if they differ."""
-    along = direction @ normal
+    along = matmul(direction, normal)
     if not (np.abs(along) > zero).any():
         return 0
     return int((along >= -zero).all()) - int((along <= zero).all())
@@ -126,7 +127,7 @@ def _across_sides(plan: Plan, view: View, frame: Floats) -> tuple[Ints, Ints]:
     Sides that the eye sees end-on in the plan are crossed by no sight line.
     """
     way = plan.end - plan.start
-    toward = frame @ view.eye[:, None] - plan.start if view.eye is not None else frame[:, 2:]
+    toward = matmul(frame, view.eye[:, None]) - plan.start if view.eye is not None else frame[:, 2:]
     turn = way[0] * toward[1] - way[1] * toward[0]
     limit = view.tolerance * np.hypot(*toward)
     on_left, on_right = turn > limit, turn < -limit

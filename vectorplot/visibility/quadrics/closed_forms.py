@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.bounds.boxes import overlapping_boxes
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
@@ -218,12 +219,12 @@ def _is_conic(scene: Scene, view: View, item: Item, ball: Ball, kinds: frozenset
         return True
     if not _is_sphere(ball):
         return False
-    light, square = curve_light(scene, view, item), float(ball.frame[0] @ ball.frame[0])
+    light, square = curve_light(scene, view, item), float(matmul(ball.frame[0], ball.frame[0]))
     return light.parallel or float(np.sum((np.asarray(light.position) - ball.centre) ** 2)) > square
 
 
 def _is_sphere(ball: Ball) -> bool:
-    product = ball.frame @ ball.frame.T
+    product = matmul(ball.frame, ball.frame.T)
     square = float(product[0, 0])
     return bool(np.abs(product - square * np.eye(3)).max() <= HOMOTHETIC * square)
 
@@ -317,16 +318,16 @@ def _world_boxes(view: View, bodies: Bodies) -> tuple[Floats, Floats, Floats]:
     """Smallest and largest coordinates (n,3) of bodies in the world, and (n,) how far they reach from the middle of
     these at most."""
     turned = view.axes * view.scale
-    centre = bodies.sight.points_of_view(bodies.balls.centre) @ turned + view.centre
-    frame = bodies.sight.vectors(bodies.balls.frame) @ turned
+    centre = matmul(bodies.sight.points_of_view(bodies.balls.centre), turned) + view.centre
+    frame = matmul(bodies.sight.vectors(bodies.balls.frame), turned)
     reach = np.sqrt((frame * frame).sum(axis=1))
     farthest = np.linalg.norm(frame, ord=2, axis=(1, 2)) if len(frame) else np.zeros(0)
     capped, every = bodies.capped, np.arange(len(bodies.capped))
     sides = []
     for axis in np.concatenate([-np.eye(3), np.eye(3)]):
-        direction = np.broadcast_to(bodies.sight.vectors(axis @ view.axes.T), (len(capped), 3))
-        points = bodies.sight.points_of_view(capped.farthest(every, direction)) @ turned + view.centre
-        sides.append(points @ np.abs(axis))
+        direction = np.broadcast_to(bodies.sight.vectors(matmul(axis, view.axes.T)), (len(capped), 3))
+        points = matmul(bodies.sight.points_of_view(capped.farthest(every, direction)), turned) + view.centre
+        sides.append(matmul(points, np.abs(axis)))
     low, high = np.stack(sides[:3], axis=1), np.stack(sides[3:], axis=1)
     diagonal = 0.5 * np.sqrt(dot(high - low, high - low))
     return (

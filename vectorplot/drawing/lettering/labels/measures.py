@@ -23,6 +23,7 @@ from vectorplot.drawing.lettering.labels.seen_labels import SeenLabels
 from vectorplot.drawing.lettering.text import Lettering
 from vectorplot.drawing.lettering.text_along import reads_backwards
 from vectorplot.drawing.strokes.stroke_paths import chosen
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import segments
 from vectorplot.scene.naming.labels import Along, OnCurve
 from vectorplot.scene.placement import Placement
@@ -87,7 +88,7 @@ def measures_tried(
         if not step.any():
             continue
         way = step / np.hypot(*step)
-        wide = float(np.ptp(usual.boxes.reshape(-1, 2) @ way))
+        wide = float(np.ptp(matmul(usual.boxes.reshape(-1, 2), way)))
         beyond = (begins + gap + 0.5 * wide) / whole
         text = set_at("above", -beyond if at == 0.0 else 1.0 + beyond)
         found.append(Measure(text, end + np.array([[[begins], [begins + gap + wide]]]) * way))

@@ -13,6 +13,7 @@ from vectorplot.features.implicit.implicit_refinement import CurveInSpace
 from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.polygonize import checked_values, onto_surface
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul, pseudo_inverse, symmetric_eigen
 from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.weld import close_points, one_each
@@ -112,9 +113,9 @@ def singular_points(surface: ImplicitSurface, mesh: Mesh, reach: float) -> Float
         x = start.copy()
         for _ in range(ROUNDS):
             bends = np.nan_to_num(hessians(surface, x))
-            step = (np.linalg.pinv(bends, rcond=RANK_OF_BENDING) @ np.nan_to_num(surface.gradients(x))[..., None])[
-                ..., 0
-            ]
+            step = (
+                matmul(pseudo_inverse(bends, rcond=RANK_OF_BENDING), np.nan_to_num(surface.gradients(x))[..., None])
+            )[..., 0]
             x = x - step * np.minimum(1.0, reach / np.maximum(np.linalg.norm(step, axis=1), LEAST_DIVISOR))[:, None]
         flatness = np.nan_to_num(np.linalg.norm(surface.gradients(x), axis=1), nan=np.inf)
         on = np.abs(checked_values(surface, x)) <= VANISHED_VALUE * usual * reach
@@ -134,7 +135,7 @@ def _critical(curve: CurveInSpace, start: Floats, reach: float) -> tuple[Floats,
             break
         slope, bend, frame = _second_order(curve, x)
         with np.errstate(all="ignore"):
-            values, vectors = np.linalg.eigh(np.nan_to_num(bend))
+            values, vectors = symmetric_eigen(np.nan_to_num(bend))
             largest = np.abs(values).max(axis=1, keepdims=True)
             # Along a direction in which g hardly bends there is nothing to be found.
             firm = np.abs(values) > FIRM_DIRECTION * largest
@@ -253,7 +254,7 @@ def _through(pieces: list[Floats], ends: Ints) -> tuple[list[Floats], list[bool]
         inward /= np.maximum(np.linalg.norm(inward, axis=1, keepdims=True), LEAST_DIVISOR)
         if len(here) % 2:
             continue
-        cosine = inward @ inward.T
+        cosine = matmul(inward, inward.T)
         np.fill_diagonal(cosine, np.inf)
         free = set(range(len(here)))
         for flat in np.argsort(cosine, axis=None, kind="stable"):

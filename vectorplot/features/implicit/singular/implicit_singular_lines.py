@@ -17,6 +17,7 @@ from vectorplot.features.implicit.singular.singular_equations import (
     onto_lines,
 )
 from vectorplot.geometry import records
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import Polylines
@@ -279,7 +280,7 @@ def _on_side(equations: SingularEquations, points: Floats, ways: Floats, step: f
     planes = [plane for side in range(len(sides.normals)) for plane in sides.planes(side)]
     normals, offsets = np.array([plane.normal for plane in planes]), np.array([plane.offset for plane in planes])
     with np.errstate(all="ignore"):
-        lengths = (offsets - points @ normals.T) / (ways @ normals.T)
+        lengths = (offsets - matmul(points, normals.T)) / (matmul(ways, normals.T))
     ahead = np.where(lengths >= 0.0, lengths, np.inf)
     nearest = np.argmin(ahead, axis=1)
     length = ahead[np.arange(len(points)), nearest]

@@ -14,6 +14,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit.polygonize import checked_values
+from vectorplot.geometry.algebra import singular_decomposition, symmetric_eigen
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
 from vectorplot.tolerances.of_extent import SECOND_DIFFERENCE_IN_SPACE, SETTLED_ON_LINE
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -106,7 +107,7 @@ class CuspidalEdges:
         Across the edge F is a z^2 + b y^3, and its sheets lie where the signs of both terms differ.
         """
         with np.errstate(all="ignore"):
-            values, vectors = np.linalg.eigh(np.nan_to_num(hessians(self.surface, points)))
+            values, vectors = symmetric_eigen(np.nan_to_num(hessians(self.surface, points)))
             steepest = np.abs(values).argmax(axis=1)
             normal = np.take_along_axis(vectors, steepest[:, None, None], axis=2)[..., 0]
             # Its sign is that of b / a, whatever that of a is.
@@ -155,13 +156,13 @@ def onto_lines(
 def line_tangents(equations: SingularEquations, points: Floats) -> Floats:
     """(n,3) unit tangents, of either sense, of the lines at points on them."""
     slopes = np.nan_to_num(equations.rows(points)[1])
-    return np.asarray(np.linalg.svd(slopes, full_matrices=False)[2][:, 2])
+    return np.asarray(singular_decomposition(slopes)[2][:, 2])
 
 
 def _least_step(away: Floats, slopes: Floats, rank: int) -> Floats:
     """(n,3) Newton's steps of least length for equations (n,r) with slopes (n,r,3) of a rank."""
     known: Bools = np.asarray(np.isfinite(away).all(axis=1) & np.isfinite(slopes).all(axis=(1, 2)))
-    left, sizes, right = np.linalg.svd(np.where(known[:, None, None], slopes, 0.0), full_matrices=False)
+    left, sizes, right = singular_decomposition(np.where(known[:, None, None], slopes, 0.0))
     sizes = np.where(sizes > RANK_OF_BENDING * sizes[:, :1], sizes, np.inf)
     sizes[:, rank:] = np.inf
     with np.errstate(all="ignore"):

@@ -10,6 +10,7 @@ from vectorplot.features.implicit.polygonize import checked_values
 from vectorplot.features.implicit.singular.implicit_singular_lines import SLOW, SingularLines, usual_gradient
 from vectorplot.features.implicit.singular.singular_equations import SingularEquations, onto_lines
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul, pseudo_inverse, symmetric_eigen
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.geometry.repair.weld import distinct_points
@@ -197,9 +198,9 @@ def _into_points(surface: ImplicitSurface, points: Floats, reach: float) -> Floa
         for _ in range(ROUNDS):
             slope = np.where(held, 0.0, np.nan_to_num(surface.gradients(x)))
             bend = np.where(held[:, None] | held[:, :, None], 0.0, np.nan_to_num(hessians(surface, x)))
-            step = (np.linalg.pinv(bend, rcond=FIRM) @ slope[..., None])[..., 0]
+            step = (matmul(pseudo_inverse(bend, rcond=FIRM), slope[..., None]))[..., 0]
             x = x - step * np.minimum(1.0, reach / np.maximum(np.linalg.norm(step, axis=1), LEAST_DIVISOR))[:, None]
-        sizes = np.abs(np.linalg.eigvalsh(np.nan_to_num(hessians(surface, x))))
+        sizes = np.abs(symmetric_eigen(np.nan_to_num(hessians(surface, x)))[0])
         flat = np.linalg.norm(np.nan_to_num(surface.gradients(x), nan=np.inf), axis=1) <= VANISHED_GRADIENT * usual
         on = np.abs(checked_values(surface, x)) <= VANISHED_GRADIENT * usual * reach
     good = flat & on & (np.linalg.norm(x - start, axis=1) <= reach) & sides.has(x)

@@ -315,8 +315,10 @@ def _check_edges(edges: list[list[int]], mesh: Mesh) -> None:
         if len(edge) != 2 or edge[0] == edge[1]:
             raise InputError(f"edge {number}: expected two different vertices")
     count = len(mesh.vertices)
-    sides = mesh_edges(mesh) @ np.array([count, 1])
-    listed = np.sort(np.array(edges).reshape(-1, 2) - 1, axis=1) @ np.array([count, 1])
+    low, high = mesh_edges(mesh).T
+    sides = low * count + high
+    low, high = np.sort(np.array(edges).reshape(-1, 2) - 1, axis=1).T
+    listed = low * count + high
     known = np.isin(listed, sides)
     if not known.all():
         first = int(np.argmin(known))

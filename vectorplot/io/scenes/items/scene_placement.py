@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 
+from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.bodies.solids import IDENTITY
 from vectorplot.io.scenes.scene_words import Words
 from vectorplot.tolerances.of_numbers import LARGEST
@@ -34,7 +35,7 @@ def affinely_mapped(placement: Placement, rows: Placement) -> Placement:
         return rows
     below = (0.0, 0.0, 0.0, 1.0)
     after, before = (np.array([*one, *below]).reshape(4, 4) for one in (rows, placement))
-    return tuple((after @ before)[:3].ravel().tolist())
+    return tuple((matmul(after, before))[:3].ravel().tolist())
 
 
 def turned(placement: Placement, axis: str, angle_deg: float) -> Placement:
@@ -82,8 +83,8 @@ def read_matrix(words: Words, at: int, owner: str, placement: Placement) -> tupl
     """The twelve numbers of an affine map."""
     rows, end = words.numbers(at + 1, 12, owner, "matrix")
     with np.errstate(divide="ignore"):
-        determinant = np.linalg.det(np.array(rows).reshape(3, 4)[:, :3])
-    if not determinant:
+        volume = determinant(np.array(rows).reshape(3, 4)[:, :3])
+    if not volume:
         words.fail(at, f"{owner}matrix: its determinant is 0")
     return _finite(words, at, owner, affinely_mapped(placement, tuple(rows))), end
 

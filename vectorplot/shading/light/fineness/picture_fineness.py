@@ -13,6 +13,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.edge_splitting import LOOKS, NONE, Edges, surface_numbers
 from vectorplot.features.facet_demands import INSIDE, JUMP, Allowed, off_chords, turning
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.unit_projection import Projection
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
@@ -172,7 +173,7 @@ class PictureFineness:
         return np.asarray(np.abs(shade[:, 1:-1] - between).max(axis=0))
 
     def _in_view(self, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
-        return self.view.points_of(points).T, normals @ self.view.axes.T
+        return self.view.points_of(points).T, matmul(normals, self.view.axes.T)
 
 
 def _jumps(one: Floats, other: Floats) -> Bools:

@@ -16,6 +16,7 @@ from vectorplot.curves.second_derivatives import second_derivatives
 from vectorplot.curves.splines.kinds import CubicSpline, InterpolatingSpline
 from vectorplot.curves.splines.spline_curve import SplineCurve, spline_curve
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.vectors import cross, length, normalize
 from vectorplot.surfaces.families.swept.swept import Swept
@@ -171,20 +172,22 @@ def _least_turning(points: Floats, tangents: Floats, closed: bool) -> Floats:
     turning spread evenly."""
     across = np.zeros_like(points)
     aside = np.eye(3)[np.argmin(np.abs(tangents[0]))]
-    across[0] = normalize(aside - (aside @ tangents[0]) * tangents[0])
+    across[0] = normalize(aside - (matmul(aside, tangents[0])) * tangents[0])
     for k in range(len(points) - 1):
         step = points[k + 1] - points[k]
-        size = step @ step
+        size = matmul(step, step)
         mirrored, turned = across[k], tangents[k]
         if size > 0.0:
-            mirrored = mirrored - 2.0 / size * (step @ mirrored) * step
-            turned = turned - 2.0 / size * (step @ turned) * step
+            mirrored = mirrored - 2.0 / size * (matmul(step, mirrored)) * step
+            turned = turned - 2.0 / size * (matmul(step, turned)) * step
         left = tangents[k + 1] - turned
-        if left @ left > 0.0:
-            mirrored = mirrored - 2.0 / (left @ left) * (left @ mirrored) * left
+        if matmul(left, left) > 0.0:
+            mirrored = mirrored - 2.0 / (matmul(left, left)) * (matmul(left, mirrored)) * left
         across[k + 1] = mirrored
     if not closed:
         return across
     beside = np.cross(tangents, across)
-    angle = np.arctan2(across[0] @ beside[-1], across[0] @ across[-1]) * np.linspace(0.0, 1.0, len(points))
+    angle = np.arctan2(matmul(across[0], beside[-1]), matmul(across[0], across[-1])) * np.linspace(
+        0.0, 1.0, len(points)
+    )
     return np.asarray(np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * beside)

@@ -13,6 +13,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
@@ -68,22 +69,22 @@ def in_slices(view: View, faces: ImageFaces, planes: Section) -> Slices:
     of the view are left out; a face in one of the planes lies in the slice above it.
     Source: Glaeser, section 5.3.
     """
-    normal = view.axes @ np.array(planes.normal)
+    normal = matmul(view.axes, np.array(planes.normal))
     frame = axis_frame(normal)
-    levels = (np.unique(planes.offsets) - np.dot(planes.normal, view.centre)) / view.scale
-    points = view_points(view, faces.points).T @ frame.T
+    levels = (np.unique(planes.offsets) - matmul(planes.normal, view.centre)) / view.scale
+    points = matmul(view_points(view, faces.points).T, frame.T)
     above = np.minimum(np.searchsorted(levels, points[:, 2] - view.tolerance), len(levels) - 1)
     points[:, 2] = np.where(np.abs(points[:, 2] - levels[above]) <= view.tolerance, levels[above], points[:, 2])
     pieces, parent, slice_ = cut_into_slices(points, faces.offsets, 2, levels)
     made = polygons_of(
-        image_points(view, np.ascontiguousarray((pieces.points @ frame).T)),
+        image_points(view, np.ascontiguousarray((matmul(pieces.points, frame)).T)),
         pieces.offsets,
         np.arange(len(parent)),
         view.tolerance,
     )
     parent, slice_ = parent[made.source], slice_[made.source]
     found = ImageFaces(made.points, made.offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
-    eye = float(normal @ view.eye) if view.eye is not None else float(np.copysign(np.inf, normal[2]))
+    eye = float(matmul(normal, view.eye)) if view.eye is not None else float(np.copysign(np.inf, normal[2]))
     rank = np.empty(len(levels) + 1, dtype=np.intp)
     rank[slice_order(np.concatenate([[-np.inf], levels, [np.inf]]), eye)] = np.arange(len(rank))
     return Slices(found, slice_, rank[slice_], frame, levels)
@@ -152,7 +153,7 @@ def ribbon_order(view: View, slices: Slices, found: Ribbons) -> ImageFaces:
 
 def _adjoining(view: View, slices: Slices) -> tuple[Ints, Ints]:
     """Pairs of pieces of one slice that have a part of an edge of the surface in common."""
-    height = slices.frame[2] @ view.points
+    height = matmul(slices.frame[2], view.points)
     used = np.unique(slices.faces.source)
     position, ends = ragged.take(view.offsets, used)
     face = np.repeat(used, np.diff(ends))
@@ -186,15 +187,15 @@ def _about_axis(view: View, slices: Slices) -> tuple[Floats, Floats, Floats, Flo
     """The sector of every piece about the axis through the eye, from low to high (p,), and its smallest and largest
     distance from it; where sight lines are parallel, the strip along them, and how far it is down them."""
     offsets = slices.faces.offsets
-    level = slices.frame[:2] @ view_points(view, slices.faces.points)
+    level = matmul(slices.frame[:2], view_points(view, slices.faces.points))
     if view.eye is None:
         towards = slices.frame[:2, 2]
         length = float(np.hypot(*towards))
         ahead = towards / length if length > 0.0 else np.array([1.0, 0.0])
-        across, down = ahead[0] * level[1] - ahead[1] * level[0], -(ahead @ level)
+        across, down = ahead[0] * level[1] - ahead[1] * level[0], -(matmul(ahead, level))
         least, most = (reduce.reduceat([across, down], offsets[:-1], axis=1) for reduce in (np.minimum, np.maximum))
         return least[0], most[0], least[1], most[1]
-    arm = level - (slices.frame[:2] @ view.eye)[:, None]
+    arm = level - (matmul(slices.frame[:2], view.eye))[:, None]
     after = arm[:, next_positions(offsets, np.arange(arm.shape[1]))]
     first = np.repeat(arm[:, offsets[:-1]], np.diff(offsets), axis=1)
     turned = np.arctan2(first[0] * arm[1] - first[1] * arm[0], (first * arm).sum(axis=0))

@@ -10,6 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.algebra import inverse_matrix, matmul
 from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates, eye_coordinates
@@ -33,7 +34,7 @@ class UnitBodies:
     @cached_property
     def inverse(self) -> Floats:
         """(n,3,3): s = (point - centre) @ inverse."""
-        return np.asarray(np.linalg.inv(self.frame))
+        return np.asarray(inverse_matrix(self.frame))
 
 
 class Placed(Protocol):
@@ -55,5 +56,5 @@ def bodies_in_sight(view: View, items: Sequence[Item], which: Ints, bodies: Sequ
     frame = np.array([body.frame for body in bodies]).reshape(-1, 3, 3)
     turned = view.axes.T / view.scale
     hides = np.array([items[k].hides for k in which.tolist()], dtype=np.bool_)
-    in_view = (centre - view.centre) @ turned
-    return UnitBodies(sight, sight.points(in_view), sight.vectors(frame @ turned), which, hides, view.tolerance)
+    in_view = matmul(centre - view.centre, turned)
+    return UnitBodies(sight, sight.points(in_view), sight.vectors(matmul(frame, turned)), which, hides, view.tolerance)

@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.algebra import matmul
 from vectorplot.scene.item import Item
 from vectorplot.scene.lines.curve_light import curve_light
 from vectorplot.scene.scene import Scene
@@ -37,8 +38,8 @@ def section_planes(
             normals += [section.normal] * len(section.offsets)
             offsets += section.offsets
     normal = np.array(normals).reshape(-1, 3)
-    height = (np.array(offsets) - normal @ view.centre) / view.scale
-    in_view = normal @ view.axes.T
+    height = (np.array(offsets) - matmul(normal, view.centre)) / view.scale
+    in_view = matmul(normal, view.axes.T)
     point = sight.points(in_view * height[:, None])
     return np.array(of, dtype=np.intp), sight.vectors(in_view), point
 
@@ -51,7 +52,7 @@ def lamps(
     lights = [curve_light(scene, view, items[k]) for k in which.tolist()]
     position = np.array([light.position for light in lights]).reshape(-1, 3)
     parallel = np.array([light.parallel for light in lights], dtype=np.bool_)
-    return sight.vectors(position @ view.axes.T), sight.points(view.points_of(position).T), parallel
+    return sight.vectors(matmul(position, view.axes.T)), sight.points(view.points_of(position).T), parallel
 
 
 def cosines(items: Sequence[Item], which: Ints) -> tuple[Ints, Floats]:

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import determinant
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
@@ -100,7 +101,7 @@ def _isophotes(scene: Scene, view: View, balls: Balls, items: Sequence[Item], wh
     # In the frame of the unit sphere, which a mirrored one turns inside out.
     s = np.einsum("ni,nij->nj", towards, balls.inverse[which])
     s /= np.sqrt(dot(s, s))[:, None]
-    turned = np.sign(np.linalg.det(balls.frame[which])) * (-1.0)
+    turned = np.sign(determinant(balls.frame[which])) * (-1.0)
     owner = ragged.owner(counts)
     cosine = cosine * turned[owner]
     far, near_by = away[owner, 0], distance[owner]

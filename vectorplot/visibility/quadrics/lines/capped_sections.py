@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.algebra import determinant
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
@@ -75,7 +76,7 @@ def capped_isophotes(
     owner = ragged.owner(counts)
     body, light = which[owner], (direction / np.sqrt(dot(direction, direction))[:, None])[owner]
     # Of a mirrored body the normals point inwards.
-    cosine = cosine * -np.sign(np.linalg.det(bodies.frame[body]))
+    cosine = cosine * -np.sign(determinant(bodies.frame[body]))
     is_round = bodies.is_round[body]
     flat, bent = np.flatnonzero(~is_round), np.flatnonzero(is_round)
     # Normals of mantles are (cos u, sin u, -growth) in the unit body, and so, as covectors, @ inverse in the picture.

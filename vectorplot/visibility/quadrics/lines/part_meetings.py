@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.algebra import matmul
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT
 from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
 from vectorplot.visibility.quadrics.bodies.seen_capped import BOTTOM, TOP
@@ -131,7 +132,7 @@ def forms_of_parts(bodies: Bodies, body: Ints, part: Ints) -> Floats:
     to_unit[:, :3, :3] = np.einsum("ij,njk->nik", sight.vectors(np.eye(3)), quadrics.inverse)
     to_unit[:, 3, :3] = quadrics.unit(np.arange(len(body)), np.broadcast_to(sight.points(np.zeros(3)), (len(body), 3)))
     to_unit[:, 3, 3] = 1.0
-    return np.asarray(to_unit @ in_unit @ to_unit.transpose(0, 2, 1))
+    return np.asarray(matmul(matmul(to_unit, in_unit), to_unit.transpose(0, 2, 1)))
 
 
 def _quadrics(bodies: Bodies, which: Ints) -> Quadrics:

@@ -9,6 +9,7 @@ from typing import Protocol
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.algebra import inverse_matrix, symmetric_eigen
 from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
 
@@ -31,7 +32,7 @@ class Quadrics:
     @cached_property
     def inverse(self) -> Floats:
         """(k,3,3): s = (point - centre) @ inverse."""
-        return np.asarray(np.linalg.inv(self.frame))
+        return np.asarray(inverse_matrix(self.frame))
 
     def unit(self, row: Ints, points: Floats) -> Floats:
         """(n,3) s of points."""
@@ -191,7 +192,7 @@ class Discs:
     @cached_property
     def _inverse(self) -> Floats:
         """(k,3,3): t, v and the height = (point - centre) @ inverse."""
-        return np.asarray(np.linalg.inv(np.stack([self.across, self.along, self.normal], axis=1)))
+        return np.asarray(inverse_matrix(np.stack([self.across, self.along, self.normal], axis=1)))
 
     def lines(self, row: Ints, t: Floats) -> tuple[Floats, Floats]:
         """(n,3) middles of chords, and half the chord through the middle."""
@@ -229,7 +230,7 @@ def chords_across(discs: Discs, quadrics: Quadrics) -> Discs:
     form = np.empty((len(row), 2, 2))
     form[:, 0, 0], form[:, 1, 1] = quadrics.product(row, one, one), quadrics.product(row, two, two)
     form[:, 0, 1] = form[:, 1, 0] = quadrics.product(row, one, two)
-    bends, ways = np.linalg.eigh(form)
+    bends, ways = symmetric_eigen(form)
     most = np.abs(bends).argmax(axis=1)
     a, b = ways[row, :, most].T
     return Discs(

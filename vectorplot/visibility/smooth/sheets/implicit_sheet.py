@@ -13,6 +13,7 @@ from vectorplot.features.implicit.implicit_sides import sides_of
 from vectorplot.features.implicit.polygonize import polygonized
 from vectorplot.features.implicit.singular.implicit_singular_lines import singular_lines, usual_gradient
 from vectorplot.features.implicit.singular.singular_equations import CuspidalEdges
+from vectorplot.geometry.algebra import matmul, pseudo_inverse
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.surfaces.placed_surface import PlacedImplicit
@@ -108,9 +109,9 @@ class ImplicitSheet:
         # One row for each side: its normal into the box, as far as it is tangential. At edges of the box the way is
         # into both of its sides.
         normals = np.nan_to_num(self.normals(places[at]))
-        along = sides[at, :, None] * (sides_of(self.home).normals @ self.view.axes.T)
+        along = sides[at, :, None] * (matmul(sides_of(self.home).normals, self.view.axes.T))
         along = along - np.einsum("kij,kj->ki", along, normals)[:, :, None] * normals[:, None]
-        inner[at] = np.einsum("kij,kj->ki", np.linalg.pinv(along, rcond=SAME_DIRECTION_SINE), np.abs(sides[at]))
+        inner[at] = np.einsum("kij,kj->ki", pseudo_inverse(along, rcond=SAME_DIRECTION_SINE), np.abs(sides[at]))
         return inner
 
     def turnings(self, places: Floats) -> Floats:
@@ -204,8 +205,8 @@ def placed_in_view(view: View, surface: ImplicitSurface) -> PlacedImplicit:
     if isinstance(surface, PlacedImplicit):
         # One placement instead of two keeps the digits of what is far from the origin.
         own, shift = np.asarray(surface.matrix), np.asarray(surface.shift)
-        return PlacedImplicit(surface.surface, own @ matrix, (shift - centre) @ matrix)
-    return PlacedImplicit(surface, matrix, -centre @ matrix)
+        return PlacedImplicit(surface.surface, matmul(own, matrix), matmul(shift - centre, matrix))
+    return PlacedImplicit(surface, matrix, matmul(-centre, matrix))
 
 
 def _sags(surface: PlacedImplicit, triangles: Floats) -> Floats:

@@ -32,6 +32,7 @@ from vectorplot.features.implicit.implicit_tracing import ImplicitCurves, Implic
 from vectorplot.features.implicit.singular.singular_curves import refined_line
 from vectorplot.features.implicit.singular.singular_equations import CuspidalEdges, DoubleLines
 from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.item import Item
 from vectorplot.scene.lines.curve_light import curve_light
@@ -131,7 +132,7 @@ def _isophotes(
     light, cosines = curve_light(scene, view, item), item.curves.isophotes
     condition: SpatialCondition
     if light.parallel:
-        condition = ImplicitIsophote(sheet.surface, view.axes @ np.asarray(light.position), 0.0)
+        condition = ImplicitIsophote(sheet.surface, matmul(view.axes, np.asarray(light.position)), 0.0)
         found = implicit_isophotes(sheet.home, light.position, cosines, tracing=tracing)
     else:
         condition = ImplicitPointIsophote(sheet.surface, view.points_of(np.array([light.position]))[:, 0], 0.0)
@@ -158,9 +159,9 @@ def _sections(
     result: list[Found] = []
     for section in sections:
         normal = np.asarray(section.normal)
-        family = SpatialCurves(sheet, number, MeetsPlane(view.axes @ normal, 0.0))
+        family = SpatialCurves(sheet, number, MeetsPlane(matmul(view.axes, normal), 0.0))
         found = implicit_plane_sections(sheet.home, normal, section.offsets, tracing=tracing)
-        offsets = (found.levels - view.centre @ normal) / view.scale
+        offsets = (found.levels - matmul(view.centre, normal)) / view.scale
         result.append((section.kind, family, replace(found, levels=offsets)))
     return result
 
@@ -176,7 +177,10 @@ def _borders(found: ImplicitCurves, sheet: ImplicitSheet, number: int) -> list[C
             on = np.logical_and.reduceat(np.append(held, True), found.offsets[:-1])
             here = np.flatnonzero(on & left)
             left[here] = False
-            seen = MeetsPlane(view.axes @ plane.normal, (plane.offset - float(view.centre @ plane.normal)) / view.scale)
+            seen = MeetsPlane(
+                matmul(view.axes, plane.normal),
+                (plane.offset - float(matmul(view.centre, plane.normal))) / view.scale,
+            )
             own = as_spatial_curves(found, LineKind.BOUNDARY, sheet, SpatialCurves(sheet, number, seen))
             result.append(own.some(here))
     return [*result, rims.some(np.flatnonzero(left))]

@@ -13,6 +13,7 @@ from vectorplot.features.intersections.implicit_mesh_section import implicit_mes
 from vectorplot.features.parametric.conditions import ImplicitSection
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.features.parametric.surface_sections import section_by_implicit
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances.of_parameters import OUTSIDE_DOMAIN
 from vectorplot.visibility.smooth.events.roots import roots_along
@@ -56,7 +57,7 @@ def implicit_with_mesh(
     view, world = sheet.view, tracing_in_world(sheet, tracing)
     placed = Mesh(view.world_of(mesh.vertices.T), mesh.corners, mesh.offsets, mesh.present)
     section = implicit_mesh_section(sheet.home, placed, tracing=world)
-    family, normals = ImplicitFaceCurves(sheet, number), section.normals @ view.axes.T
+    family, normals = ImplicitFaceCurves(sheet, number), matmul(section.normals, view.axes.T)
     curves = as_spatial_curves(section.curves, LineKind.INTERSECTION, sheet, family, normals)
     return replace(curves, item=np.full(len(curves), item)), section.curves.doubts
 

@@ -30,6 +30,7 @@ from vectorplot.features.parametric.surface_curves import SurfaceCurves
 from vectorplot.features.parametric.surface_paths import surface_path
 from vectorplot.features.parametric.surface_sections import plane_sections
 from vectorplot.features.zeros.zero_doubts import EVERYWHERE, JUMPS
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import unheard
 from vectorplot.scene.item import Item
 from vectorplot.scene.lines.curve_light import curve_light
@@ -169,8 +170,8 @@ def _asked_for(
         result.append(_isophotes(scene, view, item, sheet, number, tracing))
     for section in lines.sections:
         if section.kind in wanted:
-            normal = view.axes @ np.asarray(section.normal)
-            offsets = (np.asarray(section.offsets) - view.centre @ np.asarray(section.normal)) / view.scale
+            normal = matmul(view.axes, np.asarray(section.normal))
+            offsets = (np.asarray(section.offsets) - matmul(view.centre, np.asarray(section.normal))) / view.scale
             plane = PlaneSection(surface, normal, 0.0)
             found = plane_sections(surface, normal, offsets, tracing=tracing)
             result.append((section.kind, ConditionCurves(sheet, number, plane), found))
@@ -194,7 +195,7 @@ def _isophotes(scene: Scene, view: View, item: Item, sheet: ParametricSheet, num
     light, surface = curve_light(scene, view, item), sheet.surface
     condition: Isophote | PointIsophote
     if light.parallel:
-        towards = view.axes @ np.asarray(light.position)
+        towards = matmul(view.axes, np.asarray(light.position))
         condition = Isophote(surface, towards, 0.0)
         found = isophotes(surface, towards, item.curves.isophotes, tracing=tracing)
     else:

@@ -11,8 +11,9 @@ from vectorplot.curves.breaks import breaks_of, degree_of, is_weighted, weights_
 from vectorplot.curves.curve import Curve
 from vectorplot.features.parametric.curve_tracing import Tracing
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.chord_refinement import Traces, refined, straight_between, with_standstills
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_extent import SETTLED_ON_SHEET, ZERO_OF_EXTENT
 from vectorplot.visibility.smooth.sheets.family import Along, Chords, inner_part
@@ -64,7 +65,7 @@ class SpaceCurve:
         at = start + part[:, None] * (end - start)
         t = np.clip(at[:, 2], self.curve.start, self.curve.end)
         here = self.view.points_of(self.curve.points(t)).T
-        slopes = self.curve.tangents(self._inside(chords, part, t)) @ (self.view.axes / self.view.scale).T
+        slopes = matmul(self.curve.tangents(self._inside(chords, part, t)), (self.view.axes / self.view.scale).T)
         if self.surface is not None:
             at[:, :2] = _onto(self.surface, here, at)[0][:, :2]
         return Along(at, here, slopes * (end - start)[:, 2:])
@@ -161,7 +162,7 @@ def _placed(sheet: ParametricSheet, points: Floats) -> tuple[Floats, float]:
     if not len(finite):
         return np.zeros((len(points), 2)), np.inf
     distance, nearest = cKDTree(sheet.vertices[finite]).query(points)
-    side = np.linalg.norm(np.ptp(sheet.vertices[finite], axis=0)) / 8.0
+    side = norm(np.ptp(sheet.vertices[finite], axis=0)) / 8.0
     if float(distance.max()) > side:
         return np.zeros((len(points), 2)), np.inf
     places, off = _onto(sheet, points, sheet.vertex_places[finite[nearest]])
