@@ -7,6 +7,8 @@ from itertools import pairwise
 
 import numpy as np
 
+from vectorplot.geometry.elementary import log
+
 
 @dataclass(frozen=True)
 class Sample:
@@ -67,7 +69,7 @@ class ErrorCurve:
         known = [sample for sample in self.samples if sample.error > 0.0]
         if len(known) < 2:
             return None
-        knobs, errors = np.log([sample.knob for sample in known]), np.log([sample.error for sample in known])
+        knobs, errors = log([sample.knob for sample in known]), log([sample.error for sample in known])
         return float(np.polyfit(knobs, errors, 1)[0])
 
     @property

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable
 from dataclasses import dataclass
 
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.geometry.elementary import log
 from vectorplot.tolerances.of_measuring import PLAIN_NUMBER
 
 LARGEST_PLAIN = 1e4
@@ -45,7 +47,7 @@ class LogAxis:
         usable = [value for value in values if 0.0 < value < np.inf]
         if not usable:
             return cls(label, 0.1, 10.0)
-        low, high = np.log10(min(usable)), np.log10(max(usable))
+        low, high = math.log10(min(usable)), math.log10(max(usable))
         room = max(0.06 * (high - low), 0.5 - 0.5 * (high - low))
         return cls(label, float(10.0 ** (low - room)), float(10.0 ** (high + room)))
 
@@ -53,12 +55,12 @@ class LogAxis:
         """Where values are along the axis, 0 to 1; NaN for what is not positive."""
         given = np.asarray(values, dtype=np.float64)
         known = np.where(given > 0.0, given, np.nan)
-        return np.asarray(np.log(known / self.low) / np.log(self.high / self.low))
+        return np.asarray(log(known / self.low) / log(self.high / self.low))
 
     def ticks(self) -> tuple[Tick, ...]:
         """The marks, from low to high."""
-        first, last = int(np.floor(np.log10(self.low))), int(np.ceil(np.log10(self.high)))
-        decades = np.log10(self.high / self.low)
+        first, last = int(np.floor(math.log10(self.low))), int(np.ceil(math.log10(self.high)))
+        decades = math.log10(self.high / self.low)
         numbered = {1, 2, 5} if decades <= FEW_DECADES else {1}
         every = int(np.ceil(decades / MOST_NUMBERS))
         found = []

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
@@ -305,8 +306,8 @@ class NumericFunction:
         probes = self._probes()
         factor = 4.0 if self.function.one_at_a_time else 2.0
         # Powers of two, so that the nodes are exact.
-        longest = 2.0 ** np.floor(np.log2(self.ranges[axis].length / 64.0))
-        steps = longest * factor ** -np.arange(0.0, 18.0 / np.log2(factor))
+        longest = 2.0 ** (math.frexp(self.ranges[axis].length / 64.0)[1] - 1)
+        steps = longest * np.ldexp(1.0, -np.arange(0, 18, round(math.log2(factor))))
         centred = [self.ranges[axis].centres(probes[axis], h) for h in steps]
         slopes = [_five_points(function, axis, probes, c, h) for c, h in zip(centred, steps, strict=True)]
         changes = [_most(np.abs(a - b)) for a, b in pairwise(slopes)]

@@ -88,7 +88,7 @@ def _divisions(off_mm: Floats) -> Ints:
     Source: Farin, Curves and Surfaces for CAGD, section 6.5: the difference falls with the fourth power of the length.
     """
     ratio = np.where(np.isfinite(off_mm), off_mm / EXACT_MM, 1.0)
-    return np.clip(np.ceil(ratio**0.25), 1, MOST_DIVISIONS).astype(np.intp)
+    return np.clip(np.ceil(np.sqrt(np.sqrt(ratio))), 1, MOST_DIVISIONS).astype(np.intp)
 
 
 def _divided(seen: Visibility, count: Ints) -> Visibility:

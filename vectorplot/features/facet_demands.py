@@ -11,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.features.edge_splitting import LOOKS, Edges
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arccos
 from vectorplot.geometry.vectors import norm
 
 Allowed = Callable[[Floats], Floats]
@@ -87,6 +88,6 @@ def off_chords(edges: Edges) -> Floats:
 def turning(edges: Edges) -> Floats:
     """(n,) by how much normals turn from end to end, as far as they do so smoothly."""
     nodes = np.stack((edges.start.normals, *edges.at.normals[: len(LOOKS)], edges.end.normals))
-    steps = np.arccos(np.clip(component_sum(nodes[1:] * nodes[:-1]), -1.0, 1.0))
+    steps = arccos(np.clip(component_sum(nodes[1:] * nodes[:-1]), -1.0, 1.0))
     smooth = np.isfinite(steps) & (steps < JUMP)
     return np.asarray(np.where(smooth, steps, 0.0).sum(axis=0))

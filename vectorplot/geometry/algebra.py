@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
+from vectorplot.tolerances.of_numbers import ULP
 
 LONG_SUM = 64
 """Sums of more terms than this are left to numpy's own loop, which no processor changes either."""
@@ -124,6 +125,39 @@ def inverse_matrix(matrices: ArrayLike) -> Floats:
     return linear_solution(m, np.eye(m.shape[-1]))
 
 
+def banded_solution(bands: Floats, right: Floats) -> Floats:
+    """The solution x (n,m) of equations with n unknowns whose entries lie near the diagonal.
+
+    bands (n, 2b + 1) holds the entries of row i in columns i - b to i + b, right (n,m) the right sides. NaN or infinity
+    where the equations are singular.
+
+    Source: elimination with row pivoting, Golub and Van Loan, Matrix Computations, section 4.3.
+    """
+    count, width = bands.shape
+    reach = width // 2
+    rows = np.concatenate([bands, np.zeros((reach + 1, width))])
+    sides = np.concatenate([right, np.zeros((reach + 1, right.shape[1]))])
+    # The rows that have an entry in the column of the step, and all their columns from there on.
+    window, beside = np.zeros((reach + 1, width)), sides[: reach + 1].copy()
+    for row in range(min(reach + 1, count)):
+        window[row, : reach + 1 + row] = rows[row, reach - row :]
+    upper, found = np.empty((count, width)), np.zeros((count + width, right.shape[1]))
+    with np.errstate(all="ignore"):
+        for step in range(count):
+            best = int(np.argmax(np.abs(window[:, 0])))
+            if best:
+                window[[0, best]], beside[[0, best]] = window[[best, 0]], beside[[best, 0]]
+            upper[step], found[step] = window[0], beside[0]
+            share = window[1:, :1] / window[0, 0]
+            window[:-1, :-1], beside[:-1] = window[1:, 1:] - share * window[0, 1:], beside[1:] - share * beside[0]
+            window[:, -1] = 0.0
+            window[-1], beside[-1] = rows[step + reach + 1], sides[step + reach + 1]
+        for step in range(count - 1, -1, -1):
+            later = matmul(upper[step, 1:], found[step + 1 : step + width])
+            found[step] = (found[step] - later) / upper[step, 0]
+    return found[:count]
+
+
 def _eliminated(m: Floats, right: Floats) -> tuple[Floats, Floats]:
     """(..., k, k + n) matrices and right sides after elimination with row pivoting; (...) signs of the row orders."""
     work = np.concatenate([m, right], axis=-1)
@@ -162,9 +196,7 @@ def symmetric_eigen(matrices: ArrayLike) -> tuple[Floats, Floats]:
             for q in range(p + 1, size):
                 off, low, high = a[..., p, q].copy(), a[..., p, p].copy(), a[..., q, q].copy()
                 # A rotation that changes neither diagonal element is done with.
-                idle = ~(np.abs(off) > np.finfo(np.float64).eps * 0.125 * np.minimum(np.abs(low), np.abs(high))) | (
-                    off == 0.0
-                )
+                idle = ~(np.abs(off) > 0.125 * ULP * np.minimum(np.abs(low), np.abs(high))) | (off == 0.0)
                 largest = max(largest, float(np.max(np.where(idle, 0.0, 1.0), initial=0.0)))
                 cosine, sine = _rotation(np.where(idle, 0.0, off), high - low)
                 _turn(a, p, q, cosine, sine)
@@ -215,7 +247,7 @@ def singular_decomposition(matrices: ArrayLike) -> tuple[Floats, Floats, Floats]
             for q in range(p + 1, count):
                 x, y = m[..., p], m[..., q]
                 low, high, off = _summed(x * x), _summed(y * y), _summed(x * y)
-                idle = ~(off * off > (np.finfo(np.float64).eps ** 2) * low * high)
+                idle = ~(off * off > ULP * ULP * low * high)
                 busy = busy or not bool(idle.all())
                 cosine, sine = _rotation(np.where(idle, 0.0, off), high - low)
                 _turn(m, p, q, cosine, sine)

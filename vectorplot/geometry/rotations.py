@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import normalize, spherical_coordinates
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
@@ -317,13 +318,13 @@ def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:
     """
     m = np.asarray(axes, dtype=np.float64)
     sine = float(np.hypot(m[2, 0], m[2, 1]))
-    beta = float(np.arctan2(sine, m[2, 2]))
+    beta = float(arctan2(sine, m[2, 2]))
     if sine > PARALLEL_SINE:
-        gamma = float(np.pi / 2.0 + np.arctan2(m[2, 1], m[2, 0]))
-        alpha = float(np.arctan2(m[0, 2], m[1, 2]))
+        gamma = float(np.pi / 2.0 + arctan2(m[2, 1], m[2, 0]))
+        alpha = float(arctan2(m[0, 2], m[1, 2]))
     else:
         gamma = float(np.pi / 2.0)
-        turn = float(np.arctan2(m[0, 1], m[0, 0])) - gamma
+        turn = float(arctan2(m[0, 1], m[0, 0])) - gamma
         alpha = turn if m[2, 2] > 0.0 else -turn
     return float(np.pi - (np.pi - alpha) % (2.0 * np.pi)), beta, gamma
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 FEW_COMPONENTS = 7
@@ -258,7 +259,7 @@ def angle(a: ArrayLike, b: ArrayLike) -> Floats:
     """
     a, b = normalize(a), normalize(b)
     sine = np.abs(cross(a, b)) if a.shape[-1] == 2 else length(cross(a, b))
-    return np.asarray(np.arctan2(sine, dot(a, b)))
+    return np.asarray(arctan2(sine, dot(a, b)))
 
 
 def angle_line_plane(direction: ArrayLike, normal: ArrayLike) -> Floats:
@@ -399,8 +400,8 @@ def spherical_coordinates(points: ArrayLike) -> Floats:
     """
     p = np.asarray(points, dtype=np.float64)
     across = length(p[..., :2])
-    azimuth = np.where(across > 0.0, np.arctan2(p[..., 1], p[..., 0]), 0.0)
-    return np.stack([length(p), azimuth, np.arctan2(p[..., 2], across)], axis=-1)
+    azimuth = np.where(across > 0.0, arctan2(p[..., 1], p[..., 0]), 0.0)
+    return np.stack([length(p), azimuth, arctan2(p[..., 2], across)], axis=-1)
 
 
 def from_spherical_coordinates(coordinates: ArrayLike) -> Floats:

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from vectorplot.drawing.drawing import CurvedStrokes, Layer, Paths
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import segments
 
 
@@ -21,7 +22,7 @@ def chord_error_mm(strokes: Paths) -> float | None:
     chord = strokes.points[ends[:, 1]] - strokes.points[ends[:, 0]]
     length = np.hypot(*chord.T)
     leaving, arriving = strokes.directions[ends[:, 0], 1], strokes.directions[ends[:, 1], 0]
-    along = np.arctan2(chord[:, 1], chord[:, 0])
+    along = arctan2(chord[:, 1], chord[:, 0])
     off = length / 8.0 * np.abs(np.sin(leaving - along) - np.sin(arriving - along))
     # Over a cusp the directions are those of two branches.
     turns = np.minimum(np.cos(leaving - along), np.cos(arriving - along))

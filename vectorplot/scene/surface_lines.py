@@ -14,6 +14,7 @@ from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import determinant
 from vectorplot.geometry.cuts.half_spaces import moved_planes
+from vectorplot.geometry.elementary import cbrt
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.lines.integral_lines import IntegralLines
 from vectorplot.scene.terrains.terrain_lines import TerrainLines
@@ -344,7 +345,7 @@ class SurfaceLines:
 def linear_growth(matrix: Floats) -> float:
     """How many times longer lengths become, on average, under a matrix (4,4) that acts on columns."""
     with np.errstate(over="ignore"):
-        return float(np.cbrt(abs(determinant(matrix[:3, :3]))))
+        return float(cbrt(abs(determinant(matrix[:3, :3]))))
 
 
 NO_LINES = SurfaceLines()

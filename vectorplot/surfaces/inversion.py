@@ -137,7 +137,7 @@ class InvertedSurface(MovableSurface):
         """Second derivative, q_u = a, q_v = b, q_uv = ab."""
         n, pa, pb = _square(q), _dot(q, a), _dot(q, b)
         with np.errstate(divide="ignore", invalid="ignore"):
-            along = 8.0 * pa * pb / n**3 - 2.0 * (_dot(a, b) + _dot(q, ab)) / n**2
+            along = 8.0 * pa * pb / (n * n * n) - 2.0 * (_dot(a, b) + _dot(q, ab)) / n**2
             return np.asarray(self.radius**2 * (ab / n - 2.0 * (pb * a + pa * b) / n**2 + along * q))
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.features.integral.sites import Sites, unit
 from vectorplot.features.integral.tangent_fields import TangentField
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import Surface
 from vectorplot.testing.curves import places_near
@@ -69,4 +70,4 @@ def _directions(points: Floats, chords: Floats, surface: Surface, field: Tangent
 
 def _angles(a: Floats, b: Floats) -> Floats:
     """(...) between straight lines with unit directions (...,3)."""
-    return np.asarray(np.arctan2(norm(cross(a, b)), np.abs(dot(a, b))))
+    return np.asarray(arctan2(norm(cross(a, b)), np.abs(dot(a, b))))

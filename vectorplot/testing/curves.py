@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import length, norm, normalize
 from vectorplot.scene.light import Light
 from vectorplot.surfaces.normals import unit_normals
@@ -155,7 +156,7 @@ def assert_contour(points: Curves, surface: AnySurface, eye: Camera | ArrayLike,
 
     def error(rays: Floats, normals: Floats) -> Floats:
         across = length(np.cross(normals, rays))
-        return np.asarray(np.abs(np.arctan2((normals * rays).sum(axis=-1), across)))
+        return np.asarray(np.abs(arctan2((normals * rays).sum(axis=-1), across)))
 
     found, places = _on(points, surface, tolerance)
     text = "not on the contour: the angle between sight ray and tangent plane"
@@ -210,7 +211,7 @@ def assert_isophote(
         raise InputError(f"isophote: an angle of {angle:g} is not between 0 and pi")
     found, places = _on(points, surface, tolerance)
     rays, normals = _light_rays(found.points, light)[:, None], places.normals
-    error = np.abs(np.arctan2(length(np.cross(normals, rays)), (normals * rays).sum(axis=-1)) - angle)
+    error = np.abs(arctan2(length(np.cross(normals, rays)), (normals * rays).sum(axis=-1)) - angle)
     text = f"not on the isophote of {angle:.10g}: the difference of the angle between normal and light"
     _assert_angle(found, places, error, tolerance, text)
 

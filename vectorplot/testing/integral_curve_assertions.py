@@ -11,6 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.integral.sites import Sites, unit
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.features.parametric.surface_curves import SurfaceCurves
+from vectorplot.geometry.elementary import arcsin, arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.vectors import cross, dot, norm
@@ -108,7 +109,7 @@ def assert_integral_curve(
         ahead = np.bincount(own.curve, weights=(cosines[0] > 0.0).astype(np.float64))
         both = (ahead > 0.0) & (ahead < np.bincount(own.curve))
         assert not both.any(), f"{int(both.sum())} curves follow the field here and run against it there"
-    error = np.arctan2(sines, np.abs(cosines)).min(axis=0)
+    error = arctan2(sines, np.abs(cosines)).min(axis=0)
     if said is not None:
         assert_chords(polylines_of(lines), surface, field, tolerance)
         return
@@ -126,7 +127,7 @@ def _check_directions(said: KnownDirections, surface: Surface, field: TangentFie
     u, v = places.parameters[np.arange(len(said.points)), np.argmin(places.distance, axis=1)].T
     candidates = field.tangents(Sites(surface, np.ascontiguousarray(u), np.ascontiguousarray(v)))
     with np.errstate(invalid="ignore"):
-        angles = np.arcsin(np.minimum(said.sines(candidates), 1.0))
+        angles = arcsin(np.minimum(said.sines(candidates), 1.0))
         error = np.where(np.isfinite(angles), angles, np.inf).min(axis=0)
     error[~np.isfinite(candidates).all(axis=(0, 2))] = 0.0
     k = int(np.argmax(error))

@@ -15,6 +15,7 @@ from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.features.meshes.nearest_on_mesh import nearest_on_mesh
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.testing.curve_points import Curves, polylines_of
@@ -203,7 +204,7 @@ def _counter_clockwise(own: _Segments, corner: Ints, way: Floats, beyond: Ints, 
 
 def _between(a: Floats, b: Floats) -> Floats:
     """(k,) the angles between vectors (k,3)."""
-    return np.asarray(np.arctan2(norm(cross(a, b)), dot(a, b)))
+    return np.asarray(arctan2(norm(cross(a, b)), dot(a, b)))
 
 
 def _name(point: Floats) -> str:

@@ -7,6 +7,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import cbrt
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm, normalize
 from vectorplot.scene.item import Item
@@ -188,7 +189,7 @@ def random_convex_solids(count: int = 12, seed: int = 0) -> Scene:
 def rotated_boxes(count: int = 30, seed: int = 0) -> Scene:
     """Boxes of many sizes turned and scattered at random; the density does not depend on their number."""
     random = np.random.default_rng(seed)
-    room = 1.2 * np.cbrt(count)
+    room = 1.2 * cbrt(count)
     boxes = []
     for _ in range(count):
         half = random.uniform(0.15, 0.6, 3)

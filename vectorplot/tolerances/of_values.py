@@ -154,3 +154,6 @@ and what they settle changes by as little."""
 SAME_SHADE = 1e-9
 """Shades of one point, found from two triangles at it, differ by rounding only below this part of a palette; those on
 two sides of a sharp edge by much more."""
+
+UNSOLVED = 1e12
+"""Control points this many times as far out as the points of a spline are none: the equations have no solution."""

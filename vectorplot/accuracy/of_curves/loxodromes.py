@@ -14,6 +14,7 @@ from vectorplot.features.integral.integral_curves import integral_curves
 from vectorplot.features.integral.integration import USUAL, Accuracy
 from vectorplot.features.integral.tangent_fields import loxodromes
 from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.geometry.elementary import arctanh, tan
 from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.textbook.field_steps import euler_curves, runge_kutta_curves
@@ -43,7 +44,7 @@ def loxodrome_end() -> Floats:
 
     Source: Glaeser, section 8.1, equation 5.
     """
-    longitude = np.arctanh(np.sin(-LATITUDE)) * np.tan(COURSE)
+    longitude = arctanh(np.sin(-LATITUDE)) * tan(COURSE)
     return np.asarray(Loxodrome(RADIUS_MM, COURSE, 0.0, longitude).points(longitude))
 
 

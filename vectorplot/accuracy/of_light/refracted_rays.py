@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.accuracy.approximation import Approximation, Study, Way
 from vectorplot.arrays import Floats
 from vectorplot.effects.glass.refraction import angle_of_refraction, tangents_of_rays
+from vectorplot.geometry.elementary import arctan, tan
 
 WATER = 4.0 / 3.0
 
@@ -38,14 +39,14 @@ def by_angle(far: Floats, deep: Floats, steps: int) -> Floats:
 
     Source: Glaeser, section 6.6, equation 5.
     """
-    alpha = np.arctan(far / (HEIGHT + deep))
+    alpha = arctan(far / (HEIGHT + deep))
     for _ in range(steps):
         beta = angle_of_refraction(alpha, WATER)
-        excess = HEIGHT * np.tan(alpha) + deep * np.tan(beta) - far
+        excess = HEIGHT * tan(alpha) + deep * tan(beta) - far
         bend = np.cos(alpha) / (WATER * np.cos(beta))
         slope = HEIGHT / np.cos(alpha) ** 2 + deep * bend / np.cos(beta) ** 2
-        alpha = np.clip(alpha - excess / slope, 0.0, np.arctan(far / HEIGHT))
-    return np.asarray(np.tan(alpha))
+        alpha = np.clip(alpha - excess / slope, 0.0, arctan(far / HEIGHT))
+    return np.asarray(tan(alpha))
 
 
 def by_tangent(far: Floats, deep: Floats, steps: int) -> Floats:

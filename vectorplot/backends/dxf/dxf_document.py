@@ -15,6 +15,7 @@ from vectorplot.backends.page.areas import Areas
 from vectorplot.backends.page.page_marks import Ink, PageMarks, PageStrokes, page_marks
 from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.drawing.drawing import Drawing
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.scene.naming.labels import TYPE_SIZE
 from vectorplot.tolerances.of_angles import WHOLE_TURN
 from vectorplot.tolerances.of_values import HOMOTHETIC
@@ -174,7 +175,7 @@ def _arc(space: Modelspace, lines: PageStrokes, arc: int, own: dict[str, Any]) -
         if whole:
             space.add_circle(centre.tolist(), sizes[0], dxfattribs=own)
             return
-        begin, stop = np.degrees(np.array([start, end]) + np.arctan2(first[1], first[0])).tolist()
+        begin, stop = np.degrees(np.array([start, end]) + arctan2(first[1], first[0])).tolist()
         space.add_arc(centre.tolist(), sizes[0], begin, stop, dxfattribs=own)
         return
     if sizes[1] > sizes[0]:

@@ -23,6 +23,7 @@ from vectorplot.backends.svg.path_data import formatted
 from vectorplot.backends.svg.texts_in_svg import text_elements
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
 from vectorplot.tolerances.of_the_page import ARC_DECIMAL_MM
 
@@ -179,7 +180,7 @@ def _arc_data(lines: PageStrokes, height: int) -> list[bytes]:
     size = np.stack((np.hypot(*arcs.first.T), np.hypot(*arcs.second.T)))
     # In the file y goes down: angles and senses of turning are mirrored. The axes of a circle have no direction, and
     # those of an ellipse that lies flat are at 0 degrees, not now and then at what would be written as 180.
-    tilt = np.degrees(np.arctan2(-arcs.first[:, 1], arcs.first[:, 0])).round(5) % 180.0
+    tilt = np.degrees(arctan2(-arcs.first[:, 1], arcs.first[:, 0])).round(5) % 180.0
     tilt = np.where(np.abs(size[0] - size[1]) < ARC_DECIMAL_MM, 0.0, tilt)
     handed = arcs.first[:, 0] * arcs.second[:, 1] > arcs.first[:, 1] * arcs.second[:, 0]
     clockwise = handed != (arcs.end > arcs.start)

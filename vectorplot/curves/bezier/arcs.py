@@ -18,6 +18,7 @@ from vectorplot.geometry.algebra import (
     symmetric_eigen,
 )
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arctan2, power, tan
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_angles import LOOP_TURN, WHOLE_TURN
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
@@ -91,7 +92,7 @@ def arc_error(angle: Floats | float) -> Floats:
     Source: Goldapp, Approximation of circular arcs by cubic polynomials, CAGD 8 (1991), for handles 4/3 tan(angle/4):
     the square of the radius is wrong by 4/27 sin^6(angle/4) / cos^2(angle/4).
     """
-    square = 4.0 / 27.0 * np.sin(angle / 4.0) ** 6 / np.cos(angle / 4.0) ** 2
+    square = 4.0 / 27.0 * power(np.sin(angle / 4.0), 6) / np.cos(angle / 4.0) ** 2
     return np.asarray(square / (1.0 + np.sqrt(1.0 + square)))
 
 
@@ -143,7 +144,7 @@ def arc_path(arc: EllipseArc, *, tolerance: float) -> BezierPath:
     points, tangents = arc.points(t), arc.tangents(t)
     if arc.closed:
         points[-1], tangents[-1] = points[0], tangents[0]
-    handles = 4.0 / 3.0 * np.tan((arc.end - arc.start) / count / 4.0) * tangents
+    handles = 4.0 / 3.0 * tan((arc.end - arc.start) / count / 4.0) * tangents
     control = np.stack((points[:-1], points[:-1] + handles[:-1], points[1:] - handles[1:], points[1:]), axis=1)
     return BezierPath(control, arc.closed, radius * float(arc_error(angle / count)))
 
@@ -182,7 +183,7 @@ def _followed(points: Floats, centre: Floats, axes: Floats, tolerance: float, cl
     if abs(determinant(axes)) < SINGULAR_DETERMINANT * np.abs(axes).max() ** 2:
         return None
     unit = linear_solution(axes, (points - centre).T)
-    angle = np.arctan2(unit[1], unit[0])
+    angle = arctan2(unit[1], unit[0])
     off = np.linalg.norm(points - centre - (matmul(axes, np.stack((np.cos(angle), np.sin(angle))))).T, axis=1)
     steps = np.diff(angle, append=angle[:1]) if closed else np.diff(angle)
     steps = np.mod(steps + np.pi, 2.0 * np.pi) - np.pi

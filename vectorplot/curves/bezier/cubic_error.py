@@ -12,6 +12,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.geometry.algebra import least_squares, linear_solution
+from vectorplot.geometry.elementary import power
 from vectorplot.tolerances.of_numbers import ROUNDING
 
 MOST_OF_ENDS = 1.0 / 16.0
@@ -54,4 +55,4 @@ def bernstein(degree: int, t: Floats) -> Floats:
     """(c,degree+1) Bernstein's polynomials at parameters (c,)."""
     k = np.arange(degree + 1)
     binomials = np.cumprod(np.concatenate([[1.0], (degree - k[:-1]) / (k[:-1] + 1.0)]))
-    return np.asarray(binomials * t[:, None] ** k * (1.0 - t[:, None]) ** (degree - k))
+    return np.asarray(binomials * power(t[:, None], k) * power(1.0 - t[:, None], degree - k))

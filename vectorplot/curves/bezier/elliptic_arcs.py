@@ -13,6 +13,7 @@ from vectorplot.curves.bezier.paths import BezierPaths
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import determinant, linear_solution, symmetric_eigen
+from vectorplot.geometry.elementary import arctan2, tan
 from vectorplot.tolerances.of_angles import LOOP_TURN, WHOLE_TURN
 from vectorplot.tolerances.of_parameters import ABOVE_WHOLE
 from vectorplot.tolerances.of_values import SINGULAR_DETERMINANT
@@ -149,7 +150,7 @@ def arc_segments(arcs: EllipseArcs, closed: Bools, *, tolerance: float) -> Bezie
     width = (arcs.end - arcs.start) / count
     t = arcs.start[owner, None] + width[owner, None] * np.stack((place, place + 1), axis=1)
     one = arcs.some(owner)
-    ends, handles = one.points(t), 4.0 / 3.0 * np.tan(width / 4.0)[owner, None, None] * one.tangents(t)
+    ends, handles = one.points(t), 4.0 / 3.0 * tan(width / 4.0)[owner, None, None] * one.tangents(t)
     control = np.stack((ends[:, 0], ends[:, 0] + handles[:, 0], ends[:, 1] - handles[:, 1], ends[:, 1]), axis=1)
     return BezierPaths(control, offsets, closed, radius * arc_error(angle / count))
 
@@ -158,7 +159,7 @@ def _polar(arm: Floats, axes: Floats) -> tuple[Floats, Floats]:
     """(p,) parameters on ellipses with these semi-axes (p,2,2) below arms (p,2) from their centres; (p,) how far the
     points there are from the arms' ends."""
     along, across = ((arm * axes[:, k]).sum(axis=1) / (axes[:, k] ** 2).sum(axis=1) for k in (0, 1))
-    angle = np.arctan2(across, along)
+    angle = arctan2(across, along)
     off = arm - np.cos(angle)[:, None] * axes[:, 0] - np.sin(angle)[:, None] * axes[:, 1]
     return angle, np.hypot(*off.T)
 

@@ -13,6 +13,7 @@ from vectorplot.curves.bezier.tangents import Directions, FitLines, directions
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arccos, power, tan
 from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import FIT_OF_TOLERANCE
@@ -196,7 +197,7 @@ class _Fit:
         chord /= np.where(size > 0.0, size, 1.0)
         ahead = np.roll(tangent.arriving, -1, axis=1)
         cosine = np.minimum((tangent.leaving * chord).sum(axis=0), (ahead * chord).sum(axis=0))
-        room = size / 2.0 * np.tan(np.arccos(np.clip(cosine, 0.5, 1.0)))
+        room = size / 2.0 * tan(arccos(np.clip(cosine, 0.5, 1.0)))
         return cls(lines, tangent, np.minimum(room, sag), tolerance)
 
     def first_knots(self) -> Bools:
@@ -225,12 +226,12 @@ class _Fit:
             found.append(_chosen(spans, done))
             first = self._parts(_chosen(spans, ~done))
         spans = _joined(found)
-        return _chosen(spans, np.argsort(spans.first))
+        return _chosen(spans, np.argsort(spans.first, kind="stable"))
 
     def _parts(self, spans: Spans) -> tuple[Ints, Ints]:
         """Smaller spans in place of those that fail, of equal length."""
         ratio = np.nan_to_num(spans.excess / self.tolerance, nan=np.inf)
-        parts = np.clip(np.ceil(ratio ** (1.0 / 6.0) * 1.05), 2, _MOST_PARTS).astype(np.intp)
+        parts = np.clip(np.ceil(power(ratio, 1.0 / 6.0) * 1.05), 2, _MOST_PARTS).astype(np.intp)
         parts = np.minimum(parts, spans.last - spans.first)
         knots = np.zeros(len(self.lines.line), dtype=np.bool_)
         owner = ragged.owner(parts - 1)
@@ -252,7 +253,7 @@ class _Fit:
             error = np.maximum(spans.excess, FIT_OF_TOLERANCE * self.tolerance)
             both = size[:-1] + size[1:]
             with np.errstate(all="ignore"):
-                guess = np.maximum(error[:-1] * (both / size[:-1]) ** 4, error[1:] * (both / size[1:]) ** 4)
+                guess = np.maximum(error[:-1] * power(both / size[:-1], 4), error[1:] * power(both / size[1:], 4))
             smooth = (spans.last[:-1] == spans.first[1:]) & ~self.tangent.corner[spans.last[:-1]]
             smooth &= self.lines.line[spans.first[:-1]] == self.lines.line[spans.first[1:]]
             pair = np.flatnonzero(smooth & (guess <= 4.0 * self.tolerance))
@@ -264,7 +265,7 @@ class _Fit:
             keep = np.ones(len(spans.first), dtype=np.bool_)
             keep[pair[good]] = keep[pair[good] + 1] = False
             spans = _joined([_chosen(spans, keep), _chosen(trial, good)])
-            spans = _chosen(spans, np.argsort(spans.first))
+            spans = _chosen(spans, np.argsort(spans.first, kind="stable"))
         return spans
 
     def control(self, spans: Spans) -> Floats:

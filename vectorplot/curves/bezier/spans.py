@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.bezier.tangents import Directions, FitLines
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arccos
 from vectorplot.tolerances.of_angles import PARABOLA_SINE_SQUARED
 from vectorplot.tolerances.of_values import RIDGE
 
@@ -113,7 +114,7 @@ class _Problem:
         straight = np.sqrt((self.chord * self.chord).sum(axis=0))
         with np.errstate(all="ignore"):
             angle = np.stack([(self.chord * side).sum(axis=0) / straight for side in (self.leaving, self.arriving)])
-        angle = np.arccos(np.clip(np.nan_to_num(angle, nan=1.0), -1.0, 1.0)).mean(axis=0)
+        angle = arccos(np.clip(np.nan_to_num(angle, nan=1.0), -1.0, 1.0)).mean(axis=0)
         arc = straight / (3.0 * np.cos(np.minimum(angle, 1.2) / 2.0) ** 2)
         handle = np.where(self.counts > 3, self.size / 3.0, arc)
         return np.stack((handle, handle)), self.along

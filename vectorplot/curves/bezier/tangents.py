@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.elementary import arccos
 from vectorplot.tolerances.of_lengths import SLACK_OF_LENGTH
 
 
@@ -67,7 +68,7 @@ def directions(
     both, either = known.all(axis=0), known.any(axis=0)
     # What is known of one side only holds on both unless there is a corner.
     one_side = np.where(known[0], sides[0], sides[1])
-    turn = np.arccos(np.clip(_cosine(*sides), -1.0, 1.0))
+    turn = arccos(np.clip(_cosine(*sides), -1.0, 1.0))
     corner: Bools = both & ((turn > corner_angle) | (turn * _shorter(before, after) > SMOOTHED * tolerance))
     if not both.all():
         pairs = ((before, after), _chords(lines, window, ends))
@@ -99,7 +100,7 @@ def _shorter(before: Floats, after: Floats) -> Floats:
 
 def _bend(before: Floats, after: Floats) -> Floats:
     """(n,) the angles between vectors times the lengths of the shorter ones."""
-    return np.asarray(np.arccos(np.clip(_cosine(before, after), -1.0, 1.0)) * _shorter(before, after))
+    return np.asarray(arccos(np.clip(_cosine(before, after), -1.0, 1.0)) * _shorter(before, after))
 
 
 def _ends(lines: FitLines) -> Bools:

@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, parameter_range, positive
 from vectorplot.curves.placed_curve import MovableCurve
 from vectorplot.errors import InputError
+from vectorplot.geometry.elementary import exp, tanh
 from vectorplot.tolerances.of_angles import PARALLEL_SINE
 
 
@@ -73,11 +74,11 @@ class Loxodrome(MovableCurve):
         """Horizontal direction (..., 3), the one a quarter turn on, 1 / cosh k, tanh k."""
         t = np.asarray(t, dtype=np.float64)
         k = t * self._slope
-        shrunk = np.exp(-np.abs(k))
+        shrunk = exp(-np.abs(k))
         zero = np.zeros_like(t)
         outwards = np.stack([np.cos(t), np.sin(t), zero], axis=-1)
         ahead = np.stack([-np.sin(t), np.cos(t), zero], axis=-1)
-        return outwards, ahead, (2.0 * shrunk / (1.0 + shrunk * shrunk))[..., None], np.tanh(k)[..., None]
+        return outwards, ahead, (2.0 * shrunk / (1.0 + shrunk * shrunk))[..., None], tanh(k)[..., None]
 
     def points(self, t: Floats) -> Floats:
         """(..., 3) points."""

@@ -8,7 +8,7 @@ from typing import Any, Protocol
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import vector
 from vectorplot.curves.splines.akima import akima_weights, hermite_controls, slopes_beside, weighted
 from vectorplot.curves.splines.basis import (
@@ -20,6 +20,9 @@ from vectorplot.curves.splines.basis import (
     wrapped_controls,
 )
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import banded_solution
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances.of_values import UNSOLVED
 
 
 class SplineKind(Protocol):
@@ -211,13 +214,26 @@ class CubicSpline(_Through):
         """Two more than the points."""
         t, basis = self._places(len(points), 2), self.basis(len(points))
         if self.closed:
-            return _periodic(basis, t[:-1], points)
-        from scipy.interpolate import make_interp_spline
-
-        ends: Any = "natural"
-        if self.tangents is not None:
-            ends = tuple([(1, np.broadcast_to(tangent, points.shape[1:]))] for tangent in self.tangents)
-        return np.asarray(make_interp_spline(t, points, k=3, bc_type=ends).c)
+            return _solved(basis, t[:-1], points, len(points))
+        flat = points.reshape(len(points), -1)
+        row, column, weight = _design(basis, t)
+        # The derivatives at the ends, the first or the second ones, by the control points beside them.
+        k, count = basis.knots, basis.count
+        first = 3.0 / (k[4] - k[1]), 3.0 / (k[-2] - k[-5])
+        if self.tangents is None:
+            ends = np.zeros((2, flat.shape[1]))
+            low, high = 2.0 / (k[4] - k[2]), 2.0 / (k[-3] - k[-5])
+            by, on = 3.0 / (k[5] - k[2]), 3.0 / (k[-3] - k[-6])
+            start = [low * first[0], -low * (first[0] + by), low * by]
+            end = [high * on, -high * (first[1] + on), high * first[1]]
+        else:
+            ends = np.stack([np.broadcast_to(tangent, points.shape[1:]).ravel() for tangent in self.tangents])
+            start, end = [-first[0], first[0], 0.0], [0.0, -first[1], first[1]]
+        row = np.concatenate([[0, 0, 0], row + 1, 3 * [count - 1]])
+        column = np.concatenate([[0, 1, 2], column, [count - 3, count - 2, count - 1]])
+        weight = np.concatenate([start, weight, end])
+        found = _solution(row, column, weight, np.concatenate([ends[:1], flat, ends[1:]]), closed=False)
+        return found.reshape(count, *points.shape[1:])
 
 
 @dataclass(frozen=True, eq=False)
@@ -280,11 +296,7 @@ class InterpolatingSpline(_Through):
     def controls(self, points: Floats) -> Floats:
         """As many as points, closed ones with those that come again."""
         t, basis = self._places(len(points), self.order), self.basis(len(points))
-        if self.closed:
-            return _periodic(basis, t[:-1], points)
-        from scipy.interpolate import make_interp_spline
-
-        return np.asarray(make_interp_spline(t, points, k=basis.degree, t=basis.knots).c)
+        return _solved(basis, t[:-1] if self.closed else t, points, len(points))
 
 
 @dataclass(frozen=True, eq=False)
@@ -419,28 +431,51 @@ def _at(t: Floats, place: Floats) -> Floats:
     return np.interp(place, np.arange(len(t)), t)
 
 
-def _periodic(basis: Basis, t: Floats, points: Floats) -> Floats:
-    """The control points of a closed spline through points at parameters t."""
-    return _solved(basis, t, points, len(points))
-
-
 def _solved(basis: Basis, t: Floats, points: Floats, many: int) -> Floats:
     """The control points, many of them different, with which a spline is nearest to points (n, ...) at t (n,)."""
-    from scipy.interpolate import BSpline as Splines
-    from scipy.sparse import csr_array
-    from scipy.sparse.linalg import splu
-
-    full = Splines.design_matrix(basis.within(t), basis.knots, basis.degree).tocoo()
-    matrix = csr_array((full.data, (full.row, full.col % many)), shape=(len(t), many))
-    flat = points.reshape(len(points), -1)
-    try:
-        if len(t) == many:
-            found = splu(matrix.tocsc()).solve(flat)
-        else:
-            found = splu((matrix.T @ matrix).tocsc()).solve(np.asarray(matrix.T @ flat))
-    except RuntimeError:
-        found = np.full((many, flat.shape[1]), np.nan)
-    if not np.isfinite(found).all():
-        raise InputError("spline: the points and their parameters do not determine a spline of this order")
+    row, column, weight = _design(basis, t)
+    column %= many
+    right = points.reshape(len(points), -1)
+    if len(t) != many:
+        # The normal equations: of each point all pairs of the control points that move it.
+        columns, weights = column.reshape(len(t), -1), weight.reshape(len(t), -1)
+        sums = np.zeros((many, right.shape[1]))
+        np.add.at(sums, column, weight[:, None] * right[row])
+        order, right = columns.shape[1], sums
+        row, column = np.repeat(columns, order, axis=1).ravel(), np.tile(columns, order).ravel()
+        weight = (weights[:, :, None] * weights[:, None, :]).ravel()
+    found = _solution(row, column, weight, right, closed=basis.closed)
     controls = found.reshape(many, *points.shape[1:])
     return wrapped_controls(controls, basis) if basis.closed else controls
+
+
+def _design(basis: Basis, t: Floats) -> tuple[Ints, Ints, Floats]:
+    """Rows, columns and entries of the matrix that takes control points to points at t."""
+    from scipy.interpolate import BSpline as Splines
+
+    full = Splines.design_matrix(basis.within(t), basis.knots, basis.degree).tocoo()
+    return full.row.astype(np.intp), full.col.astype(np.intp), np.asarray(full.data)
+
+
+def _solution(row: Ints, column: Ints, weight: Floats, right: Floats, *, closed: bool) -> Floats:
+    """The solution of as many equations as right (n,m) has rows, each about unknowns near its own number, or,
+    closed, near it in a ring.
+
+    Errors: InputError where there is none.
+    """
+    count = len(right)
+    place = np.arange(count)
+    if closed:
+        # A ring laid flat: numbers from both ends in turn, so that neighbours are at most two apart.
+        place = np.where(2 * place < count, 2 * place, 2 * (count - 1 - place) + 1)
+    reach = int(np.abs(place[row] - place[column]).max())
+    bands = np.zeros((count, 2 * reach + 1))
+    np.add.at(bands, (place[row], place[column] - place[row] + reach), weight)
+    laid = np.empty_like(right, dtype=np.float64)
+    laid[place] = right
+    found = banded_solution(bands, laid)[place]
+    # Equations without a solution leave what is not finite, or beyond all measure.
+    largest = UNSOLVED * max(float(np.abs(right).max(initial=0.0)), LEAST_DIVISOR)
+    if not (np.abs(found) <= largest).all():
+        raise InputError("spline: the points and their parameters do not determine a spline of this order")
+    return found

@@ -39,7 +39,7 @@ def place_ranks(where: Floats, lines: Ints, lengths: Floats, apart: float, area:
     if not len(lines):
         return np.zeros(0)
     sizes = np.bincount(lines)
-    place = np.argsort(_farthest_first(where, ragged.starts(sizes), sizes))
+    place = np.argsort(_farthest_first(where, ragged.starts(sizes), sizes), kind="stable")
     turn = place[lines]
     away = _from_those_before(where, turn)
     spread = 0.5 + 0.5 * np.mod(GOLDEN * turn, 1.0)

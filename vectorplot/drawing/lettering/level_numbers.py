@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 from typing import TYPE_CHECKING
@@ -17,6 +18,7 @@ from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.features.terrains.label_places import label_places
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import segments
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM
@@ -71,7 +73,7 @@ def level_numbers(scene: Scene, strokes: Paths, text: str, mm: float) -> list[Le
     found = label_places(numbers, longest + ROOM_MM * mm, APART_MM * mm)
     way, level = found.directions, found.heights.astype(np.intp)
     # Read from below, and from the right where the line goes straight up.
-    angle = np.degrees(np.arctan2(way[:, 1], way[:, 0]))
+    angle = np.degrees(arctan2(way[:, 1], way[:, 0]))
     angle -= 180.0 * np.round(angle / 180.0)
     tried = [
         letters(words[number], at[:2], size_mm=size, align="centre", level="middle", rotation_deg=turn)
@@ -84,7 +86,7 @@ def _words(heights: Floats) -> list[str]:
     """Heights, with so many digits that one can tell each from the next one."""
     steps = np.diff(np.unique(heights)) if len(np.unique(heights)) > 1 else np.abs(heights)
     step = float(steps.min())
-    digits = FINE - int(np.floor(np.log10(step))) if step > 0.0 else 0
+    digits = FINE - int(np.floor(math.log10(step))) if step > 0.0 else 0
     return [f"{round(height, digits) + 0.0:.{MOST_DIGITS}g}" for height in heights.tolist()]
 
 

@@ -27,6 +27,7 @@ from vectorplot.drawing.lettering.hershey import Glyph, clusters, glyph
 from vectorplot.drawing.lettering.text import ALIGNED, Lettering
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
+from vectorplot.geometry.elementary import arctan2
 
 BACK = 6
 """How many letters before each one along a curve may be in its way."""
@@ -198,7 +199,7 @@ def reads_backwards(across: float, upwards: float) -> bool:
 def _upright(points: Floats, middle: Floats, advance: Floats, down: float, low: float, high: float) -> _Course:
     """Letters of some widths whose middles are at these lengths along a curve."""
     place, way = _along(points, middle)
-    turn_deg = np.degrees(np.arctan2(way[:, 1], way[:, 0]))
+    turn_deg = np.degrees(arctan2(way[:, 1], way[:, 0]))
     turn = turned(turn_deg)
     foot = place - np.einsum("nij,nj->ni", turn, np.stack([0.5 * advance, np.full(len(advance), down)], axis=1))
     corner = np.tile([0.0, low], (len(advance), 1))

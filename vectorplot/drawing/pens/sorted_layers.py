@@ -150,7 +150,7 @@ def _parted(layer: Layer, items: Sequence[str], rules: RulesByTarget) -> tuple[L
     used, first, which = np.unique(key, return_index=True, return_inverse=True)
     pens: dict[Pen, int] = {}
     number = np.zeros(len(used), dtype=np.intp)
-    for k in np.argsort(first).tolist():
+    for k in np.argsort(first, kind="stable").tolist():
         at = first[k]
         pen = pen_of(rules, layer.pen, int(paths.kind[at]), bool(hidden[at]), items[paths.item[at]])
         number[k] = pens.setdefault(pen, len(pens))

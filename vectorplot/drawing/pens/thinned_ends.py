@@ -9,6 +9,7 @@ from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes.dashes import parts_between, stroke_lengths
 from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated, unrolled
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import with_points
 from vectorplot.tolerances.of_numbers import ROUNDING
 from vectorplot.tolerances.of_the_page import COINCIDENT_MM
@@ -87,7 +88,7 @@ def _cuts(ends: Floats, inner: Floats, width_mm: float) -> Floats:
     if not len(many):
         return cut
     way = inner[many] - ends[many]
-    angle = np.arctan2(way[:, 1], way[:, 0])
+    angle = arctan2(way[:, 1], way[:, 0])
     order = np.lexsort((angle, place[many]))
     sizes = np.diff(np.flatnonzero(np.concatenate([[True], np.diff(place[many][order]) > 0, [True]])))
     turn: Ints = ragged.place(sizes)

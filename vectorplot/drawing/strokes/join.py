@@ -13,6 +13,7 @@ from vectorplot.drawing.strokes.neighbours import clusters
 from vectorplot.drawing.strokes.rows import SAME_PLACE, going_on, in_rows
 from vectorplot.drawing.strokes.stroke_paths import chosen, directed, swapped, world_per_mm
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import with_points
 from vectorplot.geometry.repair.weld import close_points
 
@@ -116,7 +117,7 @@ def _mates(paths: Paths, first: Ints, last: Ints, node: Ints) -> Ints:
         stroke, at_end = ends >> 1, ends & 1
         here = np.where(at_end, last[stroke], first[stroke])
         inward = paths.points.take(here + np.where(at_end, -1, 1), axis=0) - paths.points.take(here, axis=0)
-        angle = np.rint(np.arctan2(inward[:, 1], inward[:, 0]) * (_TURN / (2.0 * np.pi))).astype(np.intp) % _TURN
+        angle = np.rint(arctan2(inward[:, 1], inward[:, 0]) * (_TURN / (2.0 * np.pi))).astype(np.intp) % _TURN
         _pair_straightest(mate, ends, np.unique(node[ends], return_inverse=True)[1] * _TURN + angle)
     return mate
 

@@ -12,6 +12,7 @@ from vectorplot.effects.glass.sight_rays import Rays, SightWays, traced, virtual
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, cut_by_planes, planes_of
+from vectorplot.geometry.elementary import arccos, tan
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import newell
@@ -210,8 +211,8 @@ def _cones(view: View, solid: Solid, front: Ints) -> tuple[Floats, Floats]:
     axis = np.add.reduceat(rays.direction, outline.offsets[:-1], axis=1)
     axis /= np.sqrt((axis * axis).sum(axis=0))
     cosine = np.minimum.reduceat((rays.direction * axis[:, owner]).sum(axis=0), outline.offsets[:-1])
-    angle = MORE * np.arccos(np.clip(cosine, -1.0, 1.0))
-    return axis, np.where(known & (angle < WIDEST), np.tan(angle), np.inf)
+    angle = MORE * arccos(np.clip(cosine, -1.0, 1.0))
+    return axis, np.where(known & (angle < WIDEST), tan(angle), np.inf)
 
 
 def _beams(view: View, solid: Solid, front: Ints, windows: Floats, first: Ints, back: Ints) -> Beams:

@@ -49,7 +49,7 @@ def glass_fills(
     marks = seen.some(marked)
     laid = laid_fills(view, lighting, lying, Laid(marks.points, marks.offsets, marks.decal, marks.window), placement)
     laid = replace(laid, kind=np.full(len(laid), int(FillKind.GLASS)))
-    order = np.argsort(np.concatenate([bare, marked]))
+    order = np.argsort(np.concatenate([bare, marked]), kind="stable")
     return united(Overlay(Fills.joined(base, laid).some(order), seen.window), seen.decal)
 
 

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.elementary import arcsin, arctan, tan
 from vectorplot.geometry.vectors import normalize
 from vectorplot.tolerances.of_extent import IN_SURFACE_OF_DISTANCE
 from vectorplot.tolerances.of_numbers import ROUNDING, ULP
@@ -55,7 +56,7 @@ def angle_of_refraction(alpha: ArrayLike, c: ArrayLike) -> Floats:
     True
     """
     sine = np.sin(np.asarray(alpha, dtype=np.float64)) / _constant(c)
-    beta = np.arcsin(np.clip(sine, -1.0, 1.0))
+    beta = arcsin(np.clip(sine, -1.0, 1.0))
     return np.asarray(np.where(np.abs(sine) <= 1.0, beta, np.nan))
 
 
@@ -96,7 +97,7 @@ def plate_shift(alpha: ArrayLike, thickness: ArrayLike, c: ArrayLike) -> Floats:
     """
     alpha = np.asarray(alpha, dtype=np.float64)
     beta = angle_of_refraction(alpha, c)
-    return np.asarray(np.asarray(thickness, dtype=np.float64) * (np.tan(alpha) - np.tan(beta)))
+    return np.asarray(np.asarray(thickness, dtype=np.float64) * (tan(alpha) - tan(beta)))
 
 
 def refracted(directions: ArrayLike, normals: ArrayLike, c: ArrayLike) -> tuple[Floats, Bools]:
@@ -228,7 +229,7 @@ def inverse_refraction(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike)
     >>> round((2.0 * np.tan(alpha) + 2.0 * np.tan(beta)).item(), 9)
     3.0
     """
-    return np.asarray(np.arctan(tangents_of_rays(p1, p2, a, c)[0]))
+    return np.asarray(arctan(tangents_of_rays(p1, p2, a, c)[0]))
 
 
 def seen_in_surface(eye: ArrayLike, points: ArrayLike, normal: ArrayLike, on_surface: ArrayLike, c: float) -> Floats:

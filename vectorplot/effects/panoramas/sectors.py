@@ -13,6 +13,7 @@ from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.panoramic_view import Panorama
+from vectorplot.geometry.elementary import arctan, arctan2, tan
 from vectorplot.scene.pages.page import Page
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
@@ -39,7 +40,7 @@ def lines_all_round(
     half = 0.5 * (last - first) / count
     steepest = np.radians(max(abs(given.lowest_deg), abs(given.highest_deg)))
     # A cone of one elevation is highest in the picture at its sides.
-    top, side = float(np.tan(steepest) / np.cos(half)), float(np.tan(half))
+    top, side = float(tan(steepest) / np.cos(half)), float(tan(half))
     page = Page(2.0 * radius_mm * side, 2.0 * radius_mm * top, 0.0)
     found, curves = [Paths.empty()], 0
     for number in range(count):
@@ -47,7 +48,7 @@ def lines_all_round(
         ahead = np.array([np.sin(bearing), np.cos(bearing), 0.0])
         # Far from the origin a unit would be lost in rounding.
         target = eye + max(1.0, float(np.abs(eye).max())) * ahead
-        camera = Camera(tuple(eye), tuple(target), up=(0.0, 0.0, 1.0), fov_deg=float(np.degrees(2.0 * np.arctan(top))))
+        camera = Camera(tuple(eye), tuple(target), up=(0.0, 0.0, 1.0), fov_deg=float(np.degrees(2.0 * arctan(top))))
         seen = trace(camera, page)
         seen = replace(seen, curve=np.where(seen.curve == NO_CURVE, NO_CURVE, seen.curve + curves))
         curves = max(curves, int(seen.curve.max(initial=NO_CURVE)) + 1)
@@ -71,8 +72,8 @@ def bearings_and_elevations(ways: Floats, ahead: Floats, middle: float) -> Float
     """(k,2) of ways (k,3) from the eye, of which those ahead have the bearing middle."""
     right = np.array([ahead[1], -ahead[0], 0.0])
     level = np.hypot(ways[:, 0], ways[:, 1])
-    bearing = middle + np.arctan2(matmul(ways, right), matmul(ways, ahead))
-    return np.stack([bearing, np.arctan2(ways[:, 2], level)], axis=1)
+    bearing = middle + arctan2(matmul(ways, right), matmul(ways, ahead))
+    return np.stack([bearing, arctan2(ways[:, 2], level)], axis=1)
 
 
 def with_chords(lines: Paths, eye: Floats, apart: float) -> Paths:
@@ -106,6 +107,6 @@ def with_chords(lines: Paths, eye: Floats, apart: float) -> Paths:
 def _between(middle: Floats, flat: Floats) -> Floats:
     """(k,2) bearing and elevation of ways (k,3) between the ends (k,2,2) of parts: of its bearings the one there."""
     turn = 2.0 * np.pi
-    bearing = np.arctan2(middle[:, 0], middle[:, 1])
+    bearing = arctan2(middle[:, 0], middle[:, 1])
     bearing += turn * np.round((flat[:, :, 0].mean(axis=1) - bearing) / turn)
-    return np.stack([bearing, np.arctan2(middle[:, 2], np.hypot(middle[:, 0], middle[:, 1]))], axis=1)
+    return np.stack([bearing, arctan2(middle[:, 2], np.hypot(middle[:, 0], middle[:, 1]))], axis=1)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -76,14 +77,14 @@ def _offset(values: tuple[float, ...], step: float) -> float:
     low, high = values[0], values[-1]
     if _power(max(abs(low), abs(high))) - _power(step) < MOST_DIGITS:
         return 0.0
-    unit = 10.0 ** np.ceil(np.log10(high - low))
+    unit = 10.0 ** np.ceil(math.log10(high - low))
     nearest = float(np.rint(0.5 * (low + high) / unit) * unit)
     return nearest if low <= nearest <= high else float(np.floor(low / unit) * unit)
 
 
 def _power(value: float) -> int:
     """The power of ten of the first digit of a number that is positive, for 9.9999999 of the next one."""
-    return int(np.floor(np.log10(value) + ZERO_OF_EXTENT))
+    return int(np.floor(math.log10(value) + ZERO_OF_EXTENT))
 
 
 def _texts(values: list[float], step: float, power: int) -> tuple[str, ...]:

@@ -20,6 +20,7 @@ from vectorplot.features.meshes.mesh_curves import face_triangles
 from vectorplot.features.stacked_facets import facets_of_all
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.cuts.level_bands import level_bands
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.geometry.repair.mesh_repair import welded
 from vectorplot.geometry.vectors import norm
@@ -227,7 +228,7 @@ def _of_shape(by: str, mesh: Mesh, triangles: Ints, normals: Floats | None) -> F
     points = mesh.vertices
     if by == "slope":
         x, y, z = (smooth_normals(points, triangles) if normals is None else normals).T
-        return np.asarray(np.degrees(np.arctan2(np.hypot(x, y), np.abs(z))))
+        return np.asarray(np.degrees(arctan2(np.hypot(x, y), np.abs(z))))
     if by == "curvature":
         second = mesh_bending(face_triangles(mesh)).second
         return np.asarray(-0.5 * (second[:, 0] + second[:, 2]))

@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import records
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import cross, dot
 
 
@@ -78,7 +79,7 @@ def principal_axes(form: Floats) -> tuple[Floats, Floats, Floats, Floats]:
     """The larger and the smaller eigenvalues (n,) of symmetric matrices (n,3), by p, m and q, and their unit
     eigenvectors (n,2), of either sense."""
     p, m, q = form.T
-    angle = 0.5 * np.arctan2(2.0 * m, p - q)
+    angle = 0.5 * arctan2(2.0 * m, p - q)
     one = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     other = np.stack([-one[:, 1], one[:, 0]], axis=1)
     middle, apart = 0.5 * (p + q), np.hypot(0.5 * (p - q), m)

@@ -12,6 +12,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.features.feature_lines.bending import Bending, Sight, applied, principal_axes
+from vectorplot.geometry.elementary import power
 from vectorplot.geometry.vectors import dot
 from vectorplot.words import LineKind
 
@@ -119,12 +120,16 @@ def _apparent(bending: Bending, sight: Sight, extent: float) -> LineField:
         derivative = (
             2.0 * dot(turning, applied(change, a))
             + 2.0 * turn * twisted / cosine**2
-            - 2.0 * turn * turn * normal_turns / cosine**3
+            - 2.0 * turn * turn * normal_turns / power(cosine, 3)
         )
         # Where one looks straight at a ball all directions are alike.
         clear = np.sqrt(square) - np.sqrt(np.maximum(other, 0.0))
         return LineField(
-            derivative / np.maximum(square, 0.0) ** 1.5, extent * clear, bending.in_space(x), None, np.sign(cosine)
+            derivative / (np.maximum(square, 0.0) * np.sqrt(np.maximum(square, 0.0))),
+            extent * clear,
+            bending.in_space(x),
+            None,
+            np.sign(cosine),
         )
 
 

@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.parametric.poles import poles
 from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.surface import Domain, Surface, is_parametrised
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -60,7 +61,7 @@ class Charts:
         result, c, p = at.copy(), chart[near], at[near]
         axis = self.axis[c]
         rho = np.hypot(p[:, 0], p[:, 1])
-        turn = np.arctan2(p[:, 1], p[:, 0]) / (2.0 * np.pi)
+        turn = arctan2(p[:, 1], p[:, 0]) / (2.0 * np.pi)
         result[near, axis] = self.place[c] + self.inwards[c] * rho
         result[near, 1 - axis] = self.start[c] + self.period[c] * turn
         return result

@@ -13,6 +13,7 @@ from vectorplot.features.feature_lines.bending import principal_axes
 from vectorplot.features.integral.bent_faces import BentFaces
 from vectorplot.features.integral.face_sites import FaceSites
 from vectorplot.features.integral.sites import Sites, TangentPlanes, on_surface, unit
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_values import BEYOND_NOISE, UMBILIC
 
@@ -158,7 +159,7 @@ def _principal_on_surface(sites: Sites) -> Principal:
         across = (e * q - 2.0 * f * m + f * f * straight) / area
         half, mean = 0.5 * (straight - across), 0.5 * (straight + across)
         apart = np.hypot(half, mixed)
-        angle = 0.5 * np.arctan2(mixed, half)
+        angle = 0.5 * arctan2(mixed, half)
         known = apart > UMBILIC * np.maximum(np.abs(straight), np.abs(across))
         first = unit(along_u)
         most = np.cos(angle)[:, None] * first + np.sin(angle)[:, None] * cross(normals, first)

@@ -17,6 +17,7 @@ from vectorplot.features.integral.sites import Sites
 from vectorplot.features.zeros.zero_crossings import bracketed_zeros
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.components import all_finite
+from vectorplot.geometry.elementary import power
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.tolerances.of_extent import (
     CLOSED_OF_EXTENT,
@@ -173,7 +174,7 @@ def courses(
             off = _length_of(charts, now.chart, there, tried.error, size)
             allowed = accuracy.error * step + ROUNDING_OF_POINTS * large
             good = all_finite(ahead) & (off <= allowed) & (dot(new, now.tangents) > TURN)
-            factor = CAUTION * (allowed / np.maximum(off, LEAST_DIVISOR)) ** (1 / ORDER)
+            factor = CAUTION * power(allowed / np.maximum(off, LEAST_DIVISOR), 1.0 / ORDER)
             factor = np.minimum(np.maximum(factor, SHRINK), GROW)
             places = running_on(charts, now.chart, tried, end, now.places)
             out = good & (charts.beyond(places) > 0.0)

@@ -12,6 +12,7 @@ from vectorplot.features.intersections.triangle_pairs import Boxes, overlapping_
 from vectorplot.geometry import records
 from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arccos
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
@@ -108,7 +109,7 @@ def _middles(patch: Patch, which: Ints) -> _Middles:
     around = patch.normals(own_places.reshape(-1, dimension)).reshape(count, 3, 3)
     cosine = np.abs(component_sum(around * normals[:, None])).min(axis=1, initial=1.0)
     low, high = (side[:, which] for side in own.boxes)
-    return _Middles(places, points, normals, np.arccos(np.clip(cosine, 0.0, 1.0)), low - sag, high + sag)
+    return _Middles(places, points, normals, arccos(np.clip(cosine, 0.0, 1.0)), low - sag, high + sag)
 
 
 def _near_pairs(one: Patch, two: Patch, same: bool) -> tuple[Ints, Ints]:

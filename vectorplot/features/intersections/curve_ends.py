@@ -13,6 +13,7 @@ from vectorplot.features.intersections.patches import Patch
 from vectorplot.features.intersections.surface_patches import SurfacePatch
 from vectorplot.geometry.algebra import least_squares, matmul
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_extent import END_RESIDUAL, END_SETTLED, ROUNDING_OF_POINTS, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import ON_BORDER_OF_CELL
@@ -65,7 +66,7 @@ def _led(patch: SurfacePatch, course: Course) -> Course:
     half = float(np.hypot(*d))
     if course.closed or not 0.0 < half <= 0.5 * NEAR_SELF or at_border(patch, course.one[-1:], course.two[-1:])[0]:
         return course
-    start = _Pairs(0.5 * (a + b) / patch.cell, float(np.arctan2(d[1], d[0])), half)
+    start = _Pairs(0.5 * (a + b) / patch.cell, float(arctan2(d[1], d[0])), half)
     found: list[_Pairs] = []
     for part in SHRINKING:
         solved = _solved(patch, _Pairs(start.middle, start.angle, part * half))

@@ -12,6 +12,7 @@ from vectorplot.features.intersections.double_curves import Course, followed
 from vectorplot.features.intersections.meeting_points import in_planes, meetings
 from vectorplot.features.intersections.patches import Patch
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arctan2
 
 RADIUS = 2.0
 """Cells around a node within which its branches are put together anew."""
@@ -94,7 +95,7 @@ def _opened(one: Patch, two: Patch, courses: list[Course], at: Contacts, same: b
             if away[-1 if last else 0] <= REACH:
                 arm = one.points(course.one[[-1 if last else 0]])[0] - at.points[0]
                 x, y = matmul(at.frames[0, :2], arm)
-                ends.append(_End(k, last, float(np.arctan2(y, x)), np.array([x, y])))
+                ends.append(_End(k, last, float(arctan2(y, x)), np.array([x, y])))
     return result, ends
 
 
@@ -126,7 +127,7 @@ def _turned_over(one: Patch, course: Course) -> bool:
 
 def _opposite(ends: list[_End]) -> list[tuple[int, int]]:
     """Pairs of ends that lie opposite in their order around the node; an odd one goes with the first."""
-    order = np.argsort([e.angle for e in ends])
+    order = np.argsort([e.angle for e in ends], kind="stable")
     half = (len(order) + 1) // 2
     return [(int(order[k]), int(order[k + half]) if k + half < len(order) else -1) for k in range(half)]
 

@@ -22,6 +22,7 @@ from vectorplot.features.meshes.mesh_curves import (
 from vectorplot.features.meshes.smooth_patches import apart_at_creases
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.adjacency import face_barycentres
 from vectorplot.geometry.repair.winding import edge_uses
@@ -370,7 +371,7 @@ def vertex_normals(mesh: Mesh) -> Floats:
     before[following] = np.arange(len(following))
     here = mesh.vertices[corner]
     out, back = mesh.vertices[corner[following]] - here, mesh.vertices[corner[before]] - here
-    angle = np.arctan2(norm(np.cross(out, back)), component_sum(out * back))
+    angle = arctan2(norm(np.cross(out, back)), component_sum(out * back))
     weighted = mesh.face_normals[mesh.corner_face] * angle[:, None]
     total = np.stack([np.bincount(corner, weighted[:, k], len(mesh.vertices)) for k in range(3)], axis=1)
     length = np.linalg.norm(total, axis=1, keepdims=True)

@@ -14,6 +14,7 @@ from vectorplot.features.integral.on_meshes.mesh_flows import Onward
 from vectorplot.features.terrains.hillsides import Hillsides, SlopeFlow
 from vectorplot.features.terrains.places import Ground
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.tolerances.of_extent import ROAD_ARRIVES
 
 FARTHEST_TURN = 1.5 * np.pi
@@ -155,7 +156,7 @@ class Climb:
         way = _plan(self.directions(self._part_of(face[on]), sense[on]))
         now = _rotated(heading[on], (sense * turn)[on])
         crossing = now[:, 0] * way[:, 1] - now[:, 1] * way[:, 0]
-        left[on] = sense[on] * np.arctan2(crossing, (now * way).sum(axis=1))
+        left[on] = sense[on] * arctan2(crossing, (now * way).sum(axis=1))
         return left, face
 
     def directions(self, face: Ints, side: Floats) -> Floats:

@@ -16,6 +16,7 @@ from vectorplot.features.terrains.hillsides import Hillsides, SlopeFlow, hillsid
 from vectorplot.features.terrains.places import places_on_terrain
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arcsin, power
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ROAD_ARRIVES, ZERO_OF_EXTENT
@@ -130,7 +131,7 @@ class _Search:
         low = rise / longest
         if not 0.0 < low < high:
             return None
-        tried = np.geomspace(low, high, TRIED)
+        tried = low * power(high / low, np.linspace(0.0, 1.0, TRIED))
         passing = _passing(*self._ends(tried, side)[:2])
         # The steepest ones first: they are the shortest.
         for k in passing[::-1][:MOST_PASSING].tolist():
@@ -155,7 +156,7 @@ class _Search:
         # One that begins on an edge may leave its first face at once.
         rows = (found.line == best) & (found.begin != found.end).any(axis=1)
         points = np.concatenate([found.begin[rows], end[None]])
-        return _Road(points, self.hills.sides.source[found.face[rows]], float(np.arcsin(tried[best])))
+        return _Road(points, self.hills.sides.source[found.face[rows]], float(arcsin(tried[best])))
 
     def _ends(self, slope: Floats, side: float) -> tuple[Bools, Floats, MeshCourses]:
         """(k,) whether roads of slopes (k,) come to the height of the end, how far beside it, to its left (positive) or

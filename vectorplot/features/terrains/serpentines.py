@@ -17,6 +17,7 @@ from vectorplot.features.terrains.hairpins import TURNS, Bends, Climb, Legs, tur
 from vectorplot.features.terrains.hillsides import hillsides_of
 from vectorplot.features.terrains.places import Ground, places_on_terrain
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import power
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ROAD_ARRIVES, ZERO_OF_EXTENT
@@ -39,7 +40,8 @@ ROUNDS = 9
 EVEN = np.linspace(0.0, 1.0, 9)
 """Parts of the way from one width to the next that are tried then,"""
 
-NEAR = np.concatenate([-np.logspace(-1, -6, 6), [0.0], np.logspace(-6, -1, 6)])
+_STEPS = [0.1**k for k in range(1, 7)]
+NEAR = np.array([*(-step for step in _STEPS), 0.0, *reversed(_STEPS)])
 """and how far from where a straight line between both would come to the end."""
 
 MOST_BENDS = 40
@@ -167,7 +169,8 @@ class _Search:
 
     def road(self) -> _Road | None:
         """The road with the fewest bends, None where none is found."""
-        wide = np.geomspace(0.5 * min(self.climb.radius, self.widest), self.widest, TRIED)
+        least = 0.5 * min(self.climb.radius, self.widest)
+        wide = least * power(self.widest / least, np.linspace(0.0, 1.0, TRIED))
         width, side = np.tile(wide, 2), np.repeat([1.0, -1.0], TRIED)
         ends, _ = self._led(width, side)
         passing = _passing(ends)

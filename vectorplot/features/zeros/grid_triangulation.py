@@ -8,6 +8,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arccos
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
@@ -146,7 +147,7 @@ def _deviation(points: Floats, normals: Floats, corners: tuple[int, int, int]) -
     face = _unit(cross(b - a, c - a))
     total = np.zeros(points.shape[1])
     for k in corners:
-        total += np.arccos(np.clip(np.abs(component_sum(face * normals[k])), 0.0, 1.0))
+        total += arccos(np.clip(np.abs(component_sum(face * normals[k])), 0.0, 1.0))
     return total
 
 

@@ -49,8 +49,8 @@ def units_of_values(scale: Floats) -> Floats:
     """(s,) the powers of two to measure f in, so that squares of values neither overflow nor vanish; mostly one."""
     usual = (scale == 0.0) | (1.0 / LARGEST < scale) & (scale < LARGEST)
     with np.errstate(divide="ignore"):
-        power = np.clip(np.round(np.log2(scale)), -1000, 1000)
-    return np.where(usual, 1.0, 2.0 ** np.where(usual, 0.0, power))
+        exponent = np.clip(np.frexp(scale)[1], -1000, 1000)
+    return np.ldexp(1.0, np.where(usual, 0, exponent))
 
 
 def sizes_of_zeros(field: ScalarFields, scale: Floats) -> Floats:

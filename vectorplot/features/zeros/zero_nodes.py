@@ -12,6 +12,7 @@ from vectorplot.features.zeros.scalar_field import ScalarFields, moved, number
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.components import all_finite, component_sum
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.repair.weld import close_points
 from vectorplot.tolerances.of_lengths import NODE_SETTLED_OF_CELL
 from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
@@ -187,7 +188,7 @@ def joined_at_nodes(field: ScalarFields, points: Floats, segments: Ints, nodes: 
     row = np.arange(len(outer))
     end, node = segments[broken][row, outer], at_node[broken][row, 1 - outer]
     d = _difference(field, points[end], nodes[node]) / reach[node]
-    order = np.lexsort((np.arctan2(d[:, 1], d[:, 0]), node))
+    order = np.lexsort((arctan2(d[:, 1], d[:, 0]), node))
     end, node, outer = end[order], node[order], outer[order]
     meets = np.bincount(node, minlength=len(nodes))
     rank = np.arange(len(node)) - ragged.starts(meets)[node]

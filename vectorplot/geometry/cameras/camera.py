@@ -12,6 +12,7 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.lens import field_of_vision_deg
+from vectorplot.geometry.elementary import tan
 from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z, upright_turn
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_angles import NO_AZIMUTH_SINE, SAME_DIRECTION_SINE, VERTICAL_SINE
@@ -146,7 +147,7 @@ class Camera:
         """Height of the picture in world units, in the plane through the target that faces the eye."""
         if self.parallel and self.height is not None:
             return self.height
-        return 2.0 * self.distance * float(np.tan(np.radians(self.fov_deg) / 2.0))
+        return 2.0 * self.distance * float(tan(np.radians(self.fov_deg) / 2.0))
 
     @property
     def euler_angles(self) -> tuple[float, float, float]:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.errors import InputError
+from vectorplot.geometry.elementary import arctan, tan
 
 NEGATIVE_MM = (36.0, 24.0)
 """Width and height of a miniature camera's negative."""
@@ -111,7 +112,7 @@ def focal_length_mm(fov_deg: float) -> float:
     """
     if not 0.0 < fov_deg < 180.0:
         raise InputError(f"field of vision {fov_deg:g} must lie between 0 and 180 degrees")
-    return NEGATIVE_MM[1] / 2.0 / float(np.tan(np.radians(fov_deg) / 2.0))
+    return NEGATIVE_MM[1] / 2.0 / float(tan(np.radians(fov_deg) / 2.0))
 
 
 def lens_advice(fov_deg: float) -> str | None:
@@ -150,4 +151,4 @@ def lens_advice(fov_deg: float) -> str | None:
 def _angle_deg(size_mm: float, focal_mm: float) -> float:
     if not 0.0 < focal_mm < np.inf:
         raise InputError(f"focal length {focal_mm:g} mm must be positive and finite")
-    return float(np.degrees(2.0 * np.arctan(size_mm / 2.0 / focal_mm)))
+    return float(np.degrees(2.0 * arctan(size_mm / 2.0 / focal_mm)))

@@ -11,6 +11,7 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.elementary import tan
 from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE, NO_DIGITS_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LARGEST_VIEW, ULP
 
@@ -178,7 +179,7 @@ class Projection:
         """
         if self.eye is None:
             return False
-        limit = self.focus * np.tan(np.radians(FARTHEST_OFF_AXIS_DEG))
+        limit = self.focus * tan(np.radians(FARTHEST_OFF_AXIS_DEG))
         return any(
             self.depth_of(some).min() < self.near or np.abs(self.image_of(some)).max() > limit
             for some in points

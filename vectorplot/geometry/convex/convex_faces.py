@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross, dot
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.tolerances.of_angles import FOLDED_ANGLE_SQUARED
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR, ROUNDING
 
@@ -89,7 +90,7 @@ def _planar_convex(p: list[Floats], tolerance: float) -> Bools:
         left &= dot(turn[k], normal) >= -tolerance * np.maximum(length[k - 1], length[k])
     if len(p) == 4:
         return np.asarray(planar & left & has_area, dtype=np.bool_)
-    angle = sum(np.arctan2(dot(turn[k], normal), dot(side[k - 1], side[k])) for k in range(len(p)))
+    angle = sum(arctan2(dot(turn[k], normal), dot(side[k - 1], side[k])) for k in range(len(p)))
     return np.asarray(planar & left & (angle < 3.0 * np.pi), dtype=np.bool_)
 
 

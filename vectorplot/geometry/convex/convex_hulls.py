@@ -203,7 +203,7 @@ def _merged(triangles: Ints, face: Ints) -> tuple[Ints, Ints]:
     key, back = (owner * count + start) * count + end, (owner * count + end) * count + start
     outer = ~np.isin(key, back)
     start, end, owner = start[outer], end[outer], owner[outer]
-    place = np.argsort(owner * count + start)
+    place = np.argsort(owner * count + start, kind="stable")
     keys = (owner * count + start)[place]
     following = np.searchsorted(keys, (owner * count + end)[place])
     sizes = np.bincount(owner)

@@ -13,6 +13,7 @@ from vectorplot.geometry.bodies.bodies_of_revolution import FULL_TURN, HALF_TURN
 from vectorplot.geometry.bodies.prisms import prism
 from vectorplot.geometry.bodies.solids import checked_points, polyhedron
 from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, flattened, signed_area
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
@@ -130,7 +131,7 @@ def _sectors(profile: Floats, azimuth: Floats, order: int, angle_deg: float) -> 
     if signed_area(outline) < 0.0:
         outline = outline[::-1]
     steps = order if angle_deg == FULL_TURN else order - 1
-    angle = np.radians(angle_deg * np.arange(steps + 1) / steps) + np.arctan2(azimuth[1], azimuth[0])
+    angle = np.radians(angle_deg * np.arange(steps + 1) / steps) + arctan2(azimuth[1], azimuth[0])
     parts = [outline[part] for part in convex_polygon_parts(outline)]
     return [_wedge(part, a, b) for part in parts for a, b in pairwise(angle.tolist())]
 

@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
@@ -82,7 +83,7 @@ def is_convex_polygon(points: Floats) -> bool:
     after = np.roll(sides, -1, axis=0)
     turn = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
     zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
-    angles = np.arctan2(turn, np.einsum("ij,ij->i", sides, after))
+    angles = arctan2(turn, np.einsum("ij,ij->i", sides, after))
     return bool((turn >= -zero).all() and abs(angles.sum() - 2.0 * np.pi) < 1.0)
 
 

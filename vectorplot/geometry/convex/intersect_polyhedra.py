@@ -12,6 +12,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.bodies.solids import has_convex_outline, zero_distance
 from vectorplot.geometry.convex.convex_parts import split_faces
 from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, plane_axes, signed_area
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.winding import is_closed_oriented
 from vectorplot.geometry.vectors import norm
@@ -245,7 +246,7 @@ def _step(after: dict[int, list[int]], before: int | None, here: int, flat: Floa
 
         def turn(choice: int) -> float:
             p, q = flat[choice] - flat[here]
-            return float(np.arctan2(u * q - v * p, u * p + v * q))
+            return float(arctan2(u * q - v * p, u * p + v * q))
 
         chosen = max(choices, key=turn)
     choices.remove(chosen)

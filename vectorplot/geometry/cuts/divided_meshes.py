@@ -186,7 +186,7 @@ def _with_corners(polygons: _Polygons, tables: list[_Made], count: int) -> _Poly
     for made in tables:
         low, high = made.ends
         keys = low * count + high
-        order = np.argsort(keys)
+        order = np.argsort(keys, kind="stable")
         if not len(keys):
             continue
         here = polygons.corners

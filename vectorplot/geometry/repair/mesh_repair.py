@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.repair.degenerate import chosen_faces, without_degenerate
 from vectorplot.geometry.repair.weld import close_points, distinct_points
@@ -226,7 +227,7 @@ def _solid_angles(mesh: Mesh, eye: Floats) -> Floats:
     la, lb, lc = (np.linalg.norm(arm, axis=1) for arm in (a, b, c))
     ab, bc, ca = (np.einsum("ij,ij->i", p, q) for p, q in ((a, b), (b, c), (c, a)))
     return np.asarray(
-        2.0 * np.arctan2(np.einsum("ij,ij->i", a, np.cross(b, c)), la * lb * lc + ab * lc + bc * la + ca * lb)
+        2.0 * arctan2(np.einsum("ij,ij->i", a, np.cross(b, c)), la * lb * lc + ab * lc + bc * la + ca * lb)
     )
 
 

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from vectorplot.geometry import elementary
+
 Values = NDArray[Any]
 """Arrays of float64 or complex128."""
 
@@ -45,13 +47,13 @@ def _ceil(x: Values) -> Values:
 
 def _cbrt(x: Values) -> Values:
     if not np.iscomplexobj(x):
-        return np.asarray(np.cbrt(x))
+        return elementary.cbrt(x)
     side = np.where(np.real(x) < 0, -1.0, 1.0)
     return np.asarray(side * (side * x) ** (1 / 3))
 
 
 def _atan2(y: Values, x: Values) -> Values:
-    angle = np.arctan2(np.real(y), np.real(x))
+    angle = elementary.arctan2(np.real(y), np.real(x))
     if not np.iscomplexobj(y) and not np.iscomplexobj(x):
         return np.asarray(angle)
     # Turned by the angle of the real parts the point lies beside the positive real axis, where arctan is safe.
@@ -89,25 +91,36 @@ def _choose(x: Values, y: Values, lower: Values, upper: Values) -> Values:
     return np.where(a <= b, lower, np.where(a > b, upper, np.nan))
 
 
+def _power(x: Values, y: Values) -> Values:
+    if np.iscomplexobj(x) or np.iscomplexobj(y):
+        return np.asarray(np.power(x, y))
+    return elementary.power(x, y)
+
+
+def _by_kind(real: Callable[[Values], Values], whole: Callable[[Values], Values]) -> Callable[[Values], Values]:
+    """A function of real numbers that has another program for complex ones."""
+    return lambda x: whole(x) if np.iscomplexobj(x) else real(x)
+
+
 OPERATIONS: Mapping[str, Callable[..., Values]] = {
     "add": np.add,
     "subtract": np.subtract,
     "multiply": np.multiply,
     "divide": np.divide,
     "negative": np.negative,
-    "power": np.power,
+    "power": _power,
     "sin": np.sin,
     "cos": np.cos,
-    "tan": np.tan,
-    "asin": np.arcsin,
-    "acos": np.arccos,
-    "atan": np.arctan,
+    "tan": _by_kind(elementary.tan, np.tan),
+    "asin": _by_kind(elementary.arcsin, np.arcsin),
+    "acos": _by_kind(elementary.arccos, np.arccos),
+    "atan": _by_kind(elementary.arctan, np.arctan),
     "atan2": _atan2,
-    "sinh": np.sinh,
-    "cosh": np.cosh,
-    "tanh": np.tanh,
-    "exp": np.exp,
-    "log": np.log,
+    "sinh": _by_kind(elementary.sinh, np.sinh),
+    "cosh": _by_kind(elementary.cosh, np.cosh),
+    "tanh": _by_kind(elementary.tanh, np.tanh),
+    "exp": _by_kind(elementary.exp, np.exp),
+    "log": _by_kind(elementary.log, np.log),
     "log2": np.log2,
     "log10": np.log10,
     "sqrt": np.sqrt,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import warnings
 from pathlib import Path
 
@@ -69,7 +70,7 @@ def usual_exaggeration(land: Terrain) -> float:
     if part == 0.0 or LOWEST <= part <= HIGHEST:
         return 1.0
     wanted = USUAL / part
-    power = int(np.floor(np.log10(wanted)))
+    power = int(np.floor(math.log10(wanted)))
     numerator = max(k for k in (1, 2, 5) if k * 10.0**power <= wanted or k == 1)
     return float(times_power_of_ten(np.array(float(numerator)), power))
 

@@ -14,6 +14,7 @@ from vectorplot.curves.families.line import Line
 from vectorplot.curves.parameters import vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import cross, norm, normalize
 from vectorplot.scene.item import Item
 from vectorplot.scene.naming.annotations import thin_line
@@ -143,8 +144,8 @@ def angle(
     if not sine > 0.0 or not 0.0 < radius < np.inf:
         raise InputError("angle: two sides that are not in one line, and a positive radius are needed")
     begins = _angle_on(Circle(middle, radius, axis), middle, first)
-    arc = Circle(middle, radius, axis, begins, begins + float(np.arctan2(sine, cosine)))
-    said = f"{np.degrees(np.arctan2(sine, cosine)):.4g}°" if text is None else text
+    arc = Circle(middle, radius, axis, begins, begins + float(arctan2(sine, cosine)))
+    said = f"{np.degrees(arctan2(sine, cosine)):.4g}°" if text is None else text
     item = thin_line(f"angle {said}", arc)
     # Letters along an arc that is hardly larger than they are would fall over each other.
     label = Label(said, OnCurve(item.name, 0.5), item.name, size_mm)
@@ -365,4 +366,4 @@ def _place(point: Floats) -> str:
 def _angle_on(circle: Circle, middle: Floats, way: Floats) -> float:
     """The parameter of a circle in a direction from its middle."""
     right, left = (circle.points(np.array(at)) - middle for at in (0.0, 0.5 * np.pi))
-    return float(np.arctan2(matmul(way, left), matmul(way, right)))
+    return float(arctan2(matmul(way, left), matmul(way, right)))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import replace
 
@@ -10,6 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number
 from vectorplot.errors import InputError
+from vectorplot.geometry.elementary import log
 from vectorplot.scene.surface_lines import MAX_LINES, Section
 from vectorplot.tolerances.of_parameters import OFF_REGULAR_GRID
 
@@ -60,10 +62,10 @@ def round_heights(low: float, high: float, count: int = USUAL_COUNT) -> tuple[fl
         raise InputError(f"level lines: {count} of them, expected 1 to {MAX_LINES}")
     if not low < high:
         return ()
-    power = int(np.floor(np.log10((high - low) / count)))
+    power = int(np.floor(math.log10((high - low) / count)))
     # The last of the four is the first of the next power of ten.
     numerators = np.array([1.0, 2.0, 5.0, 10.0])
-    best = int(np.abs(np.log(numerators * 10.0**power * count / (high - low))).argmin())
+    best = int(np.abs(log(numerators * 10.0**power * count / (high - low))).argmin())
     step = float(numerators[best])
     first, last = (np.floor(height / step / 10.0**power) for height in (low, high))
     found = times_power_of_ten(step * np.arange(first, last + 2.0), power)

@@ -15,8 +15,9 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.algebra import linear_solution, matmul
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arccos, power
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -134,11 +135,25 @@ class Finish:
         """
         if isinstance(self.weight, float | int):
             return np.full(cosine.shape, max(float(self.weight), 0.0))
-        from scipy.interpolate import CubicSpline
+        from scipy.interpolate import CubicHermiteSpline
 
         angles, values = np.array(self.weight).T
-        angle = np.clip(np.arccos(np.clip(cosine, -1.0, 1.0)), angles[0], angles[-1])
-        return np.asarray(np.maximum(CubicSpline(angles, values, bc_type="natural")(angle), 0.0))
+        angle = np.clip(arccos(np.clip(cosine, -1.0, 1.0)), angles[0], angles[-1])
+        return np.asarray(np.maximum(CubicHermiteSpline(angles, values, _natural_slopes(angles, values))(angle), 0.0))
+
+
+def _natural_slopes(x: Floats, y: Floats) -> Floats:
+    """The slopes at its points of the natural cubic spline through points of the plane: its second derivative is
+    continuous, and zero at the ends."""
+    h = np.diff(x)
+    rise = np.diff(y) / h
+    system, right = np.zeros((len(x), len(x))), np.empty(len(x))
+    system[0, :2], system[-1, -2:] = (2.0, 1.0), (1.0, 2.0)
+    right[0], right[-1] = 3.0 * rise[0], 3.0 * rise[-1]
+    for k in range(1, len(x) - 1):
+        system[k, k - 1 : k + 2] = h[k], 2.0 * (h[k - 1] + h[k]), h[k - 1]
+        right[k] = 3.0 * (h[k] * rise[k - 1] + h[k - 1] * rise[k])
+    return linear_solution(system, right)
 
 
 FINISHES: dict[str, Finish] = {
@@ -180,7 +195,7 @@ def lambert(cosine: ArrayLike, exponent: float = 1.0) -> Floats:
     [1.0, 0.5, 0.0, 0.15]
     """
     c = np.clip(np.asarray(cosine, dtype=np.float64), -1.0, 1.0)
-    size = np.abs(c) if exponent == 1.0 else np.abs(c) ** exponent
+    size = power(np.abs(c), exponent)
     return np.asarray(np.where(c > 0.0, size, DARK_SIDE * size))
 
 
@@ -262,7 +277,7 @@ def brightness(cos_alpha: ArrayLike, cos_beta: ArrayLike, finish: Finish) -> Flo
     if finish.highlight == 0.0:
         return np.asarray(bright)
     shining = (alpha > 0.0) & (beta > 0.0)
-    peak = np.where(shining, beta, 0.0) ** finish.sharpness
+    peak = power(np.where(shining, beta, 0.0), finish.sharpness)
     return np.asarray(bright + finish.highlight * finish.weight_at(alpha) * peak)
 
 

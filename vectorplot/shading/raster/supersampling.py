@@ -13,11 +13,12 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.elementary import power
 from vectorplot.shading.raster.png import Bytes
 
 LEVELS = np.arange(256) / 255.0
 
-LIGHT = np.where(LEVELS <= 0.04045, LEVELS / 12.92, ((LEVELS + 0.055) / 1.055) ** 2.4)
+LIGHT = np.where(LEVELS <= 0.04045, LEVELS / 12.92, power((LEVELS + 0.055) / 1.055, 2.4))
 """(256,) how much light a component of a pixel stands for, 0 to 1. Source: IEC 61966-2-1."""
 
 

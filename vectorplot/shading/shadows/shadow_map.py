@@ -20,6 +20,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import determinant, inverse_matrix, matmul
 from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
 from vectorplot.geometry.chunks import mapped, slices
+from vectorplot.geometry.elementary import power
 from vectorplot.shading.depth.depth_buffer import depth_codes
 from vectorplot.shading.depth.depth_code import DepthCode
 from vectorplot.shading.raster.screen import HalfSpace, screen_triangles
@@ -334,4 +335,4 @@ def texels_per_unit(found: ShadowMap, points: ArrayLike) -> Floats:
     p = light_plane(found.system, points)
     m = found.texel_from_light
     weight = matmul(p, m[2, :2]) + m[2, 2]
-    return np.asarray(np.abs(determinant(m)) / np.abs(weight) ** 3)
+    return np.asarray(np.abs(determinant(m)) / power(np.abs(weight), 3))

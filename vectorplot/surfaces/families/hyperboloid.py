@@ -10,6 +10,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import number, parameter_range, positive, vector
 from vectorplot.errors import InputError
+from vectorplot.geometry.elementary import cosh, sinh
 from vectorplot.surfaces.families.elliptic_sections import EllipticSections, OnSemiAxes, Profile
 from vectorplot.surfaces.surface import Domain
 
@@ -86,8 +87,8 @@ class Hyperboloid(OnSemiAxes):
 
     def _profile(self, v: Floats) -> Profile:
         c = np.asarray(self.semi_axes)[..., 2]
-        cosh, sinh = np.cosh(v), np.sinh(v)
-        return (cosh, c * sinh), (sinh, c * cosh), (cosh, c * sinh)
+        ch, sh = cosh(v), sinh(v)
+        return (ch, c * sh), (sh, c * ch), (ch, c * sh)
 
 
 @dataclass(frozen=True, eq=False)
@@ -145,8 +146,8 @@ class HyperboloidSheet(OnSemiAxes):
 
     def _profile(self, v: Floats) -> Profile:
         c = np.asarray(self.semi_axes)[..., 2]
-        cosh, sinh = np.cosh(v), np.sinh(v)
-        return (sinh, c * cosh), (cosh, c * sinh), (sinh, c * cosh)
+        ch, sh = cosh(v), sinh(v)
+        return (sh, c * ch), (ch, c * sh), (sh, c * ch)
 
 
 @dataclass(frozen=True, eq=False)

@@ -164,7 +164,9 @@ def implicit_ellipsoid(semi_axes: ArrayLike, centre: ArrayLike = (0.0, 0.0, 0.0)
     axes, middle = vector("ellipsoid: semi-axes", semi_axes), vector("ellipsoid: centre", centre)
     if not (axes > 0.0).all():
         raise InputError("ellipsoid: semi-axes must be positive")
-    return Quadric([*axes**-2, *[0.0] * 6, -1.0], np.stack([middle - 1.1 * axes, middle + 1.1 * axes]), middle)
+    return Quadric(
+        [*1.0 / (axes * axes), *[0.0] * 6, -1.0], np.stack([middle - 1.1 * axes, middle + 1.1 * axes]), middle
+    )
 
 
 def implicit_sphere(radius: float, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Quadric:

@@ -38,7 +38,7 @@ class Feet(NamedTuple):
 
     def first(self, count: int) -> Feet:
         """The nearest ones of each point."""
-        order = np.argsort(np.where(np.isnan(self.distance), np.inf, self.distance), axis=1)[:, :count]
+        order = np.argsort(np.where(np.isnan(self.distance), np.inf, self.distance), axis=1, kind="stable")[:, :count]
         u, v, distance = (np.take_along_axis(a, order, axis=1) for a in self[:3])
         return Feet(u, v, distance, self.extent)
 

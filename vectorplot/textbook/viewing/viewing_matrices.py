@@ -16,6 +16,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import tan
 from vectorplot.textbook.viewing.bases import basis_of_gaze, frame_from_world
 from vectorplot.textbook.viewing.homogeneous_points import dehomogenized, homogeneous
 
@@ -151,7 +152,7 @@ class ViewVolume:
         InputError
             For what ViewVolume refuses.
         """
-        half = -near * float(np.tan(np.radians(fov_deg) / 2.0))
+        half = -near * float(tan(np.radians(fov_deg) / 2.0))
         return cls(-half * aspect, half * aspect, -half, half, near, far)
 
     @cached_property

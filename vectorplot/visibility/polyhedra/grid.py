@@ -138,7 +138,7 @@ def cut(grid: Grid, start: Floats, end: Floats, start_depth: Floats, end_depth: 
         slot = first[owner] + 1 + step + (crossings[0][owner] if axis else 0)
         at[slot] = np.clip(where, 0.0, 1.0)
     mixed = np.flatnonzero(np.repeat((crossings[0] > 0) & (crossings[1] > 0), pieces))
-    at[mixed] = at[mixed[np.argsort(segment[mixed] + 0.5 * at[mixed])]]
+    at[mixed] = at[mixed[np.argsort(segment[mixed] + 0.5 * at[mixed], kind="stable")]]
     after = np.append(at[1:], 1.0)
     after[first + pieces - 1] = 1.0
     return _pieces(grid, start, end, start_depth, end_depth, central, segment, at, after)

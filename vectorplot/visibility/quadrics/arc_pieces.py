@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.elementary import arctan, tan
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.visibility.polyhedra.grid import Floats32
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
@@ -47,7 +48,7 @@ class Pieces:
         s = 2.0 * t - 1.0
         # The tangent of the half angle goes evenly along the weighted curve.
         straight = arcs.straight[self.arc[which]]
-        turned = 2.0 * np.arctan(np.tan(np.where(straight, 0.0, 0.5 * half)) * s)
+        turned = 2.0 * arctan(tan(np.where(straight, 0.0, 0.5 * half)) * s)
         turned = np.where(straight, half * s, turned)
         return np.where(t <= 0.0, middle - half, np.where(t >= 1.0, middle + half, middle + turned))
 

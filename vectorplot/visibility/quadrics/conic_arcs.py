@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.elementary import arccos, arctan2
 from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
 from vectorplot.words import LineKind
 
@@ -129,9 +130,9 @@ def beyond_near(sight: EyeCoordinates, arcs: Arcs, sides: OwnSides) -> tuple[Arc
     doubtful = base - reach < sight.near
     if not doubtful.any():
         return arcs, sides
-    turn = np.arctan2(arcs.second[:, 2], ahead)
+    turn = arctan2(arcs.second[:, 2], ahead)
     with np.errstate(divide="ignore", invalid="ignore"):
-        half = np.arccos(np.clip((sight.near - base) / reach, -1.0, 1.0))
+        half = arccos(np.clip((sight.near - base) / reach, -1.0, 1.0))
     half = np.where(base + reach < sight.near, -1.0, np.where(reach > 0.0, half, np.pi))
     which, low, high = [np.flatnonzero(~doubtful)], [arcs.low[~doubtful]], [arcs.high[~doubtful]]
     some = np.flatnonzero(doubtful & arcs.straight)

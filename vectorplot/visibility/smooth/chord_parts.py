@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier.cubic_error import bernstein, cubic_error, places
 from vectorplot.geometry.components import all_components, any_component
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances.of_parameters import BESIDE_STANDSTILL
@@ -93,7 +94,7 @@ class ChordParts:
         if len(odd):
             inwards = BESIDE_STANDSTILL * np.concatenate([span, -span])
             way[odd] = self._limits(view, chord[odd], part[odd], inwards[odd])
-        angle = np.where(any_component(way), np.arctan2(way[:, 1], way[:, 0]), np.nan)
+        angle = np.where(any_component(way), arctan2(way[:, 1], way[:, 0]), np.nan)
         result[on] = angle.reshape(2, count).T
         return result
 

@@ -12,6 +12,7 @@ from vectorplot.drawing.strokes.chains import NO_END, chains
 from vectorplot.drawing.strokes.join import linked_ends
 from vectorplot.drawing.strokes.stroke_paths import chosen
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arctan2, tan
 from vectorplot.tolerances.of_the_page import TOUCHING_AT_MM
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import Entries, Floats32, Grid
@@ -82,8 +83,8 @@ def _slopes(ends: Floats, mate: Ints, directions: Floats) -> Floats:
         run = (along * tangent).sum(axis=1)
         good = linked[:, side] & (np.abs(rise) < _STEEPEST * run)
         slopes[good, side] = rise[good] / run[good]
-    angle = directions - np.arctan2(along[:, 1], along[:, 0])[:, None]
-    slopes = np.where((np.cos(angle) > 0.0) & (np.abs(np.tan(angle)) < _STEEPEST), np.tan(angle), slopes)
+    angle = directions - arctan2(along[:, 1], along[:, 0])[:, None]
+    slopes = np.where((np.cos(angle) > 0.0) & (np.abs(tan(angle)) < _STEEPEST), tan(angle), slopes)
     slopes = np.where(np.isnan(slopes), -slopes[:, ::-1], slopes)
     return np.nan_to_num(slopes, nan=0.0)
 

@@ -156,7 +156,7 @@ def _onward(flow: MeshFlow, side: Ints, at_vertex: Bools, directions: Floats, wa
     edge, vertex = np.flatnonzero(~at_vertex), np.flatnonzero(at_vertex)
     over = flow.over_edge(side[edge], directions[edge], way[edge])
     beyond = flow.over_vertex(side[vertex], directions[vertex], way[vertex])
-    order = np.argsort(np.concatenate([edge, vertex]))
+    order = np.argsort(np.concatenate([edge, vertex]), kind="stable")
     return Onward(*(np.concatenate([a, b])[order] for a, b in zip(over, beyond, strict=True)))
 
 

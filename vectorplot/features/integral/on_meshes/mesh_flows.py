@@ -15,6 +15,7 @@ from vectorplot.features.integral.on_meshes.mesh_sides import NO_SIDE, MeshSides
 from vectorplot.features.integral.sites import unit
 from vectorplot.features.integral.tangent_fields import TangentField
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.repair.adjacency import face_barycentres
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.tolerances.of_angles import UNIT_LENGTH
@@ -248,4 +249,4 @@ def corner_angles(sides: MeshSides, corner: Ints) -> Floats:
 
 def _between(a: Floats, b: Floats) -> Floats:
     across = cross(a, b)
-    return np.asarray(np.arctan2(np.sqrt(dot(across, across)), dot(a, b)))
+    return np.asarray(arctan2(np.sqrt(dot(across, across)), dot(a, b)))

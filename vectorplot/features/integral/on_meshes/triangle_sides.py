@@ -9,6 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.meshes.mesh_curves import FaceTriangles
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.tolerances.of_extent import SETTLED_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
@@ -87,7 +88,7 @@ def triangle_sides(faces: FaceTriangles) -> TriangleSides:
         np.minimum(start, end) * count + np.maximum(start, end), return_inverse=True, return_counts=True
     )
     angle = np.zeros(count)
-    np.add.at(angle, start, np.arctan2(y, x))
+    np.add.at(angle, start, arctan2(y, x))
     # Of two triangles at each of its edges as many sides begin at a vertex as edges meet there.
     passable = angle > 2.0 * np.pi + ZERO_OF_EXTENT
     for vertex in (start, end):

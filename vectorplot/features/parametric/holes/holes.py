@@ -7,6 +7,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats
 from vectorplot.features.parametric.wrapping import wrapped
 from vectorplot.geometry.components import all_finite
+from vectorplot.geometry.elementary import log
 from vectorplot.geometry.vectors import from_components
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Domain, Surface
@@ -61,7 +62,7 @@ def last_alike(surface: Surface, base: Floats, ways: Floats, low: Floats, high: 
     with np.errstate(all="ignore"):
         long = np.nan_to_num(float(np.max(np.abs((high - low)[:, None] * ways / size), initial=0.0)), nan=0.0)
     number = int(np.clip(AT_ONCE // max(len(base), 1), 2, MOST_PARTS))
-    steps = int(np.ceil(np.log(max(long / RIM_FOUND_TO, 1.0)) / np.log(number)))
+    steps = int(np.ceil(log(max(long / RIM_FOUND_TO, 1.0)) / log(number)))
     there = is_known(surface, base + low[:, None] * ways)
     inner = np.arange(1, number)[:, None] / number
     for _ in range(steps):

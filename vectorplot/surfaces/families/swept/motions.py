@@ -15,6 +15,7 @@ from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.curves.parameters import is_whole_turns
 from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.geometry.elementary import exp
 
 
 class Motion(Protocol):
@@ -280,4 +281,4 @@ class SpiralMotion:
         return np.asarray(self.growth * p + _quarter(p))
 
     def _grown(self, p: Floats, v: Floats) -> Floats:
-        return np.asarray(np.exp(self.growth * v)[..., None] * turned(p, v))
+        return np.asarray(exp(self.growth * v)[..., None] * turned(p, v))

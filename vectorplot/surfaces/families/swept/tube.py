@@ -18,6 +18,7 @@ from vectorplot.curves.splines.spline_curve import SplineCurve, spline_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.components import component_sum
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import cross, length, normalize
 from vectorplot.surfaces.families.swept.swept import Swept
 
@@ -187,7 +188,5 @@ def _least_turning(points: Floats, tangents: Floats, closed: bool) -> Floats:
     if not closed:
         return across
     beside = np.cross(tangents, across)
-    angle = np.arctan2(matmul(across[0], beside[-1]), matmul(across[0], across[-1])) * np.linspace(
-        0.0, 1.0, len(points)
-    )
+    angle = arctan2(matmul(across[0], beside[-1]), matmul(across[0], across[-1])) * np.linspace(0.0, 1.0, len(points))
     return np.asarray(np.cos(angle)[:, None] * across + np.sin(angle)[:, None] * beside)

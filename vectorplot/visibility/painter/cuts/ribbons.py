@@ -14,6 +14,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
@@ -198,8 +199,8 @@ def _about_axis(view: View, slices: Slices) -> tuple[Floats, Floats, Floats, Flo
     arm = level - (matmul(slices.frame[:2], view.eye))[:, None]
     after = arm[:, next_positions(offsets, np.arange(arm.shape[1]))]
     first = np.repeat(arm[:, offsets[:-1]], np.diff(offsets), axis=1)
-    turned = np.arctan2(first[0] * arm[1] - first[1] * arm[0], (first * arm).sum(axis=0))
-    start = np.arctan2(arm[1, offsets[:-1]], arm[0, offsets[:-1]])
+    turned = arctan2(first[0] * arm[1] - first[1] * arm[0], (first * arm).sum(axis=0))
+    start = arctan2(arm[1, offsets[:-1]], arm[0, offsets[:-1]])
     low, high = (start + reduce.reduceat(turned, offsets[:-1]) for reduce in (np.minimum, np.maximum))
     side = after - arm
     length = (side * side).sum(axis=0)

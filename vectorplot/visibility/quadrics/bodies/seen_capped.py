@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.elementary import arccos, arctan2
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
@@ -93,8 +94,8 @@ class CappedBodies(UnitBodies):
         ball = np.where(self.is_round[:, None], e[:, 3:] - e[:, 2:3] * np.stack([low, high], axis=1), 0.0)
         with np.errstate(divide="ignore", invalid="ignore"):
             least = np.where(self.is_round[:, None], ball / self.radii, far) / across[:, None]
-            reach = np.arccos(np.clip(least, -1.0, 1.0))
-        return np.arctan2(e[:, 1], e[:, 0]), np.where(np.isnan(reach), 0.0, reach)
+            reach = arccos(np.clip(least, -1.0, 1.0))
+        return arctan2(e[:, 1], e[:, 0]), np.where(np.isnan(reach), 0.0, reach)
 
     @cached_property
     def reach(self) -> Floats:

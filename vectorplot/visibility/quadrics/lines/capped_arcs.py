@@ -8,6 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import arcsin
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.item import Item
 from vectorplot.visibility.quadrics.bodies.capped_covers import ball_contours
@@ -129,14 +130,14 @@ def _parameter_lines(bodies: CappedBodies, before: int, items: Sequence[Item], w
     body, angle = body[bent], angle[bent]
     frame = bodies.frame[body]
     equator = np.cos(angle)[:, None] * frame[:, 0] + np.sin(angle)[:, None] * frame[:, 1]
-    low, high = np.arcsin(np.clip(bodies.ends[body], -1.0, 1.0)).T
+    low, high = arcsin(np.clip(bodies.ends[body], -1.0, 1.0)).T
     circles = (bodies.centre[body], equator, frame[:, 2])
     found.append(on_mantles(bodies, before, circles, (low, high), body, LineKind.PARAMETER))
     rows = np.array([items[k].curves.rows for k in which.tolist()], dtype=np.intp)
     inner = np.maximum(rows - 1, 0)
     body, part = np.repeat(which, inner), (ragged.place(inner) + 1) / np.repeat(rows, inner)
     low, high = bodies.ends[body].T
-    latitude = (1.0 - part) * np.arcsin(np.clip(low, -1.0, 1.0)) + part * np.arcsin(np.clip(high, -1.0, 1.0))
+    latitude = (1.0 - part) * arcsin(np.clip(low, -1.0, 1.0)) + part * arcsin(np.clip(high, -1.0, 1.0))
     round_ = bodies.is_round[body]
     height = np.where(round_, np.sin(latitude), part)
     radius = np.where(round_, np.cos(latitude), (1.0 - part) * bodies.radii[body, 0] + part * bodies.radii[body, 1])

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import determinant
+from vectorplot.geometry.elementary import arccos, arctan, arctan2, tan
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
@@ -85,9 +86,9 @@ def capped_isophotes(
     along = bodies.inverse[body[flat]][:, :, 2] * bodies.growth[body[flat], None]
     least = cosine[flat] * np.sqrt(dot(across, across) + dot(along, along))
     least = least + bodies.growth[body[flat]] * towards[:, 2]
-    reach, turn = np.hypot(towards[:, 0], towards[:, 1]), np.arctan2(towards[:, 1], towards[:, 0])
+    reach, turn = np.hypot(towards[:, 0], towards[:, 1]), arctan2(towards[:, 1], towards[:, 0])
     kept = np.flatnonzero(np.abs(least) < reach)
-    half = np.arccos(least[kept] / reach[kept])
+    half = arccos(least[kept] / reach[kept])
     angle = np.concatenate([turn[kept] - half, turn[kept] + half])
     found = [rulings(bodies, before, np.tile(body[flat[kept]], 2), angle, LineKind.ISOPHOTE)]
     normal = np.einsum("nij,nj->ni", bodies.frame[body[bent]], light[bent])
@@ -118,16 +119,16 @@ def _of_frusta(bodies: CappedBodies, before: int, planes: _Planes, kind: LineKin
     # Normals such that the divisor is positive, and angles from where it is largest.
     signed = bottom * planes.normal[:, 2] + growth * planes.height
     flip, way = np.where(signed < 0.0, -1.0, 1.0), np.where(growth < 0.0, -1.0, 1.0)
-    turn = np.arctan2(planes.normal[:, 1], planes.normal[:, 0]) + np.where(flip * way < 0.0, np.pi, 0.0)
+    turn = arctan2(planes.normal[:, 1], planes.normal[:, 0]) + np.where(flip * way < 0.0, np.pi, 0.0)
     ends = _cosines_on_rims(planes, steep, bodies)
     ends = flip * way * ends
-    least, most = (np.arccos(np.clip(pick(ends, axis=0), -1.0, 1.0)) for pick in (np.max, np.min))
+    least, most = (arccos(np.clip(pick(ends, axis=0), -1.0, 1.0)) for pick in (np.max, np.min))
     met = (ends.min(axis=0) < 1.0) & (ends.max(axis=0) > -1.0)
     narrow = (most - least < NARROW_CONIC) & (least > 0.0) & (most < np.pi)
     some = np.flatnonzero(met & narrow)
     found = []
     for side in (-1.0, 1.0):
-        angles = turn[some] + side * np.arccos(np.clip(ends[:, some], -1.0, 1.0))
+        angles = turn[some] + side * arccos(np.clip(ends[:, some], -1.0, 1.0))
         start, end = (on_rims(bodies, body[some], k, angles[k]) for k in (BOTTOM, TOP))
         found.append(straight_on_mantles(bodies, before, body[some], start, end, kind))
     some = np.flatnonzero(met & ~narrow)
@@ -180,7 +181,7 @@ def _arcs_of(conics: _Conics, bodies: CappedBodies, before: int, body: Ints, kin
     """The arcs of sections of the mantles of bodies (n,)."""
     c, none = conics, np.zeros_like(conics.size)
     largest, smallest = c.divisor + c.growth, c.divisor - c.growth
-    end = np.tan(0.5 * c.most) ** 2
+    end = tan(0.5 * c.most) ** 2
     with np.errstate(divide="ignore"):
         even = np.where(smallest > 0.0, largest / smallest, np.inf)
     # The tangents of half the angles are divided by the root of this: weights are even, or 1 at the end of the arc.
@@ -203,8 +204,8 @@ def _arcs_of(conics: _Conics, bodies: CappedBodies, before: int, body: Ints, kin
         return np.asarray(unit[:, :1] * out + unit[:, 2:3] * frame[:, 2] + unit[:, 3:] * centre)
 
     circles = placed(middle), placed(first), (factor * c.size / weight)[:, None] * side
-    low = 2.0 * np.arctan(np.tan(0.5 * c.least) / factor)
-    high = np.where(c.most >= np.pi, np.pi, 2.0 * np.arctan(np.sqrt(end) / factor))
+    low = 2.0 * arctan(tan(0.5 * c.least) / factor)
+    high = np.where(c.most >= np.pi, np.pi, 2.0 * arctan(np.sqrt(end) / factor))
     begins, closes = low <= 0.0, high >= np.pi
     both, before_it, behind_it = ~begins & ~closes, begins & ~closes, closes
     spans = (
@@ -246,7 +247,7 @@ def _of_caps(bodies: CappedBodies, before: int, planes: _Planes, end: int, kind:
     reach = bodies.radii[some.body, end] * steep
     distance = some.at(bodies.ends[some.body, end])
     kept = np.flatnonzero(np.abs(distance) < reach - bodies.tolerance)
-    body, half = some.body[kept], np.arccos(distance[kept] / reach[kept])
-    turn = np.arctan2(some.normal[kept, 1], some.normal[kept, 0])
+    body, half = some.body[kept], arccos(distance[kept] / reach[kept])
+    turn = arctan2(some.normal[kept, 1], some.normal[kept, 0])
     start, stop = (on_rims(bodies, body, end, turn + sign * half) for sign in (-1.0, 1.0))
     return lines_on_caps(bodies, before, body, end, (start, stop), kind)

@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.exact import intervals
+from vectorplot.geometry.elementary import arccos, arctan2
 from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances.of_lengths import UNION_OF_SEGMENT
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER
@@ -24,9 +25,9 @@ def parts_inside(
     # Outside of the plane where base + reach cos(t - turn) < 0.
     base = dot(middle[circle], forms[:, :3]) + forms[:, 3]
     x, y = dot(first[circle], forms[:, :3]), dot(second[circle], forms[:, :3])
-    reach, turn = np.hypot(x, y), np.arctan2(y, x)
+    reach, turn = np.hypot(x, y), arctan2(y, x)
     with np.errstate(divide="ignore", invalid="ignore"):
-        half = np.arccos(np.clip(base / reach, -1.0, 1.0))
+        half = arccos(np.clip(base / reach, -1.0, 1.0))
     out = np.isfinite(base) & (base < reach)
     circle, turn, half = circle[out], turn[out], np.where(base[out] <= -reach[out], np.pi, half[out])
     low = np.mod(turn + np.pi - half, 2.0 * np.pi) / (2.0 * np.pi)

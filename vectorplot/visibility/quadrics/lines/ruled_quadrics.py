@@ -10,6 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.algebra import inverse_matrix, symmetric_eigen
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
 
@@ -151,7 +152,7 @@ class Mantles:
     def parameter(self, row: Ints, points: Floats) -> Floats:
         """(n,) the angles."""
         s = self.quadrics.unit(row, points)
-        angle = np.arctan2(s[:, 1], s[:, 0])
+        angle = arctan2(s[:, 1], s[:, 0])
         return np.where(angle > SEAM, angle - 2.0 * np.pi, angle)
 
     def borders(self, row: Ints, end: int, angle: Floats) -> tuple[Floats, Floats]:

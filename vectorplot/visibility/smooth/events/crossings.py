@@ -302,7 +302,7 @@ def _events(view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: 
     gap = sight_lines.depth(view, one.points) - sight_lines.depth(view, two.points)
     exact = max(CROSSING_RESIDUAL, ULPS * sight_lines.rounding(view))
     real = (gap > _least_gaps(curves, edges, edge_on, pairs)) & (residual <= exact)
-    real &= residual <= RESIDUAL_OF_GAP * gap**3
+    real &= residual <= RESIDUAL_OF_GAP * gap * gap * gap
     direction = sight_lines.image_slopes(view, one.points, one.slopes)
     along = sight_lines.image_slopes(view, two.points, two.slopes)
     real &= np.abs(turn(along, direction)) > ALONG_EDGE_SINE * np.sqrt(dot(along, along) * dot(direction, direction))
