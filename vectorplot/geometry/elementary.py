@@ -11,9 +11,11 @@ from __future__ import annotations
 from typing import Any, cast
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Floats
+
+Complexes = NDArray[np.complex128]
 
 MOST_FACTORS = 64
 """Powers to whole exponents up to this are products."""
@@ -120,7 +122,20 @@ def arctanh(x: ArrayLike) -> Floats:
     return _real(np.arctanh(_complex(x)).real)
 
 
-def _complex(x: ArrayLike) -> np.ndarray[Any, np.dtype[np.complex128]]:
+def modulus(z: Complexes) -> Floats:
+    """The absolute values of complex numbers."""
+    return cast(Floats, np.hypot(z.real, z.imag))
+
+
+def complex_product(a: ArrayLike, b: ArrayLike) -> Complexes:
+    """The products of complex numbers, which numpy's own multiplication may round once or twice."""
+    x, y = _complex(a), _complex(b)
+    result = np.empty(np.broadcast(x, y).shape, dtype=np.complex128)
+    result.real, result.imag = x.real * y.real - x.imag * y.imag, x.real * y.imag + x.imag * y.real
+    return result
+
+
+def _complex(x: ArrayLike) -> Complexes:
     return np.asarray(x).astype(np.complex128)
 
 

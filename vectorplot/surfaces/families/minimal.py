@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats
 from vectorplot.curves.parameters import is_whole_turns, number
 from vectorplot.errors import InputError
+from vectorplot.geometry.elementary import complex_product
 from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances.of_angles import RIGHT_ANGLE_COSINE
@@ -104,7 +105,7 @@ class MinimalSurface(MovableSurface):
         return twice, self._real(1j * bends), -twice
 
     def _real(self, vectors: Complexes) -> Floats:
-        return np.asarray((np.exp(1j * self.bending) * vectors).real)
+        return np.asarray(complex_product(np.exp(1j * self.bending), vectors).real)
 
 
 def _complex(u: Floats, v: Floats) -> Complexes:
@@ -140,20 +141,22 @@ class SpiralCurve:
     def points(self, w: Complexes) -> Complexes:
         """(..., 3) P."""
         k = -1j * self.growth
-        up, down = np.exp((k + 1.0) * w) / (k + 1.0), np.exp((k - 1.0) * w) / (k - 1.0)
-        return np.stack([0.5 * (down - up), 0.5j * (up + down), np.exp(k * w) / k], axis=-1)
+        up, down = (complex_product(np.exp(complex_product(q, w)), 1.0 / q) for q in (k + 1.0, k - 1.0))
+        return np.stack(
+            [0.5 * (down - up), 0.5j * (up + down), complex_product(np.exp(complex_product(k, w)), 1.0 / k)], axis=-1
+        )
 
     def tangents(self, w: Complexes) -> Complexes:
         """(..., 3) P'."""
-        return np.asarray(self._factor(w) * np.stack([-np.sinh(w), 1j * np.cosh(w), np.ones_like(w)], axis=-1))
+        return complex_product(self._factor(w), np.stack([-np.sinh(w), 1j * np.cosh(w), np.ones_like(w)], axis=-1))
 
     def second_derivatives(self, w: Complexes) -> Complexes:
         """(..., 3) P''."""
         change = np.stack([-np.cosh(w), 1j * np.sinh(w), np.zeros_like(w)], axis=-1)
-        return np.asarray(-1j * self.growth * self.tangents(w) + self._factor(w) * change)
+        return np.asarray(-1j * self.growth * self.tangents(w) + complex_product(self._factor(w), change))
 
     def _factor(self, w: Complexes) -> Complexes:
-        return np.asarray(np.exp(-1j * self.growth * w)[..., None])
+        return np.asarray(np.exp(complex_product(-1j * self.growth, w))[..., None])
 
 
 def helicoid_to_catenoid(

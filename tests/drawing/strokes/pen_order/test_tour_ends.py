@@ -32,7 +32,7 @@ def test_ends_are_joined_that_are_each_others_nearest_nearly_everywhere():
     joined = np.flatnonzero(mate >= 0)
     assert (mate[mate[joined]] == joined).all() and (layer[mate[joined]] == layer[joined]).all()
     assert (mate[joined] != other[joined]).all()
-    np.testing.assert_array_equal(apart[joined], np.abs(spots[joined] - spots[mate[joined]]))
+    np.testing.assert_allclose(apart[joined], np.abs(spots[joined] - spots[mate[joined]]), rtol=1e-15)
     every = np.where(layer[:, None] == layer, np.abs(spots[:, None] - spots), np.inf)
     every[np.arange(COUNT), np.arange(COUNT)] = every[np.arange(COUNT), other] = np.inf
     nearest = every.argmin(axis=1)

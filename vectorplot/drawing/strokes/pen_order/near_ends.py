@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.strokes.pen_order.tour_ends import ALL_PAIRS, ENDS_AT_ONCE, REACH, Curves, Places
 from vectorplot.geometry.chunks import mapped, slices, threads, workers
+from vectorplot.geometry.elementary import modulus
 
 Pairs = tuple[Ints, Ints, Floats]
 """Ends (p,), ends near them, and how far from them these are."""
@@ -55,7 +56,7 @@ def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> Crowd:
     """The ends at these spots, with curves through them. Only ends of the same layer (n,) count for each other, but for
     opposite (n,): one end that does not count for each."""
     if len(spots) <= ALL_PAIRS:
-        apart = np.abs(spots[:, None] - spots)
+        apart = modulus(spots[:, None] - spots)
         number = np.arange(len(spots))
         apart[(layer[:, None] != layer) | (opposite[:, None] == number) | (number[:, None] == number)] = np.inf
         return (_AllPairs(apart),)
@@ -76,7 +77,7 @@ def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> Crowd:
         apart = np.empty((REACH, count))
         for lag, length in enumerate(apart, start=1):
             here, there = slice(0, count), slice(lag, lag + count)
-            length[:] = np.abs(spot[there] - spot[here])
+            length[:] = modulus(spot[there] - spot[here])
             length[np.flatnonzero(other[there] == ends[here])] = np.inf
             if of is not None:
                 length[np.flatnonzero(of[there] != of[here])] = np.inf

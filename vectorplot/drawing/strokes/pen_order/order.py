@@ -15,6 +15,7 @@ from vectorplot.drawing.strokes.stroke_paths import chosen, directed, swapped
 from vectorplot.errors import InputError
 from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import modulus
 from vectorplot.geometry.polylines import with_points
 
 # In so many bits strokes are put in order from left to right; what falls together is looked at again.
@@ -128,7 +129,7 @@ def travel_mm(paths: Paths) -> float:
 def _from_the_corner(ends: Places, tour: Ints, bounds: Ints) -> Ints:
     """The tours of layers, which begin at bounds, turned round where they end nearer to the corner than they begin."""
     first, last = bounds[:-1], bounds[1:] - 1
-    turned = np.abs(ends[tour[last] ^ 1]) < np.abs(ends[tour[first]])
+    turned = modulus(ends[tour[last] ^ 1]) < modulus(ends[tour[first]])
     counts = np.diff(bounds)
     position = np.arange(len(tour))
     backwards = np.repeat(turned, counts)
@@ -247,7 +248,7 @@ def _entered(
         before, after = np.where(at == first[at], after, before), np.where(at == last[at], before, after)
         many = counts[stroke]
         spot = spots[ragged.ranges(paths.offsets[:-1][stroke], many)]
-        way = np.abs(spot - np.repeat(before, many)) + np.abs(spot - np.repeat(after, many))
+        way = modulus(spot - np.repeat(before, many)) + modulus(spot - np.repeat(after, many))
         start[stroke] = _least(way, spot.real, many)
         entry = spots[paths.offsets[:-1][stroke] + start[stroke]]
         ends[tour[at]] = ends[tour[at] ^ 1] = entry

@@ -18,6 +18,7 @@ from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
 from vectorplot.drawing.strokes.pen_order.tour_ends import Places, curves_through, extent, mutual_nearest
 from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import modulus
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 # Rounds in which jumps exchange partners.
@@ -127,8 +128,8 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places, layer: Ints) -
     some = np.flatnonzero((of[one] == of[other]) & (one < other))
     one, other, apart = one[some], other[some], apart[some]
     for _ in range(_EXCHANGES):
-        jump = np.fmax(np.abs(spots - spots[mate]), 0.0)
-        between = np.fmax(np.abs(spots[mate[one]] - spots[mate[other]]), 0.0)
+        jump = np.fmax(modulus(spots - spots[mate]), 0.0)
+        between = np.fmax(modulus(spots[mate[one]] - spots[mate[other]]), 0.0)
         gain = jump[one] + jump[other] - apart - between
         inside = (mate < 0) | (of == of[mate])
         good = np.flatnonzero((gain > ZERO_OF_EXTENT) & (mate[one] != other) & inside[one] & inside[other])

@@ -16,6 +16,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.strokes.pen_order.touching import trails
 from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent, mutual_nearest
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import modulus
 from vectorplot.tolerances.of_extent import DRAWN_TOGETHER_OF_EXTENT, SPREAD_OF_EXTENT
 
 
@@ -60,7 +61,7 @@ def _spread(ends: Places) -> Places:
     for side in (0, 1):
         one = np.arange(side, len(ends) // 2 - 1, 2) * 2 + side
         way = ends[one + 2] - ends[one]
-        way = way * (DRAWN_TOGETHER_OF_EXTENT / np.maximum(np.abs(way), DRAWN_TOGETHER_OF_EXTENT * size))
+        way = way * (DRAWN_TOGETHER_OF_EXTENT / np.maximum(modulus(way), DRAWN_TOGETHER_OF_EXTENT * size))
         spread[one] += way
         spread[one + 2] -= way
     return spread

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats, Ints
 from vectorplot.exact.radix import ShortKeys, radix_order
 from vectorplot.geometry.chunks import mapped, slices, threads, workers
+from vectorplot.geometry.elementary import modulus
 
 Places = NDArray[np.complex128]
 Curves = tuple[Ints, ...]
@@ -50,7 +51,7 @@ def mutual_nearest(spots: Places, other: Ints, layer: Ints, curves: Curves) -> t
 
 
 def _nearest_of_all(spots: Places, other: Ints, layer: Ints) -> tuple[Ints, Ints, Floats]:
-    apart = np.where(layer[:, None] == layer, np.abs(spots[:, None] - spots), np.inf)
+    apart = np.where(layer[:, None] == layer, modulus(spots[:, None] - spots), np.inf)
     number = np.arange(len(spots))
     apart[number, number] = apart[number, other] = np.inf
     near = np.argmin(apart, axis=1)
@@ -71,7 +72,7 @@ def _nearest_along_curves(spots: Places, other: Ints, layer: Ints, curves: Curve
         spot, opposite, of = spots.take(ends), other.take(ends), layer.take(ends) if several else None
         least, apart = np.full(len(ends), np.inf), []
         for lag in range(1, REACH + 1):
-            length = np.abs(spot[lag:] - spot[:-lag])
+            length = modulus(spot[lag:] - spot[:-lag])
             length[np.flatnonzero(opposite[lag:] == ends[:-lag])] = np.inf
             if of is not None:
                 length[np.flatnonzero(of[lag:] != of[:-lag])] = np.inf

@@ -18,6 +18,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
 from vectorplot.drawing.strokes.pen_order.tour_ends import Curves, Places, extent
 from vectorplot.geometry import ragged
+from vectorplot.geometry.elementary import modulus
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 from vectorplot.tolerances.of_lengths import LEAST_GAIN_OF_TRAVEL
 
@@ -50,7 +51,7 @@ class _Row:
     def between(self, s: Ints, t: Ints) -> Floats:
         """The distances of the ends at these indices in the row."""
         # fmax passes the number where the other is not one.
-        apart: Floats = np.fmax(np.abs(self.spots.take(s) - self.spots.take(t)), 0.0)
+        apart: Floats = np.fmax(modulus(self.spots.take(s) - self.spots.take(t)), 0.0)
         return apart
 
 
@@ -80,7 +81,7 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
     partner, travel = _partners(tour), np.inf
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
         # A gap of no length has nothing to gain, and only one as long as the way to a neighbour has.
-        own = np.fmax(np.abs(ends - spots.take(partner[:count])), 0.0)
+        own = np.fmax(modulus(ends - spots.take(partner[:count])), 0.0)
         last, travel = travel, 0.5 * float(own.sum())
         if mean > _MORE_ROUNDS and last - travel < LEAST_GAIN_OF_TRAVEL * travel:
             break
@@ -115,7 +116,7 @@ def _row(spots: Places, tour: Ints, layer: Ints, pairs: tuple[Ints, Ints, Floats
     place = np.empty(nowhere, dtype=np.intp)
     place[row[1:-1]] = np.arange(1, nowhere + 1)
     spots = spots.take(row)
-    gap = np.fmax(np.abs(spots[0::2] - spots[1::2]), 0.0)
+    gap = np.fmax(modulus(spots[0::2] - spots[1::2]), 0.0)
     end, other, apart = pairs
     return _Row(spots, tour, row, layer.take(tour), gap, place.take(end), place.take(other), apart)
 
@@ -245,7 +246,7 @@ def _freed(at: _Row, length: int) -> Floats:
     gone = (
         at.gap[:-length]
         + at.gap[length:]
-        - np.fmax(np.abs(at.spots[: -2 * length : 2] - at.spots[2 * length + 1 :: 2]), 0.0)
+        - np.fmax(modulus(at.spots[: -2 * length : 2] - at.spots[2 * length + 1 :: 2]), 0.0)
     )
     gone[at.layer[: len(gone)] != at.layer[length - 1 :]] = -np.inf
     freed = np.full(len(at.row), -np.inf)
