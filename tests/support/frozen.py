@@ -1,8 +1,8 @@
 """Digests of many pictures, a line each: what is compared between two states of the package, or two processors.
 
 ``python tests/support/frozen.py FILE [PART/PARTS] [EXAMPLES]`` draws, paints and renders every scene of data/, as it is
-and with options of a seed, and runs the first EXAMPLES scripts of examples/; it writes ``digest bytes picture`` of each.
-Two such files that are the same say that the pictures are; ``diff`` names those that are not.
+and with options of a seed, and runs the first EXAMPLES scripts of examples/. It writes ``digest bytes picture`` of
+each. Two such files that are the same say that the pictures are; ``diff`` names those that are not.
 """
 
 from __future__ import annotations

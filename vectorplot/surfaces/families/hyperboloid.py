@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -81,9 +82,7 @@ class Hyperboloid(OnSemiAxes):
     def domain(self) -> Domain:
         """Angle, and v where the height is c sinh v."""
         c = np.asarray(self.semi_axes)[2]
-        return Domain(
-            0.0, 2.0 * np.pi, float(np.arcsinh(self.bottom / c)), float(np.arcsinh(self.top / c)), closed_u=True
-        )
+        return Domain(0.0, 2.0 * np.pi, math.asinh(self.bottom / c), math.asinh(self.top / c), closed_u=True)
 
     def _profile(self, v: Floats) -> Profile:
         c = np.asarray(self.semi_axes)[..., 2]
@@ -142,7 +141,7 @@ class HyperboloidSheet(OnSemiAxes):
     def domain(self) -> Domain:
         """Angle, and v where the height is c cosh v."""
         c = np.asarray(self.semi_axes)[2]
-        return Domain(0.0, 2.0 * np.pi, 0.0, float(np.arccosh(self.top / c)), closed_u=True)
+        return Domain(0.0, 2.0 * np.pi, 0.0, math.acosh(self.top / c), closed_u=True)
 
     def _profile(self, v: Floats) -> Profile:
         c = np.asarray(self.semi_axes)[..., 2]
