@@ -48,7 +48,7 @@ def arccos(x: ArrayLike) -> Floats:
 
 def tan(angle: ArrayLike) -> Floats:
     """The tangents of angles, to two units of the last digit."""
-    return cast(Floats, np.sin(angle) / np.cos(angle))
+    return np.sin(angle) / np.cos(angle)
 
 
 def exp(x: ArrayLike) -> Floats:

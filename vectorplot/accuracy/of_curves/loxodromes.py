@@ -44,7 +44,7 @@ def loxodrome_end() -> Floats:
 
     Source: Glaeser, section 8.1, equation 5.
     """
-    longitude = arctanh(np.sin(-LATITUDE)) * tan(COURSE)
+    longitude = float(arctanh(np.sin(-LATITUDE)) * tan(COURSE))
     return np.asarray(Loxodrome(RADIUS_MM, COURSE, 0.0, longitude).points(longitude))
 
 
