@@ -23,7 +23,7 @@ FAMILIES = {
 }
 FAR = 20000.0
 SHORT, LONG = 0.15, 0.003
-"""Where a contour comes to a cut at a flat angle it ends a little before it, in cells with a corner that is cut away."""
+"""Where a contour comes to a cut at a flat angle it ends a little before it."""
 
 AFAR = 0.01
 """Part of a length by which a view from so far may differ from a parallel one: its lines end a little elsewhere."""

@@ -217,7 +217,7 @@ def _without_noise(values: Floats, noise: Floats) -> Floats:
 def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> SurfaceCurves:
     """The curves, those that end just before a hole led on straight to its rim: cells with a corner in a hole have no
     curve, and where a surface ends with a vertical tangent the last of them is high."""
-    # An end that was followed up to a rim to the last bit may lie behind it, where its parameters are rounded once more.
+    # An end that was followed up to a rim to the last bit may lie behind it: parameters are rounded once more.
     known = all_finite(curves.points)
     if not known.all():
         offsets = np.concatenate([[0], np.cumsum(known)])[curves.offsets]
