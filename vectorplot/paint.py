@@ -50,6 +50,7 @@ from vectorplot.stages.around_picture import beside_bar, left_of_bar, room_for_l
 from vectorplot.stages.facet_errors import outline_error
 from vectorplot.stages.subject import Paper, subject_of
 from vectorplot.stages.walk import StageReport, Walk
+from vectorplot.tolerances.of_lengths import LEAST_TOLERANCE_MM
 from vectorplot.words import LINE_WORDS, TEXT_WORDS, check_word, line_kinds
 
 
@@ -303,5 +304,5 @@ def _check_options(
         raise InputError(f"a palette of {palette} shades: expected 2 to 256")
     if not 0.0 <= crease_angle_deg <= 180.0:
         raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
-    if not 0.0 < tolerance_mm < np.inf:
-        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
+    if not LEAST_TOLERANCE_MM <= tolerance_mm < np.inf:
+        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected {LEAST_TOLERANCE_MM:g} or more")
