@@ -35,6 +35,8 @@ class ImageFaces:
         The face of the view each polygon is (a part of).
     rank : (n,) array of int
         The order in which faces that lie in one plane are drawn.
+    bulges : (12, n) array of float, optional
+        How far the surfaces in whose place they are bulge over them, as of with_bulges.
 
     Notes
     -----
@@ -56,6 +58,7 @@ class ImageFaces:
     planes: Floats = field(metadata=EACH_LINE | IN_COLUMNS)
     source: Ints = field(metadata=EACH_LINE)
     rank: Ints = field(metadata=EACH_LINE)
+    bulges: Floats | None = field(default=None, metadata=EACH_LINE | IN_COLUMNS)
 
     def __len__(self) -> int:
         return len(self.source)
