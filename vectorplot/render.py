@@ -21,6 +21,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.io.anything import scene_of
+from vectorplot.linework.lines_in_place import places_beside_faces
 from vectorplot.linework.ruler import Ruler
 from vectorplot.plan import accuracy_of_render, chosen_shadows, plan_render, with_accuracy
 from vectorplot.rendering.pixel_bands import pixels_in_bands
@@ -36,7 +37,6 @@ from vectorplot.rendering.scene_shadows import ShadowMaps, scene_lighting, taper
 from vectorplot.scene.coincidence.twins import without_twins
 from vectorplot.scene.depth_cue import DepthCue
 from vectorplot.scene.light import Exposure, Light
-from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Scene
@@ -239,7 +239,8 @@ def render(
         facets = walk.run("facets", faceted, without_twins(seen), lambda number: demand, budget_of(budget))
     view = walk.run("look", view_of, facets.scene, projection)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
-    placement = picture_placement(view, *fine, fit, annotation_points(seen))
+    beside = places_beside_faces(seen, view, None, Page(*fine, 0.0), fit, kinds, LINE_PIXELS, budget)
+    placement = picture_placement(view, *fine, fit, beside)
     if fit:
         placement = subject.around(placement, view, placement.page, AROUND_BOX, samples * PIXELS_PER_MM)
     walk.measured("facets", "samples", facet_error, facets, view, placement)
