@@ -65,7 +65,7 @@ def _wide(view: View) -> Bools:
 
 
 def _varied(view: View, items: Sequence[Item], lights: Sequence[Light], plane: Ints) -> Bools:
-    """(p,) the regions on which light varies, or depth much, from corner to corner, middle to middle and along sides."""
+    """(p,) the regions on which light varies, or depth much: from corner to corner, middle to middle, along sides."""
     corner = np.arange(len(view.corners))
     of_corner = ragged.owner(view.face_sizes)
     start, end = view.points[:, view.corners], view.points[:, view.corners[view.after(corner)]]
