@@ -38,8 +38,9 @@ def painted_normals(
 
     lights: in the view's coordinates, none where every plane shall have one shade; given and crease angle as of
     view_normals: the same normals as in pictures of pixels; plane (f,) as of plane_numbers: the faces of a region are
-    shaded alike. Regions of one normal have one shade unless the light on them varies by more than VARIED, as on a floor below a lamp, or they are LARGE, as a floor under
-    all of a scene, whatever the light. Source: Glaeser, section 4.6.
+    shaded alike. Regions of one normal have one shade unless the light on them varies by more than VARIED, as on a
+    floor below a lamp, or they are LARGE, as a floor under all of a scene, whatever the light.
+    Source: Glaeser, section 4.6.
     """
     found = at_corners(view, view_normals(view, given, crease_angle_deg))
     own = face_normals(view)
