@@ -8,7 +8,7 @@ from typing import Any
 
 from vectorplot.animation.animation import Animation, check_fps, check_frames
 from vectorplot.animation.animation_words import CAMERA, STATEMENTS, AnimationWords
-from vectorplot.animation.folders import data_file
+from vectorplot.io.folders import data_file
 from vectorplot.animation.keyed_motion import CameraTrack, ItemTrack, KeyedMotion, LightTrack
 from vectorplot.animation.modes import MODES
 from vectorplot.errors import InputError, printable

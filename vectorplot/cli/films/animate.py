@@ -116,8 +116,8 @@ def animate(
     """
     from vectorplot.animate import animate as film_of
     from vectorplot.animation.animation_file import read_animation
-    from vectorplot.animation.folders import animation_file
-    from vectorplot.animation.folders import data_file as found
+    from vectorplot.io.folders import animation_file
+    from vectorplot.io.folders import data_file as found
     from vectorplot.animation.modes import MODES
     from vectorplot.io.read_file import read
 
