@@ -35,7 +35,8 @@ def test_files_lie_where_the_book_has_them(workplace):
     Path("die").write_text("DIE blue box 1 1 1", encoding="utf-8")
     assert run(["animate", "die", "-a", "turn", "-v", "other"]) == 0
     assert Path("video/other.vd2").read_bytes() != Path("video/turn.vd2").read_bytes()
-    assert run(["replay", "turn"]) == run(["replay", "video/turn.vd1"]) == 0
+    page = ["--no-browser", "--timeout", "0.01"]
+    assert run(["replay", "turn", *page]) == run(["replay", "video/turn.vd1", *page]) == 0
 
 
 @pytest.mark.slow
@@ -50,7 +51,7 @@ def test_the_pencil_is_animated_recorded_and_replayed(tmp_path, monkeypatch, cap
     for name in ("film.pdf", "again.pdf"):
         told = subprocess.run(["pdfinfo", name], capture_output=True, text=True, check=True).stdout
         assert "Pages:           4" in told
-    assert run(["replay", "pencil"]) == 0
+    assert run(["replay", "pencil", "--no-browser", "--timeout", "0.01"]) == 0
     assert "4 frames, 0 of them frozen; 2 palettes" in capsys.readouterr().out
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 import re
 import sys
+from pathlib import Path
 
 import pytest
 
@@ -150,3 +151,30 @@ def test_standard_input_is_of_one_picture(tmp_path, piped, capsys, monkeypatch, 
     assert run([*words, "-"]) == 2
     assert "standard input is of one picture" in capsys.readouterr().err
     assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.capability("GA.1-layout")
+@pytest.mark.parametrize("verb", ["draw", "paint", "render", "sheet"])
+def test_names_without_folder_and_suffix_are_found_in_data(verb, tmp_path, monkeypatch, capsys):
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "die.scene").write_text("DIE red box 1 1 1", encoding="utf-8")
+    (tmp_path / "data" / "spot.obj").write_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    for name in ("die", "die.scene", "data/die.scene", "data/die", "spot.obj"):
+        assert run([verb, name, "-o", "out.png", "--quiet", *(["--size", "20x20"] if verb == "render" else [])]) == 0, (
+            name
+        )
+    made = Path("out.png").stat().st_mtime_ns
+    assert run([verb, "pencil", "-o", "out.png"]) == 1 and Path("out.png").stat().st_mtime_ns == made
+    assert "pencil" in capsys.readouterr().err
+    # What lies in the current folder comes first.
+    Path("die").write_text("DIE box 1 1 nothing", encoding="utf-8")
+    assert run([verb, "die", "-o", "out.png"]) == 1
+
+
+@pytest.mark.capability("GA.1-layout")
+def test_info_finds_them_too(tmp_path, monkeypatch, capsys):
+    (tmp_path / "data").mkdir()
+    (tmp_path / "data" / "die.scene").write_text("DIE red box 1 1 1", encoding="utf-8")
+    monkeypatch.chdir(tmp_path)
+    assert run(["info", "die"]) == 0 and "DIE" in capsys.readouterr().out

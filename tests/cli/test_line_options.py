@@ -86,6 +86,12 @@ def test_meshes_from_files_are_drawn_with_them(verb, cube):
         (["--levels", "2.5"], "'2.5' is not a whole number"),
         (["--isophotes", "10001"], "10001 of them, expected 1 to 10000"),
         (["--isophote", "5"], "--isophotes"),
+        (["--material", "plasti"], "did you mean 'plastic'?"),
+        (["--material", "wood,shine=3"], "'shine=3' is none of exponent,"),
+        (["--material", "wood,exponent=x"], "'x' is not a"),
+        (["--material", "wood,diffuse=-1"], "diffuse -1: expected 0 or a positive"),
+        (["--material", "wood,exponent=1,exponent=2"], "says twice what its exponent is"),
+        (["--material", "nothing=wood"], "no item is named 'nothing'"),
     ],
 )
 @pytest.mark.hard(68)

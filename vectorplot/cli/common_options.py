@@ -175,7 +175,7 @@ class Told:
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
         draws them."""
-        cut = self.cuts.of_scene(scene)
+        cut = self.cuts.of_scene(self.added.with_materials(scene))
         keywords = self.keywords(cut)
         lined, kinds = self.added.in_scene(cut)
         if keywords.get("lines") is not None:

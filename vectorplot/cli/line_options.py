@@ -1,4 +1,4 @@
-"""Options that add lines to all that is shown: plane sections, level lines, isophotes."""
+"""Options for all that is shown: plane sections, level lines, isophotes, colours, materials."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from vectorplot.errors import InputError
 
 if TYPE_CHECKING:
     from vectorplot.geometry.cameras.camera import Point
+    from vectorplot.scene.material import Material
     from vectorplot.scene.scene import Scene
     from vectorplot.scene.surface_lines import Section, SurfaceLines
 
@@ -75,6 +76,34 @@ def count(text: str) -> int:
     return value
 
 
+@dataclass(frozen=True)
+class ItemMaterial:
+    """The material of an item, or (item: None) of all."""
+
+    item: str | None
+    material: Material
+
+    @classmethod
+    def read(cls, text: str) -> ItemMaterial:
+        """[ITEM=]WORD[,WHAT=N...]."""
+        from vectorplot.scene.material import FINISH_WORDS, Material
+
+        first, *rest = (part.strip() for part in text.split(","))
+        item, named, word = first.rpartition("=")
+        numbers: dict[str, float] = {}
+        for part in rest:
+            name, _, value = part.partition("=")
+            if name not in (words := (*FINISH_WORDS, "opacity", "refraction")):
+                raise click.BadParameter(f"{part!r} is none of {', '.join(words)} with = and a number")
+            if name in numbers:
+                raise click.BadParameter(f"{text!r} says twice what its {name} is")
+            numbers[name] = number(value)
+        try:
+            return cls(item if named else None, Material(word, **numbers))
+        except InputError as error:
+            raise click.BadParameter(error.cause) from None
+
+
 LINE_OPTIONS = (
     click.option(
         "--sections",
@@ -117,6 +146,15 @@ LINE_OPTIONS = (
         help="viridis, heat, diverging, land, gray, or one of matplotlib.",
     ),
     click.option("--colour-steps", type=click.IntRange(2, 100), metavar="N", help="How many colours (24)."),
+    click.option(
+        "--material",
+        "materials",
+        type=ItemMaterial.read,
+        multiple=True,
+        metavar="[ITEM=]WORD[,WHAT=N...]",
+        help="metallic, wood, ..., of all or one item; after it exponent=N, diffuse=N, highlight=N, sharpness=N, "
+        "opacity=N or refraction=N; repeat it for more.",
+    ),
     click.option("--box", is_flag=True, help="A box with ticks around all that is shown."),
 )
 
@@ -135,6 +173,7 @@ class LineOptions:
     colour_map: str | None = None
     colour_steps: int | None = None
     box: bool = False
+    materials: tuple[ItemMaterial, ...] = ()
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> LineOptions:
@@ -156,6 +195,19 @@ class LineOptions:
             smooth_contours=added.smooth_contours,
         )
         return self.with_numbers(lined), line_kinds(added)
+
+    def with_materials(self, scene: Scene) -> Scene:
+        """A scene with the materials that the user asked for; the last one counts. Bad usage for names of no item."""
+        names = {item.name for item in scene.items}
+        for told in self.materials:
+            if told.item is not None and told.item not in names:
+                raise click.UsageError(f"--material: no item is named {told.item!r}")
+        items = scene.items
+        for told in self.materials:
+            items = tuple(
+                replace(item, material=told.material) if told.item in (None, item.name) else item for item in items
+            )
+        return replace(scene, items=items) if self.materials else scene
 
     def with_chart(self, scene: Scene) -> Scene:
         """A scene with the colours and the box that the user asked for. Bad usage for a map of no colours."""

@@ -9,6 +9,8 @@ import signal
 from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from contextlib import asynccontextmanager, suppress
 from dataclasses import dataclass, field
+from functools import partial
+from html import escape
 from importlib.resources import files
 from typing import Any
 
@@ -31,6 +33,12 @@ STATIC = {"": ("index.html", "text/html"), "viewer.css": ("viewer.css", "text/cs
 }
 """The files of the page and their media types, by the ends of their addresses."""
 
+FILM_PAGE = """<!doctype html>
+<html lang="en"><head><meta charset="utf-8"><title>{title}</title></head>
+<body><img src="film.svg" alt="{title}" width="100%"></body></html>
+"""
+"""What shows a film."""
+
 HEADERS = {
     "Content-Security-Policy": (
         "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' blob:; connect-src 'self'; "
@@ -52,9 +60,11 @@ Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 @dataclass(eq=False)
 class Server:
-    """The page, what it asks for, and when it ends."""
+    """The page, what it asks for, and when it ends; pages: files by the ends of their addresses, each with its media
+    type; without answers the page asks for nothing."""
 
-    answers: Answers
+    answers: Answers | None
+    pages: Mapping[str, tuple[bytes, str]] = field(default_factory=lambda: viewer_pages())
     token: str = field(default_factory=lambda: secrets.token_urlsafe(18))
     jobs: Jobs = field(default_factory=Jobs)
     movies: Jobs = field(default_factory=Jobs)
@@ -69,12 +79,13 @@ class Server:
 
         app = web.Application(client_max_size=MOST_BYTES, middlewares=[guarded])
         base = f"/{self.token}"
-        for name in STATIC:
+        for name in self.pages:
             app.router.add_get(f"{base}/{name}", self._file)
         app.router.add_get(f"{base}/alive", self._alive)
         app.router.add_post(f"{base}/quit", self._quit)
-        app.router.add_post(f"{base}/ask/movie", self._movie)
-        app.router.add_post(f"{base}/ask/{{what}}", self._ask)
+        if self.answers is not None:
+            app.router.add_post(f"{base}/ask/movie", partial(self._movie, self.answers))
+            app.router.add_post(f"{base}/ask/{{what}}", partial(self._ask, self.answers))
         return app
 
     async def _guarded(self, request: web.Request, handler: Handler) -> web.StreamResponse:
@@ -95,8 +106,7 @@ class Server:
         return response
 
     async def _file(self, request: web.Request) -> web.Response:
-        name, kind = STATIC[request.path.rpartition("/")[2]]
-        content = files("vectorplot.viewer").joinpath("page", name).read_bytes()
+        content, kind = self.pages[request.path.rpartition("/")[2]]
         return web.Response(body=content, content_type=kind, charset="utf-8")
 
     async def _alive(self, request: web.Request) -> web.StreamResponse:
@@ -114,9 +124,9 @@ class Server:
         self.stop.set()
         return web.json_response({})
 
-    async def _ask(self, request: web.Request) -> web.Response:
+    async def _ask(self, answers: Answers, request: web.Request) -> web.Response:
         what = request.match_info["what"]
-        answer = self.answers.by_name(what)
+        answer = answers.by_name(what)
         if answer is None:
             return web.Response(status=404, text="no such question")
         asked = await _asked(request)
@@ -131,12 +141,12 @@ class Server:
             return web.Response(body=content, content_type=kind)
         return web.json_response(made)
 
-    async def _movie(self, request: web.Request) -> web.StreamResponse:
+    async def _movie(self, answers: Answers, request: web.Request) -> web.StreamResponse:
         """Lines of JSON, how many frames are drawn, and behind the last one the movie. It stops where the page goes."""
         asked = await _asked(request)
         response = web.StreamResponse(headers={**HEADERS, "Content-Type": "application/octet-stream"})
         await response.prepare(request)
-        job, made = self.movies.submit(_page(asked), lambda job: self.answers.movie(asked, job))
+        job, made = self.movies.submit(_page(asked), lambda job: answers.movie(asked, job))
         waiting = asyncio.wrap_future(made)
         try:
             while not waiting.done():
@@ -193,8 +203,24 @@ async def serving(server: Server) -> AsyncIterator[str]:
 
 
 async def serve(answers: Answers, started: Callable[[str], None], timeout_s: float | None) -> None:
-    """Serve the page until it is told to quit, a signal comes or the time is over; started is told the address."""
-    server = Server(answers)
+    """Serve the viewer until it is told to quit, a signal comes or the time is over; started is told the address."""
+    await _served(Server(answers), started, timeout_s)
+
+
+async def serve_film(svg: bytes, title: str, started: Callable[[str], None], timeout_s: float | None) -> None:
+    """Serve a page that shows a film, an SVG that moves by itself, as serve does."""
+    page = FILM_PAGE.format(title=escape(title, quote=True)).encode()
+    pages = {"": (page, "text/html"), "film.svg": (svg, "image/svg+xml")}
+    await _served(Server(None, pages), started, timeout_s)
+
+
+def viewer_pages() -> dict[str, tuple[bytes, str]]:
+    """The files of the viewer."""
+    folder = files("vectorplot.viewer").joinpath("page")
+    return {end: (folder.joinpath(name).read_bytes(), kind) for end, (name, kind) in STATIC.items()}
+
+
+async def _served(server: Server, started: Callable[[str], None], timeout_s: float | None) -> None:
     loop = asyncio.get_running_loop()
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)

@@ -52,6 +52,7 @@ def test_a_large_mesh_is_looked_through_once_from_the_file_to_the_drawing(monkey
     )
     mesh, _ = mesh_repair.mended(Mesh(BALL.vertices, BALL.corners, BALL.offsets), 2.0**-23)
     drawn(mesh)
-    assert looks == [len(BALL.vertices)]
+    # Where a mesh may meet itself is found in patches of it, whose vertices are other ones.
+    assert looks.count(len(BALL.vertices)) == 1
     assert joined_seams([mesh])[0] is mesh
     assert "is_closed" in mesh.__dict__

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -18,7 +19,11 @@ if TYPE_CHECKING:
     from vectorplot.film import Film
     from vectorplot.scene.scene import Scene
 
-MISSING = "try needs aiohttp: pip install 'vectorplot[viewer]'"
+PAGE_SHOWN_OPTIONS = (
+    click.option("--no-browser", is_flag=True, help="Print the address and open no browser."),
+    click.option("--timeout", type=between(0.0, 1e6), metavar="S", help="Stop after so many seconds."),
+)
+"""Of what shows a page."""
 
 
 @click.command("try", short_help="Look at a scene from all sides, in a local web page.")
@@ -30,8 +35,8 @@ MISSING = "try needs aiohttp: pip install 'vectorplot[viewer]'"
     metavar="NAME",
     help="Where recordings go: NAME.vd1 and NAME.vd2 in the folder video, or an .mp4, .svg, .pdf; with -a: record it.",
 )
-@click.option("--no-browser", is_flag=True, help="Print the address and open no browser.")
-@click.option("--timeout", type=between(0.0, 1e6), metavar="S", help="Stop after so many seconds.")
+@PAGE_SHOWN_OPTIONS[0]
+@PAGE_SHOWN_OPTIONS[1]
 def try_(scene_file: str, animation: str | None, video: str | None, no_browser: bool, timeout: float | None) -> None:
     """Show SCENE, any file that draw takes, in a web page on this machine: turned by mouse and keys, drawn with exact
     hidden lines, painted or shaded, edited beside its picture, and saved as PS, SVG, PDF, DXF or PNG.
@@ -41,8 +46,7 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
     page records what one does there.
     Ctrl-C stops it, and q in the page.
     """
-    from vectorplot.animation.folders import data_file
-    from vectorplot.errors import InputError
+    from vectorplot.io.folders import data_file
     from vectorplot.viewer.sources import Source
 
     file = None if video is None else _file(video)
@@ -56,31 +60,41 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
                 file.parent.mkdir(exist_ok=True)
                 first.save(file, progress=progress)
             return
-    try:
-        import aiohttp  # noqa: F401  # what is missing is said before any work
-    except ImportError:
-        raise InputError(MISSING) from None
+    check_viewer("try")
     import asyncio
-    import webbrowser
 
     from vectorplot.viewer.answers import Answers
     from vectorplot.viewer.server import serve
 
     source.scene(None)
 
-    def started(address: str) -> None:
-        click.echo(address)
-        if not no_browser:
-            webbrowser.open(address)
+    asyncio.run(serve(Answers(source, film, file), partial(show_address, no_browser=no_browser), timeout))
 
-    asyncio.run(serve(Answers(source, film, file), started, timeout))
+
+def check_viewer(what: str) -> None:
+    """Errors: InputError where what serves pages is not installed; said before any work."""
+    from vectorplot.errors import InputError
+
+    try:
+        import aiohttp  # noqa: F401
+    except ImportError:
+        raise InputError(f"{what} needs aiohttp: pip install 'vectorplot[viewer]'") from None
+
+
+def show_address(address: str, *, no_browser: bool) -> None:
+    """Say where a page is served, and open it in a browser unless there shall be none."""
+    import webbrowser
+
+    click.echo(address)
+    if not no_browser:
+        webbrowser.open(address)
 
 
 def _film(animation: str) -> Callable[[Scene], Film]:
     """What an animation, found as the book has it, makes of a scene."""
     from vectorplot.animate import animate
     from vectorplot.animation.animation_file import read_animation
-    from vectorplot.animation.folders import animation_file
+    from vectorplot.io.folders import animation_file
 
     path = animation_file(animation)
     return lambda scene: animate(read_animation(path, scene))
@@ -89,7 +103,7 @@ def _film(animation: str) -> Callable[[Scene], Film]:
 def _file(video: str) -> Path:
     """The file of a movie: one with a suffix of its own, or as the book has it. Bad usage for other suffixes, and an
     OSError where nothing can be written there."""
-    from vectorplot.animation.folders import VIDEOS, movie_to_write
+    from vectorplot.io.folders import VIDEOS, movie_to_write
     from vectorplot.save_frames import MOVIES, ONE_FILE
 
     suffix = Path(video).suffix[1:].lower()

@@ -116,9 +116,9 @@ def animate(
     """
     from vectorplot.animate import animate as film_of
     from vectorplot.animation.animation_file import read_animation
-    from vectorplot.animation.folders import animation_file
-    from vectorplot.animation.folders import data_file as found
     from vectorplot.animation.modes import MODES
+    from vectorplot.io.folders import animation_file
+    from vectorplot.io.folders import data_file as found
     from vectorplot.io.read_file import read
 
     if frames_out is None and video is None:
@@ -133,7 +133,8 @@ def animate(
     camera, page = CameraOptions.of(told), PageOptions.of(told)
     reports: list[StageReport] = []
     with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
-        scene, kinds = LineOptions.of(told).in_scene(CutOptions.of(told).of_scene(read(found(data_file))))
+        added, cuts = LineOptions.of(told), CutOptions.of(told)
+        scene, kinds = added.in_scene(cuts.of_scene(added.with_materials(read(found(data_file)))))
         scene = replace(scene, camera=camera_from(camera, scene), page=page_from(page, scene))
         moving = read_animation(animation_file(animation), scene)
         moving = replace(

@@ -75,7 +75,7 @@ def write_frames(
 
     Of pixels there is no such movie.
     """
-    from vectorplot.animation.folders import VIDEOS, movie_to_write
+    from vectorplot.io.folders import VIDEOS, movie_to_write
     from vectorplot.save_frames import recorded, save_frames, told
 
     frames = told(pictures, count, progress)

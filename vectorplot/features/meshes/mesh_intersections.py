@@ -1,4 +1,4 @@
-"""Where faces of different shapes, or of different parts of one, pierce each other."""
+"""Where faces of different shapes, of different parts of one, or of one part that meets itself, pierce each other."""
 
 from __future__ import annotations
 
@@ -14,8 +14,10 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.bounds.boxes import overlapping_boxes, overlapping_pairs
 from vectorplot.geometry.chunks import mapped, slices
 from vectorplot.geometry.columns import cross, dot, first_of_equal
+from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.records import IN_COLUMNS
+from vectorplot.geometry.repair.pieces import pieces_of_faces
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
@@ -24,6 +26,22 @@ SLIM_FACES, FEWEST_PAIRS = 12, 1024
 
 FACES_AT_ONCE = 1 << 15
 """Pairs of faces, or of slim parts, looked at at once."""
+
+FEW_FACES = 1 << 8
+"""Of parts of so few faces all pairs are looked at."""
+
+PATCH_FACES = 48
+"""Faces in a patch of a larger part, on the average."""
+
+LEAST_COSINE = 0.1
+"""The faces of a patch, or of two patches that touch, do not meet each other where all normals are within this cosine
+of one direction: they lie side by side, seen from there."""
+
+_MIX = 0x9E3779B1
+"""Odd, with bits all over: it spreads numbers over a table."""
+
+LEAST_GAP = 1e-6
+"""Faces about an edge that are closer, in radians, lie on each other."""
 
 AXIS_SHIFT = 16.0
 """Coordinates stay below this; pairs of parts are kept apart on a sweep's axis by multiples of it."""
@@ -99,6 +117,235 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
     found.extend(mapped(lambda some: _meet(faces, normals, one[some], two[some], tolerance), chunks))
     whole = records.joined(found)
     return records.some(whole, _first_of_equal(whole.start, whole.end, tolerance))
+
+
+def self_intersections_of_parts(faces: Faces, part: Ints, tolerance: float) -> Intersections:
+    """The segments in which convex faces of the same part pierce each other, as face_intersections for those of
+    different ones.
+
+    Where two faces pierce each other, each reaches to both sides of the other one; where an edge lies in another face,
+    its two faces lie on different sides of that; and where two edges lie in one place, their faces alternate about it.
+    So neighbours, and what touches only, do not count. Source: Glaeser, section 8.4; patches as in Volino and Magnenat
+    Thalmann, Efficient self-collision detection on smoothly discretized surface animations using geometrical shape
+    regularity (1994).
+    """
+    one, two = _pairs_within_parts(faces, part, tolerance)
+    normals = _normals_of(faces, one, two)
+
+    def pierce(some: slice) -> tuple[Intersections, Intersections, Ints]:
+        """What pierces; and what has an edge (of one) in a face (two), with the side on which the face (one) is."""
+        a, b = one[some], two[some]
+        over_a, over_b = (_over_planes(faces, normals, *pair, tolerance) for pair in ((b, a), (a, b)))
+        across = [(low < 0.0) & (high > 0.0) for low, high, _ in (over_a, over_b)]
+        piercing = _meet(faces, normals, *_picked(np.flatnonzero(across[0] & across[1]), a, b), tolerance)
+        lying, sides = [], []
+        for edge, face, (low, high, in_plane), straddles in ((a, b, over_b, across[0]), (b, a, over_a, across[1])):
+            kept = np.flatnonzero(straddles & (in_plane > 1) & (low < high) & ((low == 0.0) | (high == 0.0)))
+            found = _meet(faces, normals, edge[kept], face[kept], tolerance)
+            low, _, _ = _over_planes(faces, normals, found.one, found.two, tolerance)
+            lying.append(found)
+            sides.append(np.where(low < 0.0, -1, 1))
+        return piercing, records.joined(lying), np.concatenate(sides)
+
+    none = _meet(faces, normals, one[:0], two[:0], tolerance)
+    found = list(mapped(pierce, slices(len(one), FACES_AT_ONCE)))
+    lying = records.joined([none, *(edges for _, edges, _ in found)])
+    side = np.concatenate([np.zeros(0, dtype=np.intp), *(sides for _, _, sides in found)])
+    whole = records.joined(
+        [
+            none,
+            *(piercing for piercing, _, _ in found),
+            records.some(lying, _on_both_sides(lying, side, tolerance)),
+            _crossing_edges(faces, part, tolerance),
+        ]
+    )
+    return records.some(whole, _first_of_equal(whole.start, whole.end, tolerance))
+
+
+def _over_planes(
+    faces: Faces, normals: Floats, which: Ints, planes: Ints, tolerance: float
+) -> tuple[Floats, Floats, NDArray[np.int8]]:
+    """As of _reach, over the planes of other faces."""
+    origin = faces.points.take(faces.corners[faces.offsets[planes]], axis=1)
+    return _reach(faces, which, normals.take(planes, axis=1), origin, tolerance)
+
+
+def _on_both_sides(lying: Intersections, side: Ints, tolerance: float) -> Ints:
+    """The edges (in faces two) of faces (one) on one side of which another face has the same one, on the other side."""
+    one, other = (np.round(ends / (8.0 * tolerance)) for ends in (lying.start, lying.end))
+    turned = (one[0] > other[0]) | (one[0] == other[0]) & (
+        (one[1] > other[1]) | (one[1] == other[1]) & (one[2] > other[2])
+    )
+    key = np.concatenate([np.where(turned, other, one), np.where(turned, one, other), lying.two[None]])
+    order = np.lexsort((side, *key))
+    key, side = key.take(order, axis=1), side[order]
+    same = (key[:, 1:] == key[:, :-1]).all(axis=0)
+    return order[np.flatnonzero(same & (side[1:] > side[:-1]))]
+
+
+def _crossing_edges(faces: Faces, part: Ints, tolerance: float) -> Intersections:
+    """The edges of four faces of a part, in one place, about which the faces of two surfaces alternate: those of the
+    same two vertices are of one surface, or where all four have these, the first and the third one in turn."""
+    place = _places(np.round(faces.points / (8.0 * tolerance)))
+    after = next_positions(faces.offsets, np.arange(len(faces.corners)))
+    a, b = place[faces.corners], place[faces.corners[after]]
+    # Most sides are alone with their twin in a cell of a table: so few are sorted.
+    cell = ((a + b) * _MIX + a * b) & (1 << len(after).bit_length()) - 1
+    shared = np.flatnonzero((np.bincount(cell) > 3)[cell])
+    del cell
+    ends = np.stack([faces.corners, faces.corners[after]])[:, shared]
+    at = np.sort(np.stack([a, b])[:, shared], axis=0)
+    face = ragged.owner(np.diff(faces.offsets))[shared]
+    del a, b, after
+    key = at[0] * len(place) + at[1]
+    order = np.argsort(key, kind="stable")
+    start = np.flatnonzero(np.diff(key[order], prepend=-1))
+    size = np.diff(start, append=len(order))
+    four = order[start[size == 4][:, None] + np.arange(4)]
+    four = four[(part[face[four]] == part[face[four[:, :1]]]).all(axis=1) & (at[0] < at[1])[four[:, 0]]]
+    if not len(four):
+        none = np.zeros(0, dtype=np.intp)
+        return Intersections(np.zeros((3, 0)), np.zeros((3, 0)), none, none)
+    base, tip = (faces.points.take(at[k][four[:, 0]], axis=1) for k in (0, 1))
+    along = tip - base
+    # The arms: to the middles of the faces, across the edge.
+    middle = _middles(faces)[:, face[four]] - base[..., None]
+    first = middle[..., 0] - along * (dot(middle[..., 0], along) / dot(along, along))
+    second = cross(along, first) / np.maximum(np.sqrt(dot(along, along)), LEAST_DIVISOR)
+    x, y = (dot(middle, np.repeat(axis[..., None], 4, axis=2)) for axis in (first, second))
+    turn = arctan2(y, x)
+    turn[:, 0] = 0.0
+    turn = np.where(turn < 0.0, turn + 2.0 * np.pi, turn)
+    rank = np.argsort(np.argsort(turn, axis=1, kind="stable"), axis=1, kind="stable")
+    gaps = np.diff(np.sort(turn, axis=1), axis=1, append=2.0 * np.pi)
+    own = np.sort(ends, axis=0)
+    mate = (own[:, four] == own[:, four[:, :1]]).all(axis=0)
+    # The mate of the first face is across where two others lie between them, one on each side.
+    across = (mate & (rank == 2)).any(axis=1)
+    opposite = (mate.sum(axis=1) == 2) & across | mate.all(axis=1)
+    kept = np.flatnonzero(opposite & (gaps.min(axis=1) > LEAST_GAP))
+    return Intersections(base[:, kept], tip[:, kept], face[four[kept, 0]], face[four[kept, 1]])
+
+
+def _places(points: Floats) -> Ints:
+    """(n,) the first of the points (3,n) that are in the same place as each."""
+    if first_of_equal(points).all():
+        return np.arange(points.shape[1])
+    order = np.lexsort(points)
+    new = np.ones(len(order), dtype=np.bool_)
+    new[1:] = (np.diff(points.take(order, axis=1), axis=1) != 0.0).any(axis=0)
+    place = np.empty(len(order), dtype=np.intp)
+    place[order] = order[np.maximum.accumulate(np.where(new, np.arange(len(order)), 0))]
+    return place
+
+
+def _middles(faces: Faces) -> Floats:
+    """(3,f) the means of the corners of all faces."""
+    total = np.add.reduceat(faces.points.take(faces.corners, axis=1), faces.offsets[:-1], axis=1)
+    return np.asarray(total / np.diff(faces.offsets))
+
+
+def _pairs_within_parts(faces: Faces, part: Ints, tolerance: float) -> tuple[Ints, Ints]:
+    """Pairs of faces of a part whose boxes overlap, but for those of which patches tell that they do not meet."""
+    none = np.zeros(0, dtype=np.intp)
+    if not len(part):
+        return none, none
+    low, high = _boxes(faces, np.arange(len(part)), tolerance)
+    many = np.bincount(part)[part] > FEW_FACES
+    found = [_pairs_in_groups(low, high, part, np.flatnonzero(~many))]
+    if many.any():
+        patch = _patches(faces, part, low, high, np.flatnonzero(many))
+        found.extend(_pairs_of_patches(faces, part, patch, low, high))
+    one, two = (np.concatenate(column) for column in zip(*found, strict=True))
+    return one, two
+
+
+def _pairs_in_groups(low: Floats, high: Floats, group: Ints, face: Ints) -> tuple[Ints, Ints]:
+    """Pairs of some faces of the same group whose boxes (3,f) overlap."""
+    shift = np.array([[AXIS_SHIFT], [0.0], [0.0]]) * group[face]
+    one, two = overlapping_pairs(low.take(face, axis=1) + shift, high.take(face, axis=1) + shift)
+    return face[one], face[two]
+
+
+def _patches(faces: Faces, part: Ints, low: Floats, high: Floats, face: Ints) -> Ints:
+    """(f,) a patch of every one of some faces, -1 of the others: those of a part in a cell of a grid that hang together
+    by vertices."""
+    middle = (low.take(face, axis=1) + high.take(face, axis=1)) / 2.0
+    size = (high - low).take(face, axis=1)
+    base, reach = middle.min(axis=1), middle.max(axis=1) - middle.min(axis=1)
+    # The middle one of three sides of a box is about a side of its face.
+    width = max(np.sqrt(PATCH_FACES / 2.0) * float(np.sort(size, axis=0)[1].mean()), float(reach.max()) / (1 << 10))
+    cells = ((middle - base[:, None]) / (width or 1.0)).astype(np.intp)
+    key = ((part[face] << 11 | cells[0]) << 11 | cells[1]) << 11 | cells[2]
+    group = np.unique(key, return_inverse=True)[1]
+    corners, offsets = ragged.take(faces.offsets, face)
+    vertex, of = faces.corners[corners], group[ragged.owner(np.diff(offsets))]
+    # Every group has vertices of its own.
+    owner = np.zeros(faces.points.shape[1], dtype=np.intp)
+    owner[vertex] = of
+    strange = np.flatnonzero(owner[vertex] != of)
+    copies, number = np.unique(of[strange] * faces.points.shape[1] + vertex[strange], return_inverse=True)
+    vertex[strange] = faces.points.shape[1] + number
+    patch = np.full(len(part), -1, dtype=np.intp)
+    patch[face] = pieces_of_faces(faces.points.shape[1] + len(copies), vertex, offsets)[1]
+    return patch
+
+
+def _pairs_of_patches(faces: Faces, part: Ints, patch: Ints, low: Floats, high: Floats) -> list[tuple[Ints, Ints]]:
+    """Pairs of faces with overlapping boxes (3,f), of patches (f,) that do not lie side by side, and of each patch
+    that does not face one way."""
+    face = np.flatnonzero(patch >= 0)
+    face = face[np.argsort(patch[face], kind="stable")]
+    starts = np.flatnonzero(np.diff(patch[face], prepend=-1))
+    normals = unit_normals(faces, face)
+    axes = np.add.reduceat(normals, starts, axis=1)
+    axes /= np.maximum(np.sqrt(dot(axes, axes)), LEAST_DIVISOR)
+    # Faces without area have no normal, and are as good as not there.
+    cosine = np.where(dot(normals, normals) > 0.0, dot(normals, axes.take(patch[face], axis=1)), 1.0)
+    least = np.minimum.reduceat(cosine, starts)
+    patch_low = np.minimum.reduceat(low.take(face, axis=1), starts, axis=1)
+    patch_high = np.maximum.reduceat(high.take(face, axis=1), starts, axis=1)
+    found = [_pairs_in_groups(low, high, patch, face[least[patch[face]] <= LEAST_COSINE])]
+    one, two = overlapping_pairs(patch_low, patch_high)
+    of = part[face[starts]]
+    one, two = _picked(np.flatnonzero(of[one] == of[two]), one, two)
+    # Both face one way where the cones of their normals have a common axis: that between their own ones.
+    between = axes.take(one, axis=1) + axes.take(two, axis=1)
+    between /= np.maximum(np.sqrt(dot(between, between)), LEAST_DIVISOR)
+    together = _cosine_beyond(dot(between, axes.take(one, axis=1)), np.minimum(least[one], least[two])) > LEAST_COSINE
+    doubtful = np.flatnonzero(~(together & _touch(faces, patch, one, two)))
+    if len(doubtful):
+        pairs = one[doubtful], two[doubtful]
+        first, second = _within_pairs(
+            low.take(face, axis=1), high.take(face, axis=1), patch[face], pairs, patch_low, patch_high
+        )
+        found.append((face[first], face[second]))
+    return found
+
+
+def _cosine_beyond(one: Floats, two: Floats) -> Floats:
+    """The cosine of the sum of two angles of given cosines, -1 from two right angles on."""
+    sines = np.sqrt(np.maximum((1.0 - one * one) * (1.0 - two * two), 0.0))
+    return np.where(one + two > 0.0, one * two - sines, -1.0)
+
+
+def _touch(faces: Faces, patch: Ints, one: Ints, two: Ints) -> Bools:
+    """(n,) which pairs of patches have a vertex in common."""
+    owner = patch[ragged.owner(np.diff(faces.offsets))]
+    patches = int(patch.max()) + 1
+    last = np.zeros(faces.points.shape[1], dtype=np.intp)
+    last[faces.corners] = owner
+    shared = np.zeros(len(last), dtype=np.bool_)
+    shared[faces.corners[last[faces.corners] != owner]] = True
+    inside = (owner >= 0) & shared[faces.corners]
+    key = np.unique(faces.corners[inside] * patches + owner[inside])
+    vertex, of = np.divmod(key, patches)
+    touching = [np.zeros(0, dtype=np.intp)]
+    # The patches about a vertex are a run, in order; a pair that is far apart in a long one is looked at in vain only.
+    for step in range(1, 5):
+        same = np.flatnonzero(vertex[step:] == vertex[:-step])
+        touching.append(of[same] * patches + of[same + step])
+    return np.isin(one * patches + two, np.concatenate(touching))
 
 
 def _normals_of(faces: Faces, one: Ints, two: Ints) -> Floats:
@@ -291,6 +538,14 @@ def _snapped(height: Floats, tolerance: float) -> Floats:
 
 def _reaches_over(faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float) -> Bools:
     """Which faces reach both sides of a plane, or have an edge in it without lying in it."""
+    low, high, in_plane = _reach(faces, which, normal, origin, tolerance)
+    return np.asarray((low < 0.0) & (high > 0.0) | (in_plane > 1) & (low < high), dtype=np.bool_)
+
+
+def _reach(
+    faces: Faces, which: Ints, normal: Floats, origin: Floats, tolerance: float
+) -> tuple[Floats, Floats, NDArray[np.int8]]:
+    """The lowest and the highest corner of faces over planes, and how many (2: or more) are in them."""
     size = faces.offsets[which + 1] - faces.offsets[which]
     low, high = np.full(len(which), np.inf), np.full(len(which), -np.inf)
     in_plane = np.zeros(len(which), dtype=np.int8)
@@ -306,7 +561,7 @@ def _reaches_over(faces: Faces, which: Ints, normal: Floats, origin: Floats, tol
         own = slice(None) if len(left) == len(which) else left
         low[own], high[own] = np.minimum(low[own], height), np.maximum(high[own], height)
         in_plane[own] = np.minimum(in_plane[own] + (height == 0.0), 2)
-    return np.asarray((low < 0.0) & (high > 0.0) | (in_plane > 1) & (low < high), dtype=np.bool_)
+    return low, high, in_plane
 
 
 def _cut_by_plane(

@@ -19,7 +19,7 @@ from vectorplot.io.scenes.statements.ink_statements import ink_texts
 from vectorplot.scene.cuts.cut import Cut
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.light import Light
-from vectorplot.scene.material import Material
+from vectorplot.scene.material import FINISH_WORDS, Material
 from vectorplot.scene.naming.labels import Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
 from vectorplot.scene.naming.scales import Colouring
 from vectorplot.scene.pages.fitted_pages import FittedPage, PageOfWidth
@@ -220,7 +220,9 @@ def _shape(item: Item, lights: tuple[Light, ...]) -> str:
 
 
 def _material(material: Material) -> list[str]:
-    words = [material.word, f"opacity {float(material.opacity)!r}"]
+    own = [(name, getattr(material, name)) for name in FINISH_WORDS]
+    finish = [f"{name} {value!r}" for name, value in own if value is not None]
+    words = [material.word, *finish, f"opacity {float(material.opacity)!r}"]
     if material.refraction != 1.0:
         words.append(f"refraction {float(material.refraction)!r}")
     return words

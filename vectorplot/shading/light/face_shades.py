@@ -22,12 +22,11 @@ from vectorplot.scene.lines.curve_light import UPPER_LEFT
 from vectorplot.scene.view import View
 from vectorplot.shading.light.fading import fading_factors, lamp_reach
 from vectorplot.shading.light.illumination import (
-    FINISHES,
-    Finish,
     backlit,
     brightness,
     depth_cue,
     facing,
+    finish_of,
     fitting_factor,
     intensities,
     light_cosines,
@@ -226,14 +225,14 @@ def point_shades(
 ) -> Shades:
     """The shades of points (n,3) with unit normals (n,3), of surfaces of items (n,); the others as of face_shades."""
     eye = view_eye(view)
-    words = list(dict.fromkeys(some.material.word for some in items))
-    word = np.array([words.index(some.material.word) for some in items], dtype=np.intp)[item]
-    finishes = [FINISHES.get(name, Finish()) for name in words]
+    own_finish = [finish_of(some.material) for some in items]
+    finishes = list(dict.fromkeys(own_finish))
+    of_item = np.array([finishes.index(finish) for finish in own_finish], dtype=np.intp)[item]
     shining = any(finish.highlight for finish in finishes)
     alpha, beta = light_cosines(points, normals, eye if shining else None, lights)
     shares, matt = np.zeros((2, *alpha.shape))
     for number, finish in enumerate(finishes):
-        own = word == number if len(words) > 1 else slice(None)
+        own = of_item == number if len(finishes) > 1 else slice(None)
         cosines = alpha[:, own], beta[:, own]
         shares[:, own] = brightness(*cosines, finish)
         matt[:, own] = brightness(*cosines, replace(finish, highlight=0.0)) if finish.highlight else shares[:, own]

@@ -8,7 +8,7 @@ Source: Glaeser, sections 4.5 and 8.5.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +20,7 @@ from vectorplot.geometry.components import component_sum
 from vectorplot.geometry.elementary import arccos, power
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 AMBIENT = 0.2
@@ -167,6 +168,11 @@ FINISHES: dict[str, Finish] = {
     "mirror": Finish.polished(1024.0, 0.2),
 }
 """What the words of scene.Material mean. Source: Glaeser, sections 4.5, figure 4, and 8.5, figure 18."""
+
+
+def finish_of(material: Material) -> Finish:
+    """The finish of a material: that of its word, but for the numbers that it gives itself."""
+    return replace(FINISHES.get(material.word, Finish()), **material.own_finish)
 
 
 def lambert(cosine: ArrayLike, exponent: float = 1.0) -> Floats:

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 import numpy as np
 
@@ -20,11 +21,11 @@ from vectorplot.shading.light.face_shades import depth_limits, light_colours, vi
 from vectorplot.shading.light.fading import fading_factors, lamp_reach
 from vectorplot.shading.light.illumination import (
     DIRECT_SHARE,
-    FINISHES,
     SHADOW_SHARE,
     Finish,
     brightness,
     depth_cue,
+    finish_of,
     homogeneous_light,
     lambert,
     towards,
@@ -32,6 +33,8 @@ from vectorplot.shading.light.illumination import (
 from vectorplot.shading.light.palettes import COLOUR_MAP, Colours, palette
 from vectorplot.shading.raster.barycentrics import VisiblePoints
 from vectorplot.shading.raster.scene_triangles import SceneTriangles
+
+_Value = TypeVar("_Value")
 
 Blocked = Callable[[Floats, Floats, Ints], Bools]
 """Which of points (m, 3) on faces with normals (m, 3), parts of triangles (m,), a light does not reach."""
@@ -94,18 +97,17 @@ def lighting_of(
 
     Errors: InputError for a colour that is none.
     """
-    words, finish = _numbered([item.material.word for item in items])
+    finishes, finish = _numbered([finish_of(item.material) for item in items])
     names, number = _numbered([item.colour for item in items])
     palettes = np.array([palette(name, COLOUR_MAP) for name in names], dtype=np.uint8).reshape(-1, COLOUR_MAP, 3)
-    finishes = tuple(FINISHES.get(word, Finish()) for word in words)
     reach = tuple(lamp_reach(view, light) for light in lights)
     receives = np.array([item.material.opacity >= 1.0 for item in items], dtype=np.bool_)
     casters = tuple(ClearCasters(names.index(colour), opacity, dark) for colour, opacity, dark in clear)
     eye, depths = view_eye(view), depth_limits(view)
-    return Lighting(lights, blocked, eye, reach, number, palettes, finish, finishes, depths, receives, casters)
+    return Lighting(lights, blocked, eye, reach, number, palettes, finish, tuple(finishes), depths, receives, casters)
 
 
-def _numbered(values: Sequence[str]) -> tuple[list[str], Ints]:
+def _numbered(values: Sequence[_Value]) -> tuple[list[_Value], Ints]:
     """The different values, and (n,) which of them each is."""
     places = {value: number for number, value in enumerate(dict.fromkeys(values))}
     return list(places), np.array([places[value] for value in values], dtype=np.intp)

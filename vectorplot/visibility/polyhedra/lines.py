@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.meshes.edges import Faces, mesh_edges
 from vectorplot.features.meshes.mesh_curves import MeshCurves
-from vectorplot.features.meshes.mesh_intersections import face_intersections
+from vectorplot.features.meshes.mesh_intersections import face_intersections, self_intersections_of_parts
 from vectorplot.features.meshes.mesh_lines import (
     mesh_isophote_edges,
     mesh_isophotes,
@@ -298,7 +298,7 @@ def _some_faces(faces: Faces, which: Ints) -> Faces:
 def intersection_lines(
     scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], solid: Bools, backs: Bools
 ) -> Lines:
-    """The segments in which different items, or parts of an item that do not hang together, pierce each other.
+    """The segments in which different items, or faces of one, pierce each other.
 
     A segment belongs to the item, of those that want intersections, that comes first in the scene. backs (i,): items
     whose faces that turn away are met too; what lies in those of a closed solid is hidden, but for its outline.
@@ -311,7 +311,14 @@ def intersection_lines(
     asked, which = _faces(view, faces), np.flatnonzero(~left_out)
     if len(which) < view.face_count:
         asked = _some_faces(asked, which)
-    met = face_intersections(asked, part[which], view.tolerance)
+    own = np.flatnonzero((wants & ~solid)[view.face_item[which]])
+    itself = self_intersections_of_parts(_some_faces(asked, own), part[which][own], view.tolerance)
+    met = records.joined(
+        [
+            face_intersections(asked, part[which], view.tolerance),
+            replace(itself, one=own[itself.one], two=own[itself.two]),
+        ]
+    )
     one, two = view.face_item[which[met.one]], view.face_item[which[met.two]]
     one, two = np.minimum(one, two), np.maximum(one, two)
     kept = wants[one] | wants[two]

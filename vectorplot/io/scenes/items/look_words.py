@@ -6,11 +6,13 @@ from collections.abc import Callable
 
 import numpy as np
 
+from vectorplot.errors import InputError
 from vectorplot.io.scenes.items.item_cursor import ItemCursor
 from vectorplot.io.scenes.items.scene_hatching import read_hatch
 from vectorplot.io.scenes.items.scene_item import CAP_WORDS, Draft
 from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS, SCENE_WORDS, SOLID_WORDS
 from vectorplot.scene.item import Pattern
+from vectorplot.scene.material import FINISH_WORDS, Material
 from vectorplot.words import COLOURS, LINE_WORDS, MATERIALS, OWN_LINE_WORDS, unknown_material
 
 _OF_ITEMS = frozenset([*ITEM_WORDS, *FORM_WORDS, *CAP_WORDS, *COLOURS, *MATERIALS])
@@ -33,6 +35,18 @@ def _read_material(reader: ItemCursor, draft: Draft) -> None:
         reader.fail(f"a second physical property, '{reader.words[reader.at]}'", draft)
     draft.material = MATERIALS[reader.words[reader.at]]
     reader.at += 1
+    finish: dict[str, float] = {}
+    # An item may have such a name: what follows a name is no number.
+    while (word := reader.words[reader.at]) in FINISH_WORDS and reader.source.is_number(reader.at + 1):
+        if word in finish:
+            reader.fail(f"{draft.material}: a second {word}", draft)
+        finish[word] = reader.source.number(reader.at + 1, draft.owner, word)
+        try:
+            Material(draft.material, **finish)
+        except InputError as error:
+            reader.fail(error.cause, draft)
+        reader.at += 2
+    draft.finish = finish
 
 
 def _read_named_material(reader: ItemCursor, draft: Draft) -> None:

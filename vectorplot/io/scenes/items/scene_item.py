@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from copy import copy
+from types import MappingProxyType
 
 import numpy as np
 
@@ -70,6 +71,7 @@ class Draft:
 
     colour: str | None = None
     material: str | None = None
+    finish: Mapping[str, float] = MappingProxyType({})
     opacity: float | None = None
     refraction = 1.0
     form: str | None = None
@@ -236,7 +238,7 @@ def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
 def _material(draft: Draft) -> Material:
     if draft.material is None and draft.opacity is None and draft.refraction == 1.0:
         return _NORMAL
-    return Material(draft.material or "normal", draft.opacity, draft.refraction)
+    return Material(draft.material or "normal", draft.opacity, draft.refraction, **draft.finish)
 
 
 def _box(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:

@@ -27,7 +27,7 @@ from vectorplot.scene.view import View, view_of
 from vectorplot.shading.light.face_shades import point_shades, view_eye, view_lights
 from vectorplot.shading.light.fineness.faceted import without_curved_mirror
 from vectorplot.shading.light.fineness.refinement import shade_error
-from vectorplot.shading.light.illumination import homogeneous_light, towards
+from vectorplot.shading.light.illumination import finish_of, homogeneous_light, towards
 from vectorplot.shading.light.nearness import Nearby, nearby, triangles_of_items
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 
@@ -78,7 +78,7 @@ class PictureFineness:
     @property
     def alike(self) -> Hashable:
         """Equal for what can be asked at once."""
-        return self.items[0].material.word
+        return finish_of(self.items[0].material)
 
     @classmethod
     def joined(cls, asked: Sequence[PictureFineness]) -> PictureFineness:

@@ -43,13 +43,13 @@ def movie_to_write(name: str | None) -> Path:
 
 
 def movie_to_read(name: str) -> Path:
-    """The movie of a name, with or without a suffix: in the current folder, then in VIDEOS.
+    """The movie of a name, with or without a suffix: in the current folder, then in VIDEOS, then in DATA.
 
     Errors: InputError where there is none.
     """
     path = Path(name)
     bare = path.with_suffix("") if path.suffix in (".vd1", ".vd2") else path
-    for folder in (Path(), VIDEOS):
+    for folder in (Path(), VIDEOS, DATA):
         if (folder / bare.parent / f"{bare.name}.vd1").is_file():
             return folder / bare
     raise InputError(f"no such movie: neither {bare}.vd1 nor {VIDEOS / bare}.vd1", file=name)
