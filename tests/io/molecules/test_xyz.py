@@ -30,5 +30,5 @@ def test_columns_stand_where_the_comment_says(tmp_path, properties, row):
 @pytest.mark.parametrize("properties", ["species:S:1:pos:R", "species:S:1", "pos:R:3", "species:S:1:pos:R:2", "a:b:c"])
 def test_properties_without_a_place_or_a_symbol_are_named(tmp_path, properties):
     (tmp_path / "x.xyz").write_text(f"1\nProperties={properties}\nC 0 0 0 0 0\n", encoding="utf-8")
-    with pytest.raises(InputError, match="x.xyz:2: .*Properties"):
+    with pytest.raises(InputError, match=r"x.xyz:2: .*Properties"):
         read_xyz(tmp_path / "x.xyz")
