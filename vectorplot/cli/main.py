@@ -57,7 +57,7 @@ def _invoked(arguments: Sequence[str]) -> int:
         with warnings.catch_warnings():
             if not sys.warnoptions:
                 warnings.simplefilter("ignore")
-            with vectorplot.make_context("vectorplot", list(arguments)) as context:
+            with vectorplot.make_context("vectorplot", [_as_written(word) for word in arguments]) as context:
                 vectorplot.invoke(context)
     except click.exceptions.Exit as error:
         return error.exit_code
@@ -71,6 +71,14 @@ def _invoked(arguments: Sequence[str]) -> int:
         say_usage(error, error.format_message())
         return error.exit_code
     return 0
+
+
+def _as_written(word: str) -> str:
+    """A word of the command line, read as UTF-8 where the locale (LANG=C) left its bytes as they came."""
+    try:
+        return os.fsencode(word).decode("utf-8")
+    except UnicodeDecodeError:
+        return word
 
 
 def say(text: str) -> None:

@@ -67,4 +67,11 @@ def meant_option(error: click.NoSuchOption) -> str:
         name for option in error.ctx.command.get_params(error.ctx) for name in (*option.opts, *option.secondary_opts)
     ]
     near = nearest(error.option_name.lstrip("-").lower(), (name[2:] for name in known if name[:2] == "--"))
-    return f" Did you mean '--{near}'?" if near else ""
+    if near:
+        return f" Did you mean '--{near}'?"
+    others = [
+        name
+        for name, command in vectorplot.commands.items()
+        if any(error.option_name in (*option.opts, *option.secondary_opts) for option in command.params)
+    ]
+    return f" It is an option of {', '.join(others)}." if others else ""

@@ -106,6 +106,8 @@ def _pen_rule(target: str, value: str | float | Pen) -> PenRule:
         width, colour = "", width
     if not width.strip() and not colour.strip():
         raise InputError(f"pen {target}={value}: expected WIDTH, COLOUR or WIDTH:COLOUR")
+    if not target and colour and width.strip() and not LENGTH.fullmatch(width):
+        raise InputError(f"pen {value}: expected WIDTH, COLOUR, WIDTH:COLOUR, or KIND=WIDTH such as contour=0.5")
     found = _length(width, f"pen {target}={value}", WIDEST_MM) if width.strip() else None
     return PenRule(kind, item, found, pen_colour(colour, f"pen {target}={value}: ") if colour.strip() else None)
 

@@ -135,7 +135,8 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
         words.fail(at + 1, "page: expected a size, got the end of the file")
     try:
         first, wide = words.words[at + 1].lower(), None
-        sheet = Page() if first in (FIT, "width") else Page(*sheet_size(first))
+        # The margin may come yet: it is checked with the size.
+        size = (Page().width_mm, Page().height_mm) if first in (FIT, "width") else sheet_size(first)
         if first == "width":
             wide = length_mm(words.words[at + 2])
         at += 1 if first == FIT else 3 if first == "width" else 2
@@ -149,7 +150,7 @@ def read_page(words: Words, at: int) -> tuple[Page, int]:
                 margin = words.number(at, "page: ", word)
                 at += 1
         _check_spelling(words, start, at, _PAGE_WORDS)
-        page = sheet if margin is None else Page(sheet.width_mm, sheet.height_mm, margin)
+        page = Page(*size) if margin is None else Page(*size, margin)
         page = page.landscape if way == "landscape" else page.portrait if way == "portrait" else page
         if wide is not None:
             if fitted:

@@ -46,7 +46,9 @@ def read_ascii_grid(path: Path) -> Terrain:
     heights = _heights(file, columns, rows)
     # The least number of single precision is written in many ways, and no height.
     least = abs(hole) > LARGEST_HEIGHT
-    heights = np.where(np.isclose(heights, hole, rtol=100.0 * SINGLE_ULP) if least else heights == hole, np.nan, heights)
+    heights = np.where(
+        np.isclose(heights, hole, rtol=100.0 * SINGLE_ULP) if least else heights == hole, np.nan, heights
+    )
     if np.isnan(heights).all():
         raise InputError("nothing but holes", file=file.name)
     # Rows come from north to south.

@@ -40,7 +40,11 @@ class ItemCursor:
         name = self.source.string(self.at)
         if not is_colour(name):
             near = nearest(name.lower(), COLOURS)
-            known = f"did you mean '{near}'?" if near else f"known: {', '.join(PALETTES)}, #rrggbb in quotes"
+            known = (
+                f"did you mean '{near}'?"
+                if near
+                else f"known: {', '.join(PALETTES)}, black, white, red, #rrggbb in quotes"
+            )
             self.warn(f"{owner}: unknown colour '{name[:40]}', gray is used ({known})")
             name = "gray"
         self.at += 1

@@ -69,7 +69,8 @@ class ItemReader(ItemCursor):
             return True
         if draft.kind is not None:
             expected = f"'{missing}'" if draft.kind != "box" else "three lengths"
-            self.fail(f"expected {expected}, got {source.shown(self.at)}", draft)
+            hint = " (points are parted by commas)" if draft.kind != "box" and source.is_number(self.at) else ""
+            self.fail(f"expected {expected}, got {source.shown(self.at)}{hint}", draft)
         plain = word and word not in SCENE_WORDS and word[0] not in '",' and not source.is_number(self.at)
         if plain:
             self._named_shape(draft, word)
@@ -78,6 +79,8 @@ class ItemReader(ItemCursor):
         if plain and not near and draft.colour is not None:
             near = nearest_material(word)
         if near:
+            if draft.name.startswith("//"):
+                self.fail("comments begin with #", draft)
             self.fail(f"unknown word '{word}', expected '{near}'", draft)
         named = not is_alike(draft.name, HANDLERS)
         if plain and draft.colour is None and named:
