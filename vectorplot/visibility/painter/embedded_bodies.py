@@ -13,6 +13,9 @@ from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.geometry.repair.winding import components, edge_uses, inside_out, signed_volumes, turned_faces
 from vectorplot.scene.view import View
 
+ONE_PLACE = 64.0
+"""Corners in one cell of so many tolerances are in one place."""
+
 AXIS_SHIFT = 16.0
 """The extent of a view is less: items that are moved apart by multiples of it do not meet."""
 
@@ -31,7 +34,7 @@ def body_sides(view: View) -> Ints:
 
     A body without crossings keeps its inside on one side everywhere; pieces of it that are wound against the others are
     cavities, or else it counts as crossing itself. Faces of different pieces that touch, and such of one piece that
-    touch without sharing a corner, cross.
+    touch without sharing a corner, and in more than one, cross.
     """
     side = np.zeros(len(view.item_vertices) - 1, dtype=np.intp)
     face = np.flatnonzero(closed_items(view)[view.face_item])
@@ -58,10 +61,15 @@ def body_sides(view: View) -> Ints:
 
 
 def crossing_items(view: View, face: Ints) -> Ints:
-    """The items of which some faces (n,) meet others of the same item with which they share no corner."""
+    """The items of which some faces (n,) meet others of the same item with which they share no corner, nor have one in
+    one place alone, as at an apex."""
     position, offsets = ragged.take(view.offsets, face)
     fans, of = ragged.fans(offsets)
     triangles = view.corners[position[fans]]
+    steps = np.round(view.points / (ONE_PLACE * view.tolerance))
+    place = np.unique(steps, axis=1, return_inverse=True)[1].ravel()[triangles]
+    wide = np.flatnonzero((place != np.roll(place, 1, axis=1)).all(axis=1))
+    triangles, place, of = triangles[wide], place[wide], of[wide]
     item = view.face_item[face[of]]
     points = view.points[:, triangles]
     shift = np.zeros((3, len(item)))
@@ -71,10 +79,12 @@ def crossing_items(view: View, face: Ints) -> Ints:
     found = np.zeros(len(view.item_vertices) - 1, dtype=np.bool_)
     for start in range(0, len(one), PAIRS_AT_ONCE):
         a, b = one[start : start + PAIRS_AT_ONCE], two[start : start + PAIRS_AT_ONCE]
-        kept = ~found[item[a]] & (of[a] != of[b])
+        kept, common = ~found[item[a]] & (of[a] != of[b]), np.zeros(len(a), dtype=np.intp)
         for k in range(3):
             for m in range(3):
                 kept &= triangles[a, k] != triangles[b, m]
+                common += place[a, k] == place[b, m]
+        kept &= common != 1
         a, b = a[kept], b[kept]
         met = _meet(points[:, a], points[:, b], view.tolerance)
         found[item[a[met]]] = True

@@ -169,7 +169,7 @@ def painters_order(
         found = ribbons(view, projected.facing, slices)
         counts[number], uncut = len(found), uncut + len(slices.faces)
         ordered = joined((ribbon_order(view, slices, found), ordered))
-    return replace(rest, faces=ordered, uncut=uncut, ribbons=counts)
+    return replace(rest, faces=replace(ordered, bulges=None), uncut=uncut, ribbons=counts)
 
 
 def _check_known(view: View, known: Mapping[int, Precedence]) -> None:

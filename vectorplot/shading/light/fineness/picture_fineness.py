@@ -30,6 +30,10 @@ from vectorplot.shading.light.fineness.refinement import shade_error
 from vectorplot.shading.light.illumination import finish_of, homogeneous_light, towards
 from vectorplot.shading.light.nearness import Nearby, nearby, triangles_of_items
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.tolerances.of_extent import MET_OF_EXTENT
+from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.visibility.painter.embedded_bodies import body_sides
+from vectorplot.visibility.projected_faces import newell
 
 DEEP, DEEP_IN_LIGHT = 40.0, 3.0
 """By how many times the tolerance triangles may be off the surface where that can be seen from the eye only, along the
@@ -190,9 +194,8 @@ def picture_fineness(
     view = view_of(Scene((Item("box", reached),)), projection)
     lights = view_lights(view, scene.lights)
     most = max(DEEPEST_MM / tolerance_mm, LEAST_DEEP)
-    # Mirrors and glass show items from elsewhere.
-    elsewhere = any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items)
     boxes = [_box(item) for item in scene.items]
+    elsewhere = _seen_elsewhere(scene, view, boxes, casts)
     first = _first_in_place(scene, boxes)
 
     smooth = [k for k, item in enumerate(scene.items) if is_parametrised(item.shape) or is_implicit(item.shape)]
@@ -209,11 +212,52 @@ def picture_fineness(
         item = without_curved_mirror(scene.items[number])
         # Light goes through what is transparent: shadows fall on patterns only.
         dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))
-        deep = 1.0 if elsewhere else min(DEEP_IN_LIGHT if dark else DEEP, most)
+        deep = 1.0 if elsewhere[number] else min(DEEP_IN_LIGHT if dark else DEEP, most)
         error = shade_error(tolerance_mm)
         return PictureFineness(view, (item,), lights, casts, np.array([deep]), (near,), allowed, error)
 
     return demand
+
+
+def _seen_elsewhere(scene: Scene, view: View, boxes: list[Floats], casts: bool) -> Bools:
+    """(i,) the items that may be seen in a mirror or through glass, or hit by the light of a mirror, by their boxes.
+
+    What a convex mirror shows is on the side of one of its faces on which the eye is, and its double stands over the
+    face in the image; several mirrors, hollow ones and glass may show anything.
+    """
+    shines = [item for item in scene.items if item.material.is_mirror and isinstance(item.shape, Mesh)]
+    if len(shines) > 1 or any(item.material.refraction != 1.0 for item in scene.items):
+        return np.ones(len(boxes), dtype=np.bool_)
+    found = np.zeros(len(boxes), dtype=np.bool_)
+    if not shines or not len(shines[0].mesh.vertices):
+        return found
+    mirror = view_of(Scene((shines[0],)), view)
+    area, _, first = newell(mirror, np.arange(mirror.face_count))
+    normals = area / np.maximum(np.sqrt((area * area).sum(axis=0)), LEAST_DIVISOR)
+    level = (normals * mirror.points[:, first]).sum(axis=0)
+    eye = view_eye(view)
+    before = matmul(normals.T, eye[:3]) - eye[3] * level
+    (side,) = body_sides(mirror)
+    faces = np.flatnonzero(np.abs(before) > view.tolerance if side == 0 else side * before > view.tolerance)
+    normals, level = normals * np.sign(before), level * np.sign(before)
+    if (matmul(normals[:, faces].T, mirror.points) > level[faces, None] + MET_OF_EXTENT).any():
+        return np.ones(len(boxes), dtype=np.bool_)
+    corners = view.points_of(np.concatenate([box_corners(box) for box in boxes if len(box)])).reshape(3, -1, 8)
+    there = np.flatnonzero([len(box) > 0 for box in boxes])
+    for face in faces.tolist():
+        height = (normals[:, face, None, None] * corners).sum(axis=0) - level[face]
+        reaches = height.max(axis=1) > 0.0
+        if not casts:
+            doubles = corners - 2.0 * height * normals[:, face, None, None]
+            ahead = view.depth_of(doubles.reshape(3, -1)).reshape(-1, 8) > view.near
+            image = view.image_of(doubles.reshape(3, -1)).reshape(2, -1, 8)
+            window = mirror.image[:, mirror.corners[mirror.offsets[face] : mirror.offsets[face + 1]]]
+            over = (image.min(axis=2) <= window.max(axis=1)[:, None]) & (
+                image.max(axis=2) >= window.min(axis=1)[:, None]
+            )
+            reaches &= over.all(axis=0) | ~ahead.all(axis=1)
+        found[there[reaches]] = True
+    return found
 
 
 def _first_in_place(scene: Scene, boxes: list[Floats]) -> list[int]:
