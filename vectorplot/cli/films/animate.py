@@ -116,9 +116,9 @@ def animate(
     """
     from vectorplot.animate import animate as film_of
     from vectorplot.animation.animation_file import read_animation
+    from vectorplot.animation.modes import MODES
     from vectorplot.io.folders import animation_file
     from vectorplot.io.folders import data_file as found
-    from vectorplot.animation.modes import MODES
     from vectorplot.io.read_file import read
 
     if frames_out is None and video is None:

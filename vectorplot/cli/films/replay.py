@@ -38,10 +38,10 @@ def replay(
 ) -> None:
     """Show the movie NAME.vd1 and NAME.vd2, from the current folder or the folders video and data, in a web page on
     this machine, again and again, and say what it holds; or write its frames to OUT. Ctrl-C stops it."""
-    from vectorplot.io.folders import movie_to_read
     from vectorplot.animation.movies.movie import FPS as USUAL
     from vectorplot.animation.movies.reader import read_movie
     from vectorplot.animation.movies.shown import frame_drawings
+    from vectorplot.io.folders import movie_to_read
 
     check_out(frames_out, frame_format)
     with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
