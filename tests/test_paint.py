@@ -244,7 +244,7 @@ def test_patterns_lie_on_their_faces_also_in_mirrors_and_shadows() -> None:
     inside, outside = at(drawing, (55.0, 50.0), (70.0, 50.0))
     assert inside[0] > 100 and inside[2] < 20 and outside[2] > 100
     below = Camera((0.0, -0.5, 0.6), (0.0, 0.0, 0.0), up=(0.0, 1.0, 0.0), fov_deg=100.0)
-    fills = fills_of(paint(scene, below, page=SQUARE, fit=False))
+    fills = fills_of(paint(scene, below, page=SQUARE, fit=False, smooth=False))
     spots = fills.some(np.flatnonzero(fills.kind == FillKind.PATTERN))
     reds = np.unique(spots.colours[:, 0])
     assert len(reds) == 2 and reds[0] < 0.7 * reds[1], "one part in the light, one in the shadow"

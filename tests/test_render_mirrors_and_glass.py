@@ -118,3 +118,36 @@ def test_a_closed_body_is_one_veil_and_an_open_one_a_veil_for_every_layer(inside
     eye = vp.Camera((0, 0.5, 0), (0, -1, 0))
     within = render(vp.Scene((vp.Item("A", cube, "black", glass),)), eye, size=(80, 60), fit=False)
     assert set(np.unique(within.pixels).tolist()) == {128}, "an eye in a body sees its walls"
+
+
+@pytest.mark.capability("G6.6-screen-door")
+@pytest.mark.parametrize("samples", [1, 2])
+@pytest.mark.parametrize(("opacity", "every"), [(0.5, 2), (0.34, 3), (0.25, 4), (0.05, 4)])
+def test_sparse_glass_sets_every_nth_pixel_and_leaves_the_others(opacity: float, every: int, samples: int) -> None:
+    wall = vp.Item("WALL", box((-9, 2, -9), (9, 2.1, 9)), "white")
+    pane = vp.Item("PANE", box((-9, 0, -9), (9, 0.1, 9)), "blue")
+    camera = vp.Camera((0.0, -8.0, 0.0), (0.0, 0.0, 0.0), fov_deg=40.0)
+    bare, covered, sparse = (
+        render(
+            vp.Scene((wall, replace(pane, material=vp.Material("transparent", share)))),
+            camera,
+            size=(48, 36),
+            fit=False,
+            shadows="none",
+            samples=samples,
+            transparency="sparse",
+        ).pixels.astype(int)
+        for share in (0.0, 1.0, opacity)
+    )
+    through = np.abs(sparse - bare).max(axis=2) <= 2
+    coloured = np.abs(sparse - covered).max(axis=2) <= 2
+    assert (through ^ coloured).all()
+    assert coloured.mean() == 1.0 / every
+    assert not (coloured[:, 1:] & coloured[:, :-1]).any()
+
+
+def test_what_is_opaque_or_wholly_clear_is_the_same_where_glass_is_sparse() -> None:
+    scene = coloured_boxes()
+    camera = vp.Camera((7.0, -5.0, 2.5), (0, 0, 0), fov_deg=40.0)
+    one, other = (render(scene, camera, size=(60, 45), transparency=word).pixels for word in ("blended", "sparse"))
+    assert np.array_equal(one, other)

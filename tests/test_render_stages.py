@@ -74,6 +74,7 @@ def test_impossible_intensities_are_refused(intensity):
         {"shadows": "buffer", "shadow_bits": 7},
         {"shadows": "buffer", "shadow_size": 10**6},
         {"shadow_casters": "front"},
+        {"transparency": "thin"},
         {"shadow_focus": 0.0},
         {"shadow_focus": 1.5},
         {"shadow_focus": float("nan")},

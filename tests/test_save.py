@@ -14,7 +14,7 @@ from support.paths import DATA
 import vectorplot as vp
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.errors import InputError
-from vectorplot.save import FORMATS, save, write
+from vectorplot.save import FORMATS, save, write, write_whole
 from vectorplot.surfaces import Domain, surface_of_function
 from vectorplot.testing import assert_drawings_equal
 
@@ -165,3 +165,22 @@ def test_scenes_and_drawings_are_not_each_other(drawing, tmp_path):
     (tmp_path / "scene.json").write_text("{}")
     with pytest.raises(InputError, match="not a drawing"):
         vp.read(tmp_path / "scene.json")
+
+
+@pytest.mark.skipif(not os.path.exists("/dev/fd"), reason="no names of open files")
+def test_a_pipe_with_a_name_is_written(drawing):
+    """What ``-o /dev/stdout`` before a pipe and ``-o >(...)`` name."""
+    reader, writer = os.pipe()
+    with os.fdopen(reader, "rb") as end:
+        small = replace(drawing, layers=(), title="")
+        write_whole(f"/dev/fd/{writer}", write(small, "svg"))
+        os.close(writer)
+        assert end.read() == write(small, "svg")
+
+
+def test_saving_never_touches_what_new_files_of_others_may_have(drawing, tmp_path, monkeypatch):
+    """The mask belongs to the whole process: other threads make files meanwhile."""
+    monkeypatch.setattr(os, "umask", lambda _: pytest.fail("the mask was changed"))
+    save(drawing, tmp_path / "x.svg")
+    (tmp_path / "y").touch()
+    assert (tmp_path / "x.svg").stat().st_mode == (tmp_path / "y").stat().st_mode

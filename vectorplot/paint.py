@@ -23,6 +23,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.io.anything import scene_of
+from vectorplot.linework.lines_in_place import places_beside_faces
 from vectorplot.linework.ruler import PEN, Ruler
 from vectorplot.painting.coloured import coloured
 from vectorplot.painting.erased import erased
@@ -35,7 +36,6 @@ from vectorplot.scene.coincidence.twins import without_twins
 from vectorplot.scene.depth_cue import DepthCue, depth_cue_of
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.lines.usual_lines import with_usual_lines
-from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.pages.fitted_pages import FittedPage
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
@@ -50,6 +50,7 @@ from vectorplot.stages.around_picture import beside_bar, left_of_bar, room_for_l
 from vectorplot.stages.facet_errors import outline_error
 from vectorplot.stages.subject import Paper, subject_of
 from vectorplot.stages.walk import StageReport, Walk
+from vectorplot.tolerances.of_lengths import LEAST_TOLERANCE_MM
 from vectorplot.words import LINE_WORDS, TEXT_WORDS, check_word, line_kinds
 
 
@@ -233,7 +234,9 @@ def paint(
         return picture_fineness(shown, projection, casts, allowed, fine_mm)
 
     ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
-    placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, annotation_points(scene))
+    drawn = kinds or line_kinds(LINE_WORDS if fills == "erasing" else ())
+    beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
+    placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, beside)
     if fit:
         placement = subject.around(placement, ordered.view, sheet)
     walk.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
@@ -303,5 +306,5 @@ def _check_options(
         raise InputError(f"a palette of {palette} shades: expected 2 to 256")
     if not 0.0 <= crease_angle_deg <= 180.0:
         raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
-    if not 0.0 < tolerance_mm < np.inf:
-        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
+    if not LEAST_TOLERANCE_MM <= tolerance_mm < np.inf:
+        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected {LEAST_TOLERANCE_MM:g} or more")

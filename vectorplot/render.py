@@ -21,6 +21,7 @@ from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.cameras.unit_projection import projection_of
 from vectorplot.geometry.chunks import threads_of
 from vectorplot.io.anything import scene_of
+from vectorplot.linework.lines_in_place import places_beside_faces
 from vectorplot.linework.ruler import Ruler
 from vectorplot.plan import accuracy_of_render, chosen_shadows, plan_render, with_accuracy
 from vectorplot.rendering.pixel_bands import pixels_in_bands
@@ -36,7 +37,6 @@ from vectorplot.rendering.scene_shadows import ShadowMaps, scene_lighting, taper
 from vectorplot.scene.coincidence.twins import without_twins
 from vectorplot.scene.depth_cue import DepthCue
 from vectorplot.scene.light import Exposure, Light
-from vectorplot.scene.naming.annotations import annotation_points
 from vectorplot.scene.pages.page import Page
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Scene
@@ -101,6 +101,7 @@ def render(
     shadow_casters: Literal["all", "away"] = "all",
     shadow_focus: float | None = None,
     samples: int | None = None,
+    transparency: Literal["blended", "sparse"] = "blended",
     crease_angle_deg: float = 25.0,
     lines: str | Iterable[str] = (),
     style: Style | str | None = None,
@@ -146,6 +147,9 @@ def render(
     samples : int, optional
         Every pixel is the mean light of samples x samples ones, 8 x 8 at most (None: 2 x 2, where there is room for so
         many).
+    transparency : {"blended", "sparse"}
+        Transparent items are mixed with what is behind them, or set every second, third or fourth pixel, whichever
+        comes nearest to their opacity.
     crease_angle_deg : float
         Faces that meet at less look round; 0 to 180 degrees.
     lines : str or iterable of str
@@ -210,7 +214,7 @@ def render(
     kinds = line_kinds(lines)
     samples = usual_samples(size) if samples is None else samples
     check_whole(columns=size[0], rows=size[1], samples=samples)
-    check_render_options(size, shadows, samples, crease_angle_deg)
+    check_render_options(size, shadows, transparency, samples, crease_angle_deg)
     texels = usual_shadow_size(size) if shadow_size is None else shadow_size
     check_whole(shadow_size=texels)
     settings = MapSettings(texels, shadow_bits, shadow_casters, shadow_focus)
@@ -239,7 +243,8 @@ def render(
         facets = walk.run("facets", faceted, without_twins(seen), lambda number: demand, budget_of(budget))
     view = walk.run("look", view_of, facets.scene, projection)
     triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
-    placement = picture_placement(view, *fine, fit, annotation_points(seen))
+    beside = places_beside_faces(seen, view, None, Page(*fine, 0.0), fit, kinds, LINE_PIXELS, budget)
+    placement = picture_placement(view, *fine, fit, beside)
     if fit:
         placement = subject.around(placement, view, placement.page, AROUND_BOX, samples * PIXELS_PER_MM)
     walk.measured("facets", "samples", facet_error, facets, view, placement)
@@ -256,6 +261,10 @@ def render(
     coplanar = walk.run("coplanar", coplanar_faces, view)
     behind = paper[0].astype(np.float64)
     picture = picture_of(triangles, system, fine, lighting, opacity, mirror, sides, coplanar, behind)
+    if transparency == "sparse":
+        from vectorplot.effects.windows.screen_lines import sparseness
+
+        picture = replace(picture, every=sparseness(opacity), door=samples)
     if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = pixels_in_bands(walk, picture, samples)

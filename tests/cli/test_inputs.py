@@ -52,8 +52,8 @@ def test_directions_have_names():
 @pytest.mark.parametrize(
     ("name", "sides", "camera", "hinted"),
     [
-        ("a.glb", (1, 1, 1), None, True),
-        ("a.GLB", (1, 1, 1), vp.Camera((1, 1, 1)), False),
+        ("a.glb", (1, 3, 1), None, False),
+        ("a.obj", (1, 2, 1), vp.Camera((1, 1, 1)), False),
         ("a.obj", (1, 2, 1), None, True),
         ("a.obj", (2, 2, 1), None, False),
         ("a.obj", (1, 1, 3), None, False),

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from support.paths import DATA
 
 import vectorplot
 from vectorplot.cli.main import main, run
@@ -309,3 +310,17 @@ def test_help_is_fast():
         return children() - start
 
     assert any(seconds() < 0.5 for _ in range(3))
+
+
+@pytest.mark.parametrize(
+    ("closed", "words"),
+    [(">&-", "draw {scene} -o - --format svg"), ("<&-", "draw - -o {out}")],
+)
+def test_closed_streams_are_told_in_one_line(tmp_path, closed, words):
+    scene = DATA / "pencil.scene"
+    line = words.format(scene=scene, out=tmp_path / "x.svg")
+    run = subprocess.run(
+        ["sh", "-c", f"{sys.executable} -m vectorplot {line} {closed}"], capture_output=True, text=True, check=False
+    )
+    assert run.returncode == 1
+    assert run.stderr.count("\n") == 1 and "closed" in run.stderr

@@ -11,7 +11,7 @@ from support.strewn import STREWN
 
 import vectorplot as vp
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.fills_without_overlaps import visible_fills
+from vectorplot.drawing.fills_without_overlaps import in_space, visible_fills
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.paint import paint
 
@@ -135,3 +135,15 @@ def test_effects_leave_regions_that_do_not_overlap(name: str) -> None:
     opaque = seen.some(np.flatnonzero((seen.opacity == 1.0) & (np.diff(seen.offsets) > 2)))
     polygons = polygons_of(opaque.points.T, opaque.offsets)
     assert shapely.union_all(polygons, grid_size=1e-5).area == pytest.approx(shapely.area(polygons).sum(), rel=1e-5)
+
+
+@pytest.mark.parametrize("tilt", [0.0, 1e-12, 1e-7, 0.3, 1.0])
+def test_places_in_space_of_what_is_seen_edge_on_are_apart_as_on_the_page(tilt: float) -> None:
+    """From the edge to the front: where a plane says nothing of a place, the border of its polygon does."""
+    flat = np.array([(10.0, 5.0), (30.0, 5.0), (30.0, 5.0 + 8.0 * tilt), (10.0, 5.0 + 8.0 * tilt)])
+    space = np.column_stack((flat, (0.0, 0.0, 8.0, 8.0)))
+    fills = Fills.flat(flat, np.array([0, 4]), np.zeros((1, 3), dtype=np.uint8), points3d=space)
+    places = np.column_stack((np.linspace(10.0, 30.0, 7), np.full(7, 5.0 + 4.0 * tilt)))
+    found = in_space(fills, places, np.zeros(7, dtype=np.intp), np.eye(4))
+    assert np.abs(found[:, :2] - places).max() < 1e-6
+    assert -1e-9 <= found[:, 2].min() and found[:, 2].max() <= 8.0 + 1e-9

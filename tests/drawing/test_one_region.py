@@ -47,7 +47,7 @@ COLOURS = ("red", "green", "blue")
 
 
 def painted(scene: vp.Scene, *lights: vp.Light) -> tuple[vp.Drawing, Fills]:
-    drawing = vp.paint(scene, CAMERA, page=PAGE, lights=lights)
+    drawing = vp.paint(scene, CAMERA, page=PAGE, lights=lights, smooth=False)
     return drawing, drawing.layers[0].fills[0]
 
 
@@ -78,7 +78,11 @@ def test_a_plane_with_a_hole_is_one_region_cut_open() -> None:
     kept = (np.abs(middle[:, :2] - 3.0).max(axis=1) > 1.0).nonzero()[0]
     faces = sheet.corners.reshape(-1, 3)[kept]
     ring = vp.Item("RING", Mesh.from_triangles(sheet.vertices, faces), "gray")
-    fills = vp.paint(vp.Scene((ring,)), vp.Camera((3, 2.9, 20), (3, 3, 0), fov_deg=30.0), page=PAGE).layers[0].fills[0]
+    fills = (
+        vp.paint(vp.Scene((ring,)), vp.Camera((3, 2.9, 20), (3, 3, 0), fov_deg=30.0), page=PAGE, smooth=False)
+        .layers[0]
+        .fills[0]
+    )
     assert len(fills) == 2
     polygons = polygons_of(fills.points.T, fills.offsets)
     region = shapely.union_all(polygons)

@@ -89,8 +89,8 @@ def depth_of_piercing(depth: float) -> float:
 
 
 def foot_length(lines: Drawn, height: float) -> float:
-    """The length of lines about the origin that are no higher or lower than some height."""
-    low = (np.abs(lines.world[:, :, 2]) <= 1.001 * height).all(axis=1)
+    """The length of lines about the origin that are no higher or lower than some height, but for rounding."""
+    low = (np.abs(lines.world[:, :, 2]) <= 1.001 * height + 1e-13).all(axis=1)
     inner = (np.abs(lines.world[:, :, :2]) < 0.9).all(axis=(1, 2))
     return lines.where(low & inner).length
 

@@ -8,10 +8,10 @@ from typing import Any
 
 from vectorplot.animation.animation import Animation, check_fps, check_frames
 from vectorplot.animation.animation_words import CAMERA, STATEMENTS, AnimationWords
-from vectorplot.io.folders import data_file
 from vectorplot.animation.keyed_motion import CameraTrack, ItemTrack, KeyedMotion, LightTrack
 from vectorplot.animation.modes import MODES
 from vectorplot.errors import InputError, printable
+from vectorplot.io.folders import data_file
 from vectorplot.io.read_file import read
 from vectorplot.scene.scene import Scene
 from vectorplot.words import nearest

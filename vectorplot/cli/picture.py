@@ -217,6 +217,8 @@ def check_place(out: str) -> None:
 def write_out(out: str, content: bytes) -> None:
     """Write to a file, whole or not at all, or to stdout for ``-``."""
     if out == "-":
+        if sys.stdout is None:
+            raise OSError(errno.EBADF, "standard output is closed")
         sys.stdout.buffer.write(content)
         sys.stdout.buffer.flush()
         return

@@ -218,7 +218,7 @@ def listed(fills: Fills, parts: Any, source: Ints, page_from_world: Floats) -> F
 def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats) -> Floats:
     """(c,3) where the sight lines of points (c,2) of the page meet the planes of fills (c,).
 
-    Degenerate: of a fill that is seen edge-on its first corner.
+    Degenerate: of a fill that is seen edge-on, or has no area, the nearest place on its border.
     """
     if not len(points):
         return np.zeros((0, 3))
@@ -233,7 +233,24 @@ def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats
     steep = np.abs(determinant(system)) > EDGE_ON_SINE
     found = first.copy()
     found[steep] += linear_solution(system[steep], right[steep][..., None])[..., 0]
+    if not steep.all():
+        found[~steep] = _on_borders(fills, points[~steep], source[~steep])
     return found
+
+
+def _on_borders(fills: Fills, points: Floats, source: Ints) -> Floats:
+    """(c,3) the places in space on the borders of fills (c,) that come nearest to points (c,2) of the page."""
+    start, sizes = ragged.take(fills.offsets, source)
+    of = ragged.owner(np.diff(sizes))
+    end = next_positions(fills.offsets, np.arange(len(fills.points)))[start]
+    way = fills.points[end] - fills.points[start]
+    square = (way * way).sum(axis=1)
+    part = ((points[of] - fills.points[start]) * way).sum(axis=1) / np.where(square > 0.0, square, 1.0)
+    part = np.clip(part, 0.0, 1.0)[:, None]
+    off = fills.points[start] + part * way - points[of]
+    nearest = np.lexsort(((off * off).sum(axis=1), of))[sizes[:-1]]
+    one, two = fills.points3d[start[nearest]], fills.points3d[end[nearest]]
+    return np.asarray(one + part[nearest] * (two - one))
 
 
 def planes_of_fills(fills: Fills) -> tuple[Floats, Floats]:

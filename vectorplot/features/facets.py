@@ -20,8 +20,16 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.triangles.triangle_edges import edges_of
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.jumps import jumps
+from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.tolerances.of_angles import FLAT_COSINE
+from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
+
+AROUND_POLE = 8
+"""So many normals are compared at a pole."""
+
+SAME_NORMAL = 1.0 - 1e-6
+"""Normals at a pole with a smaller cosine between them are different."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,7 +70,24 @@ def finished(patch: Patch, net: Net) -> Facets:
     """What comes of a net on a parametrised surface that is fine enough."""
     net, turned = cut_where_normals_jump(_without_jumps(patch.surface, net), patch)
     sharp = turned | patch.on_crease(net.vertices.places)
-    return _facets(_without_folds(net, sharp), sharp)
+    apex = _at_apexes(patch, net.vertices.places)
+    return _facets(_without_folds(net, sharp), sharp | apex, apex)
+
+
+def _at_apexes(patch: Patch, places: Floats) -> Bools:
+    """(n,) which places are at poles at which the normal depends on the way that leads there, as that of a cone."""
+    found = np.zeros(len(places), dtype=np.bool_)
+    domain = patch.surface.domain
+    starts = (domain.u_start, domain.v_start)
+    for pole in patch.poles:
+        around = np.empty((AROUND_POLE, 2))
+        across = 1 - pole.axis
+        around[:, pole.axis] = pole.place
+        around[:, across] = starts[across] + domain.size[across] * np.arange(AROUND_POLE) / AROUND_POLE
+        normals = unit_normals(patch.surface, around[:, 0], around[:, 1])
+        if (dot(normals, normals[:1]) < SAME_NORMAL).any():
+            found |= np.abs(places[:, pole.axis] - pole.place) <= ON_BORDER_OF_DOMAIN * domain.size[pole.axis]
+    return found
 
 
 def _without_folds(net: Net, sharp: Bools) -> Net:
@@ -100,10 +125,9 @@ def _without_jumps(surface: Surface, net: Net) -> Net:
     return replace(net, triangles=net.triangles[~any_component(torn.reshape(-1, 3))])
 
 
-def _facets(net: Net, sharp: Bools) -> Facets:
+def _facets(net: Net, sharp: Bools, apex: Bools | None = None) -> Facets:
     triangles = net.triangles[net.vertices.known[net.triangles].all(axis=1)]
     used, corners = np.unique(triangles, return_inverse=True)
     vertices = net.vertices.some(used)
-    return Facets(
-        Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), vertices.normals, not net.stopped, sharp[used]
-    )
+    normals = vertices.normals if apex is None else np.where(apex[used, None], np.nan, vertices.normals)
+    return Facets(Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), normals, not net.stopped, sharp[used])

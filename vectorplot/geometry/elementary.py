@@ -97,8 +97,9 @@ def cbrt(x: ArrayLike) -> Floats:
     x = np.asarray(x, dtype=np.float64)
     root = power(np.abs(x), 1.0 / 3.0)
     # A step of Newton's makes cubes of whole numbers exact.
-    square = root * root
-    root = root - np.where(square > 0.0, (root * square - np.abs(x)) / np.where(square > 0.0, 3.0 * square, 1.0), 0.0)
+    inner = (root > 0.0) & (root < np.inf)
+    cube, near = np.where(inner, np.abs(x), 1.0), np.where(inner, root, 1.0)
+    root = np.where(inner, near - (near * near * near - cube) / (3.0 * near * near), root)
     return _real(np.copysign(root, x))
 
 

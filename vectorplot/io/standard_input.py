@@ -35,6 +35,8 @@ def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
 
     if exaggeration is not None:
         raise InputError("heights are exaggerated of terrains only (asc, xyz)", file=_NAME)
+    if sys.stdin is None:
+        raise InputError("it is closed", file=_NAME)
     data = sys.stdin.buffer.read(MAX_FILE_BYTES + 1)
     if not data:
         raise InputError("nothing came in", file=_NAME)

@@ -13,9 +13,6 @@ from vectorplot.geometry.vectors import norm
 from vectorplot.io.meshes.mesh_file import shown
 from vectorplot.scene.scene import Scene
 
-Y_UPWARDS = (".glb",)
-"""Formats whose standard says that y is up."""
-
 EITHER_WAY = (".obj",)
 """Formats in which programs with y upwards write as often as those with z upwards."""
 
@@ -24,13 +21,11 @@ SLENDER = 1.25
 
 
 def upwards_hint(path: str, scene: Scene) -> str | None:
-    """A line that says how to stand a file up that has y upwards by its format, or seems to; None for others, and where
-    the scene has a camera of its own."""
+    """A line that says how to stand a file up that seems to have y upwards; None for others, and where the scene has a
+    camera of its own. The reader of glb files, in which y is up, stands them up."""
     suffix = Path(path).suffix.lower()
     if scene.camera is not None or not len(scene):
         return None
-    if suffix in Y_UPWARDS:
-        return f"{shown(Path(path))}: in {suffix[1:]} files y is up: --up y stands it up, --up z says it stands"
     x, y, z = np.ptp(scene.bounds, axis=0).tolist()
     if suffix in EITHER_WAY and y > SLENDER * max(x, z):
         return f"{shown(Path(path))}: longest along y: if y is up in it, --up y stands it up"

@@ -6,6 +6,7 @@ import numpy as np
 
 from vectorplot.drawing.pens.sorted_layers import layer_words
 from vectorplot.errors import InputError
+from vectorplot.tolerances.of_lengths import LEAST_TOLERANCE_MM
 from vectorplot.words import check_word
 
 SHORTEST_MM = 1.0
@@ -23,8 +24,8 @@ def check_line_options(
         raise InputError(f"a halo of {halo_mm:g} mm: expected a width that is finite and not negative")
     if not 0.0 <= crease_angle_deg <= 180.0:
         raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
-    if not 0.0 < tolerance_mm < np.inf:
-        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected a length that is finite and positive")
+    if not LEAST_TOLERANCE_MM <= tolerance_mm < np.inf:
+        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected {LEAST_TOLERANCE_MM:g} or more")
 
 
 def check_longest(longest_mm: float | None) -> None:

@@ -2,18 +2,24 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
 
+from vectorplot.arrays import Floats
+from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.drawing import Paths
+from vectorplot.errors import InputWarning
 from vectorplot.geometry.budget import budget_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.linework.placed_lines import PlacedLines
 from vectorplot.linework.traceable import traceable
 from vectorplot.plan import plan_draw
-from vectorplot.scene.placement import Placement
+from vectorplot.scene.naming.annotations import annotation_points, is_annotation
+from vectorplot.scene.pages.page import Page
+from vectorplot.scene.placement import Placement, box_corners, mm_per_image
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of
 from vectorplot.stages.walk import Walk
@@ -28,6 +34,46 @@ def with_smooth_surfaces(scene: Scene, view: View, faces: ProjectedFaces | None)
         view, faces = view_of(scene, view), None
     view = replace(view, occludes=np.array([item.hides for item in scene.items], dtype=np.bool_))
     return view, project_faces(view) if faces is None else faces
+
+
+def places_beside_faces(
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces | None,
+    page: Page,
+    fit: bool,
+    kinds: frozenset[LineKind],
+    tolerance_mm: float,
+    budget: float,
+) -> Floats:
+    """(n,3) places in the world that a picture of faces has to fit besides these: those of annotations, and of what is
+    seen of the other curves of a scene where lines of some kinds are drawn on top.
+
+    view: of the scene, surfaces as triangles; faces: its faces in the image, where they are known; page, fit: of the
+    picture; tolerance_mm: as of draw. Curves that reach too far to be fitted are there as a whole.
+    """
+    notes = annotation_points(scene)
+    curves = [is_curve(item.shape) and not is_annotation(item) for item in scene.items]
+    if not fit or not kinds or not any(curves):
+        return notes
+    items = (item if one else replace(item, lines=()) for item, one in zip(scene.items, curves, strict=True))
+    alone = replace(scene, items=tuple(items))
+    view, faces = with_smooth_surfaces(alone, view, faces)
+    scale = mm_per_image(view, view.points_of(np.concatenate([scene.vertices, box_corners(scene.bounds)])), page, fit)
+    allowed = budget_of(budget)
+    with warnings.catch_warnings():
+        # They are told when the lines are drawn.
+        warnings.simplefilter("ignore", InputWarning)
+        shapes = traceable(
+            Walk(plan_draw(alone, kinds, "none", 0.0), None, None), alone, view, faces, kinds, 180.0, allowed
+        )
+        every = shapes.lines(0.5 * tolerance_mm / scale, allowed)
+    if view.reaches_too_far(every.start, every.end):
+        return np.concatenate([notes, view.world_of(np.concatenate([every.start, every.end], axis=1))])
+    framed = shapes.framed(every, None)
+    seen = shapes.seen(framed)
+    ends = np.concatenate(framed.ends(view, seen.segment, seen.low, seen.high), axis=1)
+    return np.concatenate([notes, view.world_of(ends)])
 
 
 def lines_in_place(

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.painted_fills import shown_faces
 from vectorplot.features.edge_splitting import Demand
 from vectorplot.geometry.budget import Budget
@@ -24,6 +24,7 @@ from vectorplot.painting.seen import Seen, smooth_items, without_unseen_facets
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of
+from vectorplot.shading.light.corner_normals import at_corners, view_normals
 from vectorplot.shading.light.fineness.faceted import FacetedScene, faceted
 from vectorplot.shading.light.flat_regions import plane_numbers
 from vectorplot.shading.light.painted_colours import opacities
@@ -69,9 +70,8 @@ def ordered_faces(
     projected = walk.run("faces", project_faces, view)
     known, groups = known_orders(shown, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
-    painted = walk.run(
-        "order", painters_order, view, projected, known=known, sliced=sliced, group=groups, budget=budget
-    )
+    how = {"known": known, "sliced": sliced, "group": groups, "normals": _normals_at_corners(facets, view)}
+    painted = walk.run("order", painters_order, view, projected, **how, budget=budget)
     warn_of_guesses(scene, painted)
     tell_slices(walk, scene, sliced, painted)
     tell_knots(walk, scene, painted)
@@ -109,6 +109,19 @@ def seen_on_page(walk: Walk, ordered: OrderedFaces, placement: Placement, budget
     faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
     shown = shown_faces(faces, placement)
     return Seen(facets.scene, view, projected, shown, placement, smooth_items(facets)), plane
+
+
+def _normals_at_corners(facets: FacetedScene, view: View) -> Floats | None:
+    """(3,c) the normals of surfaces at the corners of the faces of a view, 0 at apexes, those of their faces for
+    polyhedra; None where no surface can touch another item."""
+    if len(facets.normals) < 2 or all(normals is None for normals in facets.normals):
+        return None
+    apex = np.zeros(view.points.shape[1], dtype=np.bool_)
+    for item, own in enumerate(facets.normals):
+        if own is not None:
+            part = slice(view.item_vertices[item], view.item_vertices[item + 1])
+            apex[part] = (own.at_vertices == 0.0).all(axis=1)
+    return np.where(apex[view.corners], 0.0, at_corners(view, view_normals(view, facets.normals, 0.0)))
 
 
 def _with_clear_items(scene: Scene) -> Scene:

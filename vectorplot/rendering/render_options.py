@@ -34,8 +34,11 @@ def usual_shadow_size(size: tuple[int, int]) -> int:
     return min(max(needed, FEWEST_TEXELS), MOST_TEXELS)
 
 
-def check_render_options(size: tuple[int, int], shadows: str, samples: int, crease_angle_deg: float) -> None:
+def check_render_options(
+    size: tuple[int, int], shadows: str, transparency: str, samples: int, crease_angle_deg: float
+) -> None:
     """InputError for unknown words, and for numbers out of range."""
+    check_word("transparency", transparency, ("blended", "sparse"))
     check_word("shadows", shadows, ("auto", "none", "buffer", "trapezoid", "exact"))
     if not 1 <= samples <= MOST_SAMPLES:
         raise InputError(f"{samples} samples: expected 1 to {MOST_SAMPLES}")

@@ -109,3 +109,6 @@ UNION_OF_SEGMENT = 1e-9
 LEAST_GAIN_OF_TRAVEL = 1e-3
 """A round of moves that makes a long tour of the pen shorter by less than this part is its last one: those that follow
 gain less still, and each costs as much as a tenth of the whole order."""
+
+LEAST_TOLERANCE_MM = 1e-6
+"""A thousandth of the last digit of the files: who asks for a finer one has missed a power of ten."""

@@ -224,8 +224,13 @@ async def _served(server: Server, started: Callable[[str], None], timeout_s: flo
     loop = asyncio.get_running_loop()
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
-        if number is not None:
+        if number is None:
+            continue
+        try:
             loop.add_signal_handler(number, server.stop.set)
+        except NotImplementedError:
+            # Windows has no such handlers; the usual ones run in the main thread, as the loop does.
+            signal.signal(number, lambda *_: loop.call_soon_threadsafe(server.stop.set))
     async with serving(server) as address:
         started(address)
         try:

@@ -71,7 +71,11 @@ def cut_scene_of(body: str, place: str) -> tuple[vp.Scene, vp.Camera]:
     whole = vp.Scene((vp.Item("A", shape, "gray"),), (), cuts=tuple(Cut.of(cut) for cut in cuts))
     scene = cut_scene(whole.transformed(matrix))
     eye, target = (tuple((matrix[:3, :3] @ place).tolist()) for place in (EYE, np.array([0.5, 0.0, 1.0])))
-    return vp.Scene(scene.items, (light,)), vp.Camera(eye, target, fov_deg=32.0)
+    # Far behind: otherwise planes reach through most of the depth of the picture, and their shades vary with it.
+    behind = np.eye(4)
+    behind[:3, 3] = -2.0 * EYE
+    speck = vp.Item("SPECK", box((0.01, 0.01, 0.01)).transformed(matrix @ behind), "gray")
+    return vp.Scene((*scene.items, speck), (light,)), vp.Camera(eye, target, fov_deg=32.0)
 
 
 def colours(fills: Fills, item: int) -> Floats:

@@ -57,7 +57,7 @@ def test_the_paper_behind_glass_is_that_of_the_scene():
 @pytest.mark.slow
 def test_what_is_seen_in_a_pool_is_one_region_for_each_face_and_shadow():
     scene = vp.read(DATA / "pool.scene")
-    drawing = vp.paint(scene)
+    drawing = vp.paint(scene, smooth=False)
     (fills,) = drawing.layers[0].fills
     assert len(fills) < 1200 and len(write(drawing, "svg")) < 200_000
     # Walls and floor touch all of the water: nothing is looked for behind it, or by way of total reflection.

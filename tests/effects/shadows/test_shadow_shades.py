@@ -76,23 +76,29 @@ def test_a_large_shadow_becomes_darker_with_its_depth_in_pixels() -> None:
     assert np.abs(lit - dark - 0.5 * DIRECT_SHARE * 255.0).max() <= 2.0
 
 
-@pytest.mark.capability("G6.3-shadow-shade")
-def test_a_large_painted_shadow_varies_as_the_light_on_its_plane_does() -> None:
-    """A plane in sunlight has one shade, and so have its shadows; under a lamp both have gradients."""
+@pytest.mark.capability("G6.3-shadow-shade", "G4.6-depth-shade")
+def test_a_large_painted_shadow_varies_as_the_light_and_the_depth_of_its_plane_do() -> None:
+    """In sunlight by depth alone, below a lamp by both."""
     shades = {}
     for light in (Light((0, 0, 1), parallel=True, intensity=1.0), Light((0, 5, 9), intensity=1.0)):
         (fills,) = vp.paint(Scene((ROAD, WALL), (light,)), ALONG).layers[0].fills
         lowest = np.minimum.reduceat(fills.points3d[:, 2], fills.offsets[:-1])
         top = (lowest > -1e-9) & (fills.item == 0)
-        away = np.linalg.norm(fills.points3d - light.position, axis=1)
+        ahead = np.linalg.norm(fills.points3d - light.position, axis=1) if not light.parallel else fills.points3d[:, 1]
         shades[light.parallel] = []
         for kind in (FillKind.SHADOW, FillKind.FACE):
             own = np.repeat(top & (fills.kind == kind), np.diff(fills.offsets))
-            shades[light.parallel].append((away[own], fills.colours[own, 0].astype(int)))
-    assert [len(np.unique(level)) for _, level in shades[True]] == [1, 1]
+            shades[light.parallel].append((ahead[own], fills.colours[own, 0].astype(int)))
+    (far, dark), (further, lit) = shades[True]
+    assert np.ptp(dark) > 25 and np.ptp(lit) > 25
+    assert np.corrcoef(far, dark)[0, 1] < -0.98 and np.corrcoef(further, lit)[0, 1] < -0.98
+    nearest = np.abs(far[:, None] - further).argmin(axis=1)
+    beside = np.abs(far - further[nearest]) < 0.3
+    assert beside.sum() > 5
+    assert np.abs(lit[nearest[beside]] - dark[beside] - 0.5 * DIRECT_SHARE * 255.0).max() <= 4.0
     (far, dark), (further, lit) = shades[False]
     assert np.ptp(dark) > 40 and np.ptp(lit) > 60
-    assert np.corrcoef(far, dark)[0, 1] < -0.8 and dark[far.argmin()] >= dark.max() - 2
+    assert np.corrcoef(far, dark)[0, 1] < -0.8 and dark[far.argmin()] >= dark.max() - 8
     # Half as bright as what is lit at the same distance.
     nearest = np.abs(far[:, None] - further).argmin(axis=1)
     beside = np.abs(far - further[nearest]) < 0.3

@@ -70,7 +70,7 @@ def test_what_is_wholly_clear_or_occludes_casts_none() -> None:
 @pytest.mark.parametrize("number", [1, 2])
 def test_painted_they_come_after_the_shadows_of_the_same_face_and_darken_it(camera: Camera, number: int) -> None:
     lit = replace(scene(), lights=LIGHTS[:number])
-    (fills,) = vp.paint(lit, camera, page=vp.Page(120, 90, 4)).layers[0].fills
+    (fills,) = vp.paint(lit, camera, page=vp.Page(120, 90, 4), smooth=False).layers[0].fills
     clear = np.flatnonzero(fills.kind == FillKind.CLEAR_SHADOW)
     assert len(clear)
     on_floor = fills.item == 0

@@ -98,3 +98,20 @@ def test_long_thin_bars_meet_where_they_meet_two_by_two() -> None:
     apart = [met(bars[i], bars[j]) for i, j in zip(one[near], two[near], strict=True)]
     assert len(together.one) == sum(len(pair.one) for pair in apart) > 100
     assert np.isclose(length(together), sum(map(length, apart)))
+
+
+@pytest.mark.parametrize("plane", [(0, 1), (1, 2), (2, 0)])
+@pytest.mark.parametrize("mirrored", [0, 1])
+def test_segments_that_mirror_each_other_are_two(plane, mirrored):
+    """Two walls cross on a floor: whatever axes mirror one line into the other, both are there, and none twice."""
+    across, up = plane[mirrored], 3 - sum(plane)
+    square = np.array([(-1.0, -1.0), (1.0, 1.0), (1.0, 1.0), (-1.0, -1.0)])
+    one = np.zeros((4, 3))
+    one[:, list(plane)], one[:, up] = square, (-1.0, -1.0, 2.0, 2.0)
+    other, floor = one.copy(), np.zeros((4, 3))
+    other[:, across] *= -1.0
+    floor[:, list(plane)] = [(-2.0, -2.0), (2.0, -2.0), (2.0, 2.0), (-2.0, 2.0)]
+    walls = [Mesh.from_polygons(corners, [[0, 1, 2, 3]]) for corners in (one, other, floor)]
+    found = met(*walls)
+    long = np.sqrt(((found.end - found.start) ** 2).sum(axis=0))
+    assert np.allclose(np.sort(long), [8.0**0.5, 8.0**0.5, 3.0])

@@ -176,3 +176,51 @@ def test_every_verb_shows_a_molecule(tmp_path):
     assert {"contour", "intersection"} <= {layer.name for layer in drawing.layers}
     assert vp.paint(scene, vp.Camera((3, -4, 9)), page="40x40", tolerance_mm=0.5).layers
     assert vp.render(scene, vp.Camera((3, -4, 9)), size=(60, 40)).pixels.std() > 5.0
+
+
+CRYSTAL = """data_x
+_cell_length_a 5
+_cell_length_b 6
+_cell_length_c 7
+_cell_angle_alpha 90
+_cell_angle_beta 90
+_cell_angle_gamma 90
+loop_
+_atom_site_label
+_atom_site_type_symbol
+_atom_site_fract_x
+_atom_site_fract_y
+_atom_site_fract_z
+C1 C 0.1 0.2 0.3
+O1 O 0.3 0.2 0.3
+"""
+LIGAND = """data_comp_XYZ
+_chem_comp.id XYZ
+loop_
+_chem_comp_atom.comp_id
+_chem_comp_atom.atom_id
+_chem_comp_atom.type_symbol
+_chem_comp_atom.model_Cartn_x
+_chem_comp_atom.model_Cartn_y
+_chem_comp_atom.model_Cartn_z
+XYZ C1 C 0 0 0
+XYZ O1 O 1.2 0 0
+"""
+NUMBERED = """ATOM      1  CA  THR     1      17.047  14.099   3.625  1.00 13.79      1CRN1070
+HETATM    2 CA    CA     2      10.967  12.784   4.338  1.00 10.80      1CRN  71
+"""
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "symbols", "place"),
+    [
+        ("a.cif", CRYSTAL, ("C", "O"), (0.5, 1.2, 2.1)),
+        ("a.cif", LIGAND, ("C", "O"), (0.0, 0.0, 0.0)),
+        ("a.pdb", NUMBERED, ("C", "Ca"), (17.047, 14.099, 3.625)),
+    ],
+)
+def test_crystals_ligands_and_files_with_numbered_lines_have_atoms(tmp_path, name, text, symbols, place):
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    found = read_molecule(tmp_path / name)
+    assert found.symbols == symbols
+    assert np.allclose(found.places[0], place)

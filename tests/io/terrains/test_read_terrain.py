@@ -204,3 +204,10 @@ def test_lines_that_are_asked_for_are_the_lines_of_a_terrain(verb, lines, tmp_pa
     assert shown(lines=lines) == set(lines.split(",")) - {"none"}
     # Nothing but level lines, outlines and borders is drawn where nothing is said.
     assert shown() == ({"contour", "boundary", "section", "index"} if verb is vp.draw else set())
+
+
+@pytest.mark.parametrize("written", ["-3.4028235e+38", "-3.402823466385289e+38", "-3.40282e+38", "-3.4028230607e38"])
+def test_the_least_number_of_single_precision_is_a_hole_however_it_is_written(tmp_path, written):
+    head = "ncols 2\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -3.4028234663852886e+38\n"
+    (tmp_path / "x.asc").write_text(f"{head}1 2\n{written} 4\n", encoding="utf-8")
+    assert np.isnan(read_terrain(tmp_path / "x.asc").heights).sum() == 1

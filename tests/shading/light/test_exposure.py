@@ -72,12 +72,12 @@ def test_paint_and_render_and_scene_files_understand_it_alike():
     assert "exposure fitted" in written and parse_scene(written).exposure == "fitted"
     assert parse_scene(write_scene(replace(CUBE, exposure=0.25))).exposure == 0.25
     said = {"lights": LIGHTS, "exposure": "fitted"}
-    painted = vp.paint(replace(CUBE, lights=()), CAMERA, **said)
-    other = vp.paint(parse_scene(written), CAMERA)
+    painted = vp.paint(replace(CUBE, lights=()), CAMERA, smooth=False, **said)
+    other = vp.paint(parse_scene(written), CAMERA, smooth=False)
     (one,), (two,) = ([mark for mark in drawing.layers[0].marks] for drawing in (painted, other))
     assert (one.kind == int(FillKind.FACE)).sum() == 3 and len(np.unique(one.colours, axis=0)) == 3
     assert np.array_equal(one.colours, two.colours)
-    plain = vp.paint(CUBE, CAMERA).layers[0].marks[0]
+    plain = vp.paint(CUBE, CAMERA, smooth=False).layers[0].marks[0]
     assert not np.array_equal(plain.colours, one.colours)
     pixels = vp.render(CUBE, CAMERA, size=(60, 45), samples=1, exposure="fitted").pixels
     assert np.array_equal(pixels, vp.render(parse_scene(written), CAMERA, size=(60, 45), samples=1).pixels)

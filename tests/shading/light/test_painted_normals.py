@@ -38,8 +38,12 @@ def sheet(count: int, height: float = 0.0, noise: float = 0.0) -> Mesh:
     return Mesh.from_triangles(np.stack([x, y, z], axis=-1).reshape(-1, 3), triangles)
 
 
+SPECK = Item("SPECK", box((-27.0, 36.0, -24.0), (-26.99, 36.01, -23.99)))
+"""Far behind: beside it other things have no depth of which their shades could tell."""
+
+
 def colours_of_item(scene: Scene, item: int = 0, **options: object) -> np.ndarray:
-    fills = paint(scene, CAMERA, **options).layers[0].fills[0]  # type: ignore[arg-type]
+    fills = paint(replace(scene, items=(*scene.items, SPECK)), CAMERA, **options).layers[0].fills[0]  # type: ignore[arg-type]
     own = np.repeat(fills.item == item, np.diff(fills.offsets))
     return np.unique(fills.colours[own], axis=0)
 
@@ -53,8 +57,11 @@ def test_one_plane_of_many_triangles_has_one_shade(scale: float, smooth: bool) -
     # As in files of single precision.
     single = replace(mesh, vertices=mesh.vertices.astype(np.float32).astype(np.float64) * scale)
     eye = tuple((scale * np.array(CAMERA.eye)).tolist())
-    drawing = paint(Scene((Item("A", single),), (SUN,)), Camera(eye), smooth=smooth)  # type: ignore[arg-type]
-    assert len(np.unique(drawing.layers[0].fills[0].colours, axis=0)) == 1
+    speck = replace(SPECK, shape=SPECK.shape.transformed(np.diag([scale, scale, scale, 1.0])))
+    scene = Scene((Item("A", single), speck), (SUN,))
+    fills = paint(scene, Camera(eye), smooth=smooth).layers[0].fills[0]  # type: ignore[arg-type]
+    own = np.repeat(fills.item == 0, np.diff(fills.offsets))
+    assert len(np.unique(fills.colours[own], axis=0)) == 1
 
 
 def test_planes_are_told_from_what_is_bent() -> None:
@@ -133,11 +140,37 @@ def test_paint_and_render_agree_on_round_meshes_and_floors_near_a_lamp(kind: str
     assert np.quantile(difference[inside], 0.7) < 5.0
 
 
-def test_floors_below_lamps_have_gradients_and_those_in_the_sun_do_not() -> None:
+def test_floors_below_lamps_have_gradients_and_small_ones_in_the_sun_do_not() -> None:
     lamp = Light((0.5, 0.3, 1.5), intensity=1.0)
     assert len(colours_of_item(Scene((Item("A", sheet(1)),), (lamp,)))) > 40
     assert len(colours_of_item(Scene((Item("A", sheet(1)),), (lamp,)), smooth=False)) == 1
     assert len(colours_of_item(Scene((Item("A", sheet(1)),), (SUN,)))) == 1
+
+
+FLOOR = Item("FLOOR", box((-9, -2, -0.001), (9, 40, 0)), "gray")
+POSTS = tuple(Item(f"POST{k}", box((4 * k - 6, 9 * k, 0), (4 * k - 5, 9 * k + 1, 3)), "red") for k in range(4))
+
+
+@pytest.mark.slow
+@pytest.mark.capability("G4.6-depth-shade")
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("lights", [(), (SUN,), (Light((3.0, 4.0, 30.0), intensity=1.0),)], ids=["none", "sun", "lamp"])
+def test_shades_along_a_floor_are_the_same_in_paint_and_render(lights: tuple[Light, ...], parallel: bool) -> None:
+    from support.backend_samples import grey_of_png
+
+    from vectorplot.backends.cairo.surfaces import png_bytes
+
+    scene = Scene((FLOOR, *POSTS), lights)
+    camera = Camera((5.0, -30.0, 24.0), (0.0, 12.0, 0.0), fov_deg=40.0, parallel=parallel, height=30.0)
+    drawing = paint(scene, camera, page=Page(101.6, 76.2, 0.0), fit=False, shadows="none")
+    painted = 255.0 * grey_of_png(png_bytes(drawing, dpi=100))[:300, :400]
+    pixels = render(scene, camera, size=(400, 300), fit=False, shadows="none").pixels.astype(np.float64)
+    floor = (np.ptp(pixels, axis=2) < 1.0) & (pixels[..., 0] < 250.0)
+    inner = floor & (np.abs(painted - pixels[..., 0]) < 60.0)
+    off = np.abs(painted - pixels[..., 0])[inner]
+    # Without steps in neither: as many shades as bytes have.
+    assert inner.sum() > 0.95 * floor.sum() > 10_000 and np.quantile(off, 0.97) <= 3.0
+    assert np.ptp(np.quantile(pixels[..., 0][inner], (0.05, 0.95))) > 15.0
 
 
 def notched_bar(corners: int) -> Mesh:
@@ -163,7 +196,8 @@ def test_plane_faces_with_corners_on_their_sides_have_one_shade(scale: float, cr
     bar = notched_bar(40)
     turned = np.array([[0.8, -0.6, 0.0, 0.0], [0.36, 0.48, 0.8, 0.0], [-0.48, -0.64, 0.6, 0.0], [0.0, 0.0, 0.0, 1.0]])
     turned[:3, :3] *= scale
-    scene = Scene((Item("A", bar.transformed(turned)),), (SUN,))
+    speck = replace(SPECK, shape=SPECK.shape.transformed(np.diag([scale, scale, scale, 1.0])))
+    scene = Scene((Item("A", bar.transformed(turned)), speck), (SUN,))
     camera = Camera(tuple((scale * np.array(CAMERA.eye)).tolist()))
     fills = [
         paint(scene, camera, smooth=smooth, crease_angle_deg=crease_angle_deg).layers[0].fills[0]

@@ -31,15 +31,15 @@ def paint(
     """Paint the polygons. Cairo takes one side a call, so this loops over points.
 
     scale: device units per micron; height: of the page's lower border in them, from the top; line_width: of polygons of
-    two corners; seam: of the line around opaque ones that have sides without a neighbour.
+    two corners; seam: of the line around opaque ones amid a surface that have sides without a partner.
     """
     place, areas = _Place(scale, height), in_meshes(areas)
-    laps = underlaps(areas.microns, areas.offsets, areas.solid, areas.group)
-    outlines, offsets, parts = grown(areas.microns, areas.offsets, laps)
+    laps = underlaps(areas)
+    outlines, offsets, parts = grown(areas, laps)
     heads = areas.runs[:-1]
     colours = (areas.colours[areas.offsets[heads]] / 255.0).tolist()
     meshed, line = areas.meshed[heads].tolist(), (areas.sizes[heads] == 2).tolist()
-    opacity, bare = areas.own_opacity[heads].tolist(), areas.bare[heads].tolist()
+    opacity = areas.own_opacity[heads].tolist()
     open_ = np.logical_or.reduceat(laps.open, heads).tolist() if len(heads) else []
     ends, part_ends = dict(areas.group_ends.tolist()), dict(areas.part_ends.tolist())
     end, part_end, clip = -1, -1, None
@@ -52,7 +52,7 @@ def paint(
             part_end = part_ends[first]
             _begin_part(context, *_clip_of(areas, place, first, part_end))
         if meshed[run]:
-            _paint_mesh(context, areas, place, laps, (first, last), seam)
+            _paint_mesh(context, areas, place, laps, (first, last))
         else:
             starts = offsets[parts[first] : parts[last] + 1]
             _outline(context, place.of(outlines[starts[0] : starts[-1]]), (starts - starts[0]).tolist())
@@ -61,7 +61,7 @@ def paint(
             if line[run]:
                 context.set_line_width(line_width)
                 context.stroke()
-            elif bare[run] or not open_[run]:
+            elif not open_[run]:
                 context.fill()
             else:
                 context.set_line_width(seam)
@@ -93,10 +93,10 @@ class _Place:
 
 
 def _paint_mesh(
-    context: cairo.Context[Any], areas: Areas, place: _Place, laps: Underlaps, run: tuple[int, int], seam: float
+    context: cairo.Context[Any], areas: Areas, place: _Place, laps: Underlaps, run: tuple[int, int]
 ) -> None:
-    """Paint a run of shaded triangles as one mesh, on lines along its border, and within it: there are readers that
-    smooth what is clipped, but not meshes, and others that do not smooth that either."""
+    """Paint a run of shaded triangles as one mesh, on flat ones, and within its border: there are readers that smooth
+    what is clipped, but not meshes, and others that do not smooth that either."""
     starts = areas.offsets[[run[0], run[1]]].tolist()
     corners, colours = areas.microns[starts[0] : starts[1]], areas.colours[starts[0] : starts[1]] / 255.0
     opacity = float(areas.own_opacity[run[0]])
@@ -106,12 +106,12 @@ def _paint_mesh(
     if opacity == 1.0:
         sides = border_sides(corners)
         seen = outer_sides(corners, sides[last_of_sides(corners, sides)])
-        _seams(context, place.of(corners[seen]), colours[seen].mean(axis=1), seam)
         _ground(context, place, corners, colours.reshape(-1, 3, 3).mean(axis=1))
         patches = np.concatenate((skirts(corners, seen), patches))
         at = np.concatenate((seen[:, [0, 1, 1, 0]], at))
         path = [corners[ring] for ring in rings(corners, sides)]
         path += list(_underlaps_of(areas, laps, (starts[0], starts[1]), sides[:, 0]))
+        path += list(laps.added[slice(*np.searchsorted(laps.owner, run))])
     else:
         # Meshes cover all of the pixels on their borders: where neighbours meet, things would be seen twice.
         path = list(corners.reshape(-1, 3, 2))
@@ -121,19 +121,6 @@ def _paint_mesh(
     context.set_source(_mesh(place.on_device(patches), colours[at], opacity))
     context.paint()
     context.restore()
-
-
-def _seams(context: cairo.Context[Any], sides: list[Corners], colours: Floats, seam: float) -> None:
-    """Stroke sides, given by their ends, in their colours; those of one colour that follow each other at once."""
-    context.set_line_width(seam)
-    levels = np.rint(255.0 * colours) / 255.0
-    changes = np.append((levels[1:] != levels[:-1]).any(axis=1), True)[: len(levels)]
-    for (start, end), (red, green, blue), last in zip(sides, levels.tolist(), changes.tolist(), strict=True):
-        context.move_to(*start)
-        context.line_to(*end)
-        if last:
-            context.set_source_rgb(red, green, blue)
-            context.stroke()
 
 
 def _ground(context: cairo.Context[Any], place: _Place, corners: Ints, colours: Floats) -> None:

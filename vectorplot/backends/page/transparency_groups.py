@@ -139,7 +139,8 @@ def outline(microns: Ints, offsets: Ints) -> tuple[Floats, Ints]:
     import shapely
 
     rings = shapely.linearrings(microns, indices=ragged.owner(np.diff(offsets)))
-    united = shapely.union_all(shapely.make_valid(shapely.polygons(rings)))
+    # On the grid of the corners: crossings between it can cost the union whole polygons.
+    united = shapely.union_all(shapely.make_valid(shapely.polygons(rings)), grid_size=1.0)
     parts = shapely.get_parts(united)
     borders = shapely.get_rings(parts[shapely.get_type_id(parts) == shapely.GeometryType.POLYGON])
     enclosed = shapely.polygons(borders)

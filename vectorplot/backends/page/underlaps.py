@@ -2,7 +2,8 @@
 
 Along a common side each of two polygons covers pixels in part, and what is behind shines through. So the one that is
 painted first goes on under the other, inside it, where nothing of it is seen but what the other lets through. Around a
-common corner the first one of all goes on under all others.
+common corner the first one of all goes on under all others. Sides that have a part in common only are treated alike.
+A side without a neighbour stays where it is: what is behind it was painted before, and goes on there.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.cairo.mesh_borders import places_of
+from vectorplot.backends.page.areas import Areas
 from vectorplot.geometry import ragged
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
@@ -26,7 +28,23 @@ INSIDE = 0.9
 """Part of the height of the other polygon that is used at most."""
 
 THIN_MICRONS = 700.0
-"""Polygons that are thinner are open: several sides of them run through one pixel."""
+"""Of polygons that are thinner several sides run through one pixel: amid others of about their colour, what reaches
+under them goes on beyond."""
+
+BEYOND_MICRONS = 150.0
+"""So far that is."""
+
+ALIKE = 32.0
+"""By no more of 255 are colours alike."""
+
+TIP = 0.3
+"""Sides that are shorter than this part of the longest one are the tips of a polygon."""
+
+HOLLOW_MICRONS = 75.0
+"""So far polygons reach under others that are not convex, where these are twice as wide."""
+
+APART_MICRONS = 20.0
+"""Sides that are no farther apart, and run against each other, are common ones as far as both go."""
 
 MOST_CORNERS = 8
 """Nothing is added around corners of polygons that have more."""
@@ -35,34 +53,65 @@ MOST_CORNERS = 8
 @dataclass(frozen=True, eq=False)
 class Underlaps:
     """What polygons are drawn as. side (k,): corners from which sides start that lie beside polygons painted later;
-    near, far (k,2): corners, in microns, of what is added there, next to the start and to the end of the side. open
-    (m,): polygons with sides that are no common ones, or too little of which lies under the other. square (n,): the
-    polygons that squares are added to, ascending, with their middles (n,2) and half their sides (n,)."""
+    near, far (k,2): corners, in microns, of what is added there, next to the start and to the end of the side. owner
+    (n,): the polygons that whole polygons of four corners (n,4,2), counter-clockwise, are added to, ascending. open
+    (m,): polygons with sides that are no common ones, or too little of which lies under the other, amid others of
+    about their colour or in a group, which is cut off at its outline: elsewhere a line around them would be seen."""
 
     side: Ints
     near: Floats
     far: Floats
     open: Bools
-    square: Ints
-    middle: Ints
-    half: Floats
+    owner: Ints
+    added: Ints
 
 
-def underlaps(microns: Ints, offsets: Ints, covers: Bools, group: Ints) -> Underlaps:
-    """What is added to polygons, counter-clockwise and without equal neighbouring corners.
+@dataclass(frozen=True, eq=False)
+class _Sides:
+    """The sides of polygons by the corners that they start from: microns (p,2), after, before and owner (p,); which
+    polygons cover what is below them, and which are convex (m,)."""
 
-    covers (m,): polygons that hide what is below them; only they grow, under each other. group (m,): of polygons that
-    are blended together, -1 for none; one grows under those of its own only.
-    Degenerate: under polygons that are not convex nothing is added.
-    """
-    count, sizes = len(offsets) - 1, np.diff(offsets)
-    owner = ragged.owner(sizes)
-    after = np.arange(1, len(microns) + 1)
-    after[offsets[1:][sizes > 0] - 1] = offsets[:-1][sizes > 0]
-    before = np.empty_like(after)
-    before[after] = np.arange(len(after))
+    areas: Areas
+    microns: Ints
+    after: Ints
+    before: Ints
+    owner: Ints
+    covers: Bools
+    convex: Bools
+
+    def along(self, side: Ints) -> Floats:
+        """(k,2) the ways from the starts of sides to their ends."""
+        return (self.microns[self.after[side]] - self.microns[side]).astype(np.float64)
+
+    def outwards(self, side: Ints) -> Floats:
+        """(k,2) unit vectors across sides, out of their polygons."""
+        way = self.along(side)
+        return np.stack((way[:, 1], -way[:, 0]), axis=1) / np.hypot(*way.T)[:, None]
+
+    def width(self) -> Floats:
+        """(m,) the widths of polygons that are long strips, more than those of others."""
+        x, y = self.microns.T.astype(np.float64)
+        doubled = x * y[self.after] - x[self.after] * y
+        length = np.hypot(*self.along(np.arange(len(self.microns))).T)
+        count = len(self.covers)
+        return np.bincount(self.owner, doubled, count) / np.bincount(self.owner, length, count)
+
+    def alike(self, one: Ints, two: Ints) -> Bools:
+        """(k,) whether polygons (k,) are of one item and have about one colour."""
+        starts = self.areas.offsets[:-1]
+        mean = np.add.reduceat(self.areas.colours.astype(np.float64), starts) / self.areas.sizes[:, None]
+        near = (np.abs(mean[one] - mean[two]) <= ALIKE).all(axis=1)
+        return np.asarray(near & (self.areas.item[one] == self.areas.item[two]))
+
+
+def underlaps(areas: Areas) -> Underlaps:
+    """What is added to polygons. Only those that hide what is below them grow, under each other; those that are blended
+    together under those of their own group only."""
+    microns, offsets, covers, group = areas.microns, areas.offsets, areas.solid, areas.group
+    owner = ragged.owner(areas.sizes)
+    after, before = ragged.following(offsets), ragged.preceding(offsets)
+    sides = _Sides(areas, microns, after, before, owner, covers, _convex(microns, offsets, after, before))
     place = places_of(microns)
-    solid = covers & _convex(microns, offsets, after, before)
     able = np.flatnonzero(covers[owner])
     key, back = place * len(microns) + place[after], place[after] * len(microns) + place
     order = able[np.argsort(key[able], kind="stable")]
@@ -72,30 +121,127 @@ def underlaps(microns: Ints, offsets: Ints, covers: Bools, group: Ints) -> Under
     met = covers[owner] & (at >= 0)
     met[met] = (key[other[met]] == back[met]) & (group[owner[other[met]]] == group[owner[met]])
     later = np.flatnonzero(met & (owner[other] > owner))
-    later = later[solid[owner[other[later]]]]
+    hollow = later[~sides.convex[owner[other[later]]]]
+    later = later[sides.convex[owner[other[later]]]]
     beyond = other[later]
     # The other polygon comes along this side from its end to its start.
     ways = [microns[before[beyond]] - microns[beyond], microns[after[after[beyond]]] - microns[after[beyond]]]
-    along = (microns[after[later]] - microns[later]).astype(np.float64)
+    along = sides.along(later)
     length = np.hypot(*along.T)
     high = [np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / length for way in ways]
     part = [np.minimum(REACH_MICRONS / np.maximum(h, LEAST_DIVISOR), INSIDE)[:, None] for h in high]
     far, near = microns[after[later]] + part[0] * ways[0], microns[later] + part[1] * ways[1]
-    thin = later[np.minimum(*high) < THIN_MICRONS]
-    open_ = np.zeros(count, dtype=np.bool_)
-    met[later] = True
-    open_[owner[~met]] = True
-    open_[owner[thin]] = True
-    open_[owner[other[thin]]] = True
-    concave = np.flatnonzero(met & (owner[other] > owner))
-    open_[owner[concave[~solid[owner[other[concave]]]]]] = True
-    whole = solid[owner] & met & met[before]
-    square, middle, half = _squares(microns, owner, place, _rooms(microns, offsets, owner), whole)
-    return Underlaps(later, near, far, open_ & covers, square, middle, half)
+    found = _partly_common(sides, np.flatnonzero(covers[owner] & ~met))
+    amid = _amid(sides, np.append(np.flatnonzero(met), found.side), np.append(owner[other[met]], owner[found.other]))
+    thin = np.minimum(*high) < THIN_MICRONS
+    open_ = np.zeros(len(covers), dtype=np.bool_)
+    open_[owner[~met]] = open_[owner[hollow]] = open_[owner[later[thin]]] = open_[owner[beyond[thin]]] = True
+    thin = later[thin & amid[owner[beyond]]]
+    # A group is cut off at its outline.
+    open_ &= covers & (amid | (group >= 0))
+    reach = np.concatenate((np.full(len(thin), BEYOND_MICRONS), _under_hollow(sides, other[hollow])))
+    wide = np.concatenate((thin, hollow))
+    strips = [_strips(sides, wide, microns[wide], microns[after[wide]], reach)]
+    strips += _along_parts(sides, found, amid)
+    whole = covers[owner] & sides.convex[owner] & met & met[before]
+    strips.append(_squares(microns, owner, place, _rooms(microns, offsets, owner), whole))
+    of = np.concatenate([number for number, _ in strips])
+    first = np.argsort(of, kind="stable")
+    return Underlaps(later, near, far, open_, of[first], np.concatenate([corners for _, corners in strips])[first])
 
 
-def _squares(microns: Ints, owner: Ints, place: Ints, room: Floats, whole: Bools) -> tuple[Ints, Ints, Floats]:
-    """The squares around corners on all sides of which there are polygons: owners, middles, and halves of their sides.
+def _amid(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:
+    """(m,) the polygons that have neighbours of about their colour on all sides but for their tips and where the
+    picture ends, as these have; neighbour (k,): polygons beside sides (k,)."""
+    owner = sides.owner
+    foreign = np.ones(len(owner), dtype=np.bool_)
+    foreign[side] = False
+    foreign[side[~sides.alike(owner[side], neighbour)]] = True
+    size = np.hypot(*sides.along(np.arange(len(owner))).T)
+    longest = np.zeros(len(sides.covers))
+    np.maximum.at(longest, owner, size)
+    ends = np.stack((sides.microns, sides.microns[sides.after]))
+    border = (ends == sides.microns.min(axis=0, initial=0)) | (ends == sides.microns.max(axis=0, initial=0))
+    foreign &= (size > TIP * longest[owner]) & ~border.all(axis=0).any(axis=1)
+    for _ in range(2):
+        outer = np.bincount(owner, weights=foreign, minlength=len(longest)) > 0.0
+        foreign[side] |= outer[neighbour]
+    return ~outer
+
+
+def _under_hollow(sides: _Sides, other: Ints) -> Floats:
+    """(k,) how far one reaches under polygons that are not convex, by sides (k,) of these."""
+    return np.minimum(HOLLOW_MICRONS, sides.width()[sides.owner[other]]) if len(other) else np.zeros(0)
+
+
+def _strips(sides: _Sides, side: Ints, start: Ints, end: Ints, reach: Floats) -> tuple[Ints, Ints]:
+    """The owners of sides (k,), and (k,4,2) rectangles of widths (k,) beside their parts from start to end (k,2)."""
+    out = reach[:, None] * sides.outwards(side)
+    corners = np.stack((end.astype(np.float64), start.astype(np.float64), start + out, end + out), axis=1)
+    return sides.owner[side], np.rint(corners).astype(np.int64)
+
+
+@dataclass(frozen=True, eq=False)
+class _Parts:
+    """Sides (k,) that run against other sides (k,) along a part of them, from low to high (k,2)."""
+
+    side: Ints
+    other: Ints
+    low: Floats
+    high: Floats
+
+
+def _partly_common(sides: _Sides, alone: Ints) -> _Parts:
+    """The common parts of sides without a partner, alone (n,): each of two by the one and by the other."""
+    import shapely
+
+    alone = alone[np.hypot(*sides.along(alone).T) > APART_MICRONS]
+    ends = np.stack((sides.microns[alone], sides.microns[sides.after[alone]]), axis=1).astype(np.float64)
+    lines = shapely.linestrings(ends)
+    one, two = alone[shapely.STRtree(lines).query(lines, predicate="dwithin", distance=APART_MICRONS)]
+    own, next_ = sides.owner[one], sides.owner[two]
+    kept = (own != next_) & (sides.areas.group[own] == sides.areas.group[next_])
+    one, two = one[kept], two[kept]
+    way, start = sides.along(one), sides.microns[one]
+    length = np.hypot(*way.T)
+    way /= length[:, None]
+    # Where the other side, which runs back, begins and ends along this one, and how far beside it.
+    arms = np.stack((sides.microns[two], sides.microns[sides.after[two]])) - start
+    last, first = (arms * way).sum(axis=2)
+    beside = arms[..., 0] * way[:, 1] - arms[..., 1] * way[:, 0]
+    span = np.stack((np.maximum(first, 0.0), np.minimum(last, length)))
+    off = beside[1] + (span - first) * (beside[0] - beside[1]) / np.maximum(last - first, 1.0)
+    kept = (span[1] - span[0] > APART_MICRONS) & (np.abs(off) <= APART_MICRONS).all(axis=0)
+    low, high = start + span[0][:, None] * way, start + span[1][:, None] * way
+    return _Parts(one[kept], two[kept], low[kept], high[kept])
+
+
+def _along_parts(sides: _Sides, parts: _Parts, amid: Bools) -> list[tuple[Ints, Ints]]:
+    """What is added along the common parts of sides, under the later ones of their polygons: owners, and (k,4,2)
+    corners; amid (m,): polygons beyond which there are others of their colour."""
+    later = sides.owner[parts.side] < sides.owner[parts.other]
+    one, two, low, high = parts.side[later], parts.other[later], parts.low[later], parts.high[later]
+    below = sides.owner[two]
+    # Towards the middle of a convex polygon one stays inside.
+    number, inverse = np.unique(below, return_inverse=True)
+    corner, offsets = ragged.take(sides.areas.offsets, number)
+    sums = np.diff(np.concatenate((np.zeros((1, 2)), np.cumsum(sides.microns[corner], axis=0)))[offsets], axis=0)
+    middle = (sums / np.diff(offsets)[:, None])[inverse]
+    deep = ((middle - low) * sides.outwards(one)).sum(axis=1)
+    part = np.clip(REACH_MICRONS / np.maximum(deep, LEAST_DIVISOR), 0.0, INSIDE)[:, None]
+    inner = np.stack((high, low, low + part * (middle - low), high + part * (middle - high)), axis=1)
+    convex = sides.convex[below] & (deep > 0.0)
+    thin = convex & amid[below] & (2.0 * deep < THIN_MICRONS)
+    reach = np.where(convex, BEYOND_MICRONS, _under_hollow(sides, two))
+    wide = thin | ~sides.convex[below]
+    return [
+        (sides.owner[one[convex]], np.rint(inner[convex]).astype(np.int64)),
+        _strips(sides, one[wide], low[wide], high[wide], reach[wide]),
+    ]
+
+
+def _squares(microns: Ints, owner: Ints, place: Ints, room: Floats, whole: Bools) -> tuple[Ints, Ints]:
+    """The squares around corners on all sides of which there are polygons: their owners, and (n,4,2) corners.
 
     place (p,): numbers of the places of corners; room (p,): how far their polygons reach there; whole (p,): whether
     both sides there are common ones.
@@ -109,7 +255,8 @@ def _squares(microns: Ints, owner: Ints, place: Ints, room: Floats, whole: Bools
     used = np.flatnonzero(inner & (least > 0.0))
     corner = np.sort(first[used])
     half = np.minimum(AROUND_MICRONS, INSIDE * least[place[corner]]) / np.sqrt(2.0)
-    return owner[corner], microns[corner], half
+    turns = np.array(((-1, -1), (1, -1), (1, 1), (-1, 1)))
+    return owner[corner], microns[corner][:, None] + np.rint(half).astype(np.int64)[:, None, None] * turns
 
 
 def _rooms(microns: Ints, offsets: Ints, owner: Ints) -> Floats:
@@ -127,17 +274,15 @@ def _rooms(microns: Ints, offsets: Ints, owner: Ints) -> Floats:
     return room
 
 
-def grown(microns: Ints, offsets: Ints, found: Underlaps) -> tuple[Ints, Ints, Ints]:
+def grown(areas: Areas, found: Underlaps) -> tuple[Ints, Ints, Ints]:
     """The polygons with what is added to them: corners, offsets, and (m+1,) where the parts of each begin."""
-    outlines, ends = _with_laps(microns, offsets, found)
-    count = len(offsets) - 1
-    turns = np.array(((-1, -1), (1, -1), (1, 1), (-1, 1)))
-    squares = found.middle[:, None] + np.rint(found.half).astype(np.int64)[:, None, None] * turns
-    corners = np.concatenate((outlines, squares.reshape(-1, 2)))
-    place = np.concatenate((ragged.owner(np.diff(ends)), np.repeat(found.square, 4)))
-    sizes = np.concatenate((np.diff(ends), np.full(len(found.square), 4)))
-    part = np.argsort(np.concatenate((np.arange(count), found.square)), kind="stable")
-    first = np.searchsorted(np.sort(np.concatenate((np.arange(count), found.square))), np.arange(count + 1))
+    outlines, ends = _with_laps(areas.microns, areas.offsets, found)
+    count = len(areas)
+    corners = np.concatenate((outlines, found.added.reshape(-1, 2)))
+    place = np.concatenate((ragged.owner(np.diff(ends)), np.repeat(found.owner, 4)))
+    sizes = np.concatenate((np.diff(ends), np.full(len(found.owner), 4)))
+    part = np.argsort(np.concatenate((np.arange(count), found.owner)), kind="stable")
+    first = np.searchsorted(np.sort(np.concatenate((np.arange(count), found.owner))), np.arange(count + 1))
     return corners[np.argsort(place, kind="stable")], ragged.offsets(sizes[part]), first
 
 

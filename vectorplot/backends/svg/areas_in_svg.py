@@ -52,14 +52,14 @@ def area_elements(areas: Areas, pen_mm: float, name: str, height: int) -> bytes:
     pieces, strips, place, ramps = _with_strips(areas)
     alone = np.concatenate((place, place + 1))
     starts = np.union1d(pieces.runs[:-1], alone[alone < len(pieces)])
-    laps = underlaps(pieces.microns, pieces.offsets, pieces.solid, pieces.group)
+    laps = underlaps(pieces)
     stroked = np.logical_or.reduceat(laps.open, starts)
     heads = _heads(pieces, starts, stroked, pen_mm)
     seams = stroked[np.searchsorted(starts, place)]
     of_strips = _gradient_heads(strips, ramps, pieces, place, seams, name, height)
     for k, head in zip(np.searchsorted(starts, place).tolist(), of_strips, strict=True):
         heads[k] = head
-    microns, offsets, parts = grown(pieces.microns, pieces.offsets, laps)
+    microns, offsets, parts = grown(pieces, laps)
     bodies = _data(microns, offsets, parts[starts], height).split(_RUN)[1:]
     # Parts lie within groups: they begin after them, and end before.
     for letter, rows in (("p", pieces.part_ends), ("g", pieces.group_ends)):

@@ -96,6 +96,8 @@ def strips_of(corners: Floats, colours: Floats) -> Strips:
     """
     slopes = _slopes(corners, colours)
     directions, sizes, _ = singular_decomposition(slopes)
+    # On the page, where y runs downwards, the second direction is a quarter turn from the first, as clipping wants it.
+    directions[:, :, 1] = np.stack([directions[:, 1, 0], -directions[:, 0, 0]], axis=1)
     local = matmul(corners - corners[:, :1], directions)
     low, high = local.min(axis=1), local.max(axis=1)
     number = np.ceil((high[:, 1] - low[:, 1]) * sizes[:, 1] / (2.0 * SHADE_ERROR))

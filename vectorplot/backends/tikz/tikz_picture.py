@@ -148,9 +148,9 @@ def _areas(areas: Areas, pen_mm: float) -> bytes:
     shaded = np.flatnonzero(areas.shaded)
     alone = np.concatenate((alone, shaded, shaded + 1))
     starts = np.union1d(areas.runs[:-1], alone[alone < len(areas)]).astype(np.intp)
-    laps = underlaps(areas.microns, areas.offsets, areas.solid, areas.group)
+    laps = underlaps(areas)
     stroked = np.logical_or.reduceat(laps.open, starts).tolist()
-    microns, offsets, parts = grown(areas.microns, areas.offsets, laps)
+    microns, offsets, parts = grown(areas, laps)
     colours = np.add.reduceat(areas.colours.astype(np.float64), areas.offsets[:-1]) / areas.sizes[:, None]
     packed = (np.rint(colours).astype(np.intp)[starts] @ (65536, 256, 1)).tolist()
     opacity, line = areas.own_opacity[starts].tolist(), (areas.sizes[starts] == 2).tolist()

@@ -60,6 +60,12 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     click.option(
         "--samples", type=click.IntRange(1, 8), metavar="N", help="N x N samples in every pixel.  [default: 2]"
     ),
+    click.option(
+        "--transparency",
+        type=click.Choice(["blended", "sparse"]),
+        default="blended",
+        help="Transparent items: mixed with what is behind them, or every second, third or fourth pixel.",
+    ),
     crease_angle_option("Sharper edges stay sharp."),
     lines_option("Lines on top"),
     *OVERLAID_OPTIONS,

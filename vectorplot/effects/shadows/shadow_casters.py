@@ -7,13 +7,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Bools, Ints
 from vectorplot.effects.shadows.light_system import FacePlanes, LightSystem
 from vectorplot.geometry import ragged
 from vectorplot.geometry.columns import cross
 from vectorplot.geometry.convex.plane_cuts import PlaneBundles, planes_of
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import closed_items
+from vectorplot.visibility.painter.embedded_bodies import body_sides
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,10 +71,9 @@ def shadow_casters(
 
 
 def turned_to_light(view: View, planes: FacePlanes, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
-    """(i,) closed items that the light is outside of, and (f,) the faces that they turn to it."""
-    outwards = _outwards(view, planes)
-    one_sided = closed_items(view) & ~_near_light(view, system) & (outwards != 0.0)
-    return one_sided, np.asarray(one_sided[view.face_item] & (facing * outwards[view.face_item] > 0.0))
+    """(i,) closed items, as of body_sides, that the light is outside of, and (f,) the faces that they turn to it."""
+    side = np.where(_near_light(view, system), 0, body_sides(view))
+    return side != 0, np.asarray(facing * side[view.face_item] > 0)
 
 
 def _near_light(view: View, system: LightSystem) -> Bools:
@@ -89,12 +88,6 @@ def _near_light(view: View, system: LightSystem) -> Bools:
     light = system.position[:, None]
     result[filled] = ((light >= low - view.tolerance) & (light <= high + view.tolerance)).all(axis=0)
     return result
-
-
-def _outwards(view: View, planes: FacePlanes) -> Floats:
-    """(i,) the sign of the volume of closed items: negative for those wound inside out."""
-    height = planes.planes[3] * planes.area
-    return np.sign(np.bincount(view.face_item, height, minlength=len(view.item_vertices) - 1))
 
 
 def _volumes(

@@ -13,6 +13,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.scene import Scene
+from vectorplot.shading.raster.screen import every_nth
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 FEWEST, MOST = 2, 4
@@ -100,5 +101,4 @@ def screen_door_pixels(rows: int, columns: int, every: int) -> Bools:
     """
     if every < 1 or rows < 0 or columns < 0:
         raise InputError(f"every {every}-th of {rows} x {columns} pixels: expected positive numbers")
-    shift = 2 if every == MOST else 1
-    return np.asarray((np.arange(columns) + shift * np.arange(rows)[:, None]) % every == 0, dtype=np.bool_)
+    return every_nth(np.arange(rows)[:, None], np.arange(columns), every)

@@ -46,13 +46,19 @@ def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing) -> I
     ends = ~(own.on_line[a] & own.on_line[b])
     a, b = a[ends], b[ends]
     common = sides[a] & sides[b]
+    # A border does not run on through a singular line: there others hide it, or cease to.
+    edges = np.stack([a, b], axis=1)
+    on_line = own.on_line[edges]
+    vertices = np.concatenate([mesh.vertices, mesh.vertices[edges[on_line]]])
+    edges[on_line] = len(mesh.vertices) + np.arange(np.count_nonzero(on_line))
+    a, b = edges.T
     families = [
-        _border(surface, mesh.vertices, a, b, side, np.flatnonzero(common[:, side]), tracing)
+        _border(surface, vertices, a, b, side, np.flatnonzero(common[:, side]), tracing)
         for side in range(common.shape[1])
     ]
     rims = np.flatnonzero(~common.any(axis=1))
     if len(rims):
-        families.append(_rims(mesh.vertices, a[rims], b[rims]))
+        families.append(_rims(vertices, a[rims], b[rims]))
     return all_curves(families)
 
 

@@ -18,6 +18,7 @@ from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.repair.pieces import pieces_of_faces
+from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 SLIM_FACES, FEWEST_PAIRS = 12, 1024
@@ -359,7 +360,10 @@ def _normals_of(faces: Faces, one: Ints, two: Ints) -> Floats:
 
 def _first_of_equal(start: Floats, end: Floats, tolerance: float) -> Ints:
     """The segments of which no earlier one is the same: many faces may meet in one edge."""
-    steps = np.round(np.concatenate([start + end, np.abs(end - start)]) / (8.0 * tolerance))
+    # The products of the components of a way are the same there and back, and tell mirrored ways apart.
+    way = end - start
+    x, y, z = way / np.sqrt(np.maximum(norm(way.T), LEAST_DIVISOR))
+    steps = np.round(np.concatenate([start + end, [x * x, y * y, z * z, x * y, y * z, z * x]]) / (8.0 * tolerance))
     return np.flatnonzero(first_of_equal(steps))
 
 

@@ -16,6 +16,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.parameters import number, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.components import all_finite
 from vectorplot.geometry.vectors import dot, normalize
 from vectorplot.surfaces.normals import (
     normal_partials,
@@ -180,8 +181,8 @@ class ParallelContour(_Alike):
         object.__setattr__(self, "direction", normalize(vector("contour: direction", self.direction)))
 
     def values(self, u: Floats, v: Floats) -> Floats:
-        """(...,) cosines of the angles between normal and direction."""
-        return np.asarray(matmul(unit_normals(self.surface, u, v), np.asarray(self.direction)))
+        """(...,) cosines of the angles between normal and direction; NaN in holes."""
+        return _towards(self.surface, np.asarray(self.direction), u, v)
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
@@ -216,8 +217,8 @@ class Isophote(_Alike):
         check_cosine(self.cosine)
 
     def values(self, u: Floats, v: Floats) -> Floats:
-        """(...,) cosines of the angles between normal and light, less c."""
-        return np.asarray(matmul(unit_normals(self.surface, u, v), np.asarray(self.light)) - self.cosine)
+        """(...,) cosines of the angles between normal and light, less c; NaN in holes."""
+        return _towards(self.surface, np.asarray(self.light), u, v) - self.cosine
 
     def slopes(self, u: Floats, v: Floats) -> Slopes:
         """(...,) derivatives by u and by v."""
@@ -345,10 +346,16 @@ class ParameterCondition:
         return (one, zero) if self.axis == 0 else (zero, one)
 
 
+def _towards(surface: Surface, direction: Floats, u: Floats, v: Floats) -> Floats:
+    """(...,) N.d; NaN in holes, of which normals know nothing where the surface is cut."""
+    points, unit = points_and_normals(surface, u, v)
+    return np.where(all_finite(points), matmul(unit, direction), np.nan)
+
+
 def _turning_towards(surface: Surface, direction: Floats, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
-    """(...,) N.d, and its derivatives by u and by v."""
-    unit, by_u, by_v = normal_partials(surface, u, v)
-    return np.asarray(matmul(unit, direction)), (
+    """(...,) N.d, and its derivatives by u and by v; NaN in holes."""
+    points, (unit, by_u, by_v) = points_and_normal_partials(surface, u, v)
+    return np.where(all_finite(points), matmul(unit, direction), np.nan), (
         np.asarray(matmul(by_u, direction)),
         np.asarray(matmul(by_v, direction)),
     )

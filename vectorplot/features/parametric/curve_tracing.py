@@ -217,6 +217,12 @@ def _without_noise(values: Floats, noise: Floats) -> Floats:
 def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> SurfaceCurves:
     """The curves, those that end just before a hole led on straight to its rim: cells with a corner in a hole have no
     curve, and where a surface ends with a vertical tangent the last of them is high."""
+    # An end that was followed up to a rim to the last bit may lie behind it: parameters are rounded once more.
+    known = all_finite(curves.points)
+    if not known.all():
+        offsets = np.concatenate([[0], np.cumsum(known)])[curves.offsets]
+        u, v, points = curves.u[known], curves.v[known], curves.points[known]
+        curves = replace(curves, u=u, v=v, points=points, offsets=offsets)
     own = np.flatnonzero(~curves.closed & (np.diff(curves.offsets) > 1))
     first, last = curves.offsets[:-1][own], curves.offsets[1:][own] - 1
     # The end of a curve comes before the beginning of the next.

@@ -172,9 +172,7 @@ def _cusps_of_each(contours: StackedConditions[Contour], curves: Sequence[Surfac
     all_curves = joined(curves)
     pieces = _changing(contours, all_curves, ragged.owner(np.diff(first)))
     at, found = _by_newton(contours, pieces)
-    lost = np.flatnonzero(~found)
-    if len(lost):
-        at[lost] = _by_bisection(contours, pieces.chosen(lost))
+    at, pieces = at[found], pieces.chosen(np.flatnonzero(found))
     start, size = np.stack([all_curves.u, all_curves.v], axis=1)[pieces.after], _sizes(contours, pieces.of)
     along = ((at - start) / size * (pieces.end - pieces.start) / size).sum(axis=1)
     order = np.lexsort((along, pieces.after))
@@ -371,18 +369,3 @@ def _curvatures_and_slopes(contours: StackedConditions[Contour], of: Ints, at: F
     here, low_u, high_u, low_v, high_v = everywhere.reshape(5, -1)
     span_u, span_v = (((b - a) / size).sum(axis=1) for a, b in zip(ends[::2], ends[1::2], strict=True))
     return here, (high_u - low_u) / span_u, (high_v - low_v) / span_v
-
-
-def _by_bisection(contours: StackedConditions[Contour], pieces: _Pieces) -> Floats:
-    """(k,2) parameters where the curvature changes its sign along pieces, slow and sure."""
-    low, high = np.zeros(len(pieces.after)), np.ones(len(pieces.after))
-    at, way = pieces.start, pieces.end - pieces.start
-    longest = np.abs(way / _sizes(contours, pieces.of)).max(initial=0.0)
-    for halvings in range(50):
-        if longest * 0.5**halvings <= ROUNDING_OF_DOMAIN:
-            break
-        t = (low + high) / 2.0
-        at = _onto(contours, pieces.of, pieces.start + t[:, None] * way)
-        same = (_curvatures(contours, pieces.of, at) < 0.0) == (pieces.low < 0.0)
-        low, high = np.where(same, t, low), np.where(same, high, t)
-    return at

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 import numpy as np
@@ -82,7 +83,7 @@ def is_convex_polygon(points: Floats) -> bool:
     sides = np.roll(points, -1, axis=0) - points
     after = np.roll(sides, -1, axis=0)
     turn = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
-    zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
+    zero = ZERO_OF_EXTENT * norm(sides) * norm(after)
     angles = arctan2(turn, np.einsum("ij,ij->i", sides, after))
     return bool((turn >= -zero).all() and abs(angles.sum() - 2.0 * np.pi) < 1.0)
 
@@ -110,12 +111,15 @@ def _joined(points: Floats, triangles: Ints) -> list[Ints]:
     """The triangles joined to convex polygons, diagonal by diagonal."""
     polygons: dict[int, list[int]] = dict(enumerate(triangles.tolist()))
     owner = {(p[k - 1], p[k]): number for number, p in polygons.items() for k in range(3)}
-    zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
     flat = points.tolist()
 
     def bends_left(a: int, b: int, c: int) -> bool:
+        """Or goes straight on: a corner that turns back is none of a convex polygon, however thin that is."""
         (ax, ay), (bx, by), (cx, cy) = flat[a], flat[b], flat[c]
-        return bool((bx - ax) * (cy - by) - (by - ay) * (cx - bx) >= -zero)
+        before, after = (bx - ax, by - ay), (cx - bx, cy - by)
+        zero = ZERO_OF_EXTENT * math.hypot(*before) * math.hypot(*after)
+        turn = before[0] * after[1] - before[1] * after[0]
+        return turn > zero or (turn >= -zero and before[0] * after[0] + before[1] * after[1] > 0.0)
 
     for a, b in list(owner):
         left, right = owner.get((a, b)), owner.get((b, a))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import re
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -71,12 +72,17 @@ def read_molecule(path: str | os.PathLike[str]) -> Molecule:
 def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats]:
     """The atoms of a file of the Protein Data Bank."""
     gemmi = gemmi_library()
-    by_columns = path.suffix.lower() in (".pdb", ".ent")
-    if by_columns:
-        _check_columns(path)
     try:
-        kind = gemmi.CoorFormat.Pdb if by_columns else gemmi.CoorFormat.Mmcif
-        structure = gemmi.read_structure(os.fspath(path), format=kind)
+        if path.suffix.lower() in (".pdb", ".ent"):
+            _check_columns(path)
+            structure = gemmi.read_pdb_string(_without_line_names(path.read_text(encoding="latin-1")))
+        else:
+            document = gemmi.cif.read(os.fspath(path))
+            structure = gemmi.make_structure_from_block(document[0])
+            if not len(structure) or not any(True for _ in structure[0].all()):
+                return _of_small_structure(path, document)
+    except InputError:
+        raise
     except (RuntimeError, ValueError, OSError) as error:
         raise InputError(f"no molecule: {error}", file=shown(path)) from None
     except IndexError:  # gemmi, of a file without a block of data
@@ -86,10 +92,40 @@ def _of_data_bank(path: Path) -> tuple[tuple[str, ...], Floats]:
     structure.remove_alternative_conformations()
     model = structure[0]
     whole = [(a.atom.element.name, a.atom.pos.tolist()) for a in model.all() if not a.residue.is_water()]
-    atoms = whole or [(a.atom.element.name, a.atom.pos.tolist()) for a in model.all()]
+    return _apart(whole or [(a.atom.element.name, a.atom.pos.tolist()) for a in model.all()], path)
+
+
+def _of_small_structure(path: Path, document: Any) -> tuple[tuple[str, ...], Floats]:
+    """The atoms of a cif file of a crystal (_atom_site_fract_x), one of each site as it is listed, or of a ligand
+    (_chem_comp_atom)."""
+    gemmi = gemmi_library()
+    for block in document:
+        small = gemmi.make_small_structure_from_block(block)
+        if len(small.sites):
+            sites = [(site.element.name, small.cell.orthogonalize(site.fract).tolist()) for site in small.sites]
+            return _apart(sites, path)
+        if block.find_values("_chem_comp_atom.atom_id"):
+            ligand = gemmi.make_structure_from_chemcomp_block(block)
+            if len(ligand):
+                return _apart([(a.atom.element.name, a.atom.pos.tolist()) for a in ligand[0].all()], path)
+    raise InputError("no atoms in this file", file=shown(path))
+
+
+def _apart(atoms: list[tuple[str, list[float]]], path: Path) -> tuple[tuple[str, ...], Floats]:
+    """Symbols and places of atoms."""
     if not atoms:
         raise InputError("no atoms in this file", file=shown(path))
     return tuple(symbol for symbol, _ in atoms), np.array([place for _, place in atoms], dtype=np.float64)
+
+
+def _without_line_names(text: str) -> str:
+    """A pdb file without columns 73 to 80 where these name the file and the line, as before 1996, and no element."""
+    lines = text.split("\n")
+    atoms = [k for k, line in enumerate(lines) if line[:6] in ("ATOM  ", "HETATM")]
+    if any(any(sign.isdigit() for sign in lines[k][76:78]) for k in atoms):
+        for k in atoms:
+            lines[k] = lines[k][:72]
+    return "\n".join(lines)
 
 
 def _check_columns(path: Path) -> None:

@@ -12,6 +12,7 @@ from vectorplot.errors import InputError
 from vectorplot.io.meshes.mesh_file import TextFile, check_announced, text_file
 from vectorplot.surfaces.graphs.height_grid import MOST_POINTS
 from vectorplot.surfaces.terrains.terrain import Terrain
+from vectorplot.tolerances.of_numbers import SINGLE_ULP
 
 _HEAD_LINE = re.compile(rb"[ \t]*([A-Za-z_]+)[ \t]+([^\s]+)[ \t\r]*\n")
 
@@ -19,6 +20,9 @@ _COUNTS = ("ncols", "nrows")
 _CELLS = ("cellsize", "dx", "dy")
 _PLACES = ("xllcorner", "yllcorner", "xllcenter", "yllcenter")
 _HOLE = "nodata_value"
+
+LARGEST_HEIGHT = 1e30
+"""Beyond this a number stands for a hole."""
 
 
 def read_ascii_grid(path: Path) -> Terrain:
@@ -40,7 +44,9 @@ def read_ascii_grid(path: Path) -> Terrain:
     corner = tuple(_corner(file, head, lines, axis, step) for axis, step in zip("xy", cell, strict=True))
     hole = _value(file, head, lines, _HOLE) if _HOLE in head else np.nan
     heights = _heights(file, columns, rows)
-    heights = np.where(heights == hole, np.nan, heights)
+    # The least number of single precision is written in many ways, and no height.
+    least = abs(hole) > LARGEST_HEIGHT
+    heights = np.where(np.isclose(heights, hole, rtol=100.0 * SINGLE_ULP) if least else heights == hole, np.nan, heights)
     if np.isnan(heights).all():
         raise InputError("nothing but holes", file=file.name)
     # Rows come from north to south.

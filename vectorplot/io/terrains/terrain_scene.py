@@ -66,6 +66,8 @@ def usual_exaggeration(land: Terrain) -> float:
     """1, or the 1, 2 or 5 times a power of ten with which the heights of a terrain are an eighth of its width, about,
     where they are much less or more."""
     low, high = land.relief
+    if not (high - low) * max(land.size) < np.inf:
+        raise InputError(f"heights from {low:g} to {high:g}: too far apart to be drawn")
     part = (high - low) / max(land.size)
     if part == 0.0 or LOWEST <= part <= HIGHEST:
         return 1.0

@@ -14,13 +14,16 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.shading.light.corner_normals import TrueNormals, at_corners, view_normals
 from vectorplot.shading.light.face_shades import decal_shades, face_middles, face_normals
-from vectorplot.shading.light.illumination import DIRECT_SHARE, shades
+from vectorplot.shading.light.illumination import AMBIENT, DIRECT_SHARE, shades
 from vectorplot.shading.light.palettes import PALETTE_SIZE
 from vectorplot.tolerances.of_angles import FLAT_COSINE
 from vectorplot.visibility.projected_faces import newell
 
 VARIED = 2.0 / PALETTE_SIZE
-"""By so much of a palette light varies on planes that are not shown in one shade: by two shades of a usual one."""
+"""By so much of a palette shades vary on planes that are not shown in one: by two shades of a usual one."""
+
+LARGE = 0.5
+"""Planes that reach through more than this part of the depth of the picture have shades that vary with it."""
 
 
 def painted_normals(
@@ -33,9 +36,11 @@ def painted_normals(
 ) -> Floats:
     """(3,c) unit normals at the corners of the faces of a view, outwards; NaN at those of faces that have one shade.
 
-    lights: in the view's coordinates; given and crease angle as of view_normals: the same normals as in pictures of
-    pixels; plane (f,) as of plane_numbers: the faces of a region are shaded alike. Regions of one normal have one shade
-    unless the light on them varies by more than VARIED, as on a floor below a lamp.
+    lights: in the view's coordinates, none where every plane shall have one shade; given and crease angle as of
+    view_normals: the same normals as in pictures of pixels; plane (f,) as of plane_numbers: the faces of a region are
+    shaded alike. Regions of one normal have one shade unless the light on them varies by more than VARIED, as on a
+    floor below a lamp, or they are LARGE, as a floor under all of a scene, whatever the light.
+    Source: Glaeser, section 4.6.
     """
     found = at_corners(view, view_normals(view, given, crease_angle_deg))
     own = face_normals(view)
@@ -46,7 +51,7 @@ def painted_normals(
     round_ = np.zeros(count, dtype=np.bool_)
     round_[plane[of_corner[turned]]] = True
     true = np.array([normals is not None for normals in given], dtype=np.bool_)[view.face_item]
-    varied = _varied(view, items, lights, plane)[plane]
+    varied = _varied(view, items, lights, plane)[plane] if lights else np.zeros(view.face_count, dtype=np.bool_)
     flat: Bools = np.asarray(~(round_[plane] | true), dtype=np.bool_)
     found[:, (flat & ~varied)[of_corner]] = np.nan
     plain = (flat & varied)[of_corner]
@@ -61,7 +66,7 @@ def _wide(view: View) -> Bools:
 
 
 def _varied(view: View, items: Sequence[Item], lights: Sequence[Light], plane: Ints) -> Bools:
-    """(p,) the regions on which light varies, from corner to corner, middle to middle and along sides."""
+    """(p,) the regions on which light varies, or depth much: from corner to corner, middle to middle, along sides."""
     corner = np.arange(len(view.corners))
     of_corner = ragged.owner(view.face_sizes)
     start, end = view.points[:, view.corners], view.points[:, view.corners[view.after(corner)]]
@@ -70,10 +75,10 @@ def _varied(view: View, items: Sequence[Item], lights: Sequence[Light], plane: I
     at = decal_shades(view, items, lights, points, face)
     light = np.atleast_2d(shades(at.shares, at.intensity)) / DIRECT_SHARE
     count = int(plane.max(initial=-1)) + 1
-    spread = np.zeros(count)
-    for row in light:
+    varied = np.zeros(count, dtype=np.bool_)
+    for row, most in [*((row, VARIED) for row in light), (at.cue, LARGE * AMBIENT)]:
         low, high = np.full(count, np.inf), np.full(count, -np.inf)
         np.minimum.at(low, plane[face], row)
         np.maximum.at(high, plane[face], row)
-        spread = np.maximum(spread, high - low)
-    return np.asarray(spread > VARIED)
+        varied |= high - low > most
+    return varied

@@ -17,7 +17,7 @@ from vectorplot.shading.depth.depth_buffer import DepthBuffer, layers_before, st
 from vectorplot.shading.light.lighting import Lighting, shaded_points
 from vectorplot.shading.raster.barycentrics import points_in_pixels, visible_points
 from vectorplot.shading.raster.scene_triangles import SceneTriangles
-from vectorplot.shading.raster.screen import HalfSpace, ScreenTriangles, front_facing, screen_triangles
+from vectorplot.shading.raster.screen import HalfSpace, ScreenTriangles, every_nth, front_facing, screen_triangles
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 Colours = NDArray[np.float32]
@@ -40,7 +40,8 @@ class Picture:
     system: view coordinates to pixels; homogeneous (n, 4): the triangles' points there; screen: the triangles there;
     opacity (i,) and mirror (i,) of every item; outer_side (i,): 1 and -1 for those of which only the outside is seen,
     wound as it should be or inside out, 0 for others; coplanar: faces in one plane; background (3,); points_at_once: so
-    many points are shaded together.
+    many points are shaded together; every (i,): of each transparent item one of so many pixels is set, 0 where all are
+    blended, and a pixel is door samples wide.
     """
 
     triangles: SceneTriangles
@@ -56,6 +57,8 @@ class Picture:
     coplanar: CoplanarFaces
     background: Floats
     points_at_once: int = POINTS_AT_ONCE
+    every: Ints | None = None
+    door: int = 1
 
     @property
     def shaded_at_once(self) -> int:
@@ -130,7 +133,18 @@ def _veil(picture: Picture, buffer: DepthBuffer, colours: Colours, wanted: Bools
         part = slice(begin, begin + picture.shaded_at_once)
         found = points_in_pixels(buffer, pixel[part], triangle[part], picture.homogeneous, picture.triangles.corners)
         made = shaded_points(picture.triangles, found, picture.lighting)
-        blend(colours, pixel[part], made.colours, picture.opacity[picture.triangles.item[found.triangle]])
+        blend(colours, pixel[part], made.colours, _shares(picture, buffer, pixel[part], found.triangle))
+
+
+def _shares(picture: Picture, buffer: DepthBuffer, pixel: Ints, triangle: Ints) -> Floats:
+    """(f,) how much of the colours of pixels (f,) of a buffer is that of the transparent triangles (f,) there: their
+    opacity, or all or nothing. Source: Glaeser, section 6.6."""
+    item = picture.triangles.item[triangle]
+    if picture.every is None:
+        return np.asarray(picture.opacity[item])
+    row, column = np.divmod(pixel, picture.columns)
+    set_ = every_nth((buffer.top + row) // picture.door, column // picture.door, np.maximum(picture.every[item], 1))
+    return (set_ & (picture.every[item] > 0)).astype(np.float64)
 
 
 def _veils(picture: Picture) -> Bools:

@@ -315,3 +315,12 @@ def _crossing(points: Floats, a: Ints, b: Ints, inside: Floats) -> Floats:
     low, high = np.where(swap, inside[b], inside[a]), np.where(swap, inside[a], inside[b])
     share = low / (low - high)
     return np.asarray(p + share[:, None] * (q - p))
+
+
+def every_nth(row: Ints, column: Ints, every: Ints | int) -> Bools:
+    """(...) whether pixels are among every n-th: a checkerboard for 2, diagonals for 3, and knight's moves for 4.
+
+    Source: Glaeser, section 6.6.
+    """
+    shift = np.where(np.asarray(every) == 4, 2, 1)
+    return np.asarray((column + shift * row) % every == 0, dtype=np.bool_)

@@ -8,15 +8,15 @@ from functools import cached_property
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping.clipped_polygons import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, some
 from vectorplot.geometry.records import IN_COLUMNS
-from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.scene.view import View
-from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
+from vectorplot.visibility.painter.embedded_bodies import body_sides
+from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
 
 
 @dataclass(frozen=True, eq=False)
@@ -35,6 +35,8 @@ class ImageFaces:
         The face of the view each polygon is (a part of).
     rank : (n,) array of int
         The order in which faces that lie in one plane are drawn.
+    bulges : (12, n) array of float, optional
+        How far the surfaces in whose place they are bulge over them, as of with_bulges.
 
     Notes
     -----
@@ -56,6 +58,7 @@ class ImageFaces:
     planes: Floats = field(metadata=EACH_LINE | IN_COLUMNS)
     source: Ints = field(metadata=EACH_LINE)
     rank: Ints = field(metadata=EACH_LINE)
+    bulges: Floats | None = field(default=None, metadata=EACH_LINE | IN_COLUMNS)
 
     def __len__(self) -> int:
         return len(self.source)
@@ -98,30 +101,20 @@ def drawn_faces(view: View, faces: ProjectedFaces) -> Ints:
     """The faces that can be seen at all: not edge-on, not behind the near plane, and of closed bodies only those that
     show their outside.
 
-    A body counts as closed where its faces are wound alike and the near plane does not cut it; an eye in a body sees
-    its inner walls.
+    That holds for bodies that do not cross themselves, as of body_sides, and that the near plane does not cut; an eye
+    in a body sees its inner walls.
     Source: Glaeser, section 5.1; erratum G5-09.
     """
-    through_near = ~np.isfinite(faces.nearest) | (faces.box[1] >= EVERYWHERE)
-    culled = closed_items(view)
-    culled[view.face_item[through_near]] = False
-    face = np.flatnonzero(culled[view.face_item])
-    area, _, first = newell(view, face)
-    sixfold = np.bincount(view.face_item[face], (area * view.points[:, first]).sum(axis=0), minlength=len(culled))
-    outside = np.where(sixfold[view.face_item] < 0.0, -faces.facing, faces.facing) > 0
+    side = body_sides(view)
+    side[view.face_item[~np.isfinite(faces.nearest) | (faces.box[1] >= EVERYWHERE)]] = 0
     kept = (faces.facing != 0) & np.isfinite(faces.nearest)
-    return np.flatnonzero(kept & (outside | ~culled[view.face_item]))
+    return np.flatnonzero(kept & (side[view.face_item] * faces.facing >= 0))
 
 
 def outer_sides(view: View) -> Ints:
     """(i,) 1 for items that are seen from outside only and wound that way, -1 for such wound inside out, 0 for all
-    others: those that do not close, and those that reach behind the near plane, in which the eye may be."""
-    whole = np.flatnonzero(closed_items(view)[view.face_item])
-    area, _, first = newell(view, whole)
-    sixfold = np.bincount(
-        view.face_item[whole], (area * view.points[:, first]).sum(axis=0), minlength=len(view.item_vertices) - 1
-    )
-    side = np.sign(sixfold).astype(np.intp)
+    others: as of body_sides, but those that reach behind the near plane, in which the eye may be."""
+    side = body_sides(view)
     if view.eye is not None:
         behind = np.flatnonzero(view.depth <= view.near)
         side[np.searchsorted(view.item_vertices, behind, side="right") - 1] = 0
@@ -275,11 +268,3 @@ def _area_vectors(points: Floats, offsets: Ints) -> tuple[Floats, Floats]:
         ]
     )
     return normal, points[:, starts] + np.stack([over_corners(np.add, row, offsets) for row in arm]) / sizes
-
-
-def closed_items(view: View) -> Bools:
-    """(i,) the items whose faces close, wound alike."""
-    closed = np.ones(len(view.item_vertices) - 1, dtype=np.bool_)
-    loose = np.flatnonzero(unbalanced_vertices(view.points.shape[1], view.corners, view.offsets))
-    closed[np.searchsorted(view.item_vertices, loose, side="right") - 1] = False
-    return closed

@@ -22,6 +22,7 @@ from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, i
 from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs.body_pairs import UNDECIDED, body_relations
 from vectorplot.visibility.painter.pairs.box_pairs import box_pairs, boxes_of_items, pairs_across
+from vectorplot.visibility.painter.pairs.bulges import with_bulges
 from vectorplot.visibility.painter.pairs.convex_bodies import Bodies, convex_bodies, outlined_items
 from vectorplot.visibility.painter.pairs.crowds import around, by_depth, crowded_items, pairs_allowed
 from vectorplot.visibility.painter.pairs.face_pairs import (
@@ -94,6 +95,7 @@ def painters_order(
     known: Mapping[int, Precedence] | None = None,
     sliced: Mapping[int, Section] | None = None,
     group: Ints | None = None,
+    normals: Floats | None = None,
     budget: Budget = USUAL,
 ) -> Painted:
     """The faces that can be seen, in an order in which each may be painted over those before it.
@@ -114,6 +116,9 @@ def painters_order(
     group : (i,) array of int, optional
         The group of each item, -1 for none: first the groups are put in order, then what is in each, but for those that
         lie on other things in a circle.
+    normals : (3, c) array of float, optional
+        Those of surfaces at the corners of the faces in their place, in the view's coordinates, 0 where there are
+        none: surfaces that touch do not pierce each other, whatever such faces do.
     budget : Budget
         As many cuts of faces along planes of others as it has pieces, and as many pieces in a tree of planes, or four
         of each; and eight times as many comparisons as it has pairs, or 32 for each face. What is not in order then is
@@ -150,6 +155,8 @@ def painters_order(
     """
     projected = project_faces(view) if projected is None else projected
     faces = image_faces(view, drawn_faces(view, projected))
+    if normals is not None and len(view.item_vertices) > 2:
+        faces = with_bulges(view, faces, normals)
     _check_known(view, known or {})
     item = view.face_item[faces.source]
     alone = _alone(view, faces, item, list(sliced or {}))

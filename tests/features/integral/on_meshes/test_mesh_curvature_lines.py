@@ -162,7 +162,8 @@ def test_planes_balls_and_cubes_have_none_and_say_so(noise, offset):
     for mesh in (features.mesh_of_grid(turned), Mesh(ball.vertices + offset, ball.corners, ball.offsets), CUBE):
         for field in (PrincipalDirections(1), AsymptoticDirections(1)):
             known = np.isfinite(field.tangents(features.face_sites(mesh))[0]).all(axis=1)
-            assert known.mean() <= (0.04 if noise > 0.0 or mesh.face_count > 200 else 0.0)
+            # Some faces of a shaken plane happen to bend as one; a ball of triangles has some hundred of its own.
+            assert known.mean() <= (0.1 if noise > 0.0 or mesh.face_count > 200 else 0.0)
 
 
 @pytest.mark.slow

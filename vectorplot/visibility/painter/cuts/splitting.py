@@ -42,7 +42,9 @@ def halves(faces: ImageFaces, planes: Floats, steepness: Floats, tolerance: floa
     polygons = Polygons(faces.points.T, faces.offsets)
     parts = [cut_polygons(polygons, side * height)[0] for side in (-1.0, 1.0)]
     below, above = (
-        ImageFaces(np.ascontiguousarray(part.points.T), part.offsets, faces.planes, faces.source, faces.rank)
+        ImageFaces(
+            np.ascontiguousarray(part.points.T), part.offsets, faces.planes, faces.source, faces.rank, faces.bulges
+        )
         for part in parts
     )
     return below, above

@@ -7,6 +7,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.visibility.painter.image_faces import ImageFaces
+from vectorplot.visibility.painter.pairs.bulges import TRUSTED, bulge, may_touch
 from vectorplot.visibility.painter.pairs.outlines import Outlines, common_points, overlapping
 
 Codes = NDArray[np.int8]
@@ -23,7 +24,8 @@ def face_relations(faces: ImageFaces, first: Ints, second: Ints, tolerance: floa
     """(p,) codes for pairs of faces.
 
     Both planes are compared at all corners of the common part of the images; their difference is linear, so these tell
-    all. A difference counts from a tolerance on, measured across the planes rather than in height.
+    all. A difference counts from a tolerance on, measured across the planes rather than in height. Of faces that stand
+    for surfaces of different items that may touch there, these are compared, as far as their bulges are known.
     Source: Glaeser, section 5.5 (intersection of outlines); errata G5-02, G6-06.
     """
     codes = np.zeros(len(first), dtype=np.int8)
@@ -35,16 +37,40 @@ def face_relations(faces: ImageFaces, first: Ints, second: Ints, tolerance: floa
     outlines = Outlines.of(faces.points, faces.offsets, tolerance)
     common = np.flatnonzero(overlapping(outlines, first, second, tolerance))
     first, second = first[common], second[common]
-    least, most = np.full(len(common), np.inf), np.full(len(common), -np.inf)
+    least, most = _span(faces, outlines, first, second, tolerance, False)
+    limit = tolerance * np.maximum(faces.steepness[first], faces.steepness[second])
+    found = _codes(least, most, limit)
+    if faces.bulges is not None:
+        reach, curved = may_touch(faces, first, second)
+        near = np.flatnonzero(curved & (least <= most) & (least < reach) & (most > -reach))
+        span = _span(faces, outlines, first[near], second[near], tolerance, True)
+        found[near] = _curved_codes(*span, limit[near] + TRUSTED * reach[near], found[near])
+    codes[common] = found
+    return codes
+
+
+def _span(
+    faces: ImageFaces, outlines: Outlines, first: Ints, second: Ints, tolerance: float, curved: bool
+) -> tuple[Floats, Floats]:
+    """The least and the largest height (p,) of faces above others where their images overlap; curved: of the surfaces
+    that they stand for."""
+    least, most = np.full(len(first), np.inf), np.full(len(first), -np.inf)
     for one, row, two, other, part in outlines.groups(first, second):
         a, b = first[part], second[part]
         for x, y, there in common_points(one, row, two, other, ON_OUTLINE * tolerance):
             above = faces.heights(a, x, y) - faces.heights(b, x, y)
+            if curved:
+                above += bulge(faces, a, x, y) - bulge(faces, b, x, y)
             least[part] = np.minimum(least[part], np.where(there, above, np.inf).min(axis=0))
             most[part] = np.maximum(most[part], np.where(there, above, -np.inf).max(axis=0))
-    limit = tolerance * np.maximum(faces.steepness[first], faces.steepness[second])
-    codes[common] = _codes(least, most, limit)
-    return codes
+    return least, most
+
+
+def _curved_codes(least: Floats, most: Floats, limit: Floats, flat: Codes) -> Codes:
+    """(p,) the codes of faces of surfaces that bulge over them, of which flat are those of the faces: where surfaces
+    are on one side of each other, or touch, so are faces, wherever these pierce each other."""
+    pierce = (most > limit) & (least < -limit)
+    return np.where(pierce, flat, np.where(most > -least, IN_FRONT, BEHIND)).astype(np.int8)
 
 
 def _codes(least: Floats, most: Floats, limit: Floats) -> Codes:

@@ -1,0 +1,94 @@
+"""Contours of surfaces with cusps, pinch points and double curves: none is false, whatever the parametrisation."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from support.effort import several
+
+import vectorplot as vp
+from vectorplot import curves, features, surfaces
+from vectorplot.features.parametric.wrapping import wrapped
+from vectorplot.surfaces.normals import unit_normals
+
+ROUND = 'u 0 "2*pi" v 0 "2*pi" closed_u closed_v'
+SURFACES = {
+    "crossed tubes": ('"0.7*cos(u)" "0.5*cos(v)+0.7*sin(u)" "sin(v)" ' + ROUND, (-4.0, 1.3, 5.1)),
+    "Roman": ('"sin(2*u)*cos(v)^2" "sin(u)*sin(2*v)" "cos(u)*sin(2*v)" u 0 "pi" v "-pi/2" "pi/2"', (3.0, -4.0, 2.0)),
+    "Bohemian dome": ('"cos(u)" "sin(u)+cos(v)" "sin(v)" ' + ROUND, (3.0, -4.0, 2.3)),
+    "sine surface": ('"sin(u)" "sin(v)" "sin(u+v)" ' + ROUND, (3.0, -4.0, 2.0)),
+    "tranguloid": (
+        '"2*sin(3*u)/(2+cos(v))" "2*(sin(u)+2*sin(2*u))/(2+cos(v+2*pi/3))" '
+        '"(cos(u)-2*cos(2*u))*(2+cos(v))*(2+cos(v+2*pi/3))/4" u "-pi" "pi" v "-pi" "pi" closed_u closed_v',
+        (13.0, -14.0, 9.0),
+    ),
+    "Whitney's umbrella": ('"u*v" "u" "v^2" u -1 1 v -1 1', (3.0, -4.0, 2.0)),
+    "conoid": ('"v*cos(u)" "v*sin(u)" "sin(2*u)" u 0 "2*pi" v 0 1.5 closed_u', (3.0, -4.0, 2.0)),
+    "cross-cap": (
+        '"sin(u)*sin(2*v)/2" "sin(2*u)*cos(v)^2" "cos(2*u)*cos(v)^2" u 0 "pi" v "-pi/2" "pi/2"',
+        (3.0, -4.0, 2.0),
+    ),
+}
+FACING = 0.1
+"""Cosine between normal and sight above which a chord lies beside the contour; by so little chords within the tolerance
+turn away where the surface nearly has a point without a normal."""
+BESIDE = 0.01
+"""Part of the length of a contour that may be such chords."""
+
+
+def wrong_part(surface, eye, parallel):
+    """The part of a contour, with its cusps, along which the surface does not turn away; and its length."""
+    condition = (features.ParallelContour if parallel else features.CentralContour)(surface, eye)
+    found = (features.parallel_contour if parallel else features.contour)(surface, eye)
+    found, _ = features.contour_with_cusps(condition, found)
+    wrong = total = 0.0
+    share = (np.arange(8) + 0.5) / 8.0
+    for start, end in zip(found.offsets[:-1], found.offsets[1:], strict=True):
+        uv = np.stack([found.u, found.v])[:, start:end]
+        inner = (uv[:, :-1, None] + share * np.diff(uv)[:, :, None]).reshape(2, -1)
+        inner = wrapped(surface.domain, *inner)
+        points, normals = surface.points(*inner), unit_normals(surface, *inner)
+        sight = np.broadcast_to(eye, points.shape) - (0.0 if parallel else points)
+        cosine = np.abs((normals * sight).sum(axis=-1)) / np.linalg.norm(sight, axis=-1)
+        long = np.linalg.norm(np.diff(found.points[start:end], axis=0), axis=1)
+        total += long.sum()
+        wrong += (long * (cosine > FACING).reshape(len(long), -1).mean(axis=1)).sum()
+    return wrong / max(total, 1e-300), total
+
+
+def read_surface(text, tmp_path):
+    (tmp_path / "x.scene").write_text(f"A gray surface function {text}\n", encoding="utf-8")
+    return vp.read(tmp_path / "x.scene").items[0].shape
+
+
+@pytest.mark.capability("G8.4-contour")
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("name", SURFACES)
+def test_no_stroke_is_where_no_contour_is(name, parallel, tmp_path):
+    text, eye = SURFACES[name]
+    part, length = wrong_part(read_surface(text, tmp_path), np.array(eye) * (1.0 if parallel else 3.0), parallel)
+    assert length > 1.0 and part < BESIDE
+
+
+def bumpy(random, count):
+    x, y = np.meshgrid(np.arange(count) * 1.5, np.arange(count) * 1.5, indexing="ij")
+    return np.stack([x, y, 0.0 * x], axis=-1) + np.round(random.uniform(-1.5, 1.5, (count, count, 3)) * (1, 1, 2))
+
+
+def test_no_stroke_is_where_no_contour_is_on_random_splines():
+    random = np.random.default_rng(1)
+    for number in range(several(12, long=200)):
+        kind = curves.BSpline(order=4) if number % 4 < 2 else curves.CubicSpline()
+        surface = surfaces.spline_surface(bumpy(random, 4 + number % 2), kind)
+        for eye, parallel in (((20.0, -9.0, 9.0), False), ((1.0, -0.6, 0.7), True)):
+            part, _ = wrong_part(surface, np.array(eye), parallel)
+            assert part < BESIDE, (number, parallel, part)
+
+
+@pytest.mark.parametrize("seed", range(2))
+def test_contours_do_not_depend_on_the_parametrisation(seed):
+    random = np.random.default_rng(seed + 40)
+    points, kind, eye = bumpy(random, 4), curves.BSpline(order=4), np.array([20.0, -9.0, 9.0])
+    same = (points, points.swapaxes(0, 1), points[::-1], points[:, ::-1])
+    lengths = [wrong_part(surfaces.spline_surface(grid, kind), eye, False)[1] for grid in same]
+    assert np.ptp(lengths) < 0.01 * max(lengths), lengths

@@ -1,0 +1,59 @@
+"""All verbs fit the same to a page: curves that are drawn beside faces as well as these."""
+
+import numpy as np
+import pytest
+
+import vectorplot as vp
+from vectorplot.curves import Circle, Helix, Line
+from vectorplot.geometry import box
+from vectorplot.surfaces import Sphere
+
+CURVES = {
+    "circle": lambda r: Circle(tuple(r.normal(size=3)), 3.0 + r.uniform(), tuple(r.normal(size=3))),
+    "line": lambda r: Line.through(-4.0 * r.uniform(0.5, 1, 3), 5.0 * r.uniform(0.5, 1, 3)),
+    "helix": lambda r: Helix(0.3 + r.uniform(), 0.2, start=-9.0, end=14.0),
+    "hidden": lambda r: Line.through((0.2, 0.2, 0.2), 0.3 + 0.5 * r.uniform(size=3)),
+}
+BODIES = {"cube": box((1, 1, 1)), "ball": Sphere(1.0)}
+
+
+def _scene(body, curve, seed):
+    random = np.random.default_rng(seed)
+    items = (vp.Item("body", BODIES[body], "blue"), vp.Item("curve", CURVES[curve](random), "red"))
+    way = random.normal(size=3)
+    eye = tuple(14.0 * way / np.sqrt((way * way).sum()))
+    return vp.Scene(items), vp.Camera(eye, (0.2, 0.1, 0.0), parallel=seed % 2 == 0)
+
+
+def _corners(picture):
+    """(2,8) where the corners of a box are on the page."""
+    corners = np.array([(x, y, z, 1.0) for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)]).T
+    place = np.einsum("ij,jk->ik", picture.page_from_world, corners)
+    return place[:2] / place[3]
+
+
+@pytest.mark.parametrize("curve", list(CURVES))
+@pytest.mark.parametrize("body", list(BODIES))
+def test_paintings_and_drawings_have_the_same_place(body, curve):
+    scene, camera = _scene(body, curve, len(curve))
+    lines = "contour,boundary,crease,curve"
+    drawn = vp.draw(scene, camera, page="100x80", lines=lines)
+    for fills in ("painted", "erasing") if body == "cube" else ("painted",):
+        painted = vp.paint(scene, camera, page="100x80", lines=lines, fills=fills)
+        assert np.abs(_corners(drawn) - _corners(painted)).max() < 0.1
+
+
+@pytest.mark.parametrize("curve", list(CURVES))
+def test_pictures_of_pixels_have_all_lines(curve):
+    scene, camera = _scene("cube", curve, 3)
+    image = vp.render(scene, camera, size=(90, 70), lines="curve", samples=1, background="#ffffff")
+    pixels = np.asarray(image.pixels)
+    border = np.concatenate([pixels[0], pixels[-1], pixels[:, 0], pixels[:, -1]])
+    assert (border == 255).all()
+
+
+def test_curves_that_are_not_drawn_take_no_room():
+    scene, camera = _scene("cube", "circle", 1)
+    alone = vp.Scene(scene.items[:1])
+    one, two = (_corners(vp.paint(some, camera, page="100x80")) for some in (scene, alone))
+    assert np.abs(one - two).max() < 1e-6
