@@ -163,10 +163,10 @@ def _off(found: AlgebraicSurface, points: Floats) -> Floats:
 
 def _samples(surface: Surface, count: int, first: float) -> Floats:
     """(n,3) points at places that cover the domain evenly, of the additive recurrence of the plastic number."""
-    steps = np.arange(count)
+    steps = np.arange(count, dtype=np.float64)
     domain, (across, along) = surface.domain, surface.domain.size
-    u = domain.u_start + across * ((first + 0.7548776662466927 * steps) % 1.0)
-    v = domain.v_start + along * ((first + 0.5698402909980532 * steps) % 1.0)
+    u: Floats = domain.u_start + across * ((first + 0.7548776662466927 * steps) % 1.0)
+    v: Floats = domain.v_start + along * ((first + 0.5698402909980532 * steps) % 1.0)
     points = surface.points(u, v)
     points = points[~is_hole(points)]
     if 2 * len(points) < count:
