@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import sys
 from dataclasses import replace
+from functools import partial
 from itertools import pairwise
 from pathlib import Path
 
@@ -13,6 +14,7 @@ from support.drawn import drawn
 from support.hard_shapes import HARD_SHAPES
 from support.paths import DATA, MODELS
 
+import vectorplot as vp
 from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
@@ -329,3 +331,72 @@ def test_no_stroke_is_longer_than_asked_for_and_the_picture_is_the_same(name, hi
 def test_longest_strokes_of_no_length_are_refused(longest):
     with pytest.raises(InputError, match="longest"):
         draw(read(DATA / "pencil.scene"), longest_mm=longest)
+
+
+@pytest.mark.capability("G2.2-pyramid")
+@pytest.mark.parametrize("seed", range(4))
+def test_of_edges_around_the_eye_what_is_in_the_pyramid_of_sight_is_projected_and_nothing_else(seed):
+    """Before the neutral plane and within the four sides: each edge clipped in space by hand."""
+    random = np.random.default_rng(seed)
+    eye, half = np.array([0.5, -0.3, 0.2]), np.radians(20.0)
+    camera = vp.Camera(tuple(eye), tuple(eye + random.normal(size=3)), fov_deg=40.0)
+    lows, sizes = random.uniform(-6, 5, (24, 3)), random.uniform(0.2, 4.0, (24, 3))
+    items = tuple(vp.Item(f"B{k}", box(low, low + size)) for k, (low, size) in enumerate(zip(lows, sizes, strict=True)))
+    drawing = vp.draw(vp.Scene(items), camera, page=vp.Page(100, 100, 0), fit=False, style="wireframe")
+    right, up, back = camera.axes
+    ends = []
+    for item in items:
+        for face in item.mesh.polygons():
+            corners = item.mesh.vertices[face]
+            ends += [(a, b) for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True) if tuple(a) < tuple(b)]
+    a, b = (np.array(side) - eye for side in zip(*ends, strict=True))
+    # Planes n.p >= c of the pyramid: before the eye, and its four sides.
+    slope = np.tan(half)
+    planes = [(-back, 0.0)] + [(-slope * back + way, 0.0) for way in (right, -right, up, -up)]
+    low, high = np.zeros(len(a)), np.ones(len(a))
+    for normal, height in planes:
+        first, last = a @ normal - height, b @ normal - height
+        with np.errstate(divide="ignore", invalid="ignore"):
+            at = first / (first - last)
+        low = np.where((first < 0) & (last >= 0), np.maximum(low, at), low)
+        high = np.where((first >= 0) & (last < 0), np.minimum(high, at), high)
+        high = np.where((first < 0) & (last < 0), -1.0, high)
+    kept = high - low > 1e-9
+    p, q = (a[kept] + t[kept, None] * (b - a)[kept] for t in (low, high))
+    one, two = (50 + 50 * np.stack([s @ right, s @ up], axis=1) / (slope * -(s @ back))[:, None] for s in (p, q))
+    paths = [paths for layer in drawing.layers for paths in layer.strokes]
+    found = [points for some in paths for points in np.split(some.points, some.offsets[1:-1])]
+    pieces = np.concatenate([np.stack([points[:-1], points[1:]], axis=1) for points in found])
+    assert 3 < len(one) and np.abs(pieces - 50).max() < 50 + 1e-6
+    drawn = np.linalg.norm(pieces[:, 1] - pieces[:, 0], axis=1).sum()
+    assert drawn == pytest.approx(np.linalg.norm(two - one, axis=1).sum(), rel=1e-5)
+    for end in pieces.reshape(-1, 2):
+        along = np.clip(
+            ((end - one) * (two - one)).sum(axis=1) / np.maximum(((two - one) ** 2).sum(axis=1), 1e-12), 0, 1
+        )
+        assert np.linalg.norm(one + along[:, None] * (two - one) - end, axis=1).min() < 1e-3
+
+
+@pytest.mark.capability("G2.2-pyramid")
+@pytest.mark.parametrize("verb", ["draw", "paint", "render"])
+def test_what_is_behind_the_eye_changes_no_picture(verb):
+    """Bodies wholly behind the neutral plane, whose images would be upside down amid the picture."""
+    random = np.random.default_rng(3)
+    camera = vp.Camera((0, -6, 1), (0, 0, 0.5), fov_deg=35.0)
+    before = [vp.Item(f"A{k}", box((k - 2, 0, 0), (k - 1.3, 1, 1)), "orange") for k in range(4)]
+    lows = np.stack([random.uniform(-3, 3, 9), random.uniform(-30, -8, 9), random.uniform(-3, 3, 9)], axis=1)
+    behind = [vp.Item(f"B{k}", box(low, low + 1.5), "blue") for k, low in enumerate(lows)]
+    light = (vp.Light((2, -3, 5), parallel=True, intensity=0.8),)
+    told = {"size": (60, 40), "samples": 1} if verb == "render" else {"page": vp.Page(90, 60, 0)}
+    make = partial({"draw": vp.draw, "paint": vp.paint, "render": vp.render}[verb], camera=camera, fit=False, **told)
+    if verb != "draw":
+        make = partial(make, shadows="none")
+    alone, all_ = (make(vp.Scene(tuple(items), light)) for items in (before, before + behind))
+    if verb == "render":
+        # What is farther away than the box of all is darker: depths of what is seen count alone.
+        covered = [(one.pixels != 255).any(axis=2) for one in (alone, all_)]
+        assert covered[0].sum() > 100 and (covered[0] == covered[1]).all()
+        return
+    for ours, theirs in zip(alone.layers, all_.layers, strict=True):
+        for one, other in zip((*ours.strokes, *ours.fills), (*theirs.strokes, *theirs.fills), strict=True):
+            assert np.allclose(np.sort(one.points, axis=0), np.sort(other.points, axis=0), atol=1e-6)

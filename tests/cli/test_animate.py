@@ -3,14 +3,18 @@
 import shutil
 import subprocess
 import sys
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
-from support.paths import DATA
+from support.paths import DATA, ROOT
 
 import vectorplot as vp
-from vectorplot.animation import read_movie
+from vectorplot.animation import frame_drawings, read_movie
+from vectorplot.animation.modes import MODES
 from vectorplot.cli.main import run
+from vectorplot.save import write
 
 
 @pytest.fixture
@@ -164,3 +168,43 @@ def test_options_of_other_verbs_are_refused(workplace, words, said, capsys):
     assert run(["animate", "die", "-a", "turn", "-o", "frames/", *words]) == 2
     assert said in capsys.readouterr().err.splitlines()[-1]
     assert not Path("frames").exists()
+
+
+@pytest.mark.slow
+@pytest.mark.capability("GA.4-anim", "GA.1-samples")
+@pytest.mark.parametrize("name", sorted(path.stem for path in DATA.glob("*.anim")))
+def test_every_sample_animation_moves_what_the_verb_of_its_mode_shows(name, tmp_path, monkeypatch):
+    """Its frames are those one gets by hand, of a scene and a camera that stand still."""
+    monkeypatch.chdir(ROOT)
+    scene = vp.read(DATA / f"{name}.scene")
+    moving = vp.read_animation(DATA / f"{name}.anim", scene)
+    assert moving.frames >= 24 and moving.mode in MODES
+    film = vp.animate(replace(moving, frames=3, loop=False), page="80x60", fit=False)
+    pages = [write(film.picture(frame), "svg") for frame in range(3)]
+    assert len(set(pages)) >= 2, "it moves"
+    mode, (still, camera) = MODES[moving.mode], film.view(1)
+    alone = {"draw": vp.draw, "paint": vp.paint}[mode.verb](still, camera, page="80x60", **mode.options, fit=False)
+    made = film.picture(1)
+    assert [layer.name for layer in made.layers] == [layer.name for layer in alone.layers]
+    for one, other in zip(made.layers, alone.layers, strict=True):
+        for ours, theirs in ((one.strokes, other.strokes), (one.fills, other.fills)):
+            ends = [
+                np.unique(np.concatenate([np.zeros((0, 2)), *(mark.points for mark in marks)]), axis=0)
+                for marks in (ours, theirs)
+            ]
+            assert ends[0].shape == ends[1].shape and np.allclose(*ends, atol=1e-9)
+    monkeypatch.chdir(tmp_path)
+    told = ["-a", str(DATA / f"{name}.anim"), "-v", "played", "--frames", "2"]
+    assert run(["animate", str(DATA / f"{name}.scene"), *told, "-q"]) == 0
+    assert len(read_movie("video/played")) == 2
+
+
+@pytest.mark.capability("GA.1-samples")
+def test_the_sample_movie_plays(monkeypatch, capsys):
+    monkeypatch.chdir(ROOT)
+    assert run(["replay", "pencil", "--no-browser", "--timeout", "0.01"]) == 0
+    assert capsys.readouterr().out.startswith("48 frames, 0 of them frozen")
+    assert (
+        len({drawing.layers[0].fills[0].points.tobytes() for drawing in frame_drawings(read_movie("data/pencil"))})
+        == 48
+    )

@@ -19,7 +19,7 @@ pytest.importorskip("aiohttp")
 def frame(place):
     """A square on a sheet, both filled."""
     sheet, square = np.array([[0, 0], [100, 0], [100, 50], [0, 50.0]]), np.array([[0, 0], [9, 0], [9, 9], [0, 9.0]])
-    corners = np.concatenate([sheet, square + np.array((place, 5))])
+    corners = np.concatenate([sheet, square + np.array([place, 5])])
     colours = np.array([[255, 255, 255], [200, 30, 30]], dtype=np.uint8)
     return Drawing(100.0, 50.0, (Layer("polygons", Pen(0.3), (Fills.flat(corners, np.array([0, 4, 8]), colours),)),))
 

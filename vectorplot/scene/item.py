@@ -18,7 +18,7 @@ from vectorplot.scene.material import Material
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, linear_growth
 from vectorplot.scene.surface_normals import SurfaceNormals
 from vectorplot.surfaces.placed_surface import placed_shape
-from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 from vectorplot.words import OWN_LINE_WORDS, check_colour, line_words
 
 
@@ -136,6 +136,10 @@ class Item(Movable["Item"]):
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
+        if is_parametrised(self.shape) and not type(self.shape).__module__.startswith("vectorplot."):
+            from vectorplot.surfaces.function_surface import completed
+
+            object.__setattr__(self, "shape", completed(self.shape, self.name))
         if self.lines is not None:
             object.__setattr__(self, "lines", line_words(self.lines, OWN_LINE_WORDS))
         if self.usual_lines is not None:

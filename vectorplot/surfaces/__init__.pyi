@@ -1,3 +1,4 @@
+from .algebraic import AlgebraicSurface, implicitized
 from .curvature import first_form, gaussian_curvature, mean_curvature, second_form
 from .families.capped import Capped, Frustum, rod
 from .families.cyclide import ImplicitCyclide, dupin_cyclide
@@ -48,6 +49,7 @@ from .trims.cut_surface import CutSurface
 from .trims.trimmed import TrimmedSurface
 
 __all__ = [
+    "AlgebraicSurface",
     "BoxedImplicit",
     "Capped",
     "Cone",
@@ -108,6 +110,7 @@ __all__ = [
     "implicit_of_function",
     "implicit_plane",
     "implicit_sphere",
+    "implicitized",
     "inverted",
     "landscape",
     "mean_curvature",

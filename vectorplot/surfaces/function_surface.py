@@ -13,7 +13,7 @@ from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numer
 from vectorplot.errors import InputError
 from vectorplot.surfaces.jets import FirstJets, SecondJets
 from vectorplot.surfaces.placed_surface import MovableSurface
-from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import GAP_OF_EXTENT
 
 LOOKS = 16
@@ -196,3 +196,67 @@ def _check_seams(surface: FunctionSurface) -> None:
         if closed and (apart > GAP_OF_EXTENT * extent).any():
             gap = float(np.nanmax(apart))
             raise InputError(f"a domain closed in {name}, but the surface ends up to {gap:.3g} from where it began")
+
+
+def completed(surface: Surface, name: str) -> Surface:
+    """A surface of a user's own class, with the derivatives that it lacks, as of surface_of_function.
+
+    Errors: InputError, with the name, for members that are missing or of a wrong shape, and for derivatives that are
+    not those of its points.
+    """
+    if not isinstance(surface.domain, Domain) or not callable(getattr(surface, "points", None)):
+        raise InputError(f"{name}: a surface needs a domain (surfaces.Domain) and a method points(u, v)")
+    u, v = (start + size * _SAMPLES for start, size in zip(_starts(surface.domain), surface.domain.size, strict=True))
+    u, v = (some.ravel() for some in np.meshgrid(u, v))
+    _check_shapes(name, "points", (surface.points(u, v),), 1, len(u))
+    counts = {"partials": 2, "second_partials": 3}
+    given = {what: getattr(surface, what, None) for what in counts}
+    for what, member in given.items():
+        if member is not None:
+            _check_shapes(name, what, member(u, v), counts[what], len(u))
+    own = {
+        what: [(lambda u, v, member=member, k=k: member(u, v)[k]) for k in range(counts[what])]
+        for what, member in given.items()
+        if member is not None
+    }
+    by_points = surface_of_function(surface.points, surface.domain)
+    if "partials" in own:
+        _check_derivatives(name, "partials", surface.partials(u, v), by_points.partials(u, v), u, v)
+    if "second_partials" in own:
+        expected = surface_of_function(surface.points, surface.domain, partials=own.get("partials", ()))
+        _check_derivatives(name, "second_partials", surface.second_partials(u, v), expected.second_partials(u, v), u, v)
+    return surface if len(own) == 2 else surface_of_function(surface.points, surface.domain, **own)
+
+
+_SAMPLES = np.array([0.17, 0.41, 0.58, 0.83])
+"""Where between the ends of the ranges derivatives are compared."""
+
+WRONG = 1e-3
+"""Derivatives that are off by so much of the largest one are wrong, where most of them are."""
+
+
+def _starts(domain: Domain) -> tuple[float, float]:
+    return domain.u_start, domain.v_start
+
+
+def _check_shapes(name: str, what: str, values: Any, count: int, points: int) -> None:
+    shapes = [np.shape(value) for value in values] if isinstance(values, tuple | list) else [np.shape(values)]
+    if shapes != [(points, 3)] * count:
+        many = "" if count == 1 else f"{count} arrays of "
+        raise InputError(f"{name}: {what}(u, v) must return {many}shape (n, 3) for u and v of shape (n,)")
+
+
+def _check_derivatives(
+    name: str, what: str, given: Sequence[Floats], expected: Sequence[Floats], u: Floats, v: Floats
+) -> None:
+    for k, (own, found) in enumerate(zip(given, expected, strict=True)):
+        off = np.abs(own - found).max(axis=1)
+        largest = max(float(np.nanmax(np.abs(found), initial=0.0)), float(np.nanmax(np.abs(own), initial=0.0)))
+        wrong = off > WRONG * largest
+        if 2 * wrong.sum() > len(wrong):
+            at = int(np.argmax(wrong))
+            raise InputError(
+                f"{name}: {what}(u, v)[{k}] is not the derivative of points: "
+                f"{np.round(own[at], 6).tolist()} in place of {np.round(found[at], 6).tolist()} "
+                f"at u = {u[at]:g}, v = {v[at]:g}"
+            )

@@ -165,7 +165,7 @@ def test_size_and_place_do_not_matter(scale):
 
 
 @pytest.mark.slow
-@pytest.mark.capability("G9.4-field")
+@pytest.mark.capability("G9.4-field", "G8.0-curvature")
 def test_lines_of_curvature_of_an_ellipsoid_lie_on_confocal_quadrics():
     a2, b2, c2 = 9.0, 4.0, 1.0
     surface = Ellipsoid((3, 2, 1))
@@ -210,7 +210,7 @@ def test_the_line_of_curvature_through_the_umbilics_goes_straight_on_through_all
 
 
 @pytest.mark.slow
-@pytest.mark.capability("G9.4-field")
+@pytest.mark.capability("G9.4-field", "G8.0-curvature")
 def test_asymptotic_lines_are_the_rulings_and_end_where_the_surface_is_domed():
     saddle = HyperbolicParaboloid()
     for family in (1, 2):

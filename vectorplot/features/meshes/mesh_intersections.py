@@ -137,7 +137,8 @@ def self_intersections_of_parts(faces: Faces, part: Ints, tolerance: float) -> I
         a, b = one[some], two[some]
         over_a, over_b = (_over_planes(faces, normals, *pair, tolerance) for pair in ((b, a), (a, b)))
         across = [(low < 0.0) & (high > 0.0) for low, high, _ in (over_a, over_b)]
-        piercing = _meet(faces, normals, *_picked(np.flatnonzero(across[0] & across[1]), a, b), tolerance)
+        both = np.flatnonzero(across[0] & across[1])
+        piercing = _meet(faces, normals, a[both], b[both], tolerance)
         lying, sides = [], []
         for edge, face, (low, high, in_plane), straddles in ((a, b, over_b, across[0]), (b, a, over_a, across[1])):
             kept = np.flatnonzero(straddles & (in_plane > 1) & (low < high) & ((low == 0.0) | (high == 0.0)))

@@ -1,0 +1,174 @@
+"""Algebraic surfaces, and the equation of a parametrised surface."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul, singular_decomposition
+from vectorplot.geometry.vectors import norm
+from vectorplot.surfaces.families.quadric import checked_box
+from vectorplot.surfaces.placed_surface import MovableImplicit
+from vectorplot.surfaces.surface import Surface, is_hole
+
+MOST_DEGREE = 8
+"""The highest degree that is tried: it has 165 coefficients."""
+
+FOUND = 1e-11
+"""A singular value below this part of the largest one is zero."""
+
+OFF_EQUATION = 1e-9
+"""So far points of the surface may be off its equation, in parts of its extent."""
+
+
+@dataclass(frozen=True, eq=False)
+class AlgebraicSurface(MovableImplicit):
+    """F = the sum of c x^i y^j z^k within a box, x, y, z counted from an origin in units of a size.
+
+    Parameters
+    ----------
+    exponents : (m, 3) array of int
+        i, j and k of every term.
+    coefficients : (m,) array of float
+        The factors c.
+    box : (2, 3) array of float
+        The smallest and the largest coordinates, in world units.
+    origin : (3,) array of float
+        From where x, y, z are counted.
+    size : float
+        The unit of x, y, z.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import AlgebraicSurface
+    >>> box = np.array([(-2.0, -2.0, -2.0), (2.0, 2.0, 2.0)])
+    >>> ball = AlgebraicSurface(np.array([(2, 0, 0), (0, 2, 0), (0, 0, 2), (0, 0, 0)]), np.array([1, 1, 1, -1.0]), box)
+    >>> ball.degree, ball.gradients(np.array([1.0, 0.0, 0.0])).tolist()
+    (2, [2.0, 0.0, 0.0])
+    """
+
+    exponents: Ints
+    coefficients: Floats
+    box: Floats
+    origin: Floats | tuple[float, float, float] = (0.0, 0.0, 0.0)
+    size: float = 1.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "box", checked_box(self.box))
+
+    @property
+    def degree(self) -> int:
+        """The largest sum of exponents."""
+        return int(self.exponents.sum(axis=1).max())
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) F."""
+        return self._derivative(points)
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients."""
+        return np.stack([self._derivative(points, axis) for axis in range(3)], axis=-1)
+
+    def hessians(self, points: Floats) -> Floats:
+        """(..., 3, 3) second derivatives."""
+        rows = [np.stack([self._derivative(points, a, b) for b in range(3)], axis=-1) for a in range(3)]
+        return np.stack(rows, axis=-2)
+
+    def _derivative(self, points: Floats, *axes: int) -> Floats:
+        """(...,) F, or its derivative by some coordinates, one after the other."""
+        exponents, factors = self.exponents, self.coefficients / self.size ** len(axes)
+        for axis in axes:
+            factors = factors * exponents[:, axis]
+            exponents = exponents - np.eye(3, dtype=np.intp)[axis]
+        counted = (np.asarray(points, dtype=np.float64) - np.asarray(self.origin)) / self.size
+        return matmul(_monomials(counted, np.maximum(exponents, 0)), factors)
+
+
+def _monomials(points: Floats, exponents: Ints) -> Floats:
+    """(..., m) the products of powers of points (..., 3)."""
+    powers = [np.ones_like(points)]
+    for _ in range(int(exponents.max(initial=0))):
+        powers.append(powers[-1] * points)
+    x, y, z = (np.stack([power[..., axis] for power in powers], axis=-1)[..., exponents[:, axis]] for axis in range(3))
+    return np.asarray(x * y * z)
+
+
+def implicitized(surface: Surface, *, most_degree: int = 4) -> AlgebraicSurface:
+    """The equation of a parametrised surface: the algebraic surface of lowest degree that it lies on.
+
+    Parameters
+    ----------
+    surface : Surface
+        Without kinks, such as one of the families.
+    most_degree : int
+        The highest degree that is tried, at most 8.
+
+    Returns
+    -------
+    AlgebraicSurface
+        Within the box of the surface, a twentieth larger; its largest coefficient is 1.
+
+    Raises
+    ------
+    InputError
+        Where there is none of these degrees, or the points lie on a curve.
+
+    Notes
+    -----
+    The coefficients by least squares at four times as many points as there are coefficients; that other points are
+    within 1e-9 of the extent of it is checked. Source: Glaeser, section 8.3.
+
+    Examples
+    --------
+    >>> from vectorplot.surfaces import Torus, implicitized
+    >>> implicitized(Torus(3.0, 1.0)).degree
+    4
+    """
+    if not 1 <= most_degree <= MOST_DEGREE:
+        raise InputError(f"implicitized: degree {most_degree}, expected 1 to {MOST_DEGREE}")
+    count = (most_degree + 1) * (most_degree + 2) * (most_degree + 3) // 6
+    points, others = (_samples(surface, 4 * count, first) for first in (0.5, 0.25))
+    low, high = points.min(axis=0), points.max(axis=0)
+    origin, size = (low + high) / 2.0, float(norm(high - low)) / 2.0
+    if not size > 0.0:
+        raise InputError("implicitized: the surface is a point")
+    wide = np.maximum((high - low) / 20.0, size / 20.0)
+    box = np.array([low - wide, high + wide])
+    for degree in range(1, most_degree + 1):
+        exponents = np.array(
+            [(i, j, k) for i in range(degree + 1) for j in range(degree + 1 - i) for k in range(degree + 1 - i - j)]
+        )
+        _, sizes, right = singular_decomposition(_monomials((points - origin) / size, exponents))
+        none = int((sizes < FOUND * sizes[0]).sum())
+        if none > 1:
+            raise InputError("implicitized: the points of the surface lie on a curve")
+        if none:
+            terms = right[-1] / right[-1][np.abs(right[-1]).argmax()]
+            kept = np.abs(terms) > FOUND
+            found = AlgebraicSurface(exponents[kept], terms[kept], box, origin, size)
+            if _off(found, others).max() < OFF_EQUATION * size:
+                return found
+    raise InputError(f"implicitized: the surface lies on no algebraic surface of degree {most_degree} or less")
+
+
+def _off(found: AlgebraicSurface, points: Floats) -> Floats:
+    """(n,) about how far points are off a surface; nothing at its singular points, where F is zero too."""
+    slopes = norm(found.gradients(points))
+    return np.abs(found.values(points)) / np.maximum(slopes, float(slopes.max()) * 1e-3)
+
+
+def _samples(surface: Surface, count: int, first: float) -> Floats:
+    """(n,3) points at places that cover the domain evenly, of the additive recurrence of the plastic number."""
+    steps = np.arange(count, dtype=np.float64)
+    domain, (across, along) = surface.domain, surface.domain.size
+    u: Floats = domain.u_start + across * ((first + 0.7548776662466927 * steps) % 1.0)
+    v: Floats = domain.v_start + along * ((first + 0.5698402909980532 * steps) % 1.0)
+    points = surface.points(u, v)
+    points = points[~is_hole(points)]
+    if 2 * len(points) < count:
+        raise InputError("implicitized: more holes than surface")
+    return points
