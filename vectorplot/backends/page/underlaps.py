@@ -89,7 +89,7 @@ class _Sides:
     def outwards(self, side: Ints) -> Floats:
         """(k,2) unit vectors across sides, out of their polygons."""
         way = self.along(side)
-        return np.stack((way[:, 1], -way[:, 0]), axis=1) / np.hypot(*way.T)[:, None]
+        return np.asarray(np.stack((way[:, 1], -way[:, 0]), axis=1) / np.hypot(*way.T)[:, None])
 
     def width(self) -> Floats:
         """(m,) the widths of polygons that are long strips, more than those of others."""
@@ -188,7 +188,7 @@ def _amid(sides: _Sides, which: Bools) -> Bools:
     tree = shapely.STRtree(polygons_of(sides.microns[corner].T.astype(np.float64), offsets))
     place, found = tree.query(shapely.points(places), predicate="intersects")
     inside[place[sides.alike(owner[place], solid[found])]] = True
-    return which & (np.bincount(owner, weights=~inside, minlength=len(which)) == 0.0)
+    return np.asarray(which & (np.bincount(owner, weights=~inside, minlength=len(which)) == 0.0))
 
 
 def _under_hollow(sides: _Sides, other: Ints) -> Floats:
