@@ -111,7 +111,6 @@ def _paint_mesh(
         at = np.concatenate((seen[:, [0, 1, 1, 0]], at))
         path = [corners[ring] for ring in rings(corners, sides)]
         path += list(_underlaps_of(areas, laps, (starts[0], starts[1]), sides[:, 0]))
-        path += list(laps.added[slice(*np.searchsorted(laps.owner, run))])
     else:
         # Meshes cover all of the pixels on their borders: where neighbours meet, things would be seen twice.
         path = list(corners.reshape(-1, 3, 2))
@@ -145,10 +144,11 @@ def _underlaps_of(areas: Areas, laps: Underlaps, corners: tuple[int, int], borde
     of the run at which its border sides begin."""
     low, high = np.searchsorted(laps.side, corners)
     side = laps.side[low:high]
+    strips = laps.added[np.isin(laps.along, border + corners[0])]
     which = np.isin(side - corners[0], border)
     side, near, far = side[which], laps.near[low:high][which], laps.far[low:high][which]
     end = np.where((side - corners[0]) % 3 == 2, side - 2, side + 1)
-    return np.stack((areas.microns[end], areas.microns[side], near, far), axis=1)
+    return np.concatenate((np.stack((areas.microns[end], areas.microns[side], near, far), axis=1), strips))
 
 
 def _clip_of(areas: Areas, place: _Place, first: int, last: int) -> tuple[Corners, list[int]]:

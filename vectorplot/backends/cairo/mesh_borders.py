@@ -10,7 +10,7 @@ REACH_MICRONS = 450.0
 """The width of skirts."""
 
 BESIDE_MICRONS = 40.0
-"""So far from sides it is looked for what is next to them: half of a line around opaque polygons, and less."""
+"""So far from sides it is looked for what is next to them: less than what is put around them."""
 
 LOOKS = np.array((0.01, 0.15, 0.3, 0.5, 0.7, 0.85, 0.99))
 """Where along sides."""

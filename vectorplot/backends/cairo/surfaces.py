@@ -4,7 +4,7 @@ Cairo stores coordinates as 24.8 fixed point in device units. The device unit of
 coordinate is at most 1/512 point = 0.0007 mm off, and what is clipped to the page can never wrap round.
 
 Shaded triangles are meshes of the format, exact at any magnification; readers leave no gaps between the triangles of a
-mesh, and around it runs a seam with its colours. PostScript knows no opacity: where a polygon is transparent, cairo
+mesh. PostScript knows no opacity: where a polygon is transparent, cairo
 puts a picture of 300 dots per inch.
 """
 

@@ -16,6 +16,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.cairo.mesh_borders import places_of
 from vectorplot.backends.page.areas import Areas
 from vectorplot.geometry import ragged
+from vectorplot.geometry.regions import polygons_of
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 REACH_MICRONS = 320.0
@@ -31,14 +32,14 @@ THIN_MICRONS = 700.0
 """Of polygons that are thinner several sides run through one pixel: amid others of about their colour, what reaches
 under them goes on beyond."""
 
-BEYOND_MICRONS = 150.0
+BEYOND_MICRONS = 75.0
 """So far that is."""
+
+LOOKS = np.array((0.05, 0.5, 0.95))
+"""Where along sides it is looked for what is beside them."""
 
 ALIKE = 32.0
 """By no more of 255 are colours alike."""
-
-TIP = 0.3
-"""Sides that are shorter than this part of the longest one are the tips of a polygon."""
 
 HOLLOW_MICRONS = 75.0
 """So far polygons reach under others that are not convex, where these are twice as wide."""
@@ -54,7 +55,8 @@ MOST_CORNERS = 8
 class Underlaps:
     """What polygons are drawn as. side (k,): corners from which sides start that lie beside polygons painted later;
     near, far (k,2): corners, in microns, of what is added there, next to the start and to the end of the side. owner
-    (n,): the polygons that whole polygons of four corners (n,4,2), counter-clockwise, are added to, ascending. open
+    (n,): the polygons that whole polygons of four corners (n,4,2), counter-clockwise, are added to, ascending; along
+    (n,): corners from which the sides start that these lie along, or around which they lie. open
     (m,): polygons with sides that are no common ones, or too little of which lies under the other, amid others of
     about their colour or in a group, which is cut off at its outline: elsewhere a line around them would be seen."""
 
@@ -63,6 +65,7 @@ class Underlaps:
     far: Floats
     open: Bools
     owner: Ints
+    along: Ints
     added: Ints
 
 
@@ -86,7 +89,7 @@ class _Sides:
     def outwards(self, side: Ints) -> Floats:
         """(k,2) unit vectors across sides, out of their polygons."""
         way = self.along(side)
-        return np.stack((way[:, 1], -way[:, 0]), axis=1) / np.hypot(*way.T)[:, None]
+        return np.asarray(np.stack((way[:, 1], -way[:, 0]), axis=1) / np.hypot(*way.T)[:, None])
 
     def width(self) -> Floats:
         """(m,) the widths of polygons that are long strips, more than those of others."""
@@ -132,11 +135,13 @@ def underlaps(areas: Areas) -> Underlaps:
     part = [np.minimum(REACH_MICRONS / np.maximum(h, LEAST_DIVISOR), INSIDE)[:, None] for h in high]
     far, near = microns[after[later]] + part[0] * ways[0], microns[later] + part[1] * ways[1]
     found = _partly_common(sides, np.flatnonzero(covers[owner] & ~met))
-    amid = _amid(sides, np.append(np.flatnonzero(met), found.side), np.append(owner[other[met]], owner[found.other]))
     thin = np.minimum(*high) < THIN_MICRONS
     open_ = np.zeros(len(covers), dtype=np.bool_)
     open_[owner[~met]] = open_[owner[hollow]] = open_[owner[later[thin]]] = open_[owner[beyond[thin]]] = True
-    thin = later[thin & amid[owner[beyond]]]
+    beside = np.append(np.flatnonzero(met), found.side), np.append(owner[other[met]], owner[found.other])
+    amid = _amid(sides, open_ & covers & ~_with_foreign_sides(sides, *beside))
+    # A line around those that are open does the same, but meshes have none.
+    thin = later[thin & amid[owner[beyond]] & areas.meshed[owner[later]]]
     # A group is cut off at its outline.
     open_ &= covers & (amid | (group >= 0))
     reach = np.concatenate((np.full(len(thin), BEYOND_MICRONS), _under_hollow(sides, other[hollow])))
@@ -144,29 +149,46 @@ def underlaps(areas: Areas) -> Underlaps:
     strips = [_strips(sides, wide, microns[wide], microns[after[wide]], reach)]
     strips += _along_parts(sides, found, amid)
     whole = covers[owner] & sides.convex[owner] & met & met[before]
-    strips.append(_squares(microns, owner, place, _rooms(microns, offsets, owner), whole))
-    of = np.concatenate([number for number, _ in strips])
-    first = np.argsort(of, kind="stable")
-    return Underlaps(later, near, far, open_, of[first], np.concatenate([corners for _, corners in strips])[first])
+    side = np.concatenate([number for number, _ in strips])
+    around, squares = _squares(microns, owner, place, _rooms(microns, offsets, owner), whole)
+    side = np.append(side, around)
+    first = np.argsort(owner[side], kind="stable")
+    added = np.concatenate((*(corners for _, corners in strips), squares))[first]
+    return Underlaps(later, near, far, open_, owner[side[first]], side[first], added)
 
 
-def _amid(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:
-    """(m,) the polygons that have neighbours of about their colour on all sides but for their tips and where the
-    picture ends, as these have; neighbour (k,): polygons beside sides (k,)."""
-    owner = sides.owner
-    foreign = np.ones(len(owner), dtype=np.bool_)
+def _with_foreign_sides(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:
+    """(m,) the polygons that have a side, but for where the picture ends, without a neighbour of about their colour;
+    neighbour (k,): polygons beside sides (k,)."""
+    foreign = np.ones(len(sides.owner), dtype=np.bool_)
     foreign[side] = False
-    foreign[side[~sides.alike(owner[side], neighbour)]] = True
-    size = np.hypot(*sides.along(np.arange(len(owner))).T)
-    longest = np.zeros(len(sides.covers))
-    np.maximum.at(longest, owner, size)
+    foreign[side[~sides.alike(sides.owner[side], neighbour)]] = True
     ends = np.stack((sides.microns, sides.microns[sides.after]))
     border = (ends == sides.microns.min(axis=0, initial=0)) | (ends == sides.microns.max(axis=0, initial=0))
-    foreign &= (size > TIP * longest[owner]) & ~border.all(axis=0).any(axis=1)
-    for _ in range(2):
-        outer = np.bincount(owner, weights=foreign, minlength=len(longest)) > 0.0
-        foreign[side] |= outer[neighbour]
-    return ~outer
+    foreign &= ~border.all(axis=0).any(axis=1)
+    return np.asarray(np.bincount(sides.owner, weights=foreign, minlength=len(sides.covers)) > 0.0)
+
+
+def _amid(sides: _Sides, which: Bools) -> Bools:
+    """(m,) which of some polygons (m,) lie amid others of their item and of about their colour: so do all places
+    BEYOND_MICRONS beside their sides, but for those beyond where the picture ends."""
+    import shapely
+
+    side = np.flatnonzero(which[sides.owner])
+    if not len(side):
+        return which
+    start, way = sides.microns[side], sides.along(side)
+    places = start + LOOKS[:, None, None] * way + BEYOND_MICRONS * sides.outwards(side)
+    owner = np.tile(sides.owner[side], len(LOOKS))
+    places = places.reshape(-1, 2)
+    low, high = sides.microns.min(axis=0), sides.microns.max(axis=0)
+    inside = ((places < low) | (places > high)).any(axis=1)
+    solid = np.flatnonzero(sides.covers)
+    corner, offsets = ragged.take(sides.areas.offsets, solid)
+    tree = shapely.STRtree(polygons_of(sides.microns[corner].T.astype(np.float64), offsets))
+    place, found = tree.query(shapely.points(places), predicate="intersects")
+    inside[place[sides.alike(owner[place], solid[found])]] = True
+    return np.asarray(which & (np.bincount(owner, weights=~inside, minlength=len(which)) == 0.0))
 
 
 def _under_hollow(sides: _Sides, other: Ints) -> Floats:
@@ -175,10 +197,10 @@ def _under_hollow(sides: _Sides, other: Ints) -> Floats:
 
 
 def _strips(sides: _Sides, side: Ints, start: Ints, end: Ints, reach: Floats) -> tuple[Ints, Ints]:
-    """The owners of sides (k,), and (k,4,2) rectangles of widths (k,) beside their parts from start to end (k,2)."""
+    """Sides (k,), and (k,4,2) rectangles of widths (k,) beside their parts from start to end (k,2)."""
     out = reach[:, None] * sides.outwards(side)
     corners = np.stack((end.astype(np.float64), start.astype(np.float64), start + out, end + out), axis=1)
-    return sides.owner[side], np.rint(corners).astype(np.int64)
+    return side, np.rint(corners).astype(np.int64)
 
 
 @dataclass(frozen=True, eq=False)
@@ -217,7 +239,7 @@ def _partly_common(sides: _Sides, alone: Ints) -> _Parts:
 
 
 def _along_parts(sides: _Sides, parts: _Parts, amid: Bools) -> list[tuple[Ints, Ints]]:
-    """What is added along the common parts of sides, under the later ones of their polygons: owners, and (k,4,2)
+    """What is added along the common parts of sides, under the later ones of their polygons: sides, and (k,4,2)
     corners; amid (m,): polygons beyond which there are others of their colour."""
     later = sides.owner[parts.side] < sides.owner[parts.other]
     one, two, low, high = parts.side[later], parts.other[later], parts.low[later], parts.high[later]
@@ -231,17 +253,17 @@ def _along_parts(sides: _Sides, parts: _Parts, amid: Bools) -> list[tuple[Ints, 
     part = np.clip(REACH_MICRONS / np.maximum(deep, LEAST_DIVISOR), 0.0, INSIDE)[:, None]
     inner = np.stack((high, low, low + part * (middle - low), high + part * (middle - high)), axis=1)
     convex = sides.convex[below] & (deep > 0.0)
-    thin = convex & amid[below] & (2.0 * deep < THIN_MICRONS)
+    thin = convex & amid[below] & (2.0 * deep < THIN_MICRONS) & sides.areas.meshed[sides.owner[one]]
     reach = np.where(convex, BEYOND_MICRONS, _under_hollow(sides, two))
     wide = thin | ~sides.convex[below]
     return [
-        (sides.owner[one[convex]], np.rint(inner[convex]).astype(np.int64)),
+        (one[convex], np.rint(inner[convex]).astype(np.int64)),
         _strips(sides, one[wide], low[wide], high[wide], reach[wide]),
     ]
 
 
 def _squares(microns: Ints, owner: Ints, place: Ints, room: Floats, whole: Bools) -> tuple[Ints, Ints]:
-    """The squares around corners on all sides of which there are polygons: their owners, and (n,4,2) corners.
+    """The squares around corners on all sides of which there are polygons: these, and (n,4,2) corners.
 
     place (p,): numbers of the places of corners; room (p,): how far their polygons reach there; whole (p,): whether
     both sides there are common ones.
@@ -256,7 +278,7 @@ def _squares(microns: Ints, owner: Ints, place: Ints, room: Floats, whole: Bools
     corner = np.sort(first[used])
     half = np.minimum(AROUND_MICRONS, INSIDE * least[place[corner]]) / np.sqrt(2.0)
     turns = np.array(((-1, -1), (1, -1), (1, 1), (-1, 1)))
-    return owner[corner], microns[corner][:, None] + np.rint(half).astype(np.int64)[:, None, None] * turns
+    return corner, microns[corner][:, None] + np.rint(half).astype(np.int64)[:, None, None] * turns
 
 
 def _rooms(microns: Ints, offsets: Ints, owner: Ints) -> Floats:
