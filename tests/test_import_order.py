@@ -32,6 +32,7 @@ ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), 
 FOR_PROGRAMS = {
     "features/implicit/implicit_cusps.py",
     "scene/terrains/tints.py",
+    "surfaces/algebraic.py",
     "surfaces/curvature.py",
 }
 """Files that programs of one's own call for, and no verb."""
