@@ -109,3 +109,17 @@ def test_a_mesh_is_one_shading_of_triangles():
         if not entry.endswith(b"n "):
             break
         assert pdf[int(entry[:10]) :].startswith(b"%d 0 obj" % number)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("fold", ["spur", "bridge"])
+def test_folds_without_area_leave_no_line(fold, tmp_path):
+    """Clipping leaves such folds in shadows that are not convex: out and back again, or on to another part."""
+    ground = [(2, 2), (58, 2), (58, 38), (2, 38)]
+    spur = [(10, 10), (20, 10), (20, 20), (45, 20), (20, 20), (10, 20)]
+    bridge = [(10, 20), (10, 10), (20, 10), (20, 20), (40, 20), (40, 10), (50, 10), (50, 20)]
+    fills = flat([ground, {"spur": spur, "bridge": bridge}[fold]], [(240, 240, 240), DARK])
+    rows, columns = (slice(*(int(end / 25.4 * 200) for end in ends)) for ends in ((19, 21), (22, 38)))
+    for name, picture in pictures(page_of(fills), tmp_path, dpi=200).items():
+        # Ghostscript shows some of what has no width.
+        assert picture[rows, columns].min() > (150 if name in ("ps", "eps") else 200), name
