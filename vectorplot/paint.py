@@ -131,8 +131,8 @@ def paint(
     background : str, optional
         The colour of the paper, in place of that of the scene.
     tolerance_mm : float
-        How many mm the sides of polygons may be off smooth surfaces and refracted lines; shades along their sides may be
-        off by two steps of 255 at 0.02 mm, and in proportion by one to eight.
+        How many mm the sides of polygons may be off smooth surfaces and refracted lines; shades along their sides by
+        two steps of 255 at 0.02 mm, and in proportion by one to eight.
     title : str
         Letters in the middle of the lower margin.
     frame : bool
