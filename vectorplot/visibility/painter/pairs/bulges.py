@@ -94,7 +94,9 @@ def may_touch(faces: ImageFaces, first: Ints, second: Ints) -> tuple[Floats, Boo
     surfaces are parallel somewhere, as far as the turns of their normals tell: others cross if they meet."""
     assert faces.bulges is not None
     most, turn = (faces.bulges[row, first] + faces.bulges[row, second] for row in (MOST, TURN))
-    one, two = ((-faces.planes[3, face], -faces.planes[4, face], np.ones(len(face))) for face in (first, second))
+    one, two = (
+        np.stack([-faces.planes[3, face], -faces.planes[4, face], np.ones(len(face))]) for face in (first, second)
+    )
     cosine = dot(one, two) / np.sqrt(dot(one, one) * dot(two, two))
     near = arccos(np.clip(cosine, -1.0, 1.0)) <= turn
     return most, np.asarray(near & (most > 0.0) & (faces.bulges[ITEM, first] != faces.bulges[ITEM, second]))
