@@ -14,7 +14,7 @@ from support.paths import DATA
 import vectorplot as vp
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.errors import InputError
-from vectorplot.save import FORMATS, save, write
+from vectorplot.save import FORMATS, save, write, write_whole
 from vectorplot.surfaces import Domain, surface_of_function
 from vectorplot.testing import assert_drawings_equal
 
@@ -165,3 +165,24 @@ def test_scenes_and_drawings_are_not_each_other(drawing, tmp_path):
     (tmp_path / "scene.json").write_text("{}")
     with pytest.raises(InputError, match="not a drawing"):
         vp.read(tmp_path / "scene.json")
+
+
+@pytest.mark.skipif(not os.path.isdir("/dev/fd"), reason="the system names no open files")
+def test_a_pipe_named_by_its_open_file_is_written():
+    reader, writer = os.pipe()
+    try:
+        write_whole(f"/dev/fd/{writer}", b"a picture")
+        assert os.read(reader, 100) == b"a picture"
+    finally:
+        os.close(reader)
+        os.close(writer)
+
+
+def test_saving_leaves_the_mask_of_the_process_alone(tmp_path, monkeypatch):
+    monkeypatch.setattr(os, "umask", lambda mask: pytest.fail("the mask belongs to all threads"))
+    write_whole(tmp_path / "new.svg", b"")
+    kept = tmp_path / "kept.svg"
+    kept.write_bytes(b"old")
+    kept.chmod(0o640)
+    write_whole(kept, b"new")
+    assert kept.stat().st_mode & 0o777 == 0o640 and kept.read_bytes() == b"new"

@@ -194,12 +194,12 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
     The mode bits of a file that is replaced are kept; a link is followed; devices and pipes are written directly.
     Errors: OSError that names the path.
     """
-    target = Path(os.path.realpath(path))
     try:
-        if target.exists() and not target.is_file():
-            target.write_bytes(content)
+        # The path itself: what a link of /dev/fd stands for (a pipe, say) has no name that could be opened.
+        if os.path.exists(path) and not os.path.isfile(path):
+            Path(path).write_bytes(content)
         else:
-            _replace(target, content)
+            _replace(Path(os.path.realpath(path)), content)
     except OSError as error:
         # The name of the file beside it, which is never seen, would only puzzle the reader.
         raise type(error)(error.errno, error.strerror, os.fspath(path)) from None
@@ -209,19 +209,12 @@ def _replace(target: Path, content: bytes) -> None:
     # Its name is known before it is there, so that whatever stops the work leaves none behind.
     beside = target.parent / f".vectorplot-{os.urandom(8).hex()}.part"
     try:
-        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, 0o600), "wb") as file:
+        # The system takes the process's mask off the bits itself: asking for the mask would set it for every thread.
+        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, 0o666), "wb") as file:
+            if target.exists():
+                os.chmod(beside, target.stat().st_mode & 0o7777)
             file.write(content)
-        os.chmod(beside, _mode(target))
         os.replace(beside, target)
     except BaseException:
         beside.unlink(missing_ok=True)
         raise
-
-
-def _mode(target: Path) -> int:
-    """The mode bits of the file that is replaced, or those that a new file would get."""
-    if target.exists():
-        return target.stat().st_mode & 0o7777
-    mask = os.umask(0)
-    os.umask(mask)
-    return 0o666 & ~mask

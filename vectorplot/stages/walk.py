@@ -141,12 +141,17 @@ def _count(result: Any) -> int:
 
 
 def peak_mb() -> float:
-    """Peak memory of this process; where the system does not tell it apart, of its parent too if that is larger."""
-    import resource
+    """Peak memory of this process; where the system does not tell it apart, of its parent too if that is larger.
+
+    0 where the system does not tell it at all (Windows)."""
     import sys
 
     if sys.platform == "linux":
         with open("/proc/self/status") as status:
             return next((int(line.split()[1]) / 1024.0 for line in status if line.startswith("VmHWM")), 0.0)
+    try:
+        import resource
+    except ImportError:
+        return 0.0
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / (1024.0 * 1024.0 if sys.platform == "darwin" else 1024.0)

@@ -199,7 +199,9 @@ async def serve(answers: Answers, started: Callable[[str], None], timeout_s: flo
     for name in ("SIGINT", "SIGTERM", "SIGHUP"):
         number = getattr(signal, name, None)
         if number is not None:
-            loop.add_signal_handler(number, server.stop.set)
+            # Windows has none: there Ctrl-C comes as KeyboardInterrupt.
+            with suppress(NotImplementedError):
+                loop.add_signal_handler(number, server.stop.set)
     async with serving(server) as address:
         started(address)
         try:

@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.exact.predicates import orient2d
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
@@ -81,9 +82,10 @@ def is_convex_polygon(points: Floats) -> bool:
     sides = np.roll(points, -1, axis=0) - points
     after = np.roll(sides, -1, axis=0)
     turn = sides[:, 0] * after[:, 1] - sides[:, 1] * after[:, 0]
-    zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
+    # A corner is straight by the sides that meet there: the longest side of a bar says nothing of its short ones.
+    longer = np.maximum((sides**2).sum(axis=1), (after**2).sum(axis=1))
     angles = np.arctan2(turn, np.einsum("ij,ij->i", sides, after))
-    return bool((turn >= -zero).all() and abs(angles.sum() - 2.0 * np.pi) < 1.0)
+    return bool((turn >= -ZERO_OF_EXTENT * longer).all() and abs(angles.sum() - 2.0 * np.pi) < 1.0)
 
 
 def _triangles(points: Floats, rings: list[Floats]) -> Ints:
@@ -99,22 +101,22 @@ def _triangles(points: Floats, rings: list[Floats]) -> Ints:
     first = np.full(len(both), -1, dtype=np.intp)
     first[number[: len(points)]] = np.arange(len(points))
     triangles = first[number[len(points) :]].reshape(-1, 3)
-    a, b, c = (points[triangles[:, k]] for k in range(3))
-    clockwise = (b[:, 0] - a[:, 0]) * (c[:, 1] - a[:, 1]) < (b[:, 1] - a[:, 1]) * (c[:, 0] - a[:, 0])
-    triangles[clockwise] = triangles[clockwise, ::-1]
-    return triangles
+    # Exact: one sliver that runs the wrong way has a directed side in common with its neighbour.
+    turn = orient2d(*(points[triangles[:, k]] for k in range(3)))
+    triangles[turn < 0] = triangles[turn < 0, ::-1]
+    return triangles[turn != 0]
 
 
 def _joined(points: Floats, triangles: Ints) -> list[Ints]:
     """The triangles joined to convex polygons, diagonal by diagonal."""
     polygons: dict[int, list[int]] = dict(enumerate(triangles.tolist()))
     owner = {(p[k - 1], p[k]): number for number, p in polygons.items() for k in range(3)}
-    zero = ZERO_OF_EXTENT * float(np.ptp(points, axis=0).max()) ** 2
     flat = points.tolist()
 
     def bends_left(a: int, b: int, c: int) -> bool:
         (ax, ay), (bx, by), (cx, cy) = flat[a], flat[b], flat[c]
-        return bool((bx - ax) * (cy - by) - (by - ay) * (cx - bx) >= -zero)
+        longer = max((bx - ax) ** 2 + (by - ay) ** 2, (cx - bx) ** 2 + (cy - by) ** 2)
+        return bool((bx - ax) * (cy - by) - (by - ay) * (cx - bx) >= -ZERO_OF_EXTENT * longer)
 
     for a, b in list(owner):
         left, right = owner.get((a, b)), owner.get((b, a))
