@@ -6,7 +6,7 @@ import unicodedata
 
 from vectorplot.backends.page.page_texts import PageTexts
 from vectorplot.backends.tikz.colours import colour_of
-from vectorplot.drawing.lettering.formulas import FORMULA
+from vectorplot.drawing.lettering.formulas import FORMULA, checked_formula
 from vectorplot.drawing.lettering.hershey import clusters
 from vectorplot.scene.pages.paper import MM_PER_POINT
 
@@ -75,9 +75,14 @@ def text_nodes(texts: PageTexts) -> bytes:
 
 
 def latex(text: str) -> str:
-    """The text for LaTeX: what is between dollars stays as it is, all else is read as it stands; \\$ is a dollar."""
+    """The text for LaTeX: mathematics between dollars stays as it is, all else is read as it stands; \\$ is a dollar.
+
+    Errors: InputError for what is no mathematics between dollars.
+    """
     parts = FORMULA.split(text)
-    return "".join(f"${part}$" if k % 2 else _plain(part.replace(r"\$", "$")) for k, part in enumerate(parts))
+    return "".join(
+        f"${checked_formula(part)}$" if k % 2 else _plain(part.replace(r"\$", "$")) for k, part in enumerate(parts)
+    )
 
 
 def _plain(text: str) -> str:

@@ -176,6 +176,6 @@ class Parser:
 
 
 def _unknown(kind: str, name: str, known: tuple[str, ...]) -> str:
-    close = nearest(name, known)
+    close = name.lower() if name.lower() in known else nearest(name, known)
     meant = f"did you mean '{close}'" if close else "known are " + " ".join(known)
     return f"unknown {kind} ({meant})"
