@@ -169,12 +169,21 @@ class Server:
 async def _asked(request: web.Request) -> Mapping[str, Any]:
     """What the page tells. Errors: HTTPBadRequest for what is no mapping."""
     try:
-        asked = await request.json()
-    except (json.JSONDecodeError, UnicodeDecodeError, RecursionError):
+        asked = json.loads(await request.text(), parse_int=_whole_number)
+        # Halves of surrogate pairs are JSON, but no text.
+        json.dumps(asked, ensure_ascii=False).encode()
+    except (ValueError, OverflowError, RecursionError):
         raise web.HTTPBadRequest(reason="not JSON") from None
     if not isinstance(asked, Mapping):
         raise web.HTTPBadRequest(reason="expected a mapping")
     return asked
+
+
+def _whole_number(digits: str) -> int:
+    """The number. Errors: OverflowError, ValueError for one that is no double."""
+    number = int(digits)
+    float(number)
+    return number
 
 
 def _page(asked: Mapping[str, Any]) -> str:
