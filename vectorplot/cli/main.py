@@ -20,24 +20,12 @@ def main() -> None:
     # Before numpy comes. Stages share their work out themselves (--jobs): threads of matrix products would mostly wait
     # for more of these, which takes as much of a processor as small pictures do.
     os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-    _stand_in_for_closed_streams()
     try:
         with stoppable():
             status = run(sys.argv[1:])
     except KeyboardInterrupt as stop:
         status = stopped(stop)
     sys.exit(status)
-
-
-def _stand_in_for_closed_streams() -> None:
-    """Streams that were closed before the start fail like any other that cannot be read or written; no file that is
-    opened later takes their numbers. What goes to a closed stderr is lost."""
-    if sys.stdin is None:
-        sys.stdin = open(os.open(os.devnull, os.O_WRONLY), encoding="utf-8")
-    if sys.stdout is None:
-        sys.stdout = open(os.open(os.devnull, os.O_RDONLY), "w", encoding="utf-8")
-    if sys.stderr is None:
-        sys.stderr = open(os.open(os.devnull, os.O_WRONLY), "w", encoding="utf-8")
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -95,6 +83,8 @@ def _as_written(word: str) -> str:
 
 def say(text: str) -> None:
     """Print one line on stderr, whatever the text holds and whether anyone reads it."""
+    if sys.stderr is None:
+        return
     try:
         sys.stderr.write(f"vectorplot: {printable(text)}\n")
         sys.stderr.flush()

@@ -22,14 +22,11 @@ from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.jumps import jumps
 from vectorplot.surfaces.normals import unit_normals
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
-from vectorplot.tolerances.of_angles import FLAT_COSINE
+from vectorplot.tolerances.of_angles import FLAT_COSINE, SAME_NORMAL_COSINE
 from vectorplot.tolerances.of_parameters import ON_BORDER_OF_DOMAIN
 
 AROUND_POLE = 8
 """So many normals are compared at a pole."""
-
-SAME_NORMAL = 1.0 - 1e-6
-"""Normals at a pole with a smaller cosine between them are different."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -85,7 +82,7 @@ def _at_apexes(patch: Patch, places: Floats) -> Bools:
         around[:, pole.axis] = pole.place
         around[:, across] = starts[across] + domain.size[across] * np.arange(AROUND_POLE) / AROUND_POLE
         normals = unit_normals(patch.surface, around[:, 0], around[:, 1])
-        if (dot(normals, normals[:1]) < SAME_NORMAL).any():
+        if (dot(normals, normals[:1]) < SAME_NORMAL_COSINE).any():
             found |= np.abs(places[:, pole.axis] - pole.place) <= ON_BORDER_OF_DOMAIN * domain.size[pole.axis]
     return found
 

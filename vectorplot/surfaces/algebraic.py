@@ -13,15 +13,10 @@ from vectorplot.geometry.vectors import norm
 from vectorplot.surfaces.families.quadric import checked_box
 from vectorplot.surfaces.placed_surface import MovableImplicit
 from vectorplot.surfaces.surface import Surface, is_hole
+from vectorplot.tolerances.of_values import LEAST_SLOPE, OFF_EQUATION, RANK_OF_EQUATION
 
 MOST_DEGREE = 8
 """The highest degree that is tried: it has 165 coefficients."""
-
-FOUND = 1e-11
-"""A singular value below this part of the largest one is zero."""
-
-OFF_EQUATION = 1e-9
-"""So far points of the surface may be off its equation, in parts of its extent."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,12 +138,12 @@ def implicitized(surface: Surface, *, most_degree: int = 4) -> AlgebraicSurface:
             [(i, j, k) for i in range(degree + 1) for j in range(degree + 1 - i) for k in range(degree + 1 - i - j)]
         )
         _, sizes, right = singular_decomposition(_monomials((points - origin) / size, exponents))
-        none = int((sizes < FOUND * sizes[0]).sum())
+        none = int((sizes < RANK_OF_EQUATION * sizes[0]).sum())
         if none > 1:
             raise InputError("implicitized: the points of the surface lie on a curve")
         if none:
             terms = right[-1] / right[-1][np.abs(right[-1]).argmax()]
-            kept = np.abs(terms) > FOUND
+            kept = np.abs(terms) > RANK_OF_EQUATION
             found = AlgebraicSurface(exponents[kept], terms[kept], box, origin, size)
             if _off(found, others).max() < OFF_EQUATION * size:
                 return found
@@ -158,7 +153,7 @@ def implicitized(surface: Surface, *, most_degree: int = 4) -> AlgebraicSurface:
 def _off(found: AlgebraicSurface, points: Floats) -> Floats:
     """(n,) about how far points are off a surface; nothing at its singular points, where F is zero too."""
     slopes = norm(found.gradients(points))
-    return np.abs(found.values(points)) / np.maximum(slopes, float(slopes.max()) * 1e-3)
+    return np.abs(found.values(points)) / np.maximum(slopes, float(slopes.max()) * LEAST_SLOPE)
 
 
 def _samples(surface: Surface, count: int, first: float) -> Floats:

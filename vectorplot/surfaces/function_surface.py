@@ -15,6 +15,7 @@ from vectorplot.surfaces.jets import FirstJets, SecondJets
 from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances.of_extent import GAP_OF_EXTENT
+from vectorplot.tolerances.of_values import WRONG_DERIVATIVE
 
 LOOKS = 16
 """Columns and rows of the points at which a seam is looked at."""
@@ -231,9 +232,6 @@ def completed(surface: Surface, name: str) -> Surface:
 _SAMPLES = np.array([0.17, 0.41, 0.58, 0.83])
 """Where between the ends of the ranges derivatives are compared."""
 
-WRONG = 1e-3
-"""Derivatives that are off by so much of the largest one are wrong, where most of them are."""
-
 
 def _starts(domain: Domain) -> tuple[float, float]:
     return domain.u_start, domain.v_start
@@ -252,7 +250,7 @@ def _check_derivatives(
     for k, (own, found) in enumerate(zip(given, expected, strict=True)):
         off = np.abs(own - found).max(axis=1)
         largest = max(float(np.nanmax(np.abs(found), initial=0.0)), float(np.nanmax(np.abs(own), initial=0.0)))
-        wrong = off > WRONG * largest
+        wrong = off > WRONG_DERIVATIVE * largest
         if 2 * wrong.sum() > len(wrong):
             at = int(np.argmax(wrong))
             raise InputError(

@@ -94,3 +94,9 @@ other, and are as far off as the thickness of a pen's line where they are not.""
 NARROW_CONIC = 1e-7
 """A section of a mantle, of a plane along its rulings, that turns by less about the axis is straight: it is off its
 chord by less than a rounding of the radius."""
+
+SAME_NORMAL_COSINE = 1.0 - 1e-6
+"""Normals at a pole with a smaller cosine between them are different."""
+
+FACES_APART = 1e-6
+"""Faces about an edge that are closer, in radians, lie on each other."""

@@ -135,3 +135,6 @@ are one: a double zero is known to about the root of the rounding."""
 BENT_ASIDE_OF_POLE = 1e-3
 """Part of the domain by which derivatives of curvatures are looked at from inside of a pole: nearer to it their
 differences are noise."""
+
+AT_APEX = 1e-9
+"""Nearer to an apex than this part of a triangle its surface does not bulge."""

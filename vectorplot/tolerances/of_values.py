@@ -157,3 +157,15 @@ two sides of a sharp edge by much more."""
 
 UNSOLVED = 1e12
 """Control points this many times as far out as the points of a spline are none: the equations have no solution."""
+
+RANK_OF_EQUATION = 1e-11
+"""A singular value below this part of the largest one is zero."""
+
+OFF_EQUATION = 1e-9
+"""So far points of the surface may be off its equation, in parts of its extent."""
+
+WRONG_DERIVATIVE = 1e-3
+"""Derivatives that are off by so much of the largest one are wrong, where most of them are."""
+
+LEAST_SLOPE = 1e-3
+"""Part of the steepest slope of an equation by which values are divided at least, to be distances."""

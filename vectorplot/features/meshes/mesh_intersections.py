@@ -19,6 +19,7 @@ from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.repair.pieces import pieces_of_faces
 from vectorplot.geometry.vectors import norm
+from vectorplot.tolerances.of_angles import FACES_APART
 from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
 
 SLIM_FACES, FEWEST_PAIRS = 12, 1024
@@ -40,8 +41,6 @@ of one direction: they lie side by side, seen from there."""
 _MIX = 0x9E3779B1
 """Odd, with bits all over: it spreads numbers over a table."""
 
-LEAST_GAP = 1e-6
-"""Faces about an edge that are closer, in radians, lie on each other."""
 
 AXIS_SHIFT = 16.0
 """Coordinates stay below this; pairs of parts are kept apart on a sweep's axis by multiples of it."""
@@ -224,7 +223,7 @@ def _crossing_edges(faces: Faces, part: Ints, tolerance: float) -> Intersections
     # The mate of the first face is across where two others lie between them, one on each side.
     across = (mate & (rank == 2)).any(axis=1)
     opposite = (mate.sum(axis=1) == 2) & across | mate.all(axis=1)
-    kept = np.flatnonzero(opposite & (gaps.min(axis=1) > LEAST_GAP))
+    kept = np.flatnonzero(opposite & (gaps.min(axis=1) > FACES_APART))
     return Intersections(base[:, kept], tip[:, kept], face[four[kept, 0]], face[four[kept, 1]])
 
 

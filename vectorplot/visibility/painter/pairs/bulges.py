@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.columns import cross, dot
 from vectorplot.geometry.elementary import arccos
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_parameters import AT_APEX
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
 
 TURNED = 0.5
@@ -18,8 +19,6 @@ TURNED = 0.5
 TRUSTED = 0.3
 """By this part of itself a bulge may be off: it is known by its second derivatives only."""
 
-AT_APEX = 1e-9
-"""Nearer to an apex than this part of a triangle its surface does not bulge."""
 
 CONSTANT, ALONG_X, ALONG_Y, SQUARE_X, PRODUCT, SQUARE_Y, SHARE, SHARE_X, SHARE_Y, MOST, TURN, ITEM = range(12)
 """The rows of ImageFaces.bulges: a quadratic function over a linear one of what x and y are more than those of planes;
