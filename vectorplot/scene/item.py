@@ -9,6 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.motions.movable import Movable
@@ -102,6 +103,8 @@ class Item(Movable["Item"]):
         Of the smooth surface that a mesh was made of: it is shaded by them.
     usual_lines : tuple of str, optional
         The words of the kinds to draw where neither lines nor the drawing say any (None: those of all things).
+    drawn_edges : (e, 2, 3) array of float, optional
+        The ends of those edges of a polyhedron that are drawn, none of the others (None: all).
 
     Raises
     ------
@@ -133,6 +136,7 @@ class Item(Movable["Item"]):
     fields: Fields | None = None
     normals: SurfaceNormals | None = None
     usual_lines: tuple[str, ...] | None = None
+    drawn_edges: Floats | None = None
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
@@ -181,8 +185,16 @@ class Item(Movable["Item"]):
         patterns = self.patterns if patterns is None else patterns
         fields = None if self.fields is None else self.fields.transformed(m)
         normals = None if self.normals is None else self.normals.transformed(m)
+        edges = None if self.drawn_edges is None else matmul(self.drawn_edges, m[:3, :3].T) + m[:3, 3]
         return replace(
-            self, shape=shape, curves=curves, patterns=patterns, cut_by=cut_by, fields=fields, normals=normals
+            self,
+            shape=shape,
+            curves=curves,
+            patterns=patterns,
+            cut_by=cut_by,
+            fields=fields,
+            normals=normals,
+            drawn_edges=edges,
         )
 
     @property

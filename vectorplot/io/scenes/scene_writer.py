@@ -194,7 +194,16 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
     lines = item.usual_lines if item.lines is None else item.lines
     if lines is not None:
         words.append(f"lines {', '.join(lines) or 'none'}")
-    return " ".join(words) + _shape(item, lights) + _patterns(item.patterns)
+    return " ".join(words) + _shape(item, lights) + _edges(item) + _patterns(item.patterns)
+
+
+def _edges(item: Item) -> str:
+    """The list of the edges to be drawn; parts of edges that a cut left are none of the language."""
+    if item.drawn_edges is None or not isinstance(item.shape, Mesh):
+        return ""
+    number = {tuple(vertex): k + 1 for k, vertex in enumerate(item.shape.vertices.tolist())}
+    ends = [[number.get(tuple(end)) for end in edge] for edge in item.drawn_edges.tolist()]
+    return "\nedges " + (" , ".join(f"{one} {two}" for one, two in ends if one and two) or "none")
 
 
 def _shape(item: Item, lights: tuple[Light, ...]) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.features.meshes.edges import Faces, mesh_edges
+from vectorplot.features.meshes.edges import Edges, Faces, mesh_edges
 from vectorplot.features.meshes.mesh_curves import MeshCurves
 from vectorplot.features.meshes.mesh_intersections import face_intersections, self_intersections_of_parts
 from vectorplot.features.meshes.mesh_lines import (
@@ -23,7 +23,10 @@ from vectorplot.features.meshes.mesh_lines import (
 from vectorplot.features.meshes.patterns import pattern_outline
 from vectorplot.features.meshes.smooth_edges import smooth_mesh_edges
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard
+from vectorplot.geometry.chunks import slices
+from vectorplot.geometry.columns import dot
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.records import IN_COLUMNS
@@ -35,11 +38,16 @@ from vectorplot.scene.lines.curve_light import curve_light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.terrains.terrain_lines import Roads, Serpentine, TerrainLines, WaterCourses
 from vectorplot.scene.view import View
+from vectorplot.tolerances.of_extent import CUT_EDGE_OF_EXTENT
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import FEATURE_KINDS, LineKind
 
 if TYPE_CHECKING:
     from vectorplot.visibility.smooth.chord_parts import ChordParts
+
+
+_COMPARED = 1 << 18
+"""So many pairs of segments are compared at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -248,6 +256,12 @@ def edge_lines(
     Lines
         With their kinds, items and sides.
 
+    Notes
+    -----
+    Of items that list the edges to be drawn (drawn_edges) these are drawn, flat ones as creases, and no others.
+
+    Source: Glaeser, sections 3.3, 4.4 and 7.2.
+
     Examples
     --------
     >>> import numpy as np
@@ -264,8 +278,8 @@ def edge_lines(
     [6, 3]
     """
     parts = []
-    smooth = _smoothly_outlined(scene)
-    ways = (mesh_edges, ~smooth), (smooth_mesh_edges, smooth)
+    smooth, listed = _smoothly_outlined(scene), _listing_edges(scene)
+    ways = (mesh_edges, ~smooth & ~listed), (smooth_mesh_edges, smooth & ~listed), (_all_edges, listed)
     asking = [(wanted, items & those, find) for wanted, items in wanted_kinds(scene, kinds) for find, those in ways]
     for wanted, items, find in asking:
         if not items.any():
@@ -277,10 +291,70 @@ def edge_lines(
         edges = find(asked, wanted, crease_angle_deg)
         item = view.face_item[which[edges.face]]
         kept = edges.front | backs[item]
+        if find is _all_edges:
+            edges, among = _listed_edges(scene, view, edges, item, wanted)
+            kept &= among
         start, end = edges.start[kept], edges.end[kept]
         ends = view.points.take(start, axis=1), view.points.take(end, axis=1)
         parts.append(straight_lines(*ends, edges.kind[kept], item[kept], edges.side[kept]))
     return joined_lines(parts)
+
+
+def _all_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
+    return mesh_edges(faces, {*kinds, LineKind.EDGES}, crease_angle_deg)
+
+
+def _listed_edges(
+    scene: Scene, view: View, edges: Edges, item: Ints, kinds: Collection[LineKind]
+) -> tuple[Edges, Bools]:
+    """The edges, listed flat ones as creases where edges are not asked for; and whether they are listed and asked for.
+
+    item (e,): of which they are. A part of a listed edge that a cut leaves counts as listed, and so do edges of cuts.
+    """
+    flat = (edges.kind == LineKind.EDGES) & (LineKind.EDGES not in kinds)
+    among = np.zeros(len(item), dtype=np.bool_)
+    start, end = view.points[:, edges.start], view.points[:, edges.end]
+    for number in np.unique(item).tolist():
+        ends = scene.items[number].drawn_edges
+        assert ends is not None
+        one, two = (view.points_of(side) for side in (ends[:, 0], ends[:, 1]))
+        own = np.flatnonzero((item == number) & (~flat | (LineKind.CREASE in kinds)))
+        among[own] = _lie_along(start[:, own], end[:, own], one, two, view.tolerance)
+        borders = np.flatnonzero((item == number) & (edges.kind == LineKind.BOUNDARY))
+        middle = matmul(0.5 * (start + end)[:, borders].T, view.axes) * view.scale + view.centre
+        for region in scene.items[number].cut_by:
+            among[borders] |= region.is_border(middle, CUT_EDGE_OF_EXTENT * view.scale)
+    return replace(edges, kind=np.where(flat, int(LineKind.CREASE), edges.kind)), among
+
+
+def _lie_along(start: Floats, end: Floats, one: Floats, two: Floats, tolerance: float) -> Bools:
+    """(n,) which segments from start to end (3,n) are, or are parts of, segments from one to two (3,l)."""
+    from scipy.spatial import cKDTree
+
+    if not one.shape[1]:
+        return np.zeros(start.shape[1], dtype=np.bool_)
+    listed = np.concatenate([np.concatenate([one, two]), np.concatenate([two, one])], axis=1).T
+    along = np.isfinite(cKDTree(listed).query(np.concatenate([start, end]).T, distance_upper_bound=2 * tolerance)[0])
+    way = two - one
+    square = dot(way, way)
+    for some in slices(len(along), max(_COMPARED // one.shape[1], 1)):
+        rest = some.start + np.flatnonzero(~along[some])
+        far = [_beside(points[:, rest], one, way, square) for points in (start, end)]
+        along[rest] = (np.maximum(*far) <= tolerance).any(axis=1)
+    return along
+
+
+def _beside(points: Floats, begin: Floats, way: Floats, square: Floats) -> Floats:
+    """(n,l) distances of points (3,n) from segments (3,l) of some squared lengths (l,)."""
+    to = points[:, :, None] - begin[:, None, :]
+    part = np.clip(dot(to, way[:, None, :]) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    to -= part * way[:, None, :]
+    return np.sqrt(dot(to, to))
+
+
+def _listing_edges(scene: Scene) -> Bools:
+    """(i,) the items that list the edges to be drawn."""
+    return np.array([item.drawn_edges is not None for item in scene.items], dtype=np.bool_)
 
 
 def _faces(view: View, faces: ProjectedFaces) -> Faces:
@@ -331,7 +405,7 @@ def intersection_lines(
 
 def _outlined(scene: Scene, kinds: frozenset[LineKind]) -> Bools:
     """(i,) the items of which all edges of the outline are drawn: what else lies on these adds nothing."""
-    return items_wanting(LineKind.CONTOUR, scene, kinds) & ~_smoothly_outlined(scene)
+    return items_wanting(LineKind.CONTOUR, scene, kinds) & ~_smoothly_outlined(scene) & ~_listing_edges(scene)
 
 
 def _smoothly_outlined(scene: Scene) -> Bools:

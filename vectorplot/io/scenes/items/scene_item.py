@@ -171,7 +171,15 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         draft.hatch,
         (words.name, words.line(draft.index)),
         fields=None if draft.fields is None else draft.fields.transformed(_matrix(draft.placement)),
+        drawn_edges=_drawn_edges(draft, shape),
     )
+
+
+def _drawn_edges(draft: Draft, shape: object) -> Floats | None:
+    """(e,2,3) the ends of the listed edges; None where all edges are drawn."""
+    if draft.edges is None or not isinstance(shape, Mesh):
+        return None
+    return shape.vertices[np.array(draft.edges, dtype=np.intp).reshape(-1, 2) - 1]
 
 
 def _matrix(placement: Sequence[float]) -> Floats:

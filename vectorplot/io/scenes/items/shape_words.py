@@ -128,7 +128,10 @@ def _read_vertices(reader: ItemCursor, draft: Draft) -> None:
 def _read_edges(reader: ItemCursor, draft: Draft) -> None:
     reader.kind(draft, "vertices")
     reader.once(draft, "edges")
-    draft.edges, reader.at = reader.source.groups(reader.at, draft.owner, "a vertex of an edge")
+    if reader.none():
+        draft.edges = []
+    else:
+        draft.edges, reader.at = reader.source.groups(reader.at, draft.owner, "a vertex of an edge")
 
 
 def _read_faces(reader: ItemCursor, draft: Draft) -> None:
