@@ -47,7 +47,9 @@ def main(folder: Path) -> None:
     vp.save(drawing, folder / "shading_angle.svg")
 
     (fills,) = vp.paint(scene, CAMERA, shadows="none").layers[0].fills
-    colour = {scene.items[i].name: fills.colours[at] for i, at in zip(fills.item, fills.offsets[:-1], strict=True)}
+    # A sheet that reaches far into the picture has shades that vary with the depth: the middle one counts.
+    pieces = zip(fills.item, fills.offsets[:-1], fills.offsets[1:], strict=True)
+    colour = {scene.items[i].name: fills.colours[a:b].mean(axis=0) for i, a, b in pieces}
     shades = palette("orange").astype(int)
     number = [int(np.abs(shades - colour[item.name]).sum(axis=1).argmin()) for item in sheets]
     # What is nearest to the eye is a little brighter: at most by the fifth of the palette that is ambient light.
