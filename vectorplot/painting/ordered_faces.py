@@ -70,8 +70,18 @@ def ordered_faces(
     projected = walk.run("faces", project_faces, view)
     known, groups = known_orders(shown, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
-    how = {"known": known, "sliced": sliced, "group": groups, "normals": _normals_at_corners(facets, view)}
-    painted = walk.run("order", painters_order, view, projected, **how, budget=budget)
+    normals = _normals_at_corners(facets, view)
+    painted = walk.run(
+        "order",
+        painters_order,
+        view,
+        projected,
+        known=known,
+        sliced=sliced,
+        group=groups,
+        normals=normals,
+        budget=budget,
+    )
     warn_of_guesses(scene, painted)
     tell_slices(walk, scene, sliced, painted)
     tell_knots(walk, scene, painted)

@@ -44,8 +44,8 @@ def loxodrome_end() -> Floats:
 
     Source: Glaeser, section 8.1, equation 5.
     """
-    longitude = float(arctanh(np.sin(-LATITUDE)) * tan(COURSE))
-    return np.asarray(Loxodrome(RADIUS_MM, COURSE, 0.0, longitude).points(longitude))
+    longitude = arctanh(np.sin(-LATITUDE)) * tan(COURSE)
+    return np.asarray(Loxodrome(RADIUS_MM, COURSE, 0.0, float(longitude)).points(longitude))
 
 
 def _error(truth: Floats, found: Floats) -> float:

@@ -119,7 +119,7 @@ def _joined(points: Floats, triangles: Ints) -> list[Ints]:
         before, after = (bx - ax, by - ay), (cx - bx, cy - by)
         zero = ZERO_OF_EXTENT * math.hypot(*before) * math.hypot(*after)
         turn = before[0] * after[1] - before[1] * after[0]
-        return turn > zero or (turn >= -zero and before[0] * after[0] + before[1] * after[1] > 0.0)
+        return bool(turn > zero or (turn >= -zero and before[0] * after[0] + before[1] * after[1] > 0.0))
 
     for a, b in list(owner):
         left, right = owner.get((a, b)), owner.get((b, a))

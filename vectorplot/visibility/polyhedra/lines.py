@@ -334,7 +334,9 @@ def _lie_along(start: Floats, end: Floats, one: Floats, two: Floats, tolerance: 
     if not one.shape[1]:
         return np.zeros(start.shape[1], dtype=np.bool_)
     listed = np.concatenate([np.concatenate([one, two]), np.concatenate([two, one])], axis=1).T
-    along = np.isfinite(cKDTree(listed).query(np.concatenate([start, end]).T, distance_upper_bound=2 * tolerance)[0])
+    along: Bools = np.isfinite(
+        cKDTree(listed).query(np.concatenate([start, end]).T, distance_upper_bound=2 * tolerance)[0]
+    )
     way = two - one
     square = dot(way, way)
     for some in slices(len(along), max(_COMPARED // one.shape[1], 1)):
