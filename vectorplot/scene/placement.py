@@ -249,6 +249,10 @@ def mm_per_image(projection: Projection, points: Floats, page: Page, fit: bool) 
     return float(max(fitting, field_of_vision(projection, page, fit).scale))
 
 
+BESIDE_PICTURE = 0.1
+"""The cosine, less than that of any place in a picture, of the angle between a sight line and the middle one."""
+
+
 def allowed_in_space(
     scene: Scene, projection: Projection, page: Page, fit: bool, tolerance_mm: float
 ) -> Callable[[Floats], Floats]:
@@ -258,9 +262,14 @@ def allowed_in_space(
     scale = mm_per_image(projection, projection.points_of(reached), page, fit)
 
     def allowed(points: Floats) -> Floats:
-        depth = projection.depth_of(projection.points_of(points.reshape(-1, 3))).reshape(points.shape[:-1])
-        central = projection.eye is not None
-        ahead = np.maximum(depth, projection.near) / projection.focus if central else np.ones_like(depth)
+        if projection.eye is None:
+            return np.full(points.shape[:-1], tolerance_mm / scale * projection.scale)
+        there = projection.points_of(points.reshape(-1, 3))
+        depth = np.abs(projection.depth_of(there))
+        # What is behind the eye, or far beside the picture, is not seen: there the distance counts.
+        away = np.sqrt(((there - np.asarray(projection.eye)[:, None]) ** 2).sum(axis=0))
+        ahead = np.maximum(np.maximum(depth, BESIDE_PICTURE * away), projection.near) / projection.focus
+        ahead = ahead.reshape(points.shape[:-1])
         return np.asarray(tolerance_mm / scale * projection.scale * ahead)
 
     return allowed
