@@ -13,18 +13,21 @@ import vectorplot as vp
 from vectorplot.curves import Circle
 from vectorplot.geometry import box
 from vectorplot.io import scene_of
-from vectorplot.surfaces import Torus, implicit_sphere
+from vectorplot.surfaces import Domain, Torus, implicit_sphere
 
 CUBE = box((1, 1, 1))
 TRIANGLES = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
 CORNERS = np.array([(0.0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
 
 
-@dataclass
+@dataclass(frozen=True)
 class Surface:
-    """What programs of one's own have: points and their derivatives."""
+    """What programs of one's own have: a domain, and points."""
 
-    domain: object = None
+    domain: Domain = Domain(0.0, 1.0, 0.0, 1.0)
+
+    def points(self, u, v):
+        return np.stack([u, v, u * v], axis=-1)
 
 
 @pytest.fixture
