@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import warnings
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import SimpleNamespace
 
 import numpy as np
@@ -24,7 +24,7 @@ CORNERS = np.array([(0.0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
 class Surface:
     """What programs of one's own have: a domain, and points."""
 
-    domain: Domain = Domain(0.0, 1.0, 0.0, 1.0)
+    domain: Domain = field(default_factory=lambda: Domain(0.0, 1.0, 0.0, 1.0))
 
     def points(self, u, v):
         return np.stack([u, v, u * v], axis=-1)
