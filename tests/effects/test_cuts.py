@@ -8,11 +8,12 @@ from support.hard_shapes import HARD_SHAPES
 
 import vectorplot as vp
 from vectorplot.cli.main import run
+from vectorplot.curves import Circle
 from vectorplot.effects.cuts import between_planes, depths
 from vectorplot.geometry.repair.adjacency import body_record
 from vectorplot.io.scenes.scene_language import parse_scene
 from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces import Sphere, Torus, implicit_sphere
 from vectorplot.testing.shapes import box, without
 
 VERBS = ["draw", "paint", "render"]
@@ -142,13 +143,18 @@ def test_planes_that_leave_nothing_are_told_with_file_and_line(words, cause, tmp
 
 
 @pytest.mark.slow
-def test_smooth_surfaces_stay_or_go_as_a_whole():
-    scene = vp.Scene((vp.Item("RING", Torus(3, 1)), vp.Item("BOX", box((-1, 9, -1), (1, 10, 1)))))
-    eye = {"eye": (0, -10, 0), "target": (0, 0, 0)}
-    assert items_of(vp.draw(scene, vp.Camera(**eye, near=15.0))) == {1}
-    assert items_of(vp.draw(scene, vp.Camera(**eye, far=15.0))) == {0}
-    with pytest.warns(vp.InputWarning, match="RING: near and far cut polyhedra only"):
-        vp.draw(scene, vp.Camera(**eye, near=10.0))
+@pytest.mark.parametrize("shape", [Torus(3, 1), Sphere(3.5), implicit_sphere(3.5), Circle(radius=3.5)])
+def test_smooth_surfaces_and_curves_are_cut_as_bodies_are(shape):
+    """What is drawn lies between the planes, comes up to both, and the parts of both sides are the whole."""
+    eye = {"eye": (4.0, -9.0, 3.0), "target": (0.0, 0.0, 0.0)}
+    scene, middle = vp.Scene((vp.Item("A", shape),)), vp.Camera(**eye).distance
+    drawing = vp.draw(scene, vp.Camera(**eye, near=middle - 1.0, far=middle + 1.5), hidden="solid")
+    points = np.concatenate([paths.points3d for layer in drawing.layers for paths in layer.strokes])
+    found = depths(points, vp.Camera(**eye)) - middle
+    # Rims are found to a part of the domain.
+    assert -1.0 - 1e-6 < found.min() < -0.99 and 1.49 < found.max() < 1.5 + 1e-6
+    assert not items_of(vp.draw(scene, vp.Camera(**eye, near=middle + 5.0)))
+    assert not items_of(vp.draw(scene, vp.Camera(**eye, far=middle - 5.0)))
 
 
 def test_patterns_stay_on_faces_that_are_whole():

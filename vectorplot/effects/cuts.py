@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-import warnings
 from dataclasses import replace
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.errors import InputWarning
+from vectorplot.effects.cutting.cut_shapes import NOTHING, smooth_part
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.cameras.camera import Camera
 from vectorplot.geometry.convex.convex_faces import convex_faces
+from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
@@ -21,7 +21,7 @@ from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
 
 
 def between_planes(scene: Scene, camera: Camera) -> Scene:
-    """The scene with polyhedra cut at the camera's near and far plane, open where they are.
+    """The scene cut at the camera's near and far plane, bodies open where they are.
 
     Parameters
     ----------
@@ -40,14 +40,9 @@ def between_planes(scene: Scene, camera: Camera) -> Scene:
     InputError
         For a surface without a finite point.
 
-    Warns
-    -----
-    InputWarning
-        For smooth surfaces and curves that reach through a plane: they stay whole.
-
     Notes
     -----
-    Smooth surfaces and curves that lie wholly outside are left out.
+    Smooth surfaces and curves are cut as by cuts (`effects.cut`), without faces where they are.
 
     Degenerate: a face in one of the planes stays.
 
@@ -78,13 +73,21 @@ def _between(item: Item, camera: Camera, tolerance: float) -> Item:
         return replace(item, shape=mesh, patterns=kept)
     low, high = smooth_bounds(item.shape)
     corners = np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low)
-    inside = [side * (depths(corners, camera) - limit) for side, limit in _planes(camera)]
-    if any((distance < -tolerance).all() for distance in inside):
-        return replace(item, shape=item.mesh, patterns=())
-    if any((distance < -tolerance).any() for distance in inside):
-        text = f"{item.name}: near and far cut polyhedra only; what reaches through them of this one is drawn too"
-        warnings.warn(text, InputWarning, stacklevel=5)
-    return item
+    met = []
+    for side, limit in _planes(camera):
+        inside = side * (depths(corners, camera) - limit)
+        if (inside < -tolerance).all():
+            return replace(item, shape=NOTHING, patterns=())
+        if (inside < -tolerance).any():
+            met.append(_beyond(camera, side, limit))
+    return replace(item, shape=smooth_part(item, tuple(met)), patterns=()) if met else item
+
+
+def _beyond(camera: Camera, side: float, limit: float) -> HalfSpaces:
+    """What lies on the other side of a plane than what is kept."""
+    toward = camera.axes[2]
+    offset = float(matmul(toward, np.asarray(camera.target))) + camera.distance - limit
+    return HalfSpaces((tuple((side * toward).tolist()),), (side * offset,))
 
 
 def depths(points: Floats, camera: Camera) -> Floats:
