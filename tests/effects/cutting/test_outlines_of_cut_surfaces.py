@@ -10,6 +10,7 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot import features, surfaces
+from vectorplot.features.parametric.parameter_lines import domain_borders
 from vectorplot.geometry import HalfSpaces
 
 FAMILIES = {
@@ -89,3 +90,24 @@ def test_contours_of_notched_balls_are_as_long_as_in_closed_form(parallel):
         )
         truth = radius * 2.0 * np.pi * np.mean(~(circle @ normals.T > offsets).all(axis=1))
         assert -SHORT < total - truth < LONG, (normals, offsets, eye, total, truth)
+
+
+def test_rims_of_notched_cylinders_are_as_long_as_in_closed_form():
+    """Planes through or close by a rim: what they leave of it is there once, however small the notch."""
+    random = np.random.default_rng(3)
+    angle = (np.arange(200_000) + 0.5) * 2.0 * np.pi / 200_000
+    rims = [np.stack([np.cos(angle), np.sin(angle), np.full_like(angle, height)], axis=1) for height in (0.0, 1.0)]
+    for number in range(several(40, long=1000)):
+        normals = random.normal(size=(2, 3))
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        place = rims[1][int(random.integers(len(angle)))]
+        offsets = normals @ place - random.uniform(0.0005, 0.05, 2) if number % 2 else random.uniform(-1.0, 1.0, 2)
+        region = HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(offsets.tolist()))
+        found = domain_borders(surfaces.CutSurface(surfaces.Cylinder(1.0, 0.0, 1.0), (region,)), features.Tracing())
+        total = 0.0
+        for start, end, closed in zip(found.offsets[:-1], found.offsets[1:], found.closed, strict=True):
+            points = found.points[[*range(start, end), *([start] if closed else [])]]
+            total += np.linalg.norm(np.diff(points, axis=0), axis=1).sum()
+        truth = sum(2.0 * np.pi * np.mean(~(rim @ normals.T > offsets).all(axis=1)) for rim in rims)
+        # Where next to nothing is left of a surface its grid finds nothing.
+        assert abs(total - truth) < 0.01 or truth < 0.5, (normals, offsets, total, truth)

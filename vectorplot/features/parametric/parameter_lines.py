@@ -27,6 +27,7 @@ from vectorplot.geometry.polylines import some, split
 from vectorplot.geometry.vectors import from_components, norm
 from vectorplot.surfaces.splines.line_pieces import line_pieces
 from vectorplot.surfaces.surface import Surface
+from vectorplot.surfaces.trims.cut_surface import CutSurface
 from vectorplot.tolerances.of_extent import CHORD_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.tolerances.of_parameters import AROUND_RIM
 
@@ -37,6 +38,9 @@ FIRST_CHORDS = 24
 
 LINES_A_BUDGET = 16
 """Lines to which the budget's points go; more lines may have more points, each as many as one of these."""
+
+MOST_LOOKS, FEW_LINES = 32, 8
+"""Places of each first chord at which a hole is looked for, where lines are few or surfaces are cut; else one."""
 
 
 def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -234,7 +238,8 @@ def _lines(asked: SurfacesAtOnce, axis: int, values: Sequence[Floats], tracing: 
         _first_ways(surface, axis, own if size > 0.0 else own[:0], k)
         for k, (surface, own, size) in enumerate(zip(asked.surfaces, values, sizes.tolist(), strict=True))
     ]
-    lines = _without_holes(asked, axis, records.joined(starts))
+    looks = MOST_LOOKS if sum(map(len, values)) <= FEW_LINES or any(map(_is_cut, asked.surfaces)) else 1
+    lines = _without_holes(asked, axis, records.joined(starts), looks)
     lines, enough = _refined(asked, axis, lines, tracing, sizes)
     return _curves(asked, axis, lines, sizes, enough)
 
@@ -260,9 +265,23 @@ def _at(asked: SurfacesAtOnce, axis: int, ways: Floats) -> Floats:
     return asked.surface(number(ways)).points(*_parameters(axis, ways))
 
 
-def _without_holes(asked: SurfacesAtOnce, axis: int, lines: Traces) -> Traces:
-    """The lines cut where their surfaces have holes, their ends at the borders of the holes by halving."""
-    ways, last = lines.points, lines.last
+def _is_cut(surface: Surface) -> bool:
+    """Whether planes have cut a surface, wherever it was moved then."""
+    while not isinstance(surface, CutSurface) and hasattr(surface, "surface"):
+        surface = surface.surface
+    return isinstance(surface, CutSurface)
+
+
+def _without_holes(asked: SurfacesAtOnce, axis: int, lines: Traces, looks: int) -> Traces:
+    """The lines cut where their surfaces have holes, their ends at the borders of the holes by halving. looks: at how
+    many places of each chord, its start among them, holes are looked for."""
+    step = np.where(lines.last, 1, looks)
+    first, count = np.cumsum(step) - step, int(step.sum())
+    chord = np.repeat(np.arange(len(step)), step)
+    part = (np.arange(count) - first[chord])[:, None] / looks
+    after = np.minimum(chord + 1, len(step) - 1)
+    ways = lines.points[chord] + part * (lines.points[after] - lines.points[chord])
+    own, last = part[:, 0] == 0.0, np.repeat(lines.last, step)
     good = _on_surface(asked, axis, ways)
     if good.all():
         return lines
@@ -276,7 +295,7 @@ def _without_holes(asked: SurfacesAtOnce, axis: int, lines: Traces) -> Traces:
     kept, ends = np.insert(good, change + 1, True), np.insert(last & good, change + 1, ~enters)
     # A line that consists of a single point is no line.
     kept &= ~(ends & np.concatenate([[True], (ends | ~kept)[:-1]]))
-    return Traces(np.insert(ways, change + 1, low, axis=0), ends).some(kept)
+    return Traces(np.insert(ways, change + 1, low, axis=0), ends).some(kept & np.insert(own, change + 1, True))
 
 
 def _on_surface(asked: SurfacesAtOnce, axis: int, ways: Floats) -> Bools:
