@@ -44,3 +44,14 @@ def test_a_title_is_read_as_utf_8_in_every_locale(tmp_path):
         subprocess.run([sys.executable, "-m", "vectorplot", *words], env={**os.environ, **locale}, check=True)
         made.append((tmp_path / name).read_bytes())
     assert made[0] == made[1]
+
+
+@pytest.mark.parametrize("options", [[], ["--explain"]])
+def test_errors_are_measured_where_they_are_asked_for(tmp_path, monkeypatch, options):
+    import vectorplot.draw as draw
+
+    told = []
+    real = draw.draw
+    monkeypatch.setattr(draw, "draw", lambda *scene, explain, **how: told.append(explain) or real(*scene, **how))
+    assert run(["draw", str(DATA / "pencil.scene"), "-o", str(tmp_path / "x.svg"), *options]) == 0
+    assert [listener is not None for listener in told] == [bool(options)]

@@ -113,7 +113,7 @@ OUT_OR_FOLDER = click.option(
 _OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain")
 """Parameters that say what is read and written, and what is said of it."""
 
-SILENT = Report(None, lambda _report: None)
+SILENT = Report(None, None)
 """Nobody is told anything."""
 
 

@@ -31,10 +31,10 @@ AFTER_A_NAME = (": ", ", ", " and ")
 
 @dataclass(frozen=True)
 class Report:
-    """Whom a verb tells how far it is, and what each stage cost."""
+    """Whom a verb tells how far it is, and what each stage cost; None where nobody asked: then nothing is measured."""
 
     progress: Callable[[str, float], None] | None
-    explain: Callable[[StageReport], None]
+    explain: Callable[[StageReport], None] | None
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def make_picture(
     with told_warnings(quiet=quiet):
         check_place(out)
         with progress_bar(quiet=quiet) as progress:
-            report = Report(progress, reports.append)
+            report = Report(progress, reports.append if explain else None)
             contents = picture_contents(source, Path(out).name, format_, picture, report, jobs, overlaid=overlaid)
             write_out(out, contents[0])
             for letters in contents[1:]:
@@ -111,7 +111,7 @@ def make_pages(
     with told_warnings(quiet=quiet):
         check_place(out)
         with progress_bar(quiet=quiet) as progress:
-            report = Report(progress, reports.append)
+            report = Report(progress, reports.append if explain else None)
             made = [_page(source, partial(page, number), report) for number, source in enumerate(sources)]
             write_out(out, write_frames(made, "pdf", 1.0))
     if explain:
