@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import subprocess
 import sys
+from importlib import import_module
 
 import pytest
 from support.paths import DATA
@@ -48,10 +49,8 @@ def test_a_title_is_read_as_utf_8_in_every_locale(tmp_path):
 
 @pytest.mark.parametrize("options", [[], ["--explain"]])
 def test_errors_are_measured_where_they_are_asked_for(tmp_path, monkeypatch, options):
-    import vectorplot.draw as draw
-
-    told = []
-    real = draw.draw
-    monkeypatch.setattr(draw, "draw", lambda *scene, explain, **how: told.append(explain) or real(*scene, **how))
+    told, module = [], import_module("vectorplot.draw")
+    real = module.draw
+    monkeypatch.setattr(module, "draw", lambda *scene, explain, **how: told.append(explain) or real(*scene, **how))
     assert run(["draw", str(DATA / "pencil.scene"), "-o", str(tmp_path / "x.svg"), *options]) == 0
     assert [listener is not None for listener in told] == [bool(options)]
