@@ -23,6 +23,10 @@ MISSED = 0.8
 SURE = 0.5
 """Part of the deviation that is allowed: where probes not quite on the curve deviate less than that a chord will do."""
 
+ONE_STEP = 0.95
+"""Part of a chord beyond which a step between neighbouring probes is all of it: theirs are no more than 0.35 of a curve
+that runs evenly."""
+
 HALVINGS = 52
 """How often the way between two points is halved until it is known where a curve turns back: to the last bit."""
 
@@ -114,6 +118,7 @@ def refined(
     open_, unsure = ~last, np.zeros(count, dtype=np.intp)
     # Images are made once: the probes of one round are ends of chords in the next.
     images = _seen(image, points) if len(points) else points
+    least = 0.1 * JUMP_OF_DOMAIN * np.ptp(points, axis=0) if len(points) else np.zeros(points.shape[1])
     for _ in range(ROUNDS):
         first = np.flatnonzero(open_)
         line = _line(last)
@@ -122,14 +127,18 @@ def refined(
         if not len(first):
             break
         if near is not None:
-            _, found, _, far, _ = _probed(near, image, points, images, first)
-            does = found & (far <= SURE * MISSED * limit[line[first]])
+            _, found, seen, far, long = _probed(near, image, points, images, first)
+            allowing = limit[line[first]]
+            wall = _one_step(points, images, first, seen, least) & (long > allowing)
+            does = found & (far <= SURE * MISSED * allowing) & ~wall
             open_[first[does]] = False
             first = first[~does]
         of = line[first]
         probes, found, seen, far, long = _probed(between, image, points, images, first)
         unsure += np.bincount(of[~found & (long > limit[of])], minlength=count)
-        bad = found & (far > MISSED * limit[of])
+        # A wall narrower than the tolerance is no chord: it is cut until it is known whether the curve jumps there.
+        wall = _one_step(points, images, first, seen, least) & (long > limit[of])
+        bad = found & ((far > MISSED * limit[of]) | wall)
         split = first[bad]
         open_[first] = False
         open_[split] = True
@@ -155,6 +164,17 @@ def _probed(
     far, long = deviation(images[first], images[first + 1], seen)
     found: Bools = np.asarray(on.reshape(len(PROBES), -1).all(axis=0))
     return places.reshape(len(PROBES), *a.shape), found, seen, far, long
+
+
+def _one_step(points: Floats, images: Floats, first: Ints, seen: Floats, least: Floats) -> Bools:
+    """(k,) which chords from points first (k,) to the next ones are gone all but at once, between two of the probes
+    seen (j,k,d) and the ends, and are longer than the least (c,) over which curves jump."""
+    nodes = np.concatenate([images[first][None], seen, images[first + 1][None]])
+    with np.errstate(invalid="ignore"):
+        steps, whole = np.diff(nodes, axis=0), nodes[-1] - nodes[0]
+        longest = component_sum(steps * steps).max(axis=0)
+        at_once = longest > ONE_STEP * ONE_STEP * component_sum(whole * whole)
+    return np.asarray(at_once & any_component(np.abs(points[first + 1] - points[first]) > least), dtype=np.bool_)
 
 
 def _line(last: Bools) -> Ints:
