@@ -70,3 +70,10 @@ def test_errors_give_the_line(tmp_path: Path, text: str, line: int, cause: str) 
         read_off(off(tmp_path, text))
     assert error.value.line == line
     assert cause in str(error.value)
+
+
+@pytest.mark.parametrize("word", ["OFF", "NCOFF", "NSTOFF", "CSTOFF", "STCNOFF", "NOFF"])
+def test_what_stands_behind_places_may_come_in_any_order(tmp_path, word):
+    rows = "".join(f"{place} 0 0 1 0.5 0.5 0.5 1\n" for place in ("0 0 0", "1 0 0", "0 1 0"))
+    mesh = read_off(off(tmp_path, f"{word}\n3 1 0\n{rows}3 0 1 2\n")).mesh
+    assert mesh.vertices.tolist() == [[0, 0, 0], [1, 0, 0], [0, 1, 0]]

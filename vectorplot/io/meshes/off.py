@@ -27,7 +27,8 @@ _HEADER = re.compile(
     rb"(?:\s++|#[^\n]*+)*+(?P<word>[A-Za-z0-9]*?OFF)?+(?P<binary>\s++BINARY)?+(?:\s++|#[^\n]*+)*+"
     rb"(?P<vertices>[+-]?\d++)\s++(?P<faces>[+-]?\d++)(?:[ \t]++[+-]?\d++)?+[ \t]*+(?:#[^\n]*+)?+(?:\r?\n|$)"
 )
-_PLAIN = {b"", b"OFF", b"COFF", b"NOFF", b"CNOFF", b"STOFF", b"STCOFF", b"STNOFF", b"STCNOFF"}
+_PLAIN = re.compile(rb"(?:ST|C|N){0,3}(?:OFF)?")
+"""What may stand behind places in lines of vertices, in any order: texture places, colours, normals."""
 
 
 def read_off(path: Path) -> MeshFile:
@@ -58,7 +59,7 @@ def _header(text: TextFile) -> tuple[TextFile, int, int]:
     if match is None:
         raise InputError("expected OFF and the numbers of vertices and faces", file=text.name, line=1)
     word = match["word"] or b""
-    if match["binary"] or word not in _PLAIN:
+    if match["binary"] or not _PLAIN.fullmatch(word):
         kind = "binary OFF" if match["binary"] else word.decode("ascii", "replace")
         raise InputError(f"{kind} is not read, only OFF in three dimensions as text", file=text.name, line=1)
     vertices, faces = int(match["vertices"][:30]), int(match["faces"][:30])
