@@ -38,7 +38,7 @@ LEAST_COSINE = 0.1
 """The faces of a patch, or of two patches that touch, do not meet each other where all normals are within this cosine
 of one direction: they lie side by side, seen from there."""
 
-_MIX = 0x9E3779B1
+_MIX = np.uint32(0x9E3779B1)
 """Odd, with bits all over: it spreads numbers over a table."""
 
 
@@ -186,17 +186,17 @@ def _on_both_sides(lying: Intersections, side: Ints, tolerance: float) -> Ints:
 def _crossing_edges(faces: Faces, part: Ints, tolerance: float) -> Intersections:
     """The edges of four faces of a part, in one place, about which the faces of two surfaces alternate: those of the
     same two vertices are of one surface, or where all four have these, the first and the third one in turn."""
-    place = _places(np.round(faces.points / (8.0 * tolerance)))
-    after = next_positions(faces.offsets, np.arange(len(faces.corners)))
-    a, b = place[faces.corners], place[faces.corners[after]]
+    place = _places(np.round(faces.points / (8.0 * tolerance))).astype(np.uint32)
+    a = place[faces.corners]
+    b = a[next_positions(faces.offsets, np.arange(len(a)))]
     # Most sides are alone with their twin in a cell of a table: so few are sorted.
-    cell = ((a + b) * _MIX + a * b) & (1 << len(after).bit_length()) - 1
+    cell = ((a + b) * _MIX + a * b) & np.uint32((1 << len(a).bit_length()) - 1)
     shared = np.flatnonzero((np.bincount(cell) > 3)[cell])
     del cell
-    ends = np.stack([faces.corners, faces.corners[after]])[:, shared]
-    at = np.sort(np.stack([a, b])[:, shared], axis=0)
+    at = np.sort(np.stack([a[shared], b[shared]]).astype(np.intp), axis=0)
+    del a, b
+    ends = np.stack([faces.corners[shared], faces.corners[next_positions(faces.offsets, shared)]])
     face = ragged.owner(np.diff(faces.offsets))[shared]
-    del a, b, after
     key = at[0] * len(place) + at[1]
     order = np.argsort(key, kind="stable")
     start = np.flatnonzero(np.diff(key[order], prepend=-1))
