@@ -184,3 +184,13 @@ def test_saving_never_touches_what_new_files_of_others_may_have(drawing, tmp_pat
     save(drawing, tmp_path / "x.svg")
     (tmp_path / "y").touch()
     assert (tmp_path / "x.svg").stat().st_mode == (tmp_path / "y").stat().st_mode
+
+
+def test_a_private_file_is_private_while_it_is_replaced(drawing, tmp_path, monkeypatch):
+    """What is written beside it has its mode bits from the start."""
+    target = tmp_path / "x.svg"
+    target.touch(mode=0o600)
+    modes, real = [], os.fdopen
+    monkeypatch.setattr(os, "fdopen", lambda fd, *how: modes.append(os.fstat(fd).st_mode & 0o777) or real(fd, *how))
+    save(drawing, target)
+    assert modes == [0o600] and target.stat().st_mode & 0o777 == 0o600

@@ -209,11 +209,13 @@ def _replace(target: Path, content: bytes) -> None:
     # Its name is known before it is there, so that whatever stops the work leaves none behind.
     beside = target.parent / f".vectorplot-{os.urandom(8).hex()}.part"
     try:
-        # The system takes off what a new file may not have: to ask it for its mask would change that for a moment.
-        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, 0o666), "wb") as file:
+        # As private as what is replaced, from the start; of a new file the system takes off what it may not have.
+        mode = target.stat().st_mode & 0o7777 if target.exists() else None
+        bits = 0o666 if mode is None else mode & 0o666
+        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, bits), "wb") as file:
             file.write(content)
-        if target.exists():
-            os.chmod(beside, target.stat().st_mode & 0o7777)
+        if mode is not None:
+            os.chmod(beside, mode)
         os.replace(beside, target)
     except BaseException:
         beside.unlink(missing_ok=True)

@@ -167,3 +167,22 @@ def test_a_sharp_turn_is_no_cusp_and_a_point_on_a_cusp_is_not_doubled():
     assert len(with_standstills(Traces(t, ends), lambda p: np.column_stack([p, np.full(len(p), 1e-3)])).points) == 8
     through = Traces(np.linspace(-1.0, 1.0, 9)[:, None], np.arange(9) == 8)
     assert len(with_standstills(through, lambda p: np.column_stack([2.0 * p, 3.0 * p * p])).points) == 9
+
+
+def test_a_wall_is_found_alike_alone_and_beside_longer_lines():
+    """However narrow on the page: the points at both sides of it lie as close as jumps are known to."""
+
+    def step(points):
+        return np.stack([1e-6 * points[:, 0], np.floor(points[:, 0])], axis=1)
+
+    def over(low, high):
+        return np.stack([np.linspace(low, high, 5), np.zeros(5)], axis=1)
+
+    short, long = over(0.4, 1.7), over(-900.3, 800.4)
+    alone = refined(Traces(short, np.arange(5) == 4), straight_between, step, 0.01, most=1 << 16)
+    both = Traces(np.concatenate([short, long, [(np.nan, 0.0), (1.0, 0.0)]]), np.isin(np.arange(12), [4, 9, 11]))
+    among = refined(both, straight_between, step, 0.01, most=1 << 16)
+    count = len(alone.lines.points)
+    assert alone.enough.all() and np.array_equal(among.lines.points[:count], alone.lines.points)
+    gaps = np.diff(alone.lines.points[:, 0])[np.diff(np.floor(alone.lines.points[:, 0])) > 0.0]
+    assert len(gaps) == 1 and gaps[0] < 1e-8 * 1.3

@@ -118,7 +118,10 @@ def refined(
     open_, unsure = ~last, np.zeros(count, dtype=np.intp)
     # Images are made once: the probes of one round are ends of chords in the next.
     images = _seen(image, points) if len(points) else points
-    least = 0.1 * JUMP_OF_DOMAIN * np.ptp(points, axis=0) if len(points) else np.zeros(points.shape[1])
+    # Of each polyline by itself, so that it is cut as if it were alone.
+    starts = lines.starts
+    extent = np.fmax.reduceat(points, starts) - np.fmin.reduceat(points, starts) if len(points) else points
+    least = 0.1 * JUMP_OF_DOMAIN * extent
     for _ in range(ROUNDS):
         first = np.flatnonzero(open_)
         line = _line(last)
@@ -129,7 +132,7 @@ def refined(
         if near is not None:
             _, found, seen, far, long = _probed(near, image, points, images, first)
             allowing = limit[line[first]]
-            wall = _one_step(points, images, first, seen, least) & (long > allowing)
+            wall = _one_step(points, images, first, seen, least[line[first]]) & (long > allowing)
             does = found & (far <= SURE * MISSED * allowing) & ~wall
             open_[first[does]] = False
             first = first[~does]
@@ -137,7 +140,7 @@ def refined(
         probes, found, seen, far, long = _probed(between, image, points, images, first)
         unsure += np.bincount(of[~found & (long > limit[of])], minlength=count)
         # A wall narrower than the tolerance is no chord: it is cut until it is known whether the curve jumps there.
-        wall = _one_step(points, images, first, seen, least) & (long > limit[of])
+        wall = _one_step(points, images, first, seen, least[of]) & (long > limit[of])
         bad = found & ((far > MISSED * limit[of]) | wall)
         split = first[bad]
         open_[first] = False
@@ -168,7 +171,7 @@ def _probed(
 
 def _one_step(points: Floats, images: Floats, first: Ints, seen: Floats, least: Floats) -> Bools:
     """(k,) which chords from points first (k,) to the next ones are gone all but at once, between two of the probes
-    seen (j,k,d) and the ends, and are longer than the least (c,) over which curves jump."""
+    seen (j,k,d) and the ends, and are longer than the least (k,c) over which curves jump."""
     nodes = np.concatenate([images[first][None], seen, images[first + 1][None]])
     with np.errstate(invalid="ignore"):
         steps, whole = np.diff(nodes, axis=0), nodes[-1] - nodes[0]

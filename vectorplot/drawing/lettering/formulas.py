@@ -60,11 +60,12 @@ _ONLY_TEX = frozenset(
 """Words of mathematics that only TeX sets."""
 
 _WORD = re.compile(r"\\([A-Za-z]+)")
-_ESCAPE = re.compile(r"\\([^A-Za-z]|$)")
+_TOKEN = re.compile(r"\\[A-Za-z]+|\\.|.|\\", re.DOTALL)
+"""What TeX reads at once: a word, a sign behind a backslash, or a letter."""
+
 _TABLES = re.compile(r"\\(?:begin|end)\{(?:[pbvVB]?matrix|smallmatrix|cases|aligned)\}")
 """The environments that formulas may have."""
 
-_NO_MATHEMATICS = re.compile(r"(?<!\\)[%#&]")
 _ESCAPES = frozenset(",;:!> {}|_%&#$\\")
 
 
@@ -81,20 +82,23 @@ def checked_formula(formula: str) -> str:
     A formula goes to LaTeX as it stands, where other words read files, run programs or end the formula.
     Errors: InputError that names the formula and what is wrong in it.
     """
+    if "^^" in formula or not formula.isprintable():
+        raise InputError(
+            f"formula ${formula.encode('unicode_escape').decode()}$: ^^ and control characters have no place in it"
+        )
     rest = _TABLES.sub(" ", formula)
-    plain = rest if rest == formula else rest.replace("&", "")
-    if "^^" in plain or _NO_MATHEMATICS.search(plain) or not formula.isprintable():
-        shown = formula.encode("unicode_escape").decode()
-        raise InputError(f"formula ${shown}$: ^^, %, # and & and control characters have no place in it")
-    for word in _WORD.findall(rest):
-        if word not in _LETTERED and word not in _ONLY_TEX:
-            raise InputError(f"formula ${formula}$: \\{word} is none of the words of mathematics that are let through")
-    for sign in _ESCAPE.findall(rest):
-        if sign not in _ESCAPES or not sign:
-            raise InputError(f"formula ${formula}$: \\{sign} is none of the signs that are let through")
+    forbidden = "%#" if rest != formula else "%#&"
     depth = 0
-    for brace in re.findall(r"(?<!\\)[{}]", formula.replace("\\\\", "")):
-        depth += 1 if brace == "{" else -1
+    for token in _TOKEN.findall(rest):
+        word = token[1:]
+        if word.isalpha() and word.isascii() and token[0] == "\\":
+            if word not in _LETTERED and word not in _ONLY_TEX:
+                raise InputError(
+                    f"formula ${formula}$: {token} is none of the words of mathematics that are let through"
+                )
+        elif token in forbidden or (token[0] == "\\" and (not word or word not in _ESCAPES)):
+            raise InputError(f"formula ${formula}$: {token} has no place in it")
+        depth += (token == "{") - (token == "}")
         if depth < 0:
             break
     if depth:
