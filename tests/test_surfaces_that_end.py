@@ -106,13 +106,28 @@ def test_curves_beside_poles_and_holes_end_where_the_surface_does(text: str) -> 
     assert strokes and all(np.isfinite(points).all() for points in strokes)
 
 
+def stroke_ends(drawing: vp.Drawing) -> np.ndarray:
+    """(n,3) the first and the last point in space of every stroke."""
+    found = [
+        paths.points3d[[*paths.offsets[:-1], *(paths.offsets[1:] - 1)]]
+        for layer in drawing.layers
+        for paths in layer.strokes
+        if len(paths)
+    ]
+    return np.concatenate(found)
+
+
 @pytest.mark.slow
 def test_a_graph_with_a_jump_has_no_wall() -> None:
     scene, camera, drawing, _ = drawn(graph_of("atan2(y,x)"))
     found = stroke_points(drawing, scene, camera, 4000, 0).points
     # On the graph, and so nowhere between the heights on both sides of the negative x-axis.
     beside = found[(np.abs(found[:, 1]) < 0.05) & (found[:, 0] < -0.3)]
-    assert len(beside) > 10 and (np.abs(beside[:, 2]) > 2.9).all()
+    assert len(beside) and (np.abs(beside[:, 2]) > 2.9).all()
+    # Three lines come from both sides all the way up to it.
+    ends = stroke_ends(drawing)
+    ends = ends[(np.abs(ends[:, 1]) < 1e-4) & (ends[:, 0] < -0.3)]
+    assert min(np.count_nonzero(ends[:, 2] > 0.0), np.count_nonzero(ends[:, 2] < 0.0)) >= 3
 
 
 @pytest.mark.slow
@@ -222,11 +237,13 @@ def test_surfaces_that_cover_themselves_and_wind_into_points_end(surface: object
 def test_lines_are_interrupted_where_a_graph_jumps(text: str) -> None:
     scene, camera, drawing, _ = drawn(graph_of(text))
     found = stroke_points(drawing, scene, camera, 4000, 0).points
-    x, y, z = found.T
-    names = {"x": x, "y": y, "floor": np.floor, "sign": np.sign}
-    nearest = np.full(len(z), np.inf)
-    # The true height, as far beside as lines end before a jump.
-    for dx, dy in ((0.0, 0.0), (1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (0.0, -1e-3)):
-        names["x"], names["y"] = x + dx, y + dy
-        nearest = np.minimum(nearest, np.abs(z - eval(text.replace("^", "**"), names)))
-    assert len(z) > 1000 and nearest.max() < 0.02
+    formula = parse_expression(text, ("x", "y"))
+
+    def off(points: np.ndarray, dx: float, dy: float) -> np.ndarray:
+        """How far points are from the heights a little beside them."""
+        return np.abs(points[:, 2] - formula(x=points[:, 0] + dx, y=points[:, 1] + dy))
+
+    beside = [(1e-3, 0.0), (-1e-3, 0.0), (0.0, 1e-3), (0.0, -1e-3)]
+    assert len(found) > 1000 and np.minimum.reduce([off(found, *way) for way in [(0.0, 0.0), *beside]]).max() < 0.02
+    # Lines come up to the jump: just beside their ends there is another height.
+    assert np.count_nonzero(np.maximum.reduce([off(stroke_ends(drawing), *way) for way in beside]) > 0.02) >= 8
