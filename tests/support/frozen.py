@@ -8,7 +8,6 @@ each. Two such files that are the same say that the pictures are; ``diff`` names
 from __future__ import annotations
 
 import hashlib
-import importlib.util
 import sys
 import tempfile
 from pathlib import Path
@@ -65,15 +64,10 @@ def of_scene(path: Path, desk: Path) -> list[str]:
 
 def of_example(path: Path, desk: Path) -> list[str]:
     """The lines of the files that a script makes."""
-    if str(path.parent) not in sys.path:
-        sys.path.append(str(path.parent))
-    spec = importlib.util.spec_from_file_location(f"frozen_{path.stem}", path)
-    assert spec is not None and spec.loader is not None
-    module = importlib.util.module_from_spec(spec)
-    spec.loader.exec_module(module)
-    (own := desk / path.stem).mkdir()
-    module.main(own)
-    return [_line(f"{path.stem} {file.name}", file.read_bytes()) for file in sorted(own.iterdir())]
+    sys.path.append(str(ROOT / "docs"))
+    from gallery import run_example
+
+    return [_line(f"{path.stem} {file.name}", file.read_bytes()) for file in run_example(path, desk)]
 
 
 def _saved(picture: Any, path: Path) -> bytes:

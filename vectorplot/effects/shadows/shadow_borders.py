@@ -67,7 +67,7 @@ def _step(view: View, ground: Shadows, region: Any, on: Ints, lacking: Ints, ste
     those of the first step are as wide as the border, and hardly dark."""
     parts, of = without_holes(*without_splinters(region, view.tolerance))
     flat, offsets = corners_of(parts)
-    on, light = on[of], (np.frexp(lacking[of])[1].astype(np.intp) - 1)
+    on, light = on[of], np.frexp(lacking[of])[1].astype(np.intp) - 1
     faces = image_faces(view, ground.face[on])
     # Faces that are seen edge-on have no image.
     there = np.flatnonzero(np.isin(ground.face[on], faces.source))

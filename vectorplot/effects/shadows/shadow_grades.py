@@ -235,7 +235,7 @@ def shadow_decals_of(shadows: Shadows, kind: FillKind) -> Decals:
     """Shadows as decals, higher grades above, with levels between them for the steps of soft borders."""
     grade = shadows.grade
     none = np.full(len(shadows), -1, dtype=np.intp)
-    light = np.where(grade == 1, (np.frexp(np.maximum(shadows.lacking, 1))[1].astype(np.intp) - 1), -1)
+    light = np.where(grade == 1, np.frexp(np.maximum(shadows.lacking, 1))[1].astype(np.intp) - 1, -1)
     return Decals(
         shadows.points,
         shadows.offsets,

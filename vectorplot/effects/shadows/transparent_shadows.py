@@ -115,7 +115,7 @@ def _dimmed(view: View, cast: Shadows, dark: Decals, colour: str, opacity: float
         cast.face[lead],
         none + int(FillKind.CLEAR_SHADOW),
         none,
-        (np.frexp(light[number[of]])[1].astype(np.intp) - 1),
+        np.frexp(light[number[of]])[1].astype(np.intp) - 1,
         none,
         none + CLEAR_LEVEL,
         (colour,),

@@ -97,9 +97,9 @@ def _power(x: Values, y: Values) -> Values:
     return elementary.power(x, y)
 
 
-def _by_kind(real: Callable[[Values], Values], whole: Callable[[Values], Values]) -> Callable[[Values], Values]:
-    """A function of real numbers that has another program for complex ones."""
-    return lambda x: whole(x) if np.iscomplexobj(x) else real(x)
+def _by_kind(real: Callable[[Values], Values], of_complex: Callable[[Values], Values]) -> Callable[[Values], Values]:
+    """The first function on real arrays, the second one on complex ones."""
+    return lambda x: of_complex(x) if np.iscomplexobj(x) else real(x)
 
 
 OPERATIONS: Mapping[str, Callable[..., Values]] = {
