@@ -28,7 +28,6 @@ FAMILIES = {
 }
 
 
-@pytest.mark.capability("G8.3-implicitize")
 @pytest.mark.parametrize("name", FAMILIES)
 @pytest.mark.parametrize("shift", [0.0, 1e3])
 def test_points_of_a_surface_fulfil_its_equation(name, shift):
@@ -47,7 +46,6 @@ def test_points_of_a_surface_fulfil_its_equation(name, shift):
     assert np.median(np.abs(equation.values(off))) > 1e-4
 
 
-@pytest.mark.capability("G8.3-implicitize")
 def test_derivatives_of_the_equation_are_those_of_its_values():
     equation = implicitized(FAMILIES["cyclide"][0])
     same = implicit_of_function(lambda x, y, z: equation.values(np.stack([x, y, z], axis=-1)), equation.box)
@@ -56,7 +54,6 @@ def test_derivatives_of_the_equation_are_those_of_its_values():
     assert np.allclose(equation.hessians(points), same.hessians(points), atol=1e-5)
 
 
-@pytest.mark.capability("G8.3-implicitize")
 def test_the_surface_of_the_equation_is_drawn_as_the_parametrised_one():
     def length(shape):
         camera = vp.Camera((7, -9, 6), fov_deg=40)
@@ -69,7 +66,6 @@ def test_the_surface_of_the_equation_is_drawn_as_the_parametrised_one():
     assert length(implicitized(ring)) == pytest.approx(length(ring), rel=1e-3)
 
 
-@pytest.mark.capability("G8.3-implicitize")
 @pytest.mark.parametrize(
     ("surface", "told"),
     [

@@ -24,7 +24,6 @@ def cube(edges: str, form: str = "general") -> vp.Scene:
     return parse_scene(CUBE.format(edges=edges, form=form))
 
 
-@pytest.mark.capability("G3.3-edge-list")
 @pytest.mark.parametrize("form", ["general", "solid", ""])
 @pytest.mark.parametrize("style", ["lines", "wireframe", "depth-cue"])
 def test_a_cube_without_its_uprights_shows_eight_edges(style: str, form: str) -> None:
