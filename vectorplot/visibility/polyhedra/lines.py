@@ -24,8 +24,8 @@ from vectorplot.features.meshes.patterns import pattern_outline
 from vectorplot.features.meshes.smooth_edges import smooth_mesh_edges
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.bounds.boxes import overlapping_boxes
 from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard
-from vectorplot.geometry.chunks import slices
 from vectorplot.geometry.columns import dot
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
@@ -44,10 +44,6 @@ from vectorplot.words import FEATURE_KINDS, LineKind
 
 if TYPE_CHECKING:
     from vectorplot.visibility.smooth.chord_parts import ChordParts
-
-
-_COMPARED = 1 << 18
-"""So many pairs of segments are compared at once."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -337,21 +333,22 @@ def _lie_along(start: Floats, end: Floats, one: Floats, two: Floats, tolerance: 
     along: Bools = np.isfinite(
         cKDTree(listed).query(np.concatenate([start, end]).T, distance_upper_bound=2 * tolerance)[0]
     )
-    way = two - one
-    square = dot(way, way)
-    for some in slices(len(along), max(_COMPARED // one.shape[1], 1)):
-        rest = some.start + np.flatnonzero(~along[some])
-        far = [_beside(points[:, rest], one, way, square) for points in (start, end)]
-        along[rest] = (np.maximum(*far) <= tolerance).any(axis=1)
+    # The others may be parts of listed ones, whose boxes they lie in.
+    rest = np.flatnonzero(~along)
+    low, high = np.minimum(one, two) - tolerance, np.maximum(one, two) + tolerance
+    part, whole = overlapping_boxes(np.minimum(start, end)[:, rest], np.maximum(start, end)[:, rest], low, high)
+    part = rest[part]
+    far = [_from_segments(side[:, part], one[:, whole], two[:, whole]) for side in (start, end)]
+    along[part[np.maximum(*far) <= tolerance]] = True
     return along
 
 
-def _beside(points: Floats, begin: Floats, way: Floats, square: Floats) -> Floats:
-    """(n,l) distances of points (3,n) from segments (3,l) of some squared lengths (l,)."""
-    to = points[:, :, None] - begin[:, None, :]
-    part = np.clip(dot(to, way[:, None, :]) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
-    to -= part * way[:, None, :]
-    return np.sqrt(dot(to, to))
+def _from_segments(points: Floats, one: Floats, two: Floats) -> Floats:
+    """(n,) distances of points (3,n) from segments from one to two (3,n)."""
+    way, to = two - one, points - one
+    square = dot(way, way)
+    to -= np.clip(dot(to, way) / np.where(square > 0.0, square, 1.0), 0.0, 1.0) * way
+    return np.asarray(np.sqrt(dot(to, to)))
 
 
 def _listing_edges(scene: Scene) -> Bools:
