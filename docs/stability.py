@@ -25,7 +25,7 @@ from sweeps.all_sweeps import SWEEPS
 from sweeps.sweep import Sweep
 
 import vectorplot as vp
-from vectorplot.charts.chart import Curve, Panel, chart
+from vectorplot.drawing.charts import Curve, Panel, chart
 
 ROOT = Path(__file__).resolve().parent.parent
 PAGE = ROOT / "docs" / "stability.md"

@@ -10,8 +10,8 @@ import pytest
 from support.effort import several
 
 import vectorplot as vp
-from vectorplot.backends.cairo.surfaces import png_bytes
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.backends.cairo import png_bytes
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.testing.shapes import box
 
 COLUMNS, ROWS = 240, 180

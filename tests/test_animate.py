@@ -9,7 +9,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.animation import MODES, parse_animation
-from vectorplot.animation.steady_fit import half_extents, steady_fit
+from vectorplot.animation.correspondence import half_extents, steady_fit
 from vectorplot.backends import animated_svg_bytes, pdf_pages_bytes
 from vectorplot.geometry import box
 from vectorplot.io import parse_scene

@@ -14,7 +14,7 @@ from support.sources import nodes_of, numbers_in, text_of, tree_of
 
 import vectorplot
 from vectorplot.cli.main import run
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scene_language import parse_scene
 
 PACKAGE = Path(vectorplot.__file__).parent
 FLOAT_HELD = re.compile(r"^\w[\w =]*=[\s(\\]*[\d_]*(?:\.|[eE][-+\d])", re.MULTILINE)
@@ -73,7 +73,7 @@ def test_memory_that_cannot_be_had_is_one_line(verb, tmp_path, capsys, monkeypat
     def without_memory(*_, **__):
         raise MemoryError
 
-    monkeypatch.setattr("vectorplot.io.standard_input.read", without_memory)
+    monkeypatch.setattr("vectorplot.io.read_file.read", without_memory)
     scene = tmp_path / "a.scene"
     scene.write_text("A box 1 1 1", encoding="utf-8")
     out = [] if verb == "info" else ["-o", str(tmp_path / "a.png")]

@@ -15,17 +15,17 @@ from support.paths import ROOT
 
 import vectorplot as vp
 from vectorplot.cli.commands.accuracy import accuracy
+from vectorplot.cli.commands.animate import animate
+from vectorplot.cli.commands.contact_sheet import contact_sheet
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.info import info
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.commands.render import render
+from vectorplot.cli.commands.replay import replay
 from vectorplot.cli.commands.sheet import sheet
 from vectorplot.cli.commands.speed import speed
 from vectorplot.cli.commands.try_ import try_
-from vectorplot.cli.films.animate import animate
-from vectorplot.cli.films.replay import replay
 from vectorplot.cli.main import run
-from vectorplot.cli.many.contact_sheet import contact_sheet
 from vectorplot.geometry.columns import dot
 
 DOCS = ROOT / "docs"
@@ -138,8 +138,8 @@ def test_modules_that_pages_name_exist():
 
 def test_the_numbers_of_the_pages_are_those_of_the_code():
     from vectorplot.drawing.layers import PENS
-    from vectorplot.geometry.cameras.unit_projection import FARTHEST_OFF_AXIS_DEG, ULPS
-    from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE, ZERO_OF_EXTENT
+    from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG, ULPS
+    from vectorplot.tolerances import NEAR_OF_DISTANCE, ZERO_OF_EXTENT
     from vectorplot.visibility.polyhedra.occluders import MAX_SOLID_FACES
 
     limits = (DOCS / "accuracy-and-limits.md").read_text(encoding="utf-8")

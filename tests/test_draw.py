@@ -15,17 +15,17 @@ from support.hard_shapes import HARD_SHAPES
 from support.paths import DATA, MODELS
 
 import vectorplot as vp
-from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.read_file import read
+from vectorplot.pictures.draw import draw
+from vectorplot.pictures.pipeline import StageReport
 from vectorplot.scene.item import Item, Pattern
-from vectorplot.scene.pages.page import Page
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.stages.walk import StageReport
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.words import LineKind

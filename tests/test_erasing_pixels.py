@@ -15,11 +15,11 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot.arrays import Floats
-from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.backends.cairo import png_bytes
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
 from vectorplot.words import LINE_WORDS
 

@@ -18,9 +18,9 @@ from support.svg_strokes import SVG, strokes_by_layer
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
-from vectorplot.plan import plan_draw, plan_paint
+from vectorplot.pictures.plan import plan_draw, plan_paint
 from vectorplot.testing import assert_drawing_is_right, edge_points
-from vectorplot.testing.compare import worst_uncovered
+from vectorplot.testing.drawings import worst_uncovered
 from vectorplot.words import DRAWN
 
 

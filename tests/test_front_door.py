@@ -112,10 +112,8 @@ def test_no_name_of_a_room_is_also_a_file_or_a_folder_there(room):
 
 def test_every_room_with_stages_of_the_walk_has_a_front_door():
     folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
-    # Command and speed are for the shell, charts for what they measure, stages and those of single verbs for these,
-    # the table of tolerances for the package.
-    stages = {"linework", "painting", "rendering", "stages", "technical"}
-    assert folders - ROOMS == {*stages, "charts", "cli", "speed", "tolerances"}
+    # Command and speed are for the shell; the verbs in pictures are names of the package.
+    assert folders - ROOMS == {"pictures", "cli", "speed"}
 
 
 @pytest.mark.slow
@@ -170,8 +168,8 @@ def test_a_room_loads_nothing_before_a_name_is_used(room):
 @pytest.mark.slow
 def test_a_name_of_a_room_loads_its_own_modules_only():
     loaded = loaded_after("from vectorplot.surfaces import Torus")
-    assert "vectorplot.surfaces.families.torus" in loaded
-    assert not {"scipy", "cairo", "shapely", "vectorplot.surfaces.families.minimal"} & loaded
+    assert "vectorplot.surfaces.tori" in loaded
+    assert not {"scipy", "cairo", "shapely", "vectorplot.surfaces.minimal"} & loaded
 
 
 def test_what_no_room_exports_is_an_attribute_error():

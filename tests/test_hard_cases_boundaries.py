@@ -8,8 +8,7 @@ from support.drawn import drawn
 
 import vectorplot as vp
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
-from vectorplot.testing.curved_meshes import quads
-from vectorplot.testing.shapes import box, scene_of
+from vectorplot.testing.shapes import box, quads, scene_of
 
 CAMERA = vp.Camera((5, -7, 4), (0, 0, 0))
 

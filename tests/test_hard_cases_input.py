@@ -21,7 +21,7 @@ from support.paths import PACKAGE
 
 from vectorplot.cli.main import run
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.io.meshes.glb import read_glb
+from vectorplot.io.glb import read_glb
 from vectorplot.io.read_file import read
 
 STEERING = ("\x1b[31mred\x1b[0m", "\x9b2J", "\u202egnp.exe", "\u2066x\u2069", "a\rb", "\x07", "\u2028", "\udc80")

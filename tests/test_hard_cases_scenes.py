@@ -13,7 +13,7 @@ from support.paths import TESTS
 
 import vectorplot as vp
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
-from vectorplot.testing.compare import worst_uncovered
+from vectorplot.testing.drawings import worst_uncovered
 from vectorplot.testing.shapes import (
     box,
     cyclic_bars,
@@ -249,10 +249,10 @@ MILLION = """
 import sys
 import numpy as np
 import vectorplot as vp
-from vectorplot.geometry.components import greatest_component, least_component
-from vectorplot.stages.walk import peak_mb
+from vectorplot.geometry.vectors import greatest_component, least_component
+from vectorplot.pictures.pipeline import peak_mb
 from vectorplot.testing import visible_by_rays
-from vectorplot.testing.curved_meshes import grid_graph
+from vectorplot.testing.shapes import grid_graph
 sys.path.insert(0, sys.argv[1])
 from support.drawn import drawn, on_page
 mesh = grid_graph(710)

@@ -7,14 +7,13 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.curves.families.line import Line
+from vectorplot.curves.families import Line
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing
-from vectorplot.surfaces.families.capped import Capped
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.capped_bodies import Capped
 from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import assert_drawing_is_right, curves_in_space
 from vectorplot.words import LineKind
 

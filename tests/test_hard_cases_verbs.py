@@ -13,7 +13,6 @@ from support.verbs_by_rays import VERBS, cameras, in_three_colours, met_by_rays,
 import vectorplot as vp
 from vectorplot.arrays import Floats
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import (
     box,
     box_on_table,
@@ -26,6 +25,7 @@ from vectorplot.testing.shapes import (
     open_mesh,
     rotation,
     t_junction,
+    torus_mesh,
     without,
 )
 
@@ -226,7 +226,7 @@ def test_the_nearer_of_two_plates_wins_in_every_verb(verb: str, gap: float, size
 
 def faceted_sphere(rings: int, sectors: int, seed: int) -> Mesh:
     """A ball of triangles and quadrilaterals, turned at random."""
-    from vectorplot.geometry.bodies.bodies_of_revolution import revolution
+    from vectorplot.geometry.solids import revolution
 
     angle = np.linspace(-np.pi / 2, np.pi / 2, rings + 1)
     meridian = [(float(np.cos(a)) if 0 < k < rings else 0.0, 0.0, float(np.sin(a))) for k, a in enumerate(angle)]
@@ -373,10 +373,10 @@ def wordy(*at: Floats) -> str:
 @pytest.mark.parametrize("wrong", [raising, complex_valued, wrongly_shaped, wordy])
 @pytest.mark.parametrize("kind", ["surface", "graph", "implicit", "curve"])
 def test_functions_that_fail_are_named_in_every_verb(verb, wrong, kind: str) -> None:
-    from vectorplot.curves.function_curve import curve_of_function
+    from vectorplot.curves.placed_curves import curve_of_function
     from vectorplot.surfaces.function_surface import surface_of_function
-    from vectorplot.surfaces.graphs.graph import graph
-    from vectorplot.surfaces.implicit_function import implicit_of_function
+    from vectorplot.surfaces.graphs import graph
+    from vectorplot.surfaces.implicit import implicit_of_function
     from vectorplot.surfaces.surface import Domain
 
     made = {
@@ -394,7 +394,7 @@ def test_functions_that_fail_are_named_in_every_verb(verb, wrong, kind: str) -> 
 @pytest.mark.hard(69)
 @pytest.mark.parametrize("verb", ["paint", "render", "draw"])
 def test_where_a_function_is_not_finite_one_looks_through(verb: str) -> None:
-    from vectorplot.surfaces.graphs.graph import graph
+    from vectorplot.surfaces.graphs import graph
     from vectorplot.surfaces.surface import Domain
 
     def with_hole(x: Floats, y: Floats) -> Floats:

@@ -12,7 +12,6 @@ from support.drawn import EVERY_EDGE, drawn, moved, on_page, plate, stroke_count
 import vectorplot as vp
 from vectorplot.exact.predicates import orient3d
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
-from vectorplot.testing.curved_meshes import moebius_strip
 from vectorplot.testing.shapes import (
     box,
     box_on_table,
@@ -20,6 +19,7 @@ from vectorplot.testing.shapes import (
     edge_on_plate,
     hollow_tube,
     l_prisms,
+    moebius_strip,
     non_manifold_edge,
     open_mesh,
     rotation,

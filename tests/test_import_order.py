@@ -27,13 +27,11 @@ VERBS = {"animate", "draw", "film", "paint", "panorama", "plan", "read", "render
 STAGES = {"linework", "painting", "rendering", "stages", "technical", "batch"}
 
 # Pictures show themselves in a notebook and save themselves; the import happens when they are asked to.
-ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/raster/image.py", "verbs")}
+ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/image.py", "verbs")}
 
 FOR_PROGRAMS = {
-    "features/implicit/implicit_cusps.py",
-    "scene/terrains/tints.py",
+    "features/implicit_cusps.py",
     "surfaces/algebraic.py",
-    "surfaces/curvature.py",
 }
 """Files that programs of one's own call for, and no verb."""
 

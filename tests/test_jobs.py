@@ -7,8 +7,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.save import write
 from vectorplot.surfaces import Sphere
-from vectorplot.testing.curved_meshes import bumpy_icosphere
-from vectorplot.testing.shapes import rotated_boxes
+from vectorplot.testing.shapes import bumpy_icosphere, rotated_boxes
 
 LAMP = vp.Light((6.0, -5.0, 8.0))
 MANY = (1, 5)

@@ -16,13 +16,12 @@ from support.drawn import drawn, plate
 
 import vectorplot as vp
 from vectorplot.arrays import Floats
-from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.backends.cairo import png_bytes
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.surfaces.families.capped import Capped
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.capped_bodies import Capped
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Cylinder, Sphere
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import hausdorff
 from vectorplot.testing.shapes import box
 

@@ -15,16 +15,16 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.paint import paint
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.palettes import palette
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.shading.palettes import palette
+from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.testing.shapes import (
     box,
     numbered,

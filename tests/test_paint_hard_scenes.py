@@ -11,13 +11,13 @@ from support.strewn import STREWN
 from support.top_fills import assert_same_picture, covering, fills_of, top_at
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.paint import paint
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import (
     box,

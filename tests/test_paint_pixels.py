@@ -15,8 +15,8 @@ from support.top_fills import covering, fills_of, pixel_places
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import Fills
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.paint import paint
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material

@@ -10,8 +10,8 @@ from click.testing import CliRunner
 
 import vectorplot as vp
 from vectorplot.cli.commands.draw import draw
-from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
-from vectorplot.effects.panoramas.sectors import bearings_and_elevations, with_chords
+from vectorplot.drawing.strokes import chosen, concatenated
+from vectorplot.effects.panoramas import bearings_and_elevations, with_chords
 from vectorplot.geometry import box
 from vectorplot.scene import terrain_mesh
 from vectorplot.surfaces import terrain

@@ -6,21 +6,20 @@ import pytest
 import vectorplot as vp
 import vectorplot.scene.view as views
 from vectorplot.drawing.painted_fills import placement_of_faces
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.unit_projection import FARTHEST_OFF_AXIS_DEG
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG
 from vectorplot.scene.item import Item
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.raster.screen import picture_placement, pixel_system
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.shading.screen import picture_placement, pixel_system
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box, rotated_boxes
-from vectorplot.tolerances.of_extent import NEAR_OF_DISTANCE
-from vectorplot.visibility.framing import frame_of
+from vectorplot.tolerances import NEAR_OF_DISTANCE
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.polyhedra.lines import straight_lines
+from vectorplot.visibility.polyhedra.lines import frame_of, straight_lines
 
 PAGE = Page(120.0, 90.0, 5.0)
 CAMERAS = [Camera((8.0, -9.0, 7.0), (0.5, 0.2, -0.3), twist_deg=20.0), Camera((8.0, -9.0, 7.0), parallel=True)]

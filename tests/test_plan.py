@@ -12,19 +12,18 @@ import numpy as np
 import pytest
 from support.paths import DATA
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.io.read_file import read
-from vectorplot.paint import paint
-from vectorplot.render import render
-from vectorplot.scene.item import Item, Pattern
+from vectorplot.pictures.draw import draw
+from vectorplot.pictures.paint import paint
+from vectorplot.pictures.pipeline import Stage, StageReport, Walk
+from vectorplot.pictures.render import render
+from vectorplot.scene.item import Item, Pattern, SurfaceNormals
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.surface_normals import SurfaceNormals
-from vectorplot.stages.walk import Stage, StageReport, Walk
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.quadrics import Sphere
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
 
 PLAIN = ["look", "faces", "order", "shades", "fills"]
@@ -164,7 +163,7 @@ LOADED = """
 import os, sys
 import numpy as np
 import vectorplot as vp
-from vectorplot.paint import paint
+from vectorplot.pictures.paint import paint
 for scene_code in {codes}:
     sys.stdout.flush()
     if not os.fork():

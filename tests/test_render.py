@@ -12,16 +12,16 @@ import pytest
 from support.rendered import SIZE, SUN, coloured_boxes, grown, levels, sphere
 
 import vectorplot as vp
-from vectorplot import render as render_verb
 from vectorplot.errors import InputError
-from vectorplot.render import render
+from vectorplot.pictures import render as render_verb
+from vectorplot.pictures.pipeline import StageReport
+from vectorplot.pictures.render import render
 from vectorplot.save import write
-from vectorplot.scene.point_of_view import default_camera
-from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
-from vectorplot.shading.light.palettes import PALETTE_LIMITS, palette
-from vectorplot.shading.raster import scene_pixels
-from vectorplot.stages.walk import StageReport
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.scene.placement import default_camera
+from vectorplot.shading import scene_pixels
+from vectorplot.shading.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
+from vectorplot.shading.palettes import PALETTE_LIMITS, palette
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
 
 
@@ -123,7 +123,7 @@ def test_pictures_in_bands_are_the_whole_ones(monkeypatch):
     scene = replace(coloured_boxes(), lights=(SUN,))
     options = {"size": (97, 61), "samples": 3, "shadows": "buffer"}
     whole = render(scene, **options)
-    monkeypatch.setattr(sys.modules["vectorplot.rendering.pixel_bands"], "BAND_PIXELS", 97 * 9 * 4)
+    monkeypatch.setattr(sys.modules["vectorplot.pictures.pixels"], "BAND_PIXELS", 97 * 9 * 4)
     monkeypatch.setattr(scene_pixels, "POINTS_AT_ONCE", 500)
     bands = render(scene, **options)
     assert (whole.pixels == bands.pixels).all()
@@ -196,7 +196,7 @@ def test_triangles_are_small_in_fitted_pictures_from_afar_too(camera):
 
 @pytest.mark.slow
 def test_meshes_look_round_up_to_the_crease_angle():
-    from vectorplot.testing.curved_meshes import torus_mesh
+    from vectorplot.testing.shapes import torus_mesh
 
     scene = vp.Scene((vp.Item("RING", torus_mesh(36, 18), "gray"),), (SUN,))
     camera = default_camera(scene)

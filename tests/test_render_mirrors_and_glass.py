@@ -10,7 +10,7 @@ from support.rendered import FINE, SIZE, coloured_boxes, grown, levels
 
 import vectorplot as vp
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.render import render
+from vectorplot.pictures.render import render
 from vectorplot.testing.shapes import box
 
 

@@ -11,11 +11,11 @@ import pytest
 from support.rendered import FINE, GLASS, SIZE, SUN, inside_out, levels, sphere
 
 import vectorplot as vp
-from vectorplot.curves.families.circle import Circle
+from vectorplot.curves.families import Circle
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.plan import chosen_shadows
-from vectorplot.render import render
-from vectorplot.surfaces.families.swept.spiral import spiral_surface
+from vectorplot.pictures.plan import chosen_shadows
+from vectorplot.pictures.render import render
+from vectorplot.surfaces.swept import spiral_surface
 from vectorplot.testing.shapes import box
 
 

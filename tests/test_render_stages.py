@@ -12,8 +12,8 @@ from support.rendered import SIZE, SUN, coloured_boxes, sphere
 
 import vectorplot as vp
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.plan import plan_render
-from vectorplot.render import render
+from vectorplot.pictures.plan import plan_render
+from vectorplot.pictures.render import render
 from vectorplot.testing.shapes import box
 
 
@@ -92,7 +92,7 @@ def stage_names(scene, *, shadows="none", lines=False):
 
 @pytest.mark.slow
 def test_progress_never_goes_back(monkeypatch):
-    monkeypatch.setattr(sys.modules["vectorplot.rendering.pixel_bands"], "BAND_PIXELS", 240 * 20)
+    monkeypatch.setattr(sys.modules["vectorplot.pictures.pixels"], "BAND_PIXELS", 240 * 20)
     told = []
     scene = replace(coloured_boxes(), lights=(SUN,))
     render(scene, size=SIZE, progress=lambda stage, part: told.append((part, stage)))

@@ -21,10 +21,10 @@ BY_PROCESSOR = {
 
 OF_LAPACK = {"det", "solve", "inv", "pinv", "svd", "eig", "eigh", "eigvals", "eigvalsh", "lstsq", "qr", "slogdet"}
 
-OF_COMPLEX = {"geometry/elementary.py", "surfaces/families/minimal.py", "io/expressions/expression_nodes.py"}
+OF_COMPLEX = {"geometry/elementary.py", "surfaces/minimal.py", "io/expressions.py"}
 """Files that call some of them with complex numbers, which the mathematical library computes."""
 
-REPORTS = {"speed/log.py", "accuracy/curves_of_error.py", "accuracy/of_visibility/sampled_visibility.py"}
+REPORTS = {"speed/results.py", "accuracy/results.py", "accuracy/of_visibility.py"}
 """Files that measure times and errors, not pictures."""
 
 NEWER_INSTRUCTIONS = "X86_V3,X86_V4,AVX512_ICL,AVX2,FMA3,AVX512F,AVX512CD,AVX512_SKX"

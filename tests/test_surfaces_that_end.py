@@ -18,11 +18,11 @@ from support.effort import several
 import vectorplot as vp
 from vectorplot.curves import Circle, Loxodrome
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph, formula_implicit
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.scene_slots import Formulas, formula_graph, formula_implicit
 from vectorplot.surfaces import Domain, Rotoid, Swept, minimal_spiral_surface
 from vectorplot.testing import assert_drawing_is_right
-from vectorplot.testing.stroke_points import stroke_points
+from vectorplot.testing.drawings import stroke_points
 
 PAGE = vp.Page(100, 100, 5)
 SECONDS, MEGABYTES = 25.0, 1500.0

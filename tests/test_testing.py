@@ -9,10 +9,10 @@ from hypothesis import strategies as st
 from support.hard_shapes import HARD_SHAPES
 from support.triangle_rays import TriangleRays
 
-from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.testing import (
@@ -21,9 +21,8 @@ from vectorplot.testing import (
     edge_points,
     visible_by_rays,
 )
-from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
-from vectorplot.testing.rays.triangles import triangulated
-from vectorplot.testing.shapes import box, honeycomb, prism, scene_of, without
+from vectorplot.testing.rays import triangulated
+from vectorplot.testing.shapes import box, bumpy_icosphere, grid_graph, honeycomb, prism, scene_of, torus_mesh, without
 from vectorplot.words import LineKind
 
 LINE = [(10.0, 10.0), (50.0, 10.0), (50.0, 40.0)]

@@ -10,15 +10,21 @@ from support.effort import examples
 
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.strokes import Strokes
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.polylines import Strokes
 from vectorplot.scene.light import Light
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.quadric import Quadric, implicit_cylinder, implicit_plane, implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.quadrics import (
+    Cylinder,
+    Ellipsoid,
+    Quadric,
+    Sphere,
+    implicit_cylinder,
+    implicit_plane,
+    implicit_sphere,
+)
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.testing import (
     assert_closed,
     assert_contour,
@@ -30,7 +36,7 @@ from vectorplot.testing import (
     curves_in_space,
     hausdorff,
 )
-from vectorplot.testing.rays.nearest import nearest_places
+from vectorplot.testing.rays import nearest_places
 from vectorplot.words import LineKind
 
 T = np.linspace(0.0, 2.0 * np.pi, 201)

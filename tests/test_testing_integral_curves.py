@@ -13,7 +13,7 @@ from vectorplot.features import Tracing, integral_curves
 from vectorplot.scene import GeodesicLines
 from vectorplot.surfaces import Ellipsoid, Sphere, Torus
 from vectorplot.testing import assert_geodesic, assert_integral_curve, curves_in_space
-from vectorplot.testing.curve_points import polylines_of
+from vectorplot.testing.curves import polylines_of
 from vectorplot.words import LineKind
 
 BALL, FIELD = Sphere(2.0), features.loxodromes(1.1)

@@ -5,7 +5,7 @@ import pytest
 
 from vectorplot import features
 from vectorplot.errors import InputError
-from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_geodesic, assert_integral_curve
 from vectorplot.testing.shapes import box
 

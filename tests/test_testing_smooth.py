@@ -9,22 +9,26 @@ import pytest
 from support.analytic_sight import sheets_in_front
 from support.torus_runs import contour_of, isophotes_of, parameter_lines, runs_of
 
-from vectorplot.draw import draw
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid, Paraboloid
-from vectorplot.surfaces.families.quadric import implicit_ellipsoid
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    Paraboloid,
+    Sphere,
+    implicit_ellipsoid,
+)
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus, dupin_cyclide
 from vectorplot.testing import assert_drawing_is_right, visible_by_rays
 
 SURE = 2e-5

@@ -14,7 +14,8 @@ from support.paths import DOCS
 from support.sources import nodes_of, numbers_in, text_of, tree_of
 
 import vectorplot
-from vectorplot.tolerances import of_extent, of_numbers
+from vectorplot import tolerances as of_extent
+from vectorplot import tolerances as of_numbers
 
 PACKAGE = Path(vectorplot.__file__).parent
 TABLE = sorted((PACKAGE / "tolerances").glob("of_*.py"))

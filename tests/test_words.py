@@ -10,11 +10,11 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.verbs import meant_option
 from vectorplot.cli.verbs import vectorplot as verbs
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.io.scenes.reserved_words import RESERVED
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.shading.light.illumination import FINISHES
-from vectorplot.shading.light.palettes import PALETTE_LIMITS, PLAIN, palette
+from vectorplot.geometry.solids import box
+from vectorplot.io.reserved_words import RESERVED
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.shading.illumination import FINISHES
+from vectorplot.shading.palettes import PALETTE_LIMITS, PLAIN, palette
 from vectorplot.words import (
     COLOURS,
     DRAWN,

@@ -48,7 +48,7 @@ def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> 
     <Scene 'Box': 1 items, 0 lights>
     """
     if Path(path).suffix.lower() == ".json" and exaggeration is None:
-        from vectorplot.backends.json.json_document import read_drawing
+        from vectorplot.backends.json import read_drawing
 
         return read_drawing(path)
     from vectorplot.io.read_file import read as read_file

@@ -11,19 +11,19 @@ from typing import Protocol, runtime_checkable
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.raster.image import Image
+from vectorplot.shading.image import Image
 from vectorplot.words import format_hint
 
 # Module and function of each format; a backend is imported when it is called for.
 _BACKENDS = {
-    "svg": ("svg.svg_document", "svg_bytes"),
-    "ps": ("cairo.surfaces", "ps_bytes"),
-    "eps": ("cairo.surfaces", "eps_bytes"),
-    "pdf": ("cairo.surfaces", "pdf_bytes"),
-    "png": ("cairo.surfaces", "png_bytes"),
-    "tex": ("tikz.tikz_picture", "tikz_bytes"),
-    "dxf": ("dxf.dxf_document", "dxf_bytes"),
-    "json": ("json.json_document", "json_bytes"),
+    "svg": ("svg", "svg_bytes"),
+    "ps": ("cairo", "ps_bytes"),
+    "eps": ("cairo", "eps_bytes"),
+    "pdf": ("cairo", "pdf_bytes"),
+    "png": ("cairo", "png_bytes"),
+    "tex": ("tikz", "tikz_bytes"),
+    "dxf": ("dxf", "dxf_bytes"),
+    "json": ("json", "json_bytes"),
 }
 
 _BINARY = getattr(os, "O_BINARY", 0)
@@ -92,7 +92,7 @@ def save(drawing: Drawing | Image | Scene | Frames | Sequence[Drawing], path: st
     if isinstance(drawing, Sequence):
         if suffix.lower() != ".pdf" or not drawing:
             raise InputError("several drawings are the pages of a .pdf; one at least", file=os.fspath(path))
-        from vectorplot.backends.cairo.pages import pdf_pages_bytes
+        from vectorplot.backends.cairo import pdf_pages_bytes
 
         write_whole(path, pdf_pages_bytes(drawing, drawing[0].title))
         return
@@ -151,8 +151,8 @@ def save_for_latex(drawing: Drawing, path: str | os.PathLike[str]) -> None:
 def write_for_latex(drawing: Drawing, format: str, name: str) -> tuple[bytes, bytes]:
     """The contents of a picture, pdf or eps, without texts, and of the file that sets them over the picture of this
     name. Errors: as of write."""
-    from vectorplot.backends.cairo.surfaces import pdf_bytes, whole_eps_bytes
-    from vectorplot.backends.tikz.overlay import overlay_bytes, without_texts
+    from vectorplot.backends.cairo import pdf_bytes, whole_eps_bytes
+    from vectorplot.backends.tikz import overlay_bytes, without_texts
 
     bare = without_texts(drawing)
     picture = pdf_bytes(bare) if format.lower() == "pdf" else whole_eps_bytes(bare)
@@ -183,7 +183,7 @@ def write(drawing: Drawing | Image | Scene, format: str) -> bytes:
 def _scene_text(scene: Scene, format: str) -> bytes:
     if format.lower() != _SCENE:
         raise InputError(f"a scene is written as scene, not as {format}: draw, paint or render it first")
-    from vectorplot.io.scenes.scene_writer import write_scene
+    from vectorplot.io.scene_writer import write_scene
 
     return write_scene(scene).encode("ascii")
 

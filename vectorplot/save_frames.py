@@ -11,11 +11,11 @@ from vectorplot.animation.animation import check_fps
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.save import FORMATS, write, write_whole
-from vectorplot.shading.raster.image import Image
-from vectorplot.shading.raster.png import Bytes
+from vectorplot.shading.image import Bytes, Image
 
 if TYPE_CHECKING:
-    from vectorplot.animation.movies.movie import Movie
+    from vectorplot.animation.movies import Movie
+
 
 VIDEOS = ("mp4", "webm", "gif")
 """Formats of pixels, through the package av."""
@@ -80,7 +80,7 @@ def save_frames(
     if kind == "folder":
         _save_folder(pictures, Path(path), format)
     elif kind in MOVIES:
-        from vectorplot.animation.movies.recorder import movie_of
+        from vectorplot.animation.movies import movie_of
 
         save_movie(movie_of(_drawings(pictures, "a movie of polygons")), Path(path).with_suffix(""))
     else:
@@ -89,7 +89,7 @@ def save_frames(
 
 def save_movie(movie: Movie, path: Path) -> None:
     """Write the two files of a movie, whose name without suffix is given."""
-    from vectorplot.animation.movies.encoding import encoded
+    from vectorplot.animation.movies import encoded
 
     first, second = encoded(movie)
     # The first one is what a movie is found by.
@@ -99,7 +99,7 @@ def save_movie(movie: Movie, path: Path) -> None:
 
 def recorded(pictures: Iterable[Picture], path: Path) -> Iterator[Drawing]:
     """The drawings, which are recorded while they go by, and saved as a movie of this name behind the last one."""
-    from vectorplot.animation.movies.recorder import Recorder
+    from vectorplot.animation.movies import Recorder
 
     recorder = Recorder()
     for drawing in _drawings(pictures, "a movie of polygons"):
@@ -134,10 +134,10 @@ def write_frames(pictures: Iterable[Picture], format: str, fps: float) -> bytes:
     title = "" if first is None else first.title
     every = _with(first, frames)
     if format == "pdf":
-        from vectorplot.backends.cairo.pages import pdf_pages_bytes
+        from vectorplot.backends.cairo import pdf_pages_bytes
 
         return pdf_pages_bytes(every, title)
-    from vectorplot.backends.svg.animated import animated_svg_bytes
+    from vectorplot.backends.svg import animated_svg_bytes
 
     return animated_svg_bytes(every, fps, title)
 
@@ -146,7 +146,7 @@ def pixels_of(picture: Picture) -> Bytes:
     """(rows, columns, 3) the pixels of a frame; of a drawing at 150 dots per inch."""
     if isinstance(picture, Image):
         return picture.pixels
-    from vectorplot.backends.cairo.surfaces import drawing_pixels
+    from vectorplot.backends.cairo import drawing_pixels
 
     return drawing_pixels(picture)
 

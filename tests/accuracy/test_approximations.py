@@ -8,14 +8,14 @@ from functools import cache
 import numpy as np
 import pytest
 
-from vectorplot.accuracy import measuring
+from vectorplot.accuracy import of_light as shadow_maps
+from vectorplot.accuracy import of_surfaces as painted_facets
+from vectorplot.accuracy import of_visibility as buffered_lines
+from vectorplot.accuracy import of_visibility as sampled_visibility
+from vectorplot.accuracy import verb as measuring
 from vectorplot.accuracy.approximation import Approximation, Study, check_values
-from vectorplot.accuracy.catalogue import APPROXIMATIONS
-from vectorplot.accuracy.curves_of_error import Accuracy
-from vectorplot.accuracy.measuring import measured
-from vectorplot.accuracy.of_light import shadow_maps
-from vectorplot.accuracy.of_surfaces import painted_facets
-from vectorplot.accuracy.of_visibility import buffered_lines, sampled_visibility
+from vectorplot.accuracy.results import Accuracy
+from vectorplot.accuracy.verb import APPROXIMATIONS, measured
 
 FEW = {
     "drawn-curves": (0.1, 0.01),

@@ -9,7 +9,7 @@ import pytest
 from support.paths import DOCS
 
 import vectorplot as vp
-from vectorplot.accuracy.catalogue import APPROXIMATIONS
+from vectorplot.accuracy.verb import APPROXIMATIONS
 
 PAGE = (DOCS / "accuracy.md").read_text(encoding="utf-8")
 

@@ -11,12 +11,10 @@ import signal
 import pytest
 
 import vectorplot as vp
-from vectorplot.accuracy import measuring
+from vectorplot.accuracy import verb as measuring
 from vectorplot.accuracy.approximation import decades
-from vectorplot.accuracy.catalogue import APPROXIMATIONS
-from vectorplot.accuracy.curves_of_error import Accuracy, ErrorCurve, Sample
-from vectorplot.accuracy.error_plots import plot
-from vectorplot.accuracy.error_tables import HEAD, as_csv, as_json, as_text, listed
+from vectorplot.accuracy.results import HEAD, Accuracy, ErrorCurve, Sample, as_csv, as_json, as_text, listed, plot
+from vectorplot.accuracy.verb import APPROXIMATIONS
 from vectorplot.cli.main import run
 
 NAMES = [one.name for one in APPROXIMATIONS]

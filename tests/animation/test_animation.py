@@ -7,7 +7,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.animation import MODES, Mode, parse_animation, read_animation
-from vectorplot.animation.tracks import Track
+from vectorplot.animation.animation import Track
 from vectorplot.io import parse_scene
 
 SCENE = parse_scene(

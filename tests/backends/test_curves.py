@@ -21,11 +21,11 @@ from support.backend_samples import (
     run,
 )
 
-from vectorplot.backends.cairo.surfaces import png_bytes
-from vectorplot.backends.svg.svg_document import svg_bytes
+from vectorplot.backends.cairo import png_bytes
+from vectorplot.backends.svg import svg_bytes
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Pen
-from vectorplot.drawing.strokes.curved_strokes import curved_strokes
-from vectorplot.drawing.strokes.stroke_paths import concatenated
+from vectorplot.drawing.stroke_curves import curved_strokes
+from vectorplot.drawing.strokes import concatenated
 from vectorplot.errors import InputError
 from vectorplot.save import FORMATS, save, write
 

@@ -15,9 +15,9 @@ from support.effort import several
 from support.fill_samples import colour_at, fan, flat, page_of, pictures, rgb, shaded
 from support.svg_fills import HREF, points_of
 
-from vectorplot.backends.cairo.surfaces import eps_bytes, png_bytes, ps_bytes
-from vectorplot.backends.json.json_document import json_bytes, read_drawing
-from vectorplot.backends.svg.svg_document import svg_bytes, svg_text
+from vectorplot.backends.cairo import eps_bytes, png_bytes, ps_bytes
+from vectorplot.backends.json import json_bytes, read_drawing
+from vectorplot.backends.svg import svg_bytes, svg_text
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import SEAM_MM, FillKind, Fills
 from vectorplot.errors import InputError

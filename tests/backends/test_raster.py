@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from support.backend_samples import drawing_of, paths_of
 
-from vectorplot.backends.cairo import surfaces as cairo
+from vectorplot.backends import cairo
 from vectorplot.backends.raster import painted, png_bytes
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import Fills

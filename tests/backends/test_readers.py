@@ -19,7 +19,7 @@ from support.backend_samples import (
     run,
 )
 
-from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.backends.cairo import png_bytes
 from vectorplot.save import FORMATS, save, write
 
 GHOSTSCRIPT = ("-q", "-dSAFER", "-dBATCH", "-dNOPAUSE", "-dTextAlphaBits=4", "-dGraphicsAlphaBits=4", f"-r{DPI}")

@@ -10,9 +10,9 @@ import pytest
 from support.backend_samples import run
 
 import vectorplot as vp
-from vectorplot.backends.tikz.nodes import latex
+from vectorplot.backends.tikz import latex
 from vectorplot.drawing import Texts, typeset, typeset_along
-from vectorplot.drawing.lettering.formulas import without_formulas
+from vectorplot.drawing.formulas import without_formulas
 from vectorplot.errors import InputError
 from vectorplot.geometry import box
 from vectorplot.save import write

@@ -61,7 +61,7 @@ def test_a_worker_that_is_killed_costs_no_frame_and_a_stopped_run_goes_on(schedu
 )
 @pytest.mark.usefixtures("distributed")
 def test_where_nobody_answers_one_line_says_so(address, said, monkeypatch):
-    monkeypatch.setattr("vectorplot.batch.executors.ANSWERS_S", 0.2)
+    monkeypatch.setattr("vectorplot.batch.tasks.ANSWERS_S", 0.2)
     with pytest.raises(vp.InputError, match=said) as error, cluster(address):
         pass
     assert "\n" not in str(error.value)

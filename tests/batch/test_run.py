@@ -15,8 +15,8 @@ from support.batches import bad, contents, frame, frames
 
 import vectorplot as vp
 from vectorplot.batch import Here, Tally, Task, fingerprint, results, run
-from vectorplot.batch.calls import ALONE, IN_COMPANY, Lost, answers
-from vectorplot.batch.finished_pictures import RECORD
+from vectorplot.batch.running import RECORD
+from vectorplot.batch.tasks import ALONE, IN_COMPANY, Lost, answers
 
 
 class Losing(Here):

@@ -7,9 +7,9 @@ import time
 import numpy as np
 import pytest
 
-from vectorplot.curves.bezier.fit import fitted_paths
+from vectorplot.curves.bezier_fit import fitted_paths
 from vectorplot.drawing.drawing import CurvedStrokes, Paths
-from vectorplot.drawing.strokes.curved_strokes import curved_strokes
+from vectorplot.drawing.stroke_curves import curved_strokes
 
 pytestmark = pytest.mark.bench
 

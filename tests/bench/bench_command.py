@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vectorplot.testing.curved_meshes import bumpy_icosphere
+from vectorplot.testing.shapes import bumpy_icosphere
 
 pytestmark = pytest.mark.bench
 

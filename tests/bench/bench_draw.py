@@ -12,21 +12,18 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
-from vectorplot.scene.pages.page import Page
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.speed.clock import cpu_seconds
-from vectorplot.testing.curved_meshes import bumpy_icosphere
-from vectorplot.testing.shapes import rotated_boxes
-from vectorplot.visibility.framing import frame_of, in_frame
-from vectorplot.visibility.polyhedra.hidden_lines import visible_parts
-from vectorplot.visibility.polyhedra.lines import edge_lines, joined_lines
+from vectorplot.speed.results import cpu_seconds
+from vectorplot.testing.shapes import bumpy_icosphere, rotated_boxes
+from vectorplot.visibility.polyhedra.hidden_lines import Segments, visible_parts
+from vectorplot.visibility.polyhedra.lines import edge_lines, frame_of, in_frame, joined_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
-from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
 
@@ -127,7 +124,7 @@ def test_peak_memory_at_a_million_triangles(tmp_path: Path) -> None:
     vertices, triangles = saved(scene_of(bumpy_icosphere(8)), tmp_path)
     code = f"""
 import numpy as np
-from vectorplot.draw import draw
+from vectorplot.pictures.draw import draw
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.item import Item

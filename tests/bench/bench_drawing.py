@@ -9,11 +9,10 @@ import numpy as np
 import pytest
 
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.duplicates.duplicates import without_duplicates
-from vectorplot.drawing.strokes.join import joined
-from vectorplot.drawing.strokes.long_strokes import split_long
-from vectorplot.drawing.strokes.pen_order.order import pen_ordered, travel_mm
-from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.drawing.duplicates import without_duplicates
+from vectorplot.drawing.pen_order import pen_ordered, travel_mm
+from vectorplot.drawing.simplify import without_collinear_points
+from vectorplot.drawing.strokes import joined, split_long
 
 pytestmark = pytest.mark.bench
 

@@ -8,18 +8,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.effects.glass.glass_polygons import seen_in_glass
-from vectorplot.effects.mirrors.reflections import mirrors, reflections
-from vectorplot.geometry.bodies.bodies_of_revolution import revolution
+from vectorplot.effects.glass import seen_in_glass
+from vectorplot.effects.mirrors import mirrors, reflections
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.paint import paint
+from vectorplot.geometry.solids import revolution
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.speed.clock import cpu_seconds
+from vectorplot.speed.results import cpu_seconds
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import project_faces

@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.implicit.implicit_curves import implicit_contour, implicit_isophotes
-from vectorplot.features.implicit.implicit_mesh import implicit_mesh
-from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
-from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
-from vectorplot.features.meshes.mesh_lines import mesh_plane_sections
-from vectorplot.speed.clock import cpu_seconds
-from vectorplot.surfaces.families.torus import ImplicitTorus
+from vectorplot.features.implicit_curves import implicit_contour, implicit_isophotes
+from vectorplot.features.implicit_meshes import implicit_mesh
+from vectorplot.features.implicit_surfaces import polygonized, settled_mesh
+from vectorplot.features.implicit_tracing import ImplicitTracing
+from vectorplot.features.mesh_lines import mesh_plane_sections
+from vectorplot.speed.results import cpu_seconds
+from vectorplot.surfaces.tori import ImplicitTorus
 
 TORUS = ImplicitTorus(3.0, 1.0)
 

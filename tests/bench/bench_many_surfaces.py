@@ -10,18 +10,18 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.paint import paint
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid
-from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Hyperboloid
 from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.surfaces.tori import Torus
 
 pytestmark = pytest.mark.bench
 

@@ -5,27 +5,24 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.backends.svg.svg_document import svg_bytes
-from vectorplot.drawing.fills_without_overlaps import visible_fills
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.convex_hulls import hull_mesh
-from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex
+from vectorplot.backends.svg import svg_bytes
+from vectorplot.drawing.fill_visibility import visible_fills
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.convex_polygons import hull_mesh
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.paint import paint
+from vectorplot.geometry.polygon_cuts import clipped_by_convex
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.speed.clock import cpu_seconds
-from vectorplot.testing.curved_meshes import bumpy_icosphere
-from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
-from vectorplot.textbook.orders.graph_orders import graph_order, graph_triangles
-from vectorplot.textbook.orders.ring_orders import ring_order, sliced_meridian
-from vectorplot.textbook.orders.sphere_orders import sphere_order
+from vectorplot.speed.results import cpu_seconds
+from vectorplot.testing.shapes import box, bumpy_icosphere, numbered, rotated_boxes, rotation
+from vectorplot.textbook.orders import graph_order, graph_triangles, ring_order, sliced_meridian, sphere_order
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.pairs.convex_bodies import convex_bodies, outlined_items
+from vectorplot.visibility.painter.pairs import convex_bodies, outlined_items
 from vectorplot.visibility.projected_faces import project_faces
 
 pytestmark = pytest.mark.bench

@@ -8,18 +8,17 @@ import pstats
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
+from vectorplot.pictures.pipeline import StageReport
+from vectorplot.scene.added_lines import even_sections, with_lines
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
-from vectorplot.scene.lines.added_lines import even_sections, with_lines
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, even_cosines
-from vectorplot.speed.clock import cpu_seconds
-from vectorplot.stages.walk import StageReport
-from vectorplot.surfaces.families.capped import Capped, rod
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.speed.results import cpu_seconds
+from vectorplot.surfaces.capped_bodies import Capped, rod
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Sphere
 from vectorplot.testing.shapes import box
 
 pytestmark = pytest.mark.bench

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vectorplot.geometry.repair.mesh_repair import is_closed_oriented, mended
-from vectorplot.io.meshes.numerals import decimals, padded
+from vectorplot.geometry.mesh_repair import is_closed_oriented, mended
+from vectorplot.io.mesh_file import decimals, padded
 from vectorplot.io.read_file import read
 
 pytestmark = pytest.mark.bench

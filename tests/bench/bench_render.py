@@ -17,14 +17,14 @@ pytestmark = pytest.mark.bench
 SCRIPT = """
 import time
 import numpy as np
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.scene.placement import default_camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.render import render
+from vectorplot.pictures.render import render
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
-from vectorplot.testing.curved_meshes import bumpy_icosphere
+from vectorplot.testing.shapes import bumpy_icosphere
 
 levels, shadows, lights, samples = {levels}, {shadows!r}, {lights}, {samples}
 sun = [(1.0, -1.5, 2.0), (-1.0, -1.0, 1.0), (2.0, 0.5, 1.0)]

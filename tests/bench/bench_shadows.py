@@ -7,15 +7,14 @@ import time
 import numpy as np
 import pytest
 
-from vectorplot.effects.decals.decal_polygons import Decals
-from vectorplot.effects.shadows.shadow_decals import shadow_decals
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.effects.decals import Decals
+from vectorplot.effects.shadows import shadow_decals
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.testing.curved_meshes import bumpy_icosphere, torus_mesh
-from vectorplot.testing.shapes import box, numbered, rotated_boxes, rotation
+from vectorplot.testing.shapes import box, bumpy_icosphere, numbered, rotated_boxes, rotation, torus_mesh
 
 pytestmark = pytest.mark.bench
 

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
+from vectorplot.pictures.pipeline import StageReport
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
-from vectorplot.speed.clock import cpu_seconds
-from vectorplot.stages.walk import StageReport
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.speed.results import cpu_seconds
+from vectorplot.surfaces.quadrics import Sphere
+from vectorplot.surfaces.tori import Torus
 
 pytestmark = pytest.mark.bench
 

@@ -8,9 +8,8 @@ from __future__ import annotations
 
 import pytest
 
-from vectorplot.speed.measure import measured, on_threads
-from vectorplot.speed.operations import point_cost
-from vectorplot.speed.scenes import SERIES
+from vectorplot.speed.measure import SERIES, measured, on_threads
+from vectorplot.speed.results import point_cost
 
 pytestmark = pytest.mark.bench
 

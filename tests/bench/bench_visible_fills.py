@@ -8,8 +8,8 @@ import time
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.paint import paint
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene

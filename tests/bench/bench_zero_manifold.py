@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.features.zero_curves import zero_manifold_of_f_uv
 from vectorplot.geometry.outline import concat
 from vectorplot.surfaces.surface import Domain
 

@@ -5,10 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.accuracy.catalogue import APPROXIMATIONS
-from vectorplot.charts.axes import LogAxis, number
-from vectorplot.charts.chart import BELOW_MM, Curve, Panel, chart
-from vectorplot.charts.letters import CAPITAL, FOOT, GLYPHS, letters, text_width
+from vectorplot.accuracy.verb import APPROXIMATIONS
+from vectorplot.drawing.charts import (
+    BELOW_MM,
+    CAPITAL,
+    FOOT,
+    GLYPHS,
+    Curve,
+    LogAxis,
+    Panel,
+    chart,
+    letters,
+    number,
+    text_width,
+)
 from vectorplot.save import write
 
 

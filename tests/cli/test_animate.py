@@ -12,7 +12,7 @@ from support.paths import DATA, ROOT
 
 import vectorplot as vp
 from vectorplot.animation import frame_drawings, read_movie
-from vectorplot.animation.modes import MODES
+from vectorplot.animation.animation import MODES
 from vectorplot.cli.main import run
 from vectorplot.save import write
 

@@ -11,19 +11,21 @@ import vectorplot as vp
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.commands.render import render
-from vectorplot.cli.common_options import (
+from vectorplot.cli.options import at_least
+from vectorplot.cli.picture_options import (
     DRAWING_FORMATS,
     LIGHTS,
+    PAGE_OPTIONS,
     TOLERANCE,
+    CameraOptions,
+    PageOptions,
     Told,
     crease_angle_option,
+    hatching_from,
     lines_option,
     picture_verb,
 )
-from vectorplot.cli.options import at_least
-from vectorplot.cli.strokes.hatching_options import hatching_from
 from vectorplot.cli.verbs import vectorplot
-from vectorplot.cli.view_options import PAGE_OPTIONS, CameraOptions, PageOptions
 
 VERBS = [
     verb for verb in vectorplot.commands.values() if {"scene_file", "out"} <= {param.name for param in verb.params}

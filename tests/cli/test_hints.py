@@ -49,7 +49,7 @@ def test_a_title_is_read_as_utf_8_in_every_locale(tmp_path):
 
 @pytest.mark.parametrize("options", [[], ["--explain"]])
 def test_errors_are_measured_where_they_are_asked_for(tmp_path, monkeypatch, options):
-    told, module = [], import_module("vectorplot.draw")
+    told, module = [], import_module("vectorplot.pictures.draw")
     real = module.draw
     monkeypatch.setattr(module, "draw", lambda *scene, explain, **how: told.append(explain) or real(*scene, **how))
     assert run(["draw", str(DATA / "pencil.scene"), "-o", str(tmp_path / "x.svg"), *options]) == 0

@@ -13,7 +13,7 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.options import direction
 from vectorplot.geometry import box
-from vectorplot.io.upwards import upwards_hint
+from vectorplot.io.mesh_file import upwards_hint
 
 
 @pytest.fixture

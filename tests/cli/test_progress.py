@@ -2,9 +2,9 @@ import io
 import sys
 import warnings
 
-from vectorplot.cli import progress
+from vectorplot.cli import picture as progress
 from vectorplot.errors import InputWarning
-from vectorplot.stages.walk import StageReport
+from vectorplot.pictures.pipeline import StageReport
 
 
 class Terminal(io.StringIO):

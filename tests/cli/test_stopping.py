@@ -19,10 +19,9 @@ from support.effort import several
 from support.paths import ROOT
 
 import vectorplot as vp
-from vectorplot.cli.main import run
-from vectorplot.cli.stopping import stoppable
+from vectorplot.cli.main import run, stoppable
+from vectorplot.pictures.pipeline import Walk
 from vectorplot.save import write
-from vectorplot.stages.walk import Walk
 
 SCENE = """
 light LAMP position 4 -6 9

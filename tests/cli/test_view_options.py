@@ -6,16 +6,16 @@ from hypothesis import strategies as st
 
 import vectorplot as vp
 from vectorplot.cli.main import run
-from vectorplot.cli.view_options import CameraOptions, PageOptions, camera_from, page_from
+from vectorplot.cli.picture_options import CameraOptions, PageOptions, camera_from, page_from
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import VIEWS, Camera
+from vectorplot.geometry.camera import VIEWS, Camera
 from vectorplot.geometry.rotations import upright_turn
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.scene.pages.page import Page
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.raster.screen import picture_placement, pixel_system
+from vectorplot.shading.screen import picture_placement, pixel_system
 from vectorplot.testing.shapes import box, scene_of
 
 SCENE = scene_of(BOX=box((0, 0, 0), (2, 1, 1)))

@@ -5,14 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.curves.families.circle import Circle
-from vectorplot.curves.families.cylinder_intersections import cylinder_intersection
-from vectorplot.curves.families.helix import Helix
-from vectorplot.curves.families.line import Line
-from vectorplot.curves.families.loxodrome import Loxodrome
-from vectorplot.curves.function_curve import curve_of_function
-from vectorplot.curves.placed_curve import PlacedCurve
-from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.curves.curve import second_derivatives
+from vectorplot.curves.families import Circle, Helix, Line, Loxodrome, cylinder_intersection
+from vectorplot.curves.placed_curves import PlacedCurve, curve_of_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 

@@ -8,8 +8,8 @@ import warnings
 import numpy as np
 import pytest
 
-from vectorplot.curves.function_curve import curve_of_function
-from vectorplot.curves.second_derivatives import second_derivatives
+from vectorplot.curves.curve import second_derivatives
+from vectorplot.curves.placed_curves import curve_of_function
 from vectorplot.errors import InputError, InputWarning
 
 T = np.linspace(0.05, 6.2, 83)

@@ -1,10 +1,9 @@
 import numpy as np
 import pytest
 
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph, formula_surface
-from vectorplot.surfaces.graphs.graph import graph, graph_over_disc
-from vectorplot.surfaces.graphs.graph_regions import Disc
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.scene_slots import Formulas, formula_graph, formula_surface
+from vectorplot.surfaces.graphs import Disc, graph, graph_over_disc
 from vectorplot.surfaces.surface import Domain
 
 SQUARE = Domain(-2.0, 2.0, -2.0, 2.0)

@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.strokes.finishing import inked
+from vectorplot.drawing.finishing import inked
 from vectorplot.errors import InputError
 from vectorplot.testing import assert_drawings_equal
 

@@ -10,10 +10,10 @@ from support.paths import DATA
 from support.strewn import STREWN
 
 import vectorplot as vp
+from vectorplot.drawing.fill_visibility import in_space, visible_fills
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.fills_without_overlaps import in_space, visible_fills
 from vectorplot.geometry.regions import polygons_of
-from vectorplot.paint import paint
+from vectorplot.pictures.paint import paint
 
 FLAT = np.array([[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]])
 

@@ -7,21 +7,21 @@ import pytest
 import shapely
 from support.effort import several
 
-from vectorplot.backends.cairo.surfaces import drawing_pixels
+from vectorplot.backends.cairo import drawing_pixels
+from vectorplot.drawing.fill_visibility import MARGIN_MM, flattened
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.flattened import MARGIN_MM, flattened
 from vectorplot.drawing.painted_fills import Overlay, stacked
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.regions import polygons_of
-from vectorplot.paint import paint
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import box
-from vectorplot.tolerances.of_the_page import CLEARANCE_MM
+from vectorplot.tolerances import CLEARANCE_MM
 
 WORLD = np.array([[1.0, 0, 0, 0], [0, 1.0, 0, 0], [0, 0, 1.0, 0], [0, 0, 0, 1.0]])
 """The page is the world."""

@@ -8,7 +8,7 @@ import shapely
 from scipy.ndimage import maximum_filter, minimum_filter
 
 import vectorplot as vp
-from vectorplot.backends.cairo.surfaces import drawing_pixels
+from vectorplot.backends.cairo import drawing_pixels
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.regions import polygons_of

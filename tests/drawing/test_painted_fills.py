@@ -15,7 +15,7 @@ from vectorplot.drawing.painted_fills import Overlay, interleaved, overlaid
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.framed_polygons import framed_faces
+from vectorplot.visibility.painter.image_faces import framed_faces
 from vectorplot.visibility.painter.painters_order import painters_order
 
 

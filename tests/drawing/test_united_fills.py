@@ -9,7 +9,7 @@ import shapely
 import vectorplot as vp
 from vectorplot.geometry import box
 from vectorplot.geometry.regions import polygons_of
-from vectorplot.painting.stepped import border_tolerance_mm
+from vectorplot.pictures.fills import border_tolerance_mm
 from vectorplot.shading import palette
 from vectorplot.surfaces import Sphere
 

@@ -10,9 +10,9 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.curves import Circle
 from vectorplot.effects.cuts import between_planes, depths
-from vectorplot.geometry.repair.adjacency import body_record
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.geometry.adjacency import body_record
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.surfaces import Sphere, Torus, implicit_sphere
 from vectorplot.testing.shapes import box, without
 
@@ -73,7 +73,7 @@ def test_both_sides_of_a_plane_together_have_the_area_of_the_whole(name):
 @pytest.mark.capability("G3.L-scene")
 def test_a_cut_body_stays_closed_but_for_the_cut():
     """Faces that shared an edge share its new vertex: the only open edges lie in the plane."""
-    from vectorplot.geometry.repair.mesh_repair import mesh_report
+    from vectorplot.geometry.mesh_repair import mesh_report
 
     body = row(1)
     (item,) = between_planes(

@@ -5,8 +5,8 @@ import pytest
 from support.top_fills import colours_at, fills_of, top_at
 
 import vectorplot as vp
-from vectorplot.painting.painted_paper import PAPER
-from vectorplot.shading.light.palettes import palette
+from vectorplot.pictures.fills import PAPER
+from vectorplot.shading.palettes import palette
 from vectorplot.testing.shapes import box
 
 PAGE = vp.Page(100.0, 100.0, 0.0)

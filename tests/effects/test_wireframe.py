@@ -8,12 +8,11 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.geometry.bodies.bodies_of_revolution import revolution
-from vectorplot.geometry.repair.adjacency import mesh_edges
-from vectorplot.shading.light.palettes import palette
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import implicit_sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.geometry.adjacency import mesh_edges
+from vectorplot.geometry.solids import revolution
+from vectorplot.shading.palettes import palette
+from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import assert_drawings_equal
 from vectorplot.testing.shapes import box
 from vectorplot.words import WIRES

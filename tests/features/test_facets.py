@@ -7,20 +7,17 @@ import pytest
 import shapely
 
 from vectorplot.errors import InputError
-from vectorplot.features.facet_demands import Within
+from vectorplot.features.edge_splitting import Within
 from vectorplot.features.facets import facets
-from vectorplot.geometry.cuts.half_spaces import HalfSpaces
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.surfaces.families.capped import rod
-from vectorplot.surfaces.families.cylinder import Cone
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid
-from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
-from vectorplot.surfaces.families.quadric import implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.geometry.mesh_cuts import HalfSpaces
+from vectorplot.surfaces.capped_bodies import rod
+from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.minimal import helicoid_to_catenoid
+from vectorplot.surfaces.quadrics import Cone, Hyperboloid, Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.trims.cut_surface import CutSurface
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
+from vectorplot.surfaces.trimmed import CutSurface
 
 
 def within(tolerance: float) -> Within:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.facet_demands import Within
+from vectorplot.features.edge_splitting import Within
 from vectorplot.features.facets import facets
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 from support.drawn import drawn
 
-from vectorplot.draw import draw
-from vectorplot.features.meshes.edges import Edges, Faces, mesh_edges
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.features.edge_lines import Edges, Faces, mesh_edges
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.io.read_file import read
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.words import LineKind

@@ -3,19 +3,16 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.facet_demands import Within
-from vectorplot.features.facets import facets
-from vectorplot.features.stacked_facets import LOT, facets_of_all
+from vectorplot.features.edge_splitting import Within
+from vectorplot.features.facets import LOT, facets, facets_of_all
 from vectorplot.geometry.budget import USUAL
-from vectorplot.shading.light.nearness import Coarse
-from vectorplot.surfaces.families.capped import Capped
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import implicit_sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.shading.fineness import Coarse
+from vectorplot.surfaces.capped_bodies import Capped
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Cylinder, Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 
 
 def placed(surface, number):

@@ -23,7 +23,7 @@ from fuzz.fuzz_scenes import formula_text, scene_bytes
 import vectorplot as vp
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.description import describe
-from vectorplot.io.expressions.expression import parse_expression
+from vectorplot.io.expressions import parse_expression
 from vectorplot.io.read_file import read
 
 READ_S, READ_S_A_MB = 2.0, 60.0

@@ -3,7 +3,7 @@ import pytest
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.budget import USUAL, budget_of, in_one_line, line_each, unresolved
-from vectorplot.visibility.smooth.blocks import Block, in_blocks
+from vectorplot.visibility.smooth.box_strips import Block, in_blocks
 
 
 def test_a_budget_is_so_many_times_the_usual_one() -> None:

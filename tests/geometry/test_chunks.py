@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.chunks import mapped, slices, threads, threads_of, workers
+from vectorplot.geometry.budget import mapped, slices, threads, threads_of, workers
 
 COUNTS = (1, 2, 5)
 

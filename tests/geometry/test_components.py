@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.components import (
+from vectorplot.geometry.vectors import (
     all_components,
     all_finite,
     any_component,

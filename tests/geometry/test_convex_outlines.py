@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.bodies import solids
-from vectorplot.geometry.bodies.solids import has_convex_outline
+from vectorplot.geometry import solids
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import has_convex_outline
 
 
 def ball(rows, columns):

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.narrowing import AT_ONCE, narrowed
+from vectorplot.geometry.chord_refinement import AT_ONCE, narrowed
 
 
 @pytest.mark.parametrize("count", [1, 3, 70, AT_ONCE, 3 * AT_ONCE])

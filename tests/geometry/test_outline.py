@@ -6,10 +6,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat, contour_branches, contour_edges, counterclockwise, spatial_hull
+from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.rotations import rotation_about
 
 CUBE = Mesh.from_polygons(

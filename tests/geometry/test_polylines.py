@@ -5,30 +5,30 @@ from dataclasses import dataclass, field, fields, replace
 import numpy as np
 import pytest
 
-from vectorplot.backends.page.areas import Polygons
-from vectorplot.backends.svg.shaded_strips import Strips
-from vectorplot.curves.bezier.paths import BezierPaths
+from vectorplot.backends.page import Polygons
+from vectorplot.backends.svg import Strips
+from vectorplot.curves.bezier import BezierPaths
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
-from vectorplot.features.implicit.implicit_tracing import ImplicitCurves
-from vectorplot.features.intersections.double_curves import DoubleCurves
-from vectorplot.features.meshes.mesh_curves import MeshCurves
-from vectorplot.features.parametric.surface_curves import SurfaceCurves
-from vectorplot.features.zeros.zero_manifold import ZeroManifold
+from vectorplot.drawing.strokes import chosen, concatenated
+from vectorplot.features.curve_tracing import SurfaceCurves
+from vectorplot.features.double_curves import DoubleCurves
+from vectorplot.features.implicit_tracing import ImplicitCurves
+from vectorplot.features.mesh_lines import MeshCurves
+from vectorplot.features.zero_curves import ZeroManifold
 from vectorplot.geometry.polylines import (
     APART,
     DOUBTS,
     EACH_LINE,
     EACH_POINT,
     Polylines,
+    Strokes,
     closed_round,
     joined,
     segments,
     some,
     with_points_kept,
 )
-from vectorplot.geometry.strokes import Strokes
-from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.visibility.smooth.traced_curves import Curves
 
 TYPES = (
     Polylines,

@@ -9,9 +9,9 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry import vectors as v
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.geometry.repair.adjacency import face_records
-from vectorplot.shading.raster.pixel_lines import whole_pixels
+from vectorplot.geometry.adjacency import face_records
+from vectorplot.geometry.solids import box
+from vectorplot.shading.pixel_coverage import whole_pixels
 
 component = st.floats(-1e3, 1e3)
 vector3 = st.tuples(component, component, component).map(np.array)

@@ -11,7 +11,7 @@ import pytest
 from fuzz.fuzz_oracle import cpu_seconds, finding
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.repair.weld import close_points
+from vectorplot.geometry.weld import close_points
 from vectorplot.io.read_file import read
 
 N = 20_000
@@ -88,7 +88,7 @@ def test_reading_glb_of_many_takes_a_time_that_grows_with_the_file(tmp_path: Pat
     head = struct.pack("<4sIIII", b"glTF", 2, 28 + len(text) + points.nbytes, len(text), 0x4E4F534A)
     path = tmp_path / "many.glb"
     path.write_bytes(head + text + struct.pack("<II", points.nbytes, 0x004E4942) + points.tobytes())
-    from vectorplot.io.meshes.glb import read_glb
+    from vectorplot.io.glb import read_glb
 
     with cpu_seconds(4.0):
         parts = read_glb(path)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.repair.mesh_repair import mesh_report
+from vectorplot.geometry.mesh_repair import mesh_report
 from vectorplot.io.description import describe
 from vectorplot.io.read_file import read
 

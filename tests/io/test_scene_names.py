@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.cli.main import run
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scene_language import parse_scene
 
 NAMES = ["PYRAMID", "CUBE1", "TRANSLATIONAL_SWEEP", '"my box"', "Straße", '"camera"', '"a \\"b\\""', "x.y-3"]
 WRONG = {

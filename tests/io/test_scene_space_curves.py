@@ -10,27 +10,29 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.curves.curve import is_curve
-from vectorplot.curves.families.circle import Circle
-from vectorplot.curves.families.cylinder_intersections import cylinder_intersection
-from vectorplot.curves.families.helix import Helix
-from vectorplot.curves.families.line import Line
-from vectorplot.curves.families.loxodrome import Loxodrome
-from vectorplot.curves.function_curve import curve_of_function
-from vectorplot.curves.placed_curve import PlacedCurve
-from vectorplot.curves.splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline
-from vectorplot.curves.splines.spline_curve import nurbs_curve, spline_curve
-from vectorplot.draw import draw
+from vectorplot.curves.families import Circle, Helix, Line, Loxodrome, cylinder_intersection
+from vectorplot.curves.placed_curves import PlacedCurve, curve_of_function
+from vectorplot.curves.splines import (
+    AkimaSpline,
+    ApproximatingSpline,
+    BSpline,
+    CubicSpline,
+    InterpolatingSpline,
+    nurbs_curve,
+    spline_curve,
+)
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.io.description import describe
-from vectorplot.io.scenes.scene_families import CURVES
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_families import CURVES
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.families.swept.revolution import revolution_surface
+from vectorplot.surfaces.swept import revolution_surface
 from vectorplot.testing import assert_on_both, assert_same_curve, curves_in_space
 
 TURN = 2.0 * np.pi

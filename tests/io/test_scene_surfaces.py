@@ -10,11 +10,11 @@ from support.sample_surfaces import FAMILIES, same_surface
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.io.scenes.scene_families import SURFACES
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scene_families import SURFACES
+from vectorplot.io.scene_language import parse_scene
 from vectorplot.scene.surface_lines import Section
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.quadrics import Sphere
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 
 
 def one(text):
@@ -272,7 +272,7 @@ def test_a_scene_without_surfaces_does_not_load_them():
     import sys
 
     code = (
-        "import sys; from vectorplot.io.scenes.scene_language import parse_scene; parse_scene('A box 1 1 1');"
+        "import sys; from vectorplot.io.scene_language import parse_scene; parse_scene('A box 1 1 1');"
         "assert 'vectorplot.io.scenes.scene_families' not in sys.modules"
     )
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.curves.bezier.paths import bezier_points
+from vectorplot.curves.bezier import bezier_points
 from vectorplot.drawing.drawing import Layer, Paths, Pen
-from vectorplot.drawing.strokes.curved_strokes import curved_strokes
-from vectorplot.linework.line_errors import chord_error_mm, fit_error_mm
+from vectorplot.drawing.stroke_curves import curved_strokes
+from vectorplot.pictures.lines import chord_error_mm, fit_error_mm
 
 
 def circle(count: int, radius: float = 50.0, closed: bool = True) -> Paths:

@@ -1,21 +1,18 @@
 import numpy as np
 import pytest
 
-from vectorplot.curves.function_curve import curve_of_function
+from vectorplot.curves.placed_curves import curve_of_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.scene.extent import bounds_of_surfaces, smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.families.cyclide import dupin_cyclide
-from vectorplot.surfaces.families.cylinder import Cone
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid
-from vectorplot.surfaces.families.quadric import implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.quadrics import Cone, Ellipsoid, implicit_sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import ImplicitTorus, Torus, dupin_cyclide
 from vectorplot.testing.shapes import box
 
 SHIFT = np.array([3e6, -2.0, 1.0])

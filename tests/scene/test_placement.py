@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.placement import centred, fitted
 
 A4 = Page()

@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.effects.scales.coloured_scene import coloured
-from vectorplot.scene.naming.scales import Colouring
-from vectorplot.scene.surface_normals import SurfaceNormals
-from vectorplot.shading.light.fineness.faceted import FacetedScene
+from vectorplot.effects.scales import coloured
+from vectorplot.scene.item import SurfaceNormals
+from vectorplot.scene.scales import Colouring
+from vectorplot.shading.fineness import FacetedScene
 from vectorplot.surfaces import Sphere
 
 

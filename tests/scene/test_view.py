@@ -1,18 +1,17 @@
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.scene.coincidence.pools import pools
+from vectorplot.geometry.projections import CoordinateSystem
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.view import View, look
-from vectorplot.shading.shadows.shadow_buffer import aimed_system
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.scene.view import View, look, pools
+from vectorplot.shading.shadow_maps import aimed_system
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.testing.shapes import box, rotated_boxes
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces

@@ -7,11 +7,12 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.bodies.solids import box
+from vectorplot.geometry.solids import box
 from vectorplot.scene.light import Light
-from vectorplot.shading.raster import scene_pixels
-from vectorplot.shading.shadows import shadow_buffer, shadow_map
-from vectorplot.shading.shadows.map_settings import MapSettings
+from vectorplot.shading import scene_pixels
+from vectorplot.shading import shadow_maps as shadow_buffer
+from vectorplot.shading import shadow_maps as shadow_map
+from vectorplot.shading.shadow_maps import MapSettings
 
 FLOOR = vp.Item("FLOOR", box((8, 8, 0.5)))
 

@@ -8,16 +8,16 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.backends.raster import painted
-from vectorplot.cli.line_options import ItemMaterial, LineOptions
+from vectorplot.cli.picture_options import ItemMaterial, LineOptions
 from vectorplot.errors import InputError
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.save import write
 from vectorplot.scene.material import FINISH_WORDS
 from vectorplot.scene.view import look
-from vectorplot.shading.light.face_shades import face_normals, face_shades, view_eye, view_lights
-from vectorplot.shading.light.illumination import Finish, finish_of
-from vectorplot.shading.light.palettes import palette
+from vectorplot.shading.illumination import Finish, finish_of
+from vectorplot.shading.palettes import palette
+from vectorplot.shading.shaded_faces import face_normals, face_shades, view_eye, view_lights
 from vectorplot.words import PALETTES
 
 WORDS = ("normal", "metallic", "shiny", "mat", "wood", "plastic", "transparent", "mirror")

@@ -21,32 +21,30 @@ from support.shaded_scenes import (
 )
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.scene.light import Light
-from vectorplot.shading.raster.screen import raster_system
-from vectorplot.shading.shadows import shadow_map as maps
-from vectorplot.shading.shadows.seen_region import focus_of_depths, region_in_picture, seen_region
-from vectorplot.shading.shadows.shadow_buffer import (
+from vectorplot.shading import shadow_maps as maps
+from vectorplot.shading.screen import raster_system
+from vectorplot.shading.seen_region import focus_of_depths, region_in_picture, seen_region
+from vectorplot.shading.shadow_maps import (
     LONGEST,
     ShadowBuffer,
     aimed_system,
-    is_inside,
-    shadow_buffer,
-    shape_of,
-)
-from vectorplot.shading.shadows.shadow_map import (
     in_texels,
+    is_inside,
     light_plane,
+    shadow_buffer,
     shadow_map,
+    shape_of,
     standard_frame,
     texels_per_unit,
     trapezoid_frame,
     vertices_with_own_depth,
 )
-from vectorplot.shading.shadows.shadow_rays import blocked_exactly
-from vectorplot.shading.shadows.trapezoid import focus_area
-from vectorplot.testing.curved_meshes import bumpy_icosphere
+from vectorplot.shading.shadow_rays import blocked_exactly
+from vectorplot.shading.trapezoids import focus_area
+from vectorplot.testing.shapes import bumpy_icosphere
 
 SUN = Light((1.0, -1.5, 2.0), parallel=True)
 FAR_LAMP = Light((20.0, -30.0, 40.0))

@@ -12,13 +12,24 @@ from vectorplot.cli.main import run
 from vectorplot.cli.verbs import vectorplot
 from vectorplot.errors import InputError
 from vectorplot.geometry.ragged import owner
-from vectorplot.speed.clock import cpu_seconds, peak_of, wall_seconds
-from vectorplot.speed.log import Log, Measured, Threads, read_log, write_log
-from vectorplot.speed.measure import measured, on_threads
-from vectorplot.speed.operations import Operation, array_operations, call_operations, point_cost
-from vectorplot.speed.plot import plot
-from vectorplot.speed.scenes import SERIES
-from vectorplot.speed.tables import comparison, tables
+from vectorplot.speed.measure import SERIES, measured, on_threads
+from vectorplot.speed.results import (
+    Log,
+    Measured,
+    Operation,
+    Threads,
+    array_operations,
+    call_operations,
+    comparison,
+    cpu_seconds,
+    peak_of,
+    plot,
+    point_cost,
+    read_log,
+    tables,
+    wall_seconds,
+    write_log,
+)
 
 BOXES = Measured("boxes", "draw", "box", (100, 200, 400), (0.01, 0.02, 0.04), (("look", 0.25), ("pen", 0.75)), 12.0)
 LOG = Log(

@@ -5,16 +5,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.pictures.facet_errors import facet_error, outline_error
 from vectorplot.scene.item import Item
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.placement import fitted_picture
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.light.corner_normals import TrueNormals
-from vectorplot.shading.light.fineness.faceted import FacetedScene
-from vectorplot.stages.facet_errors import facet_error, outline_error
+from vectorplot.shading.fineness import FacetedScene
+from vectorplot.shading.shaded_faces import TrueNormals
 
 CAMERA = Camera.view("front")
 PAGE = Page(100.0, 100.0, 5.0)

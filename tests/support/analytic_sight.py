@@ -6,12 +6,17 @@ from typing import NamedTuple
 
 import numpy as np
 
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid, Paraboloid
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.geometry.camera import Camera
+from vectorplot.surfaces.quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    Paraboloid,
+    Sphere,
+)
+from vectorplot.surfaces.tori import Torus
 
 
 class Hits(NamedTuple):

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 
 
 @dataclass(frozen=True, eq=False)

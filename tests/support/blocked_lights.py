@@ -8,7 +8,7 @@ import numpy as np
 
 from support.triangle_rays import blocked
 from vectorplot.arrays import Floats, Ints
-from vectorplot.effects.decals.decal_polygons import Decals
+from vectorplot.effects.decals import Decals
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.projected_faces import newell

@@ -6,9 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.surfaces.quadric_bodies.balls import ball_of
-from vectorplot.surfaces.quadric_bodies.capped_quadrics import CappedQuadric, capped_quadric_of
+from vectorplot.geometry.camera import Camera
+from vectorplot.surfaces.capped_bodies import CappedQuadric, ball_of, capped_quadric_of
 
 ON, THIN, BESIDE = 1e-7, 1e-4, 1e-5
 """Points so near to a surface lie on it; rays so short in a body touch it; bodies so much larger or smaller are the

@@ -6,7 +6,7 @@ from __future__ import annotations
 import numpy as np
 
 from support.triangle_rays import TriangleRays
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 

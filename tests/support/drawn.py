@@ -10,7 +10,7 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
-from vectorplot.testing.compare import path_segments
+from vectorplot.testing.drawings import path_segments
 from vectorplot.words import LineKind
 
 EVERY_EDGE = ("contour", "boundary", "crease", "edges", "intersection")

@@ -8,7 +8,7 @@ import numpy as np
 from PIL import Image
 
 from support.backend_samples import run
-from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.backends.cairo import png_bytes
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.save import save

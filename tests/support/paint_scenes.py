@@ -7,10 +7,10 @@ import numpy as np
 from support.top_fills import fills_of
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import box
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.visibility.painter.image_faces import ImageFaces

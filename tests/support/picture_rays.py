@@ -11,10 +11,10 @@ from support.top_fills import colours_at, covering, fills_of, last_at, pixel_pla
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.paint import paint
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.light import Light
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 
 PAGE = Page(160.0, 120.0, 0.0)

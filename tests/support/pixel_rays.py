@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 
 from support.triangle_rays import TriangleRays
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.shading.raster.screen import raster_system
+from vectorplot.geometry.camera import Camera
+from vectorplot.shading.screen import raster_system
 
 
 def pixel_rays(camera: Camera, columns: int, rows: int):

@@ -6,7 +6,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.testing.shapes import box
 
 SUN = vp.Light((-1.0, -2.0, 2.5), parallel=True, intensity=1.0)

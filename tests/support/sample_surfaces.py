@@ -4,32 +4,36 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.curves.families.circle import Circle
-from vectorplot.curves.families.line import Line
-from vectorplot.curves.function_curve import curve_of_function
-from vectorplot.curves.splines.kinds import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.surfaces.families.capped import Capped, Frustum, rod
-from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from vectorplot.surfaces.families.minimal import helicoid_to_catenoid, minimal_spiral_surface
-from vectorplot.surfaces.families.quadric import Quadric
-from vectorplot.surfaces.families.swept.helical import helical_surface
-from vectorplot.surfaces.families.swept.revolution import revolution_surface
-from vectorplot.surfaces.families.swept.rotoidal import rotoidal_surface
-from vectorplot.surfaces.families.swept.spiral import spiral_surface
-from vectorplot.surfaces.families.swept.translation import translation_surface
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.curves.families import Circle, Line
+from vectorplot.curves.placed_curves import curve_of_function
+from vectorplot.curves.splines import AkimaSpline, ApproximatingSpline, BSpline, CubicSpline, InterpolatingSpline
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.surfaces.capped_bodies import Capped, Frustum, rod
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.graphs.graph import graph, graph_over_disc
-from vectorplot.surfaces.graphs.graph_regions import Disc
-from vectorplot.surfaces.splines.landscape import landscape
-from vectorplot.surfaces.splines.spline_surface import nurbs_surface, spline_surface
+from vectorplot.surfaces.graphs import Disc, graph, graph_over_disc
+from vectorplot.surfaces.minimal import helicoid_to_catenoid, minimal_spiral_surface
+from vectorplot.surfaces.quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    HyperboloidSheet,
+    Paraboloid,
+    Quadric,
+    Sphere,
+)
+from vectorplot.surfaces.splines import landscape, nurbs_surface, spline_surface
 from vectorplot.surfaces.surface import Domain, hessians, is_parametrised
-from vectorplot.surfaces.trims.trimmed import TrimmedSurface
+from vectorplot.surfaces.swept import (
+    helical_surface,
+    revolution_surface,
+    rotoidal_surface,
+    spiral_surface,
+    translation_surface,
+)
+from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus, dupin_cyclide
+from vectorplot.surfaces.trimmed import TrimmedSurface
 
 
 def one(text):

@@ -11,9 +11,9 @@ import numpy as np
 from support.triangle_rays import TriangleRays
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.vectors import cross, norm
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 
 ABOVE = 2e-5

@@ -6,16 +6,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.pages.page import Page
+from vectorplot.geometry.camera import Camera
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing import visible_by_rays
-from vectorplot.visibility.framing import frame_of, in_frame
-from vectorplot.visibility.polyhedra.hidden_lines import Visibility, counted_parts, visible_parts
-from vectorplot.visibility.polyhedra.lines import Lines, edge_lines, intersection_lines, joined_lines
+from vectorplot.visibility.polyhedra.hidden_lines import Segments, Visibility, counted_parts, visible_parts
+from vectorplot.visibility.polyhedra.lines import (
+    Lines,
+    edge_lines,
+    frame_of,
+    in_frame,
+    intersection_lines,
+    joined_lines,
+)
 from vectorplot.visibility.polyhedra.occluders import solid_items
-from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import DRAWN, LineKind
 

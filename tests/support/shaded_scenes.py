@@ -5,13 +5,12 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.geometry import ragged
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.shading.depth.depth_buffer import depth_buffer
-from vectorplot.shading.raster.barycentrics import visible_points
-from vectorplot.shading.raster.screen import raster_system, screen_triangles
-from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
-from vectorplot.testing.shapes import box, rotated_boxes
+from vectorplot.shading.depth import depth_buffer
+from vectorplot.shading.lighting import visible_points
+from vectorplot.shading.screen import raster_system, screen_triangles
+from vectorplot.testing.shapes import box, bumpy_icosphere, grid_graph, rotated_boxes, torus_mesh
 
 COLUMNS, ROWS = 320, 240
 

@@ -6,17 +6,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.curves.families.line import Line
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.curves.families import Line
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.families.cylinder import Cone
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.implicit_function import implicit_of_function
+from vectorplot.surfaces.implicit import implicit_of_function
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.quadrics import Cone, Sphere
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, is_implicit
+from vectorplot.surfaces.tori import Torus
 
 Points = tuple[tuple[float, float, float], ...]
 

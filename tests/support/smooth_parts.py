@@ -4,15 +4,15 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.visibility.smooth.sheets.family import StraightLines
-from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet
-from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
-from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.surfaces.quadrics import Sphere
+from vectorplot.visibility.smooth.families import StraightLines
+from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
+from vectorplot.visibility.smooth.sheets import ParametricSheet
+from vectorplot.visibility.smooth.traced_curves import Curves
 from vectorplot.words import LineKind
 
 

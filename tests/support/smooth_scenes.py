@@ -6,25 +6,30 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from vectorplot.curves.families.circle import Circle
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.curves.families import Circle
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
-from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid, Paraboloid
-from vectorplot.surfaces.families.minimal import helicoid_to_catenoid
-from vectorplot.surfaces.families.quadric import implicit_ellipsoid, implicit_sphere
-from vectorplot.surfaces.families.swept.helical import helical_surface
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.minimal import helicoid_to_catenoid
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    Paraboloid,
+    Sphere,
+    implicit_ellipsoid,
+    implicit_sphere,
+)
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.swept import helical_surface
+from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus, dupin_cyclide
 from vectorplot.testing.shapes import box, rotation
 
 TURN = 2.0 * np.pi

@@ -6,18 +6,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.scene.pages.page import Page
+from vectorplot.geometry.camera import Camera
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.visibility.framing import frame_of, in_frame
-from vectorplot.visibility.polyhedra.hidden_lines import counted_parts
-from vectorplot.visibility.polyhedra.lines import edge_lines, intersection_lines, joined_lines
+from vectorplot.visibility.polyhedra.hidden_lines import Segments, counted_parts
+from vectorplot.visibility.polyhedra.lines import edge_lines, frame_of, in_frame, intersection_lines, joined_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
-from vectorplot.visibility.polyhedra.pairs import Segments
 from vectorplot.visibility.projected_faces import project_faces
-from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords
-from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords
+from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 

@@ -6,8 +6,7 @@ import numpy as np
 
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.scene import Scene
-from vectorplot.testing.curved_meshes import torus_mesh
-from vectorplot.testing.shapes import box, numbered, prism, rotation
+from vectorplot.testing.shapes import box, numbered, prism, rotation, torus_mesh
 
 
 def placed(shape: Mesh, random: np.random.Generator, room: float = 1.5, turned: bool = True) -> Mesh:

@@ -13,8 +13,8 @@ from typing import NamedTuple
 import numpy as np
 
 from support.analytic_sight import sight, torus_polynomial
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.geometry.camera import Camera
+from vectorplot.surfaces.tori import Torus
 from vectorplot.words import LineKind
 
 SAMPLES = 2048

@@ -7,12 +7,12 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.features.facet_demands import Within
+from vectorplot.features.edge_splitting import Within
 from vectorplot.features.facets import facets
 from vectorplot.geometry.vectors import dot
 from vectorplot.io.description import describe
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.surfaces import (
     Capped,
@@ -28,8 +28,8 @@ from vectorplot.surfaces import (
     rod,
     unit_normals,
 )
-from vectorplot.surfaces.families.hyperboloid import Paraboloid
-from vectorplot.surfaces.parts import creases, smooth_parts
+from vectorplot.surfaces.quadrics import Paraboloid
+from vectorplot.surfaces.trimmed import creases, smooth_parts
 
 BODIES = {
     "cylinder": Capped(Cylinder(1.0, -1.0, 2.0)),

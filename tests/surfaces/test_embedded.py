@@ -7,19 +7,24 @@ from unittest import mock
 import numpy as np
 import pytest
 
-from vectorplot.features.intersections import self_intersection
-from vectorplot.features.intersections.self_intersection import self_intersections
-from vectorplot.surfaces.embedded import is_embedded
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.features import intersections as self_intersection
+from vectorplot.features.intersections import self_intersections
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    HyperboloidSheet,
+    Paraboloid,
+    Sphere,
+)
 from vectorplot.surfaces.surface import Domain, Surface
-from vectorplot.surfaces.trims.trimmed import TrimmedSurface
+from vectorplot.surfaces.tori import Torus
+from vectorplot.surfaces.trimmed import TrimmedSurface, is_embedded
 
 FAR = np.array([[0.0, 2.0, 0.1], [-1.0, 0.3, 0.0], [0.2, 0.0, 1.5]])
 

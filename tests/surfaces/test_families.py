@@ -7,23 +7,24 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.curves.families.circle import Circle
-from vectorplot.curves.families.helix import Helix
-from vectorplot.curves.families.line import Line
-from vectorplot.curves.function_curve import curve_of_function
+from vectorplot.curves.families import Circle, Helix, Line
+from vectorplot.curves.placed_curves import curve_of_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_z
-from vectorplot.surfaces.curvature import first_form, gaussian_curvature, mean_curvature
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid
-from vectorplot.surfaces.families.minimal import helicoid_to_catenoid, minimal_spiral_surface
-from vectorplot.surfaces.families.swept.helical import helical_surface
-from vectorplot.surfaces.families.swept.motions import Rotoid, Screw, SpiralMotion
-from vectorplot.surfaces.families.swept.revolution import revolution_surface
-from vectorplot.surfaces.families.swept.rotoidal import rotoidal_surface
-from vectorplot.surfaces.families.swept.spiral import spiral_surface
-from vectorplot.surfaces.families.swept.translation import translation_surface
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.algebraic import first_form, gaussian_curvature, mean_curvature
+from vectorplot.surfaces.minimal import helicoid_to_catenoid, minimal_spiral_surface
+from vectorplot.surfaces.quadrics import HyperbolicParaboloid, Hyperboloid
+from vectorplot.surfaces.swept import (
+    Rotoid,
+    Screw,
+    SpiralMotion,
+    helical_surface,
+    revolution_surface,
+    rotoidal_surface,
+    spiral_surface,
+    translation_surface,
+)
+from vectorplot.surfaces.tori import Torus
 
 POINT = np.array([2, 0.5, -1])
 THROUGH_POINT = Line(POINT, (1, 0, 0))

@@ -9,13 +9,12 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.surfaces.curvature import gaussian_curvature, mean_curvature
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.algebraic import gaussian_curvature, mean_curvature
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.graphs.graph import graph, graph_over_disc
-from vectorplot.surfaces.graphs.graph_regions import Disc, PolygonRegion
+from vectorplot.surfaces.graphs import Disc, PolygonRegion, graph, graph_over_disc
+from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.surfaces.surface import Domain, is_hole
+from vectorplot.surfaces.tori import Torus
 
 TORUS = Torus(3, 1)
 DOMAIN = TORUS.domain

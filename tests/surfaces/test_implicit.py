@@ -9,24 +9,27 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from vectorplot.surfaces.families.quadric import (
+from vectorplot.surfaces.implicit import implicit_of_function
+from vectorplot.surfaces.inversion import InvertedImplicit, InvertedSurface, inverted
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    HyperboloidSheet,
+    Paraboloid,
     Quadric,
+    Sphere,
     implicit_cone,
     implicit_cylinder,
     implicit_ellipsoid,
     implicit_plane,
     implicit_sphere,
 )
-from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
-from vectorplot.surfaces.implicit_function import implicit_of_function
-from vectorplot.surfaces.inversion import InvertedImplicit, InvertedSurface, inverted
-from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import hessians
+from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, ImplicitTorusByDistance, Torus, dupin_cyclide
 
 BOX = np.array([(-4, -4, -4), (4, 4, 4)])
 TEN = [1, 2, 3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, -1]

@@ -1,16 +1,15 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.facet_demands import Within
+from vectorplot.features.edge_splitting import Within
 from vectorplot.features.facets import facets
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.scenes.scene_formulas import Formulas, formula_graph
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs.graph import Graph
-from vectorplot.surfaces.jumps import jumping_cells, jumps
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.scene_slots import Formulas, formula_graph
+from vectorplot.surfaces.graphs import Graph
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.stacked import StackedSurfaces
+from vectorplot.surfaces.stacked import StackedSurfaces, jumping_cells, jumps
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 
 SQUARE = Domain(-2.0, 2.0, -2.0, 2.0)
 

@@ -20,7 +20,7 @@ from vectorplot.surfaces import (
     Torus,
     surface_of_function,
 )
-from vectorplot.surfaces.parts import covered_once
+from vectorplot.surfaces.trimmed import covered_once
 
 RIGHT_ANGLE, TURN = np.pi / 2.0, 2.0 * np.pi
 

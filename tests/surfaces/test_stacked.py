@@ -5,17 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.jets import first_jets, second_jets
-from vectorplot.surfaces.normals import normal_partials, unit_normals
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.stacked import StackedSurfaces
-from vectorplot.surfaces.surface import Domain, Surface
+from vectorplot.surfaces.quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    HyperboloidSheet,
+    Paraboloid,
+    Sphere,
+)
+from vectorplot.surfaces.stacked import StackedSurfaces, normal_partials, unit_normals
+from vectorplot.surfaces.surface import Domain, Surface, first_jets, second_jets
+from vectorplot.surfaces.tori import Torus
 
 WAVE = surface_of_function(lambda u, v: (u, v, np.sin(3.0 * u) * v), Domain(-1.0, 1.0, 0.0, 2.0))
 SHELL = surface_of_function(lambda u, v: (u * u, u * v, v**3), Domain(-1.0, 1.0, 0.0, 2.0))

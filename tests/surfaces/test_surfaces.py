@@ -6,29 +6,33 @@ import numpy as np
 import pytest
 
 from vectorplot.curves.curve import Curve
-from vectorplot.curves.families.circle import Circle
-from vectorplot.curves.families.helix import Helix
-from vectorplot.curves.families.line import Line
+from vectorplot.curves.families import Circle, Helix, Line
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.surfaces.families.cyclide import dupin_cyclide
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from vectorplot.surfaces.families.minimal import helicoid_to_catenoid, minimal_spiral_surface
-from vectorplot.surfaces.families.swept.helical import helical_surface
-from vectorplot.surfaces.families.swept.revolution import revolution_surface
-from vectorplot.surfaces.families.swept.rotoidal import rotoidal_surface
-from vectorplot.surfaces.families.swept.spiral import spiral_surface
-from vectorplot.surfaces.families.swept.translation import translation_surface
-from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.graphs.graph import graph, graph_over_disc
-from vectorplot.surfaces.graphs.graph_regions import Disc
-from vectorplot.surfaces.normals import unit_normals
+from vectorplot.surfaces.graphs import Disc, graph, graph_over_disc
+from vectorplot.surfaces.minimal import helicoid_to_catenoid, minimal_spiral_surface
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    HyperboloidSheet,
+    Paraboloid,
+    Sphere,
+)
+from vectorplot.surfaces.stacked import unit_normals
 from vectorplot.surfaces.surface import Domain, normals
+from vectorplot.surfaces.swept import (
+    helical_surface,
+    revolution_surface,
+    rotoidal_surface,
+    spiral_surface,
+    translation_surface,
+)
+from vectorplot.surfaces.tori import Torus, dupin_cyclide
 
 LINE = Line((2, 0.5, -1), (0.4, 1, 0.7))
 CIRCLE = Circle((3, 0.2, 0.1), 0.8, (0.3, 1, 0.2))

@@ -7,17 +7,16 @@ from support.drawn import drawn, on_page, plate
 from sweeps.sweep import Sweep
 
 import vectorplot as vp
-from vectorplot.curves.families.line import Line
-from vectorplot.features.zeros.scalar_field import Function
-from vectorplot.features.zeros.zero_manifold import ZeroManifold, zero_manifold_of_f_uv
+from vectorplot.curves.families import Line
+from vectorplot.features.scalar_fields import Function
+from vectorplot.features.zero_curves import ZeroManifold, zero_manifold_of_f_uv
 from vectorplot.geometry.polylines import segments
-from vectorplot.surfaces.families.capped import Capped
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.capped_bodies import Capped
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import curves_in_space
-from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances import ZERO_OF_EXTENT
 
 SLANTED = vp.Camera((5.0, -7.0, 4.0), (0.0, 0.0, 0.0))
 SQUARE = Domain(-1.0, 1.0, -1.0, 1.0)

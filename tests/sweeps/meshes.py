@@ -8,7 +8,7 @@ from sweeps.sweep import Sweep
 
 import vectorplot as vp
 from vectorplot.testing.shapes import box, scene_of
-from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances import ZERO_OF_EXTENT
 
 GAPS = 3.0 * 10.0 ** -np.arange(1.0, 16.0)
 SLANTED = vp.Camera((5.0, -7.0, 4.0), (0.0, 0.0, 0.0))

@@ -9,12 +9,12 @@ from support.drawn import drawn, plate
 from sweeps.sweep import Sweep
 
 import vectorplot as vp
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Sphere
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import hausdorff
 from vectorplot.testing.shapes import box
-from vectorplot.tolerances.of_the_page import COINCIDENT_MM
+from vectorplot.tolerances import COINCIDENT_MM
 
 GAPS = 3.0 * 10.0 ** -np.arange(1.0, 16.0)
 PAGE = vp.Page(220.0, 220.0, 10.0)

@@ -8,7 +8,7 @@ from support.top_fills import covering, fills_of, last_at, pixel_places
 from sweeps.sweep import Sweep
 
 import vectorplot as vp
-from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.tolerances import ZERO_OF_EXTENT
 
 ABOVE = vp.Camera((0.3, -0.4, 8.0), (0.0, 0.0, 0.0))
 PIXELS = (160, 160)

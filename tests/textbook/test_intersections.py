@@ -7,8 +7,7 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.textbook.intersections import line_and_line, line_and_plane, polygons_common_segment, segments
-from vectorplot.textbook.planes import Plane
+from vectorplot.textbook.intersections import Plane, line_and_line, line_and_plane, polygons_common_segment, segments
 
 small = st.integers(-20, 20).map(lambda k: k / 4)
 vector3 = st.tuples(small, small, small).map(np.array)

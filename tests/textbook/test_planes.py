@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.textbook.planes import Plane
+from vectorplot.textbook.intersections import Plane
 
 
 @pytest.mark.capability("G1.1-plane")

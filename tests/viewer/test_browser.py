@@ -15,13 +15,12 @@ from playwright.sync_api import sync_playwright
 from support.browser import launched
 from support.paths import ROOT
 
-from vectorplot.animate import animate
 from vectorplot.animation.animation import Animation
-from vectorplot.animation.movies.reader import read_movie
-from vectorplot.viewer.answers import Answers
-from vectorplot.viewer.moving import MOST_SEGMENTS
+from vectorplot.animation.movies import read_movie
+from vectorplot.pictures.film import animate
+from vectorplot.viewer.answers import MOST_SEGMENTS, Answers
+from vectorplot.viewer.pictures import Source
 from vectorplot.viewer.server import Server, serving
-from vectorplot.viewer.sources import Source
 
 pytestmark = pytest.mark.slow
 
@@ -415,7 +414,7 @@ def test_a_recording_goes_to_its_file_and_its_drawing_can_be_stopped(opened, fil
     try:
         page = opened(other.address)
         with monkeypatch.context() as patched:
-            patched.setattr("vectorplot.viewer.recorded.picture", endless)
+            patched.setattr("vectorplot.viewer.answers.picture", endless)
             recorded(page, "a")
             page.wait_for_selector("#stop-movie:visible", timeout=PATIENCE_MS)
             assert began.wait(PATIENCE_MS / 1000) and page.locator("#record").is_disabled()

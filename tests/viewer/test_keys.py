@@ -10,7 +10,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.geometry import box
-from vectorplot.geometry.cameras.camera import VIEWS
+from vectorplot.geometry.camera import VIEWS
 from vectorplot.viewer import KEYS, ViewerState, first_state, pressed
 from vectorplot.viewer.state import axes_of, camera_of_state, fitting_fov_deg, lights_of_state, seen_from
 

@@ -13,7 +13,7 @@ from support.browser import launched
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.solids import box
+from vectorplot.geometry.solids import box
 from vectorplot.viewer.state import first_state
 
 PATIENCE_S = 20.0

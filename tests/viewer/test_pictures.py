@@ -15,10 +15,8 @@ from vectorplot.cli.options import light
 from vectorplot.io import parse_scene, write_scene
 from vectorplot.save import write
 from vectorplot.viewer import command_line, first_state, picture, pressed
-from vectorplot.viewer.answers import as_written
-from vectorplot.viewer.jobs import SupersededError
-from vectorplot.viewer.moving import MOST_SEGMENTS, moving
-from vectorplot.viewer.pictures import for_browser
+from vectorplot.viewer.answers import MOST_SEGMENTS, as_written, moving
+from vectorplot.viewer.pictures import SupersededError, for_browser
 
 TEXT = """title "Two"  page 60x40 margin 2  camera eye 5 -7 4  light LAMP position 6 -5 8
 DIE red box solid 1 2 1  BAR blue box solid 1 1 2 translation 2.5 0 0

@@ -9,11 +9,11 @@ from dataclasses import replace
 import pytest
 
 import vectorplot as vp
-from vectorplot.animation.movies.reader import read_movie
+from vectorplot.animation.movies import read_movie
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.viewer.jobs import Job, SupersededError
-from vectorplot.viewer.recorded import MOST_FRAMES, recorded_pictures, recorded_states, write_recorded
+from vectorplot.geometry.solids import box
+from vectorplot.viewer.answers import MOST_FRAMES, recorded_pictures, recorded_states, write_recorded
+from vectorplot.viewer.pictures import Job, SupersededError
 from vectorplot.viewer.state import first_state
 
 SCENE = vp.Scene((vp.Item("die", box((1, 2, 1))),), camera=vp.Camera((4, -5, 3)), page=vp.Page(60, 40, 2))

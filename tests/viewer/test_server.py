@@ -11,12 +11,11 @@ import threading
 import aiohttp
 import pytest
 
-from vectorplot.animate import animate
 from vectorplot.animation.animation import Animation
+from vectorplot.pictures.film import animate
 from vectorplot.viewer.answers import Answers
-from vectorplot.viewer.jobs import Jobs, SupersededError
+from vectorplot.viewer.pictures import Jobs, Source, SupersededError
 from vectorplot.viewer.server import STATIC, Server, serving
-from vectorplot.viewer.sources import Source
 from vectorplot.viewer.state import first_state
 
 TEXT = "camera eye 5 -7 4\nDIE red box solid 1 2 1\n"

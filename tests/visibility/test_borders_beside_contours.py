@@ -8,12 +8,12 @@ from support.drawn import drawn
 from support.effort import several
 from support.smooth_scenes import lit, mixed_scenes, views
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.surface import Domain
-from vectorplot.testing.stroke_points import stroke_points
+from vectorplot.testing.drawings import stroke_points
 
 SIZE = 1.5
 """Half the side of the square over which graphs stand."""

@@ -10,27 +10,27 @@ from support.effort import several
 from support.smooth_scenes import lit, ring, views
 from support.smooth_seen import Chords, chords_seen
 
-from vectorplot.draw import draw
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid
-from vectorplot.surfaces.families.quadric import (
+from vectorplot.surfaces.implicit import implicit_of_function
+from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.quadrics import (
+    Ellipsoid,
+    Hyperboloid,
     Quadric,
+    Sphere,
     implicit_cone,
     implicit_cylinder,
     implicit_ellipsoid,
     implicit_sphere,
 )
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.implicit_function import implicit_of_function
-from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus, dupin_cyclide
 from vectorplot.testing import assert_drawing_is_right, hausdorff
 from vectorplot.testing.shapes import box, rotation
 from vectorplot.words import LineKind

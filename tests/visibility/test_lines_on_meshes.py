@@ -6,22 +6,21 @@ import numpy as np
 import pytest
 from support.smooth_scenes import lit, views
 
-from vectorplot.draw import draw
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing
 from vectorplot.errors import InputError
-from vectorplot.features.implicit.polygonize import polygonized
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.repair.adjacency import mesh_edges
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.plan import plan_draw
+from vectorplot.features.implicit_surfaces import polygonized
+from vectorplot.geometry.adjacency import mesh_edges
+from vectorplot.geometry.camera import Camera
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
+from vectorplot.pictures.draw import draw
+from vectorplot.pictures.plan import plan_draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus
+from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
+from vectorplot.surfaces.tori import ImplicitTorus
 from vectorplot.testing import assert_drawing_is_right, curves_in_space
 from vectorplot.testing.shapes import box
 from vectorplot.words import FEATURE_KINDS, LineKind

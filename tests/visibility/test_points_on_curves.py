@@ -12,14 +12,14 @@ from scipy.spatial import cKDTree
 from support.effort import several
 from support.smooth_scenes import mixed_scenes, views
 
-from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.families.torus import ImplicitTorus
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.surfaces.tori import ImplicitTorus
 from vectorplot.testing import assert_on_both, assert_on_surface, curves_in_space
 from vectorplot.testing.shapes import box
 from vectorplot.words import LineKind

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from support.effort import several
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.geometry.camera import Camera
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.scene import Scene
 from vectorplot.testing import assert_drawing_is_right
 

@@ -11,8 +11,8 @@ from support.smooth_seen import chords_seen
 
 import vectorplot as vp
 from vectorplot.errors import InputWarning
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.scene_slots import Formulas, formula_implicit
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.words import LineKind
 

@@ -13,13 +13,13 @@ from support.effort import several
 from support.singular_scenes import eyes, lines_through, singular_surfaces, turned
 from support.smooth_seen import chords_seen
 
-from vectorplot.curves.families.line import Line
-from vectorplot.draw import draw
+from vectorplot.curves.families import Line
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.families.cylinder import Cone
+from vectorplot.surfaces.quadrics import Cone
 from vectorplot.words import LineKind
 
 SURFACES = singular_surfaces()

@@ -5,8 +5,8 @@ import pytest
 
 import vectorplot as vp
 from vectorplot import features, surfaces
-from vectorplot.features.feature_lines.bending import Sight
-from vectorplot.features.meshes.smooth_contours import smooth_contours
+from vectorplot.features.feature_lines import Sight
+from vectorplot.features.mesh_feature_lines import smooth_contours
 from vectorplot.geometry import box
 from vectorplot.io import parse_scene, write_scene
 from vectorplot.scene import with_lines

@@ -13,16 +13,16 @@ from support.effort import several
 from support.smooth_scenes import few, implicit_surfaces, mixed_scenes, single_surfaces, special_views, views
 from support.smooth_seen import Chords, chords_seen
 
-from vectorplot.draw import draw
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.families.ellipsoid import Sphere
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.shapes import box
 from vectorplot.words import LineKind

@@ -9,8 +9,8 @@ from support.smooth_scenes import COSINES, LIGHT, lit, ring, views
 from support.smooth_seen import chords_seen
 from support.torus_runs import Run, TorusCurve, contour_of, drawn_runs, isophotes_of, parameter_lines, runs_of
 
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.geometry.camera import Camera
+from vectorplot.surfaces.tori import Torus
 
 TOLERANCE = 5e-5
 """Of the chords, as a part of half the scene's extent; what is no longer need not be drawn."""

@@ -1,8 +1,6 @@
 from .approximation import Approximation, Study, Way
-from .catalogue import APPROXIMATIONS
-from .curves_of_error import Accuracy, ErrorCurve, Sample
-from .error_plots import plot
-from .measuring import measured
+from .results import Accuracy, ErrorCurve, Sample, plot
+from .verb import APPROXIMATIONS, measured
 
 __all__ = [
     "APPROXIMATIONS",

@@ -6,7 +6,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+import numpy as np
+
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.projections import projection_of
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import box_corners, fitted_picture
+from vectorplot.testing.curves import Curves, Segments, Tree
 
 
 def decades(first: float, last: float, count: int) -> tuple[float, ...]:
@@ -134,3 +143,24 @@ def check_values(one: Approximation, values: Sequence[float]) -> None:
     for value in values:
         if not least <= value <= most or (whole and not float(value).is_integer()):
             raise InputError(f"{said} for the {one.knob}, not {value:g}")
+
+
+# What errors are measured with: places on the page, and distances of points from curves.
+
+
+def page_from_world(camera: Camera, bounds: Floats) -> Floats:
+    """(4,4) the matrix from the world to mm on the usual sheet, which the box bounds (2,3) fills."""
+    projection = projection_of(camera, bounds)
+    image = projection.image_of(projection.points_of(box_corners(bounds)))
+    return fitted_picture(projection, Page(), image).page_from_world
+
+
+def on_page(matrix: Floats, points: Floats) -> Floats:
+    """(...,2) points (...,3) of the world in mm."""
+    place = matmul(np.concatenate([points, np.ones((*points.shape[:-1], 1))], axis=-1), matrix.T)
+    return np.asarray(place[..., :2] / place[..., 3:])
+
+
+def farthest(points: Floats, curves: Curves) -> float:
+    """How far that of the points (n,d) is from curves that is farthest from them."""
+    return float(Tree(Segments.of(curves, False).ends).nearest(points, 0.0)[0].max(initial=0.0))

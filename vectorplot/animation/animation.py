@@ -2,16 +2,63 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
+import math
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from typing import Any
 
-from vectorplot.animation.modes import MODES
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.splines import AkimaSpline, CubicSpline, SplineCurve, spline_curve
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.camera import Camera, Point
+from vectorplot.geometry.rotations import scale_matrix, shift_matrix, turn_matrix
 from vectorplot.io.anything import scene_of
-from vectorplot.scene.cuts.exploded import shown_apart
+from vectorplot.scene.exploded import shown_apart
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
 from vectorplot.words import check_word
+
+# What frames look like: a word for each verb and how it is told to work.
+
+
+@dataclass(frozen=True)
+class Mode:
+    """A verb, and what it is told beside all else.
+
+    Parameters
+    ----------
+    verb : {"draw", "paint", "render"}
+        The verb that makes frames.
+    options : mapping
+        Keywords of the verb.
+
+    Examples
+    --------
+    >>> from vectorplot.animation import MODES
+    >>> MODES["shading"]
+    Mode(verb='paint', options={'shadows': 'none'})
+    """
+
+    verb: str
+    options: Mapping[str, Any] = field(default_factory=dict)
+
+
+MODES: dict[str, Mode] = {
+    "wire": Mode("draw", {"style": "depth-cue"}),
+    "lines": Mode("draw"),
+    "shading": Mode("paint", {"shadows": "none"}),
+    "shadows": Mode("paint"),
+    "erasing": Mode("paint", {"fills": "erasing"}),
+    "pixels": Mode("render"),
+}
+"""Modes by their words. Source: Glaeser, appendix A.3, keys w, h, s, c and j; pixels are those of a depth buffer."""
+
 
 MOST_FRAMES = 100_000
 """Frames of one animation."""
@@ -154,3 +201,208 @@ def check_fps(fps: float) -> None:
     """An InputError for frames a second that are out of range."""
     if not 0.0 < fps <= MOST_PER_SECOND:
         raise InputError(f"{fps:g} frames a second: expected more than 0, at most {MOST_PER_SECOND:g}")
+
+
+# What changes along keys: values at some times, and what is between them.
+
+WAYS = ("akima", "cubic", "linear")
+"""How values run between keys: the first one where nothing is said."""
+
+FEWEST_CLOSED = {"akima": 3, "cubic": 3, "linear": 2}
+"""Keys of a track that is closed."""
+
+PERIOD = 1.0
+"""The time after which what is closed comes again."""
+
+
+@dataclass(frozen=True, eq=False)
+class Track:
+    """Numbers or points that depend on time: keys (n,) times, values (n, 1) or (n, 3), a word of WAYS.
+
+    Before the first key and behind the last one values stay; of what is closed the first key follows the last one, one
+    unit of time after it was there.
+    Errors: InputError for times that do not rise or leave 0 to 1, and for too few keys.
+    Source: Glaeser, section 9.1, errata G9-01 to G9-05.
+    """
+
+    times: Floats
+    values: Floats
+    way: str = WAYS[0]
+    closed: bool = False
+
+    def __post_init__(self) -> None:
+        times = self.times
+        if not ((times >= 0.0) & (times <= PERIOD)).all() or not (np.diff(times) > 0.0).all():
+            raise InputError("times of keys must rise, from 0 to 1")
+        if self.closed and len(times) < FEWEST_CLOSED[self.way]:
+            raise InputError(f"closed: {len(times)} keys, expected {FEWEST_CLOSED[self.way]} or more")
+        if self.closed and times[-1] - times[0] >= PERIOD:
+            raise InputError("closed: the last key stands where the first one comes again")
+
+    def at(self, time: float) -> Floats:
+        """(1,) or (3,) the value at a time."""
+        first, last = float(self.times[0]), float(self.times[-1])
+        moment = first + (time - first) % PERIOD if self.closed else min(max(time, first), last)
+        if len(self.times) == 1:
+            return np.asarray(self.values[0])
+        if self.way == "linear":
+            times, values = self._around
+            return np.array([np.interp(moment, times, column) for column in values.T])
+        return np.asarray(self._spline.points(np.array(moment))[: self.values.shape[1]])
+
+    @property
+    def _around(self) -> tuple[Floats, Floats]:
+        """Times and values, of what is closed with the first key again at the end."""
+        if not self.closed:
+            return self.times, self.values
+        return np.append(self.times, self.times[0] + PERIOD), np.concatenate([self.values, self.values[:1]])
+
+    @cached_property
+    def _spline(self) -> SplineCurve:
+        kind = AkimaSpline if self.way == "akima" else CubicSpline
+        points = np.zeros((len(self.values), 3))
+        points[:, : self.values.shape[1]] = self.values
+        return spline_curve(points, kind(closed=self.closed, parameters=self._around[0]))
+
+
+# A scene whose camera, lights and items are moved along keys.
+
+ALL = "all"
+"""The name of all items."""
+
+ZENITH_DEG = 90.0
+"""The eye rises no higher."""
+
+
+@dataclass(frozen=True, eq=False)
+class CameraTrack:
+    """A part of the camera along keys: eye, target, twist, field_of_vision, height; or azimuth, elevation (degrees) and
+    distance (a factor), by which the eye moves around the target and away from it."""
+
+    what: str
+    track: Track
+
+
+@dataclass(frozen=True, eq=False)
+class LightTrack:
+    """position, direction or intensity of a light, by its name or its number from 1; place: file and line it stands
+    in."""
+
+    name: str
+    what: str
+    track: Track
+    place: tuple[str, int]
+
+
+@dataclass(frozen=True, eq=False)
+class ItemTrack:
+    """translation, rotation (degrees about an axis) or scale of an item, of a group of items or of all, about a point;
+    place: file and line it stands in."""
+
+    name: str
+    what: str
+    axis: str
+    about: Point
+    track: Track
+    place: tuple[str, int]
+
+    def matrix(self, time: float) -> Floats:
+        """(4,4) what it does at a time, acting on columns."""
+        value = self.track.at(time).tolist()
+        if self.what == "translation":
+            return shift_matrix(value[0], value[1], value[2])
+        if self.what == "rotation":
+            done = turn_matrix(self.axis, value[0])
+        else:
+            done = scale_matrix(value[0], value[1], value[2]) if len(value) > 1 else scale_matrix(value[0], None, None)
+        x, y, z = self.about
+        return np.asarray(matmul(matmul(shift_matrix(x, y, z), done), shift_matrix(-x, -y, -z)))
+
+
+@dataclass(frozen=True, eq=False)
+class KeyedMotion:
+    """A scene, and what moves in it: called with a time from 0 to 1 it is the scene then.
+
+    Items are moved in the order of their tracks.
+    Errors: InputError, with file and line, for names that the scene does not have.
+    """
+
+    scene: Scene
+    camera: tuple[CameraTrack, ...] = ()
+    lights: tuple[LightTrack, ...] = ()
+    items: tuple[ItemTrack, ...] = ()
+
+    def __post_init__(self) -> None:
+        for light in self.lights:
+            if self._light(light.name) is None:
+                known = ", ".join(one.name for one in self.scene.lights if one.name) or f"{len(self.scene.lights)}"
+                raise _unknown("light", light.name, known, light.place)
+        for item in self.items:
+            if not self._moved(item.name):
+                known = ", ".join(one.name for one in self.scene.items[:10])
+                raise _unknown("item", item.name, known, item.place)
+
+    def __call__(self, time: float) -> Scene:
+        """The scene at a time from 0 to 1."""
+        return replace(self.scene, camera=self._camera(time), lights=self._lights(time), items=self._items(time))
+
+    def _camera(self, time: float) -> Camera:
+        base = self.scene.camera or default_camera(self.scene)
+        values = {track.what: track.track.at(time).tolist() for track in self.camera}
+        single = {"twist": "twist_deg", "field_of_vision": "fov_deg", "height": "height"}
+        given: dict[str, Any] = {own: values[word][0] for word, own in single.items() if word in values}
+        given |= {word: tuple(values[word]) for word in ("eye", "target") if word in values}
+        camera = replace(base, **given)
+        if not values.keys() & {"azimuth", "elevation", "distance"}:
+            return camera
+        around, above, farther = (
+            values.get(word, [usual])[0] for word, usual in (("azimuth", 0.0), ("elevation", 0.0), ("distance", 1.0))
+        )
+        x, y, z = camera.direction.tolist()
+        azimuth = math.atan2(y, x) + math.radians(around)
+        height = math.degrees(math.asin(max(-1.0, min(1.0, z)))) + above
+        elevation = math.radians(max(-ZENITH_DEG, min(ZENITH_DEG, height)))
+        ray = (
+            math.cos(elevation) * math.cos(azimuth),
+            math.cos(elevation) * math.sin(azimuth),
+            math.sin(elevation),
+        )
+        eye = np.array(camera.target) + farther * camera.distance * np.array(ray)
+        return replace(camera, eye=tuple(eye.tolist()))
+
+    def _light(self, name: str) -> int | None:
+        names = [light.name for light in self.scene.lights]
+        if name in names:
+            return names.index(name)
+        counted = name.isdecimal() and len(name) <= len(str(len(names))) and 1 <= int(name) <= len(names)
+        return int(name) - 1 if counted else None
+
+    def _lights(self, time: float) -> tuple[Light, ...]:
+        lights = list(self.scene.lights)
+        for track in self.lights:
+            index, value = self._light(track.name) or 0, track.track.at(time).tolist()
+            if track.what == "intensity":
+                lights[index] = replace(lights[index], intensity=max(0.0, min(1.0, value[0])))
+            else:
+                lights[index] = replace(lights[index], position=tuple(value), parallel=track.what == "direction")
+        return tuple(lights)
+
+    def _moved(self, name: str) -> list[int]:
+        every = enumerate(self.scene.items)
+        return [number for number, item in every if name in (ALL, item.name, item.group)]
+
+    def _items(self, time: float) -> tuple[Item, ...]:
+        matrices: dict[int, Floats] = {}
+        for track in self.items:
+            matrix = track.matrix(time)
+            for number in self._moved(track.name):
+                matrices[number] = matmul(matrix, matrices[number]) if number in matrices else matrix
+        items = list(self.scene.items)
+        for number, matrix in matrices.items():
+            if not np.array_equal(matrix, np.eye(4)):
+                items[number] = items[number].transformed(matrix)
+        return tuple(items)
+
+
+def _unknown(what: str, name: str, known: str, place: tuple[str, int]) -> InputError:
+    return InputError(f"the scene has no {what} {name!r} ({what}s: {known or 'none'})", file=place[0], line=place[1])

@@ -1,10 +1,8 @@
-from .cairo.pages import pdf_pages_bytes
-from .cairo.surfaces import eps_bytes, pdf_bytes, png_bytes, ps_bytes
-from .dxf.dxf_document import dxf_bytes
-from .json.json_document import json_bytes, read_drawing
-from .svg.animated import animated_svg_bytes
-from .svg.svg_document import svg_bytes, svg_text
-from .tikz.tikz_picture import tikz_bytes
+from .cairo import eps_bytes, pdf_bytes, pdf_pages_bytes, png_bytes, ps_bytes
+from .dxf import dxf_bytes
+from .json import json_bytes, read_drawing
+from .svg import animated_svg_bytes, svg_bytes, svg_text
+from .tikz import tikz_bytes
 
 __all__ = [
     "animated_svg_bytes",

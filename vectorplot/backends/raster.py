@@ -11,21 +11,18 @@ from itertools import pairwise
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.backends.page.page_marks import LARGEST_PAGE_MM
+from vectorplot.backends.page import LARGEST_PAGE_MM
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping.clipped_polygons import Polygons
-from vectorplot.scene.pages.paper import MM_PER_INCH
-from vectorplot.shading.raster.pixel_coverage import GUARD_BAND
-from vectorplot.shading.raster.pixel_lines import line_pixels
-from vectorplot.shading.raster.png import DPI, Bytes
-from vectorplot.shading.raster.png import png_bytes as pixels_as_png
-from vectorplot.shading.raster.scan_lines import polygon_pixels, with_specks_grown
-from vectorplot.shading.raster.screen import raster_size
-from vectorplot.shading.raster.supersampling import averaged
+from vectorplot.geometry.clipping import Polygons
+from vectorplot.scene.page import MM_PER_INCH
+from vectorplot.shading.image import DPI, Bytes, averaged
+from vectorplot.shading.image import png_bytes as pixels_as_png
+from vectorplot.shading.pixel_coverage import GUARD_BAND, line_pixels, polygon_pixels, with_specks_grown
+from vectorplot.shading.screen import raster_size
 
 JOIN_SIDES = 12
 """Ends and joins of strokes are polygons of so many sides."""

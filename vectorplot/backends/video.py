@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from vectorplot.errors import InputError
-from vectorplot.shading.raster.png import Bytes
+from vectorplot.shading.image import Bytes
 
 CODECS = {"mp4": ("libx264", "yuv420p"), "webm": ("libvpx-vp9", "yuv420p"), "gif": ("gif", "pal8")}
 """The coder of each format, and how its pixels lie."""

@@ -1,8 +1,5 @@
-from .calls import Submits
-from .executors import Here, Processes, cluster
-from .film_frames import frame_tasks
-from .running import Outcome, Tally, results, run
-from .tasks import Task, fingerprint
+from .running import Outcome, Tally, frame_tasks, results, run
+from .tasks import Here, Processes, Submits, Task, cluster, fingerprint
 
 __all__ = [
     "Here",

@@ -2,21 +2,92 @@
 
 from __future__ import annotations
 
+import hashlib
+import json
+import os
+import pickle
 import threading
 import traceback
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from typing import Generic, TypeVar
 
-from vectorplot.batch.calls import Lost, Submits, answers
-from vectorplot.batch.executors import Here
-from vectorplot.batch.finished_pictures import Records
-from vectorplot.batch.tasks import Task
+from vectorplot.batch.tasks import Here, Lost, Submits, Task, answers, fingerprint
 from vectorplot.errors import InputError, InputWarning, printable
-from vectorplot.save import write_whole
+from vectorplot.pictures.film import Film
+from vectorplot.save import FORMATS, write, write_whole
+from vectorplot.save_frames import DIGITS
+
+# The record of what is finished: a file in every folder, with a line for every picture that was written into it.
+
+RECORD = ".vectorplot-finished"
+"""Its name. A line is a JSON list: name of the file, fingerprint, bytes."""
+
+_FOLDERS = 8
+"""Of so many folders the records are held in memory."""
+
+
+class Records:
+    """What was written before, by folders; of few folders at a time."""
+
+    def __init__(self) -> None:
+        self.known: dict[Path, dict[str, tuple[str, int]]] = {}
+
+    def has(self, path: str, fingerprint: str) -> bool:
+        """Whether a file with this fingerprint is there, whole."""
+        where = Path(path)
+        if not fingerprint or self._of(where.parent).get(where.name, ("", 0))[0] != fingerprint:
+            return False
+        try:
+            # A machine that lost its power may have kept the name of a file and not what is in it.
+            return where.stat().st_size == self._of(where.parent)[where.name][1]
+        except OSError:
+            return False
+
+    def add(self, path: str, fingerprint: str, size: int) -> None:
+        """Note that a file was written. Errors: OSError that names the record."""
+        if not fingerprint:
+            return
+        where = Path(path)
+        self._of(where.parent)[where.name] = (fingerprint, size)
+        line = json.dumps([where.name, fingerprint, size]) + "\n"
+        record = os.open(where.parent / RECORD, os.O_WRONLY | os.O_CREAT | os.O_APPEND, 0o666)
+        try:
+            os.write(record, line.encode("ascii"))
+        finally:
+            os.close(record)
+
+    def _of(self, folder: Path) -> dict[str, tuple[str, int]]:
+        found = self.known.pop(folder, None)
+        if found is None:
+            found = _read(folder / RECORD)
+            while len(self.known) >= _FOLDERS:
+                del self.known[next(iter(self.known))]
+        self.known[folder] = found
+        return found
+
+
+def _read(record: Path) -> dict[str, tuple[str, int]]:
+    """By names: fingerprints and sizes. Degenerate: lines that are none, as one that was broken off, say nothing."""
+    found: dict[str, tuple[str, int]] = {}
+    try:
+        text = record.read_text(encoding="ascii", errors="replace")
+    except OSError:
+        return found
+    for line in text.splitlines():
+        try:
+            name, fingerprint, size = json.loads(line)
+            found[str(name)] = (str(fingerprint), int(size))
+        except (ValueError, TypeError, RecursionError):
+            continue
+    if text and not text.endswith("\n"):
+        with record.open("a", encoding="ascii") as file:
+            file.write("\n")
+    return found
+
 
 Value = TypeVar("Value")
 
@@ -264,3 +335,63 @@ def _value(answer: _Answer[Value] | Lost, name: str) -> Value | InputError:
         return InputError(answer.cause)
     value: Value = answer.value  # type: ignore[assignment]
     return value
+
+
+# The frames of a film as tasks.
+
+_PICKLE = 5
+"""The protocol in which films are compared: any one, but always the same."""
+
+
+def frame_tasks(film: Film, folder: str | os.PathLike[str], *, format: str | None = None) -> Iterator[Task]:
+    """The files that `vp.save_frames` would write into a folder, as tasks, one by one.
+
+    Parameters
+    ----------
+    film : Film
+        As of `vp.animate`.
+    folder : str or path
+        Where they go.
+    format : str, optional
+        svg for drawings and png for pixels where None.
+
+    Returns
+    -------
+    iterator of Task
+        0001.svg and so on, with fingerprints where the film can be pickled, as those of animation files can. Others are
+        always made, and in this process.
+
+    Raises
+    ------
+    InputError
+        For an unknown format.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.batch import frame_tasks
+    >>> from vectorplot.geometry import box
+    >>> die = vp.Item("die", box((1, 1, 1)))
+    >>> film = vp.animate(vp.Animation(lambda time: die.turned("z", 90 * time), frames=3), page="100x80")
+    >>> [task.path for task in frame_tasks(film, "frames")]
+    ['frames/0001.svg', 'frames/0002.svg', 'frames/0003.svg']
+    """
+    written = format or ("png" if film.pixels else "svg")
+    if written not in FORMATS:
+        raise InputError(f"unknown format {written!r}; known are {', '.join(FORMATS)}")
+    # Neither the order of options, nor the number of threads, nor who is told of the stages changes a frame.
+    options = {name: value for name, value in sorted(film.options.items()) if name not in ("jobs", "explain")}
+    same = replace(film, options=options)
+    try:
+        whole = hashlib.sha256(pickle.dumps(same, _PICKLE)).hexdigest()
+    except (pickle.PicklingError, AttributeError, TypeError):
+        whole = ""
+    for frame in range(len(film)):
+        path = os.fspath(Path(folder) / f"{frame + 1:0{DIGITS}d}.{written}")
+        known = fingerprint(whole, str(frame), written) if whole else ""
+        yield Task(path, partial(frame_content, film, frame, written), known)
+
+
+def frame_content(film: Film, frame: int, format: str) -> bytes:
+    """A frame as the content of a file."""
+    return write(film.picture(frame), format)

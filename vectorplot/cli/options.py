@@ -12,8 +12,9 @@ from vectorplot.errors import InputError
 from vectorplot.words import LINE_WORDS, format_hint, line_words
 
 if TYPE_CHECKING:
-    from vectorplot.scene.depth_cue import DepthCue
     from vectorplot.scene.light import Exposure, Light
+    from vectorplot.scene.pens import DepthCue
+
 
 Value = TypeVar("Value")
 
@@ -102,7 +103,7 @@ def numbers(text: str) -> tuple[float, ...]:
 
 def length(text: str) -> float:
     """The mm of a length on paper, such as 8cm."""
-    from vectorplot.scene.pages.paper import length_mm
+    from vectorplot.scene.page import length_mm
 
     try:
         return length_mm(text)
@@ -112,7 +113,7 @@ def length(text: str) -> float:
 
 def page_size(text: str) -> tuple[float, float] | str:
     """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape or portrait, or the word FIT."""
-    from vectorplot.scene.pages.paper import FIT, sheet_size
+    from vectorplot.scene.page import FIT, sheet_size
 
     if text.strip().lower() == FIT:
         return FIT
@@ -128,7 +129,7 @@ def page_size(text: str) -> tuple[float, float] | str:
 
 def pixels(text: str) -> tuple[int, int]:
     """Columns and rows of a picture, WIDTHxHEIGHT."""
-    from vectorplot.shading.raster.screen import raster_size
+    from vectorplot.shading.screen import raster_size
 
     sides = text.lower().split("x")
     if len(sides) != 2 or not all(side.strip().isdigit() for side in sides):
@@ -201,7 +202,7 @@ def exposure(text: str) -> Exposure:
 
 def depth_cue(text: str) -> DepthCue | str:
     """The word none, or width, shade or both, and a number of steps."""
-    from vectorplot.scene.depth_cue import DepthCue
+    from vectorplot.scene.pens import DepthCue
 
     try:
         return text if text == "none" else DepthCue.read(text)
@@ -225,21 +226,21 @@ def dash(text: str) -> str:
 
 
 def _rules(pens: str | None, dashes: str | None) -> None:
-    from vectorplot.drawing.pens.pen_rules import pen_rules
+    from vectorplot.drawing.pens import pen_rules
 
     pen_rules(pens, dashes)
 
 
 def layers(text: str) -> str:
     """What shares a layer, with commas."""
-    from vectorplot.drawing.pens.sorted_layers import layer_words
+    from vectorplot.drawing.pen_layers import layer_words
 
     return _said(text, layer_words)
 
 
 def style(text: str) -> str:
     """The name of a style, or a file that ends in .toml."""
-    from vectorplot.drawing.pens.style_file import TOML, check_style
+    from vectorplot.drawing.pens import TOML, check_style
 
     return text if text.lower().endswith(TOML) else _said(text, check_style)
 

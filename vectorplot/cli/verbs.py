@@ -6,16 +6,16 @@ import click
 
 from vectorplot import __version__
 from vectorplot.cli.commands.accuracy import accuracy
+from vectorplot.cli.commands.animate import animate
+from vectorplot.cli.commands.contact_sheet import contact_sheet
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.info import info
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.commands.render import render
+from vectorplot.cli.commands.replay import replay
 from vectorplot.cli.commands.sheet import sheet
 from vectorplot.cli.commands.speed import speed
 from vectorplot.cli.commands.try_ import try_
-from vectorplot.cli.films.animate import animate
-from vectorplot.cli.films.replay import replay
-from vectorplot.cli.many.contact_sheet import contact_sheet
 from vectorplot.errors import printable
 from vectorplot.words import nearest
 

@@ -12,14 +12,228 @@ from threading import Lock
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats
-from vectorplot.curves.unbounded import LOOKS, Limits, limits_of
-from vectorplot.curves.user_function import Numbers, UserFunction, user_function
-from vectorplot.errors import InputError
-from vectorplot.geometry.components import all_components, all_finite
-from vectorplot.tolerances.of_numbers import COMPLEX_STEP
-from vectorplot.tolerances.of_values import DERIVATIVES_AGREE
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.vectors import all_components, all_finite
+from vectorplot.tolerances import COMPLEX_STEP, DERIVATIVES_AGREE, VALUES_AGREE
+
+# Functions that run to infinity: found by climbing, and cut off where nearly all of their values are left behind.
+
+LOOKS = 61
+"""Places along each side at which a function is looked at first: an odd number, but none in the very middle."""
+
+FENCE = 1.5
+"""Interquartile ranges beyond the quartiles at which a function that runs to infinity is cut off (Tukey's inner
+fences)."""
+
+CLIMBERS, CLIMBS = 8, 40
+"""From how many of its extreme values a function is climbed, and how often the way is halved."""
+
+FIRST_CLIMBS = 8
+"""The climb after which a function that is not over its fence is left alone."""
+
+HUGE = 1e100
+"""Times the fence: who is there has met the largest numbers there are."""
+
+AROUND = 5
+"""Places along each side of the square around a climber."""
+
+GROWS = 1.2
+"""A function that has grown by this factor over the second half of the climb, which is finer than a millionth, has no
+end."""
+
+Limits = tuple[Floats, Floats]
+"""Smallest and largest values (k,) of the components of a function; infinite where there are none."""
+
+
+def limits_of(values: Callable[..., Floats], low: Floats, high: Floats, *, looks: int = LOOKS) -> Limits | None:
+    """Where a function of two parameters, between low and high (2,), is cut off because it runs to infinity; None for
+    one that does not.
+
+    values(u, v) -> (n, k), NaN where the function has none. A component that grows without end about one of its
+    extreme values is cut off at its inner fences, above and below.
+    Degenerate: poles that all of the looks miss are not found; a function all but constant has no fences.
+    Source: Tukey, Exploratory Data Analysis, 1977, chapter 2 (inner fences).
+    """
+    step = (high - low) / looks
+    # Off the lines of symmetry, on which poles lie: they are beside some of the places.
+    line = np.arange(looks) + 0.4871
+    places = low + np.stack(np.meshgrid(line, line, indexing="ij"), axis=-1).reshape(-1, 2) * step
+    found = values(*places.T)
+    floor, ceiling = np.full(found.shape[1], -np.inf), np.full(found.shape[1], np.inf)
+    for k in range(found.shape[1]):
+        own = found[:, k]
+        known = np.flatnonzero(np.isfinite(own))
+        if len(known) < CLIMBERS:
+            continue
+        first, middle, third = np.quantile(own[known], (0.25, 0.5, 0.75))
+        fence = FENCE * (third - first)
+        for sign, edge in ((1.0, third + fence), (-1.0, first - fence)):
+            start = places[known[np.argsort(-sign * own[known], kind="stable")[:CLIMBERS]]]
+
+            def height(u: Floats, v: Floats, k: int = k, sign: float = sign, middle: float = middle) -> Floats:
+                return np.asarray(sign * (values(u, v)[:, k] - middle))
+
+            if fence > 0.0 and _has_no_end(height, start, step, low, high, sign * (edge - middle)):
+                floor[k], ceiling[k] = first - fence, third + fence
+    return (floor, ceiling) if np.isfinite(floor).any() or np.isfinite(ceiling).any() else None
+
+
+def _has_no_end(
+    height: Callable[..., Floats], start: Floats, step: Floats, low: Floats, high: Floats, fence: float
+) -> bool:
+    """Whether a function grows on and on, over the fence, from one of the places (s,2), within squares about the best
+    place so far that are halved each time."""
+    at, best = start.copy(), height(*start.T)
+    line = np.linspace(-1.0, 1.0, AROUND)
+    square = np.stack(np.meshgrid(line, line, indexing="ij"), axis=-1).reshape(-1, 2)
+    half = best
+    for climb in range(CLIMBS):
+        tried = np.clip(at[:, None] + square * step * 0.5**climb, low, high)
+        found = height(*tried.reshape(-1, 2).T).reshape(len(at), -1)
+        found = np.where(np.isfinite(found), found, -np.inf)
+        highest = np.argmax(found, axis=1)
+        row = np.arange(len(at))
+        better = found[row, highest] > best
+        at[better], best = tried[row, highest][better], np.maximum(best, found[row, highest])
+        if climb == FIRST_CLIMBS and not (best > fence).any():
+            return False
+        if climb == CLIMBS // 2:
+            half = best
+    return bool(((best / GROWS > half) | (best / HUGE > fence)).any())
+
+
+# Functions that users write: called with arrays or number by number, their results checked.
+
+# Real or complex.
+Numbers = NDArray[Any]
+
+
+@dataclass(frozen=True, eq=False)
+class UserFunction:
+    """A function of one or more parameters to one number or to vectors of so many components.
+
+    name: how messages call it; one_at_a_time: it takes single numbers; components_first: it returns (k, n), not (n, k).
+    Errors: InputError, naming the function, when it raises, returns complex numbers for real ones, or the wrong shape.
+    """
+
+    function: Callable[..., Any]
+    name: str
+    components: int
+    one_at_a_time: bool = False
+    components_first: bool = False
+
+    def __call__(self, *parameters: Numbers) -> Numbers:
+        """(n, components) values at parameters (n,) each, NaN included."""
+        count = len(parameters[0])
+        if not count:
+            return np.zeros((0, self.components))
+        with np.errstate(all="ignore"):
+            if self.one_at_a_time:
+                rows = [self._call(*point) for point in zip(*(p.tolist() for p in parameters), strict=True)]
+                result = self._numbers(rows)
+                if result.size != count * self.components:
+                    raise self._wrong_shape(result.shape[1:], 1)
+                result = result.reshape(count, self.components)
+            else:
+                result = self._rows(self._call(*parameters), count)
+        if result.dtype.kind == "c" and not any(p.dtype.kind == "c" for p in parameters):
+            raise InputError(f"{self.name} returns complex numbers")
+        return result
+
+    def _call(self, *parameters: Any) -> Any:
+        try:
+            return self.function(*parameters)
+        except Exception as error:  # whatever a user's function may raise
+            at = ", ".join(f"{np.ravel(p)[0]:g}" for p in parameters)
+            raise InputError(f"{self.name} fails at ({at}): {type(error).__name__}: {error}") from error
+
+    def _rows(self, result: Any, count: int) -> Numbers:
+        """The result of one call with arrays as (count, components)."""
+        k = self.components
+        if isinstance(result, tuple | list) and len(result) == k > 1:
+            columns = [self._numbers(part) for part in result]
+            if any(column.shape not in ((), (1,), (count,)) for column in columns):
+                raise self._wrong_shape(tuple(column.shape for column in columns), count)
+            # Of small arrays np.stack and np.broadcast_to spend most of their time on checks.
+            rows = np.empty((count, k), dtype=np.result_type(*columns))
+            for axis, column in enumerate(columns):
+                rows[:, axis] = column
+            return rows
+        values = self._numbers(result)
+        if k == 1 and values.shape in ((), (1,), (count,), (count, 1)):
+            # Most functions return as many; to be broadcast takes longer than small arrays take to be computed.
+            return values.reshape(-1, 1) if values.size == count else np.broadcast_to(values.reshape(-1, 1), (count, 1))
+        if k > 1 and values.shape == (k, count) and (k != count or self.components_first):
+            return values.T
+        if k > 1 and values.shape in ((count, k), (k,)):
+            return np.broadcast_to(values, (count, k))
+        raise self._wrong_shape(values.shape, count)
+
+    def _numbers(self, result: Any) -> Numbers:
+        try:
+            values = np.asarray(result)
+            if values.dtype.kind not in "biufc":
+                values = values.astype(np.float64)
+        except (TypeError, ValueError):
+            raise InputError(f"{self.name} returns something that is no array of numbers") from None
+        return values.astype(np.complex128 if values.dtype.kind == "c" else np.float64, copy=False)
+
+    def _wrong_shape(self, shape: tuple[Any, ...], count: int) -> InputError:
+        wanted = "one number" if self.components == 1 else f"{self.components} numbers"
+        return InputError(f"{self.name} must return {wanted} for each parameter; for {count} it returns shape {shape}")
+
+
+def user_function(
+    function: Callable[..., Any], components: int, probes: Sequence[Floats], *, name: str | None = None
+) -> UserFunction:
+    """The user's function, tried out at probes (n,) for each parameter: with arrays, else number by number.
+
+    A function that takes single numbers only works too, slower, with one InputWarning. n must not be the number of
+    components. Errors: InputError when the function fails both ways.
+    """
+    if not callable(function):
+        raise InputError(f"{name or 'a function'} must be callable, not {function!r}")
+    plain = getattr(function, "__name__", type(function).__name__)
+    label = name or f"function {'lambda' if plain == '<lambda>' else plain}"
+    vectorised = UserFunction(function, label, components)
+    single = replace(vectorised, one_at_a_time=True)
+    try:
+        values = vectorised(*probes)
+    except InputError as refused:
+        if refused.__cause__ is None:
+            raise  # of what it returns
+        single(*(p[:1] for p in probes))
+        return _hinted(single)
+    if not _agree(values, single, probes):
+        return _hinted(single)
+    with np.errstate(all="ignore"):
+        result = function(*probes)
+    first = isinstance(result, np.ndarray) and result.shape == (components, len(probes[0]))
+    return replace(vectorised, components_first=first) if first else vectorised
+
+
+def _agree(values: Numbers, single: UserFunction, probes: Sequence[Floats]) -> bool:
+    """Whether calls with arrays mean what calls with numbers mean; such as a dot product does not."""
+    some = slice(None, None, max(1, len(values) // 4))
+    try:
+        alone = single(*(p[some] for p in probes))
+    except InputError:
+        return True  # a function that wants arrays
+    largest = float(np.max(np.abs(alone[np.isfinite(alone)]), initial=0.0))
+    return bool(np.allclose(values[some], alone, rtol=VALUES_AGREE, atol=VALUES_AGREE * largest, equal_nan=True))
+
+
+def _hinted(single: UserFunction) -> UserFunction:
+    warnings.warn(
+        f"{single.name} takes one number at a time: it works, but slowly; numpy's functions take arrays",
+        InputWarning,
+        stacklevel=5,
+    )
+    return single
+
 
 # Derivatives at s of the five Lagrange polynomials through -2, ..., 2, as coefficients of s^3, s^2, s, 1.
 _SLOPES = np.array([[2, -3, -1, 1], [-8, 6, 16, -8], [12, 0, -30, 0], [-8, -6, 16, 8], [2, 3, -1, -1]]) / 12.0

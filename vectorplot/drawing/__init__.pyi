@@ -1,16 +1,14 @@
 from .drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
+from .fill_visibility import visible_fills
 from .fills import FillKind, Fills
-from .fills_without_overlaps import visible_fills
-from .hatching.hatched_fills import hatched_fills
-from .lettering.text import Lettering, lettered, typeset
-from .lettering.text_along import lettered_along, typeset_along
+from .hatching import hatched_fills
+from .letters import Lettering, lettered, typeset
 from .painted_fills import placement_of_faces
-from .sheets.contact_sheets import contact_sheet
-from .sheets.drawing_scales import DrawingScale
-from .sheets.sheet import Sheet
-from .strokes.curved_strokes import curved_strokes
-from .strokes.long_strokes import split_long
-from .strokes.pen_order.order import pen_ordered, travel_mm
+from .pen_order import pen_ordered, travel_mm
+from .sheets import DrawingScale, Sheet, contact_sheet
+from .stroke_curves import curved_strokes
+from .strokes import split_long
+from .text_along import lettered_along, typeset_along
 from .texts import Texts
 
 __all__ = [

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs
-from vectorplot.curves.bezier.paths import BezierPaths
+from vectorplot.curves.arcs import EllipseArcs
+from vectorplot.curves.bezier import BezierPaths
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.texts import Texts
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
@@ -269,11 +269,11 @@ class Drawing:
         save(self, path)
 
     def _repr_svg_(self) -> str:
-        from vectorplot.backends.svg.svg_document import svg_text
+        from vectorplot.backends.svg import svg_text
 
         return svg_text(self)
 
     def _repr_png_(self) -> bytes:
-        from vectorplot.backends.cairo.surfaces import png_bytes
+        from vectorplot.backends.cairo import png_bytes
 
         return png_bytes(self)

@@ -8,14 +8,13 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.duplicates.duplicates import without_duplicates
-from vectorplot.drawing.strokes.duplicates.smooth_duplicates import without_smooth_duplicates
-from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.drawing.duplicates import without_duplicates, without_smooth_duplicates
+from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.geometry import ragged
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, fitted_picture
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_the_page import COINCIDENT_MM, EXACT_MM
+from vectorplot.tolerances import COINCIDENT_MM, EXACT_MM
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.words import LineKind

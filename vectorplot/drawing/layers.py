@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
-from vectorplot.drawing.strokes.stroke_paths import chosen
+from vectorplot.drawing.strokes import chosen
 from vectorplot.geometry.polylines import split
 from vectorplot.words import LineKind
 

@@ -12,14 +12,14 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
-from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated, sections, unrolled
+from vectorplot.drawing.strokes import chosen, concatenated, sections, unrolled
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.scene.depth_cue import DepthCue
+from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.view import View
-from vectorplot.shading.light.depth_cueing import depth_shades
-from vectorplot.shading.light.face_shades import limited_depths
-from vectorplot.tolerances.of_extent import ZERO_OF_EXTENT
+from vectorplot.shading.illumination import depth_shades
+from vectorplot.shading.shaded_faces import limited_depths
+from vectorplot.tolerances import ZERO_OF_EXTENT
 
 
 def depth_cued(

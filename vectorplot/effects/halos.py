@@ -9,8 +9,7 @@ from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_extent import HALO_MARGIN
-from vectorplot.tolerances.of_lengths import UNION_OF_SEGMENT
+from vectorplot.tolerances import HALO_MARGIN, UNION_OF_SEGMENT
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines

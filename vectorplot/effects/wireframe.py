@@ -13,13 +13,12 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.layers import PENS, layers_of
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.shading.light.depth_cueing import MIDDLE, edge_shades
-from vectorplot.shading.light.face_shades import limited_depths
-from vectorplot.shading.light.illumination import shade_numbers
-from vectorplot.shading.light.palettes import PALETTE_SIZE, palette
+from vectorplot.shading.illumination import MIDDLE, edge_shades, shade_numbers
+from vectorplot.shading.palettes import PALETTE_SIZE, palette
+from vectorplot.shading.shaded_faces import limited_depths
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines
 

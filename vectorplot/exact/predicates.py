@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
-from vectorplot.tolerances.of_numbers import HALF_ULP, UNDERFLOW
+from vectorplot.tolerances import HALF_ULP, UNDERFLOW
 
 Signs = NDArray[np.int8]
 

@@ -1,4 +1,20 @@
-from .implicit.implicit_curves import (
+from .conditions import CentralContour, ParallelContour
+from .contours import (
+    contour,
+    isophotes,
+    level_lines,
+    parallel_contour,
+    plane_sections,
+    point_light_isophotes,
+    section_by_implicit,
+)
+from .curve_tracing import SurfaceCurves, Tracing
+from .cusps import Cusps, contour_cusps, contour_with_cusps, singular_lines
+from .double_curves import DoubleCurves
+from .edge_lines import Edges, Faces, mesh_edges
+from .geodesic_curves import geodesics_between
+from .grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
+from .implicit_curves import (
     implicit_contour,
     implicit_intersection,
     implicit_isophotes,
@@ -7,40 +23,15 @@ from .implicit.implicit_curves import (
     implicit_plane_sections,
     implicit_point_light_isophotes,
 )
-from .implicit.implicit_cusps import implicit_contour_cusps, implicit_parallel_contour_cusps
-from .implicit.implicit_mesh import ImplicitMesh, implicit_mesh
-from .implicit.implicit_tracing import ImplicitCurves, ImplicitTracing
-from .implicit.polygonize import polygonized
-from .integral.curvature_fields import AsymptoticDirections, PrincipalDirections
-from .integral.face_sites import FaceSites, face_sites
-from .integral.geodesics_between import geodesics_between
-from .integral.integral_curves import geodesics, integral_curves
-from .integral.integration import Accuracy
-from .integral.isophote_fields import IsophoteDirections
-from .integral.on_meshes.mesh_evenly_spaced import evenly_spaced_mesh_curves
-from .integral.on_meshes.mesh_integral_curves import mesh_geodesics, mesh_integral_curves
-from .integral.on_meshes.shortest_paths import mesh_distances, mesh_shortest_paths
-from .integral.sites import Sites, TangentPlanes
-from .integral.spacing.evenly_spaced import evenly_spaced_curves
-from .integral.tangent_fields import (
-    ConstantElevation,
-    ParameterDirection,
-    ParameterField,
-    SteepestSlope,
-    TangentField,
-    TurnedField,
-    VectorField,
-    loxodromes,
-)
-from .intersections.double_curves import DoubleCurves
-from .intersections.implicit_mesh_section import ImplicitMeshSection, implicit_mesh_section
-from .intersections.mesh_section import MeshSection, mesh_section
-from .intersections.self_intersection import self_intersections
-from .intersections.surface_intersection import surface_intersection
-from .meshes.edges import Edges, Faces, mesh_edges
-from .meshes.mesh_curves import MeshCurves
-from .meshes.mesh_intersections import Intersections, face_intersections
-from .meshes.mesh_lines import (
+from .implicit_cusps import implicit_contour_cusps, implicit_parallel_contour_cusps
+from .implicit_meshes import ImplicitMesh, implicit_mesh
+from .implicit_surfaces import polygonized
+from .implicit_tracing import ImplicitCurves, ImplicitTracing
+from .intersections import self_intersections, surface_intersection
+from .mesh_integration import mesh_geodesics, mesh_integral_curves
+from .mesh_intersections import Intersections, face_intersections
+from .mesh_lines import (
+    MeshCurves,
     mesh_contour_across_faces,
     mesh_isophote_edges,
     mesh_isophotes,
@@ -50,24 +41,32 @@ from .meshes.mesh_lines import (
     mesh_point_light_isophote_edges,
     mesh_point_light_isophotes,
 )
-from .meshes.nearest_on_mesh import MeshPlaces, nearest_on_mesh
-from .parametric.conditions import CentralContour, ParallelContour
-from .parametric.contour import contour, parallel_contour
-from .parametric.curve_tracing import Tracing
-from .parametric.cuspidal_edges import singular_lines
-from .parametric.cusps import Cusps, contour_cusps, contour_with_cusps
-from .parametric.isophotes import isophotes, point_light_isophotes
-from .parametric.parameter_lines import borders, parameter_lines, u_lines, v_lines
-from .parametric.surface_curves import SurfaceCurves
-from .parametric.surface_sections import level_lines, plane_sections, section_by_implicit
-from .terrains.label_places import LabelPlaces, label_places
-from .terrains.places import places_on_terrain
-from .terrains.roads import roads
-from .terrains.serpentines import serpentine
-from .terrains.water import basins, valley_lines, water_courses, watersheds
+from .mesh_sections import ImplicitMeshSection, MeshSection, implicit_mesh_section, mesh_section
+from .mesh_streamlines import evenly_spaced_mesh_curves
+from .nearest import MeshPlaces, nearest_on_mesh
+from .parameter_curves import borders, parameter_lines, u_lines, v_lines
+from .shortest_paths import mesh_distances, mesh_shortest_paths
+from .streamlines import evenly_spaced_curves
+from .surface_integration import Accuracy, geodesics, integral_curves
+from .surface_places import FaceSites, Sites, TangentPlanes, face_sites
+from .tangent_fields import (
+    AsymptoticDirections,
+    ConstantElevation,
+    IsophoteDirections,
+    ParameterDirection,
+    ParameterField,
+    PrincipalDirections,
+    SteepestSlope,
+    TangentField,
+    TurnedField,
+    VectorField,
+    loxodromes,
+)
+from .terrain_roads import roads
+from .terrain_serpentines import serpentine
+from .terrain_water import LabelPlaces, basins, label_places, places_on_terrain, valley_lines, water_courses, watersheds
 from .tessellation import Tessellation, surface_tessellation
-from .zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
-from .zeros.zero_manifold import ZeroManifold, zero_manifold_of_f_uv
+from .zero_curves import ZeroManifold, zero_manifold_of_f_uv
 
 __all__ = [
     "Accuracy",

@@ -7,19 +7,53 @@ lie along outlines; otherwise in the middle.
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Hashable, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.conforming_triangles import divided
 from vectorplot.geometry import records
-from vectorplot.geometry.chunks import slices
-from vectorplot.geometry.components import all_finite, any_component, greatest_component
-from vectorplot.geometry.triangles.triangle_edges import edges_of
-from vectorplot.geometry.vectors import cross
-from vectorplot.tolerances.of_parameters import JUMP_OF_DOMAIN
+from vectorplot.geometry.budget import slices
+from vectorplot.geometry.connectivity import edges_of
+from vectorplot.geometry.elementary import arccos
+from vectorplot.geometry.vectors import all_finite, any_component, component_sum, cross, greatest_component, norm
+from vectorplot.tolerances import JUMP_OF_DOMAIN
+
+# Triangles divided by new vertices on their sides, so that neighbours share all of them.
+
+
+def divided(triangles: Ints, middle: Ints, points: Floats) -> tuple[Ints, Ints]:
+    """Triangles (t,3) of points (n,d) divided by points middle (t,3) on their sides, -1 for none on the side from a
+    corner on; and (m,) the triangle that each is a part of. They turn as before.
+
+    Of a triangle with two such points the shorter diagonal of what is left beside its corner is taken.
+    """
+    count = (middle >= 0).sum(axis=1)
+    rows = [np.flatnonzero(count == k) for k in range(4)]
+    parts = [triangles[rows[0]]]
+    # Turned round so that the first side is split and, of two, the last one is not.
+    first = np.select(
+        [(count == 1) | (count == 3), (count == 2)],
+        [np.argmax(middle >= 0, axis=1), (np.argmin(middle >= 0, axis=1) + 1) % 3],
+    )
+    turn = (first[:, None] + np.arange(3)) % 3
+    corner, middle = np.take_along_axis(triangles, turn, axis=1), np.take_along_axis(middle, turn, axis=1)
+    (a, b, c), (d, _, _) = corner[rows[1]].T, middle[rows[1]].T
+    parts += [np.stack((a, d, c), axis=1), np.stack((d, b, c), axis=1)]
+    (a, b, c), (d, e, _) = corner[rows[2]].T, middle[rows[2]].T
+    parts.append(np.stack((d, b, e), axis=1))
+    quad = np.stack((a, d, e, c))
+    with np.errstate(invalid="ignore"):
+        p = points[quad]
+        other = np.linalg.norm(p[1] - p[3], axis=-1) < np.linalg.norm(p[0] - p[2], axis=-1)
+    parts += [np.where(other, (a, d, c), (a, d, e)).T, np.where(other, (d, e, c), (e, c, a)).T]
+    (a, b, c), (d, e, f) = corner[rows[3]].T, middle[rows[3]].T
+    parts += [np.stack(some, axis=1) for some in ((a, d, f), (d, b, e), (f, e, c), (d, e, f))]
+    return np.concatenate(parts), np.concatenate([np.tile(row, max(k + 1, 1)) for k, row in enumerate(rows)])
+
 
 LOOKS = (0.25, 0.5, 0.75)
 """Where sides are compared with the surface, and where they cross a fold. Smaller details may be missed."""
@@ -420,3 +454,84 @@ def _rim(start: Vertices, end: Vertices, border: Bools, between: Between) -> Flo
         good = between(start, end, t, border).known
         low, high = np.where(good, t, low), np.where(good, high, t)
     return np.where(np.abs(low - np.where(known, 0.0, 1.0)) > NEAR, low, 0.0)
+
+
+# How far triangles may be from a surface, and how far its normals may turn on them.
+
+Allowed = Callable[[Floats], Floats]
+"""How far (...) triangles may be off a surface at points (..., 3)."""
+
+TURN = np.radians(8.5)
+"""By so much the normals at the ends of a side may differ, or flat shades would come out jagged."""
+
+JUMP = np.radians(45.0)
+"""Normals that differ by more at neighbouring looks jump, as on creases: finer sides would not help."""
+
+INSIDE = 0.75
+"""In the middle of a triangle the surface may be farther off than over its sides, by a third."""
+
+
+class AllSidesAlike(ABC):
+    """What a Demand has that treats all sides of triangles alike, outlines and borders among them."""
+
+    def folds(self, points: Floats, normals: Floats) -> Floats:
+        """None."""
+        return np.zeros((0, len(points)))
+
+    @property
+    def outlines(self) -> int:
+        """None."""
+        return 0
+
+    @abstractmethod
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+
+    def too_coarse(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+        return self.excess(edges)
+
+    def border_excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand: borders are as all sides."""
+        return np.zeros(edges.t.shape)
+
+
+@dataclass(frozen=True)
+class Within(AllSidesAlike):
+    """Triangles that are no farther from the surface than is allowed, and on which normals turn by no more than TURN,
+    or nearly so: along rulings they turn though sides lie on the surface."""
+
+    allowed: Allowed
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal where the same is allowed at the same points."""
+        return self.allowed
+
+    @classmethod
+    def joined(cls, asked: Sequence[Within]) -> Within:
+        """What is asked for is the same for all of these."""
+        return asked[0]
+
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand: the larger one of the distances and the turning of the normals, as parts of their limits."""
+        far = off_chords(edges) / (INSIDE * self.allowed(edges.at.points))
+        return np.asarray(np.maximum(far, turning(edges) / TURN))
+
+
+def off_chords(edges: Edges) -> Floats:
+    """(k,n) how far the surface is from the sides themselves, at the vertices over them."""
+    chord = edges.end.points - edges.start.points
+    length = norm(chord)[..., None]
+    way = np.divide(chord, length, out=np.zeros_like(chord), where=length > 0.0)
+    arm = edges.at.points - edges.start.points
+    along = np.clip(component_sum(arm * way)[..., None], 0.0, length)
+    return np.asarray(norm(arm - along * way))
+
+
+def turning(edges: Edges) -> Floats:
+    """(n,) by how much normals turn from end to end, as far as they do so smoothly."""
+    nodes = np.stack((edges.start.normals, *edges.at.normals[: len(LOOKS)], edges.end.normals))
+    steps = arccos(np.clip(component_sum(nodes[1:] * nodes[:-1]), -1.0, 1.0))
+    smooth = np.isfinite(steps) & (steps < JUMP)
+    return np.asarray(np.where(smooth, steps, 0.0).sum(axis=0))

@@ -9,11 +9,10 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.curve_tracing import TURN
-from vectorplot.features.parametric.poles import poles
-from vectorplot.features.parametric.wrapping import wrapped
-from vectorplot.features.zeros.grid_triangulation import average_normals, cut_cells
-from vectorplot.geometry.triangles.triangle_edges import edges_of
+from vectorplot.features.curve_tracing import TURN, poles
+from vectorplot.features.grid_triangulation import average_normals, cut_cells
+from vectorplot.features.holes import wrapped
+from vectorplot.geometry.connectivity import edges_of
 from vectorplot.surfaces.surface import Domain, Surface
 
 UNEVEN = 0.17

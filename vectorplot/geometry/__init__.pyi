@@ -1,35 +1,5 @@
 from . import ragged
-from .bodies.bodies_of_revolution import revolution
-from .bodies.prisms import prism, regular_polygon
-from .bodies.solids import box, has_convex_outline, placed, polyhedron
-from .budget import Budget, budget_of
-from .cameras.camera import Camera
-from .cameras.collineation import collineate, project, uncollineate, unproject
-from .cameras.coordinate_system import CoordinateSystem
-from .cameras.lens import diagonal_field_of_vision_deg, field_of_vision_deg, focal_length_mm, lens_advice
-from .cameras.pixel_window import PixelWindow
-from .cameras.unit_projection import Projection, projection_of
-from .clipping.clip_windows import Box, Window, region_codes
-from .clipping.clipped_lines import ClippedLines, clip_and_draw, clip_lines_2d, clip_lines_3d
-from .clipping.clipped_polygons import Polygons, clip_polygons_2d, clip_polygons_3d, cut_polygons
-from .convex.convex_hulls import convex_hull, hull_mesh
-from .convex.convex_parts import convex_prism_parts, convex_revolution_parts, split_faces
-from .convex.convex_polygons import convex_polygon_parts, is_convex_polygon
-from .convex.intersect_polyhedra import cut_body, polyhedron_intersection
-from .convex.polygon_clipping import clipped_by_convex, inside_convex
-from .convex.separating_planes import (
-    Separations,
-    Surroundings,
-    own_box,
-    separations,
-    separations_after_moves,
-    spheres_power,
-)
-from .cuts.half_spaces import HalfSpaces
-from .mesh import Mesh
-from .outline import Branches, contour_branches, contour_edges, spatial_hull
-from .regions import polygons_of
-from .repair.adjacency import (
+from .adjacency import (
     BodyRecord,
     FaceRecords,
     body_record,
@@ -39,8 +9,31 @@ from .repair.adjacency import (
     face_records,
     neighbour_faces,
 )
-from .repair.mesh_repair import Mending, MeshReport, mended, mesh_report, welded
-from .repair.winding import EdgeUses, consistent_winding, edge_uses, is_closed_oriented
+from .budget import Budget, budget_of
+from .camera import Camera, PixelWindow, diagonal_field_of_vision_deg, field_of_vision_deg, focal_length_mm, lens_advice
+from .clipping import (
+    Box,
+    ClippedLines,
+    Polygons,
+    Window,
+    clip_and_draw,
+    clip_lines_2d,
+    clip_lines_3d,
+    clip_polygons_2d,
+    clip_polygons_3d,
+    cut_polygons,
+    region_codes,
+)
+from .convex_bodies import convex_prism_parts, convex_revolution_parts, cut_body, polyhedron_intersection, split_faces
+from .convex_polygons import convex_hull, convex_polygon_parts, hull_mesh, is_convex_polygon
+from .mesh import Mesh
+from .mesh_cuts import HalfSpaces
+from .mesh_repair import Mending, MeshReport, mended, mesh_report, welded
+from .outline import Branches, contour_branches, contour_edges, spatial_hull
+from .polygon_cuts import clipped_by_convex, inside_convex
+from .polylines import Strokes
+from .projections import CoordinateSystem, Projection, collineate, project, projection_of, uncollineate, unproject
+from .regions import polygons_of
 from .rotations import (
     axis_frame,
     euler_angles,
@@ -52,7 +45,8 @@ from .rotations import (
     rotation_y,
     rotation_z,
 )
-from .strokes import Strokes
+from .separating_planes import Separations, Surroundings, own_box, separations, separations_after_moves, spheres_power
+from .solids import box, has_convex_outline, placed, polyhedron, prism, regular_polygon, revolution
 from .vectors import (
     angle,
     angle_line_plane,
@@ -66,6 +60,7 @@ from .vectors import (
     spherical_coordinates,
     translated,
 )
+from .winding import EdgeUses, consistent_winding, edge_uses, is_closed_oriented
 
 __all__ = [
     "BodyRecord",

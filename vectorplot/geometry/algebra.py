@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.tolerances.of_numbers import ULP
+from vectorplot.tolerances import ULP
 
 LONG_SUM = 64
 """Sums of more terms than this are left to numpy's own loop, which no processor changes either."""

@@ -14,11 +14,10 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import determinant, matmul
-from vectorplot.geometry.motions.movable import Movable
-from vectorplot.geometry.repair.circulation import faces_are_closed
-from vectorplot.geometry.repair.pieces import pieces_of_faces
+from vectorplot.geometry.connectivity import faces_are_closed, pieces_of_faces
+from vectorplot.geometry.rotations import Movable
 from vectorplot.geometry.vectors import cross
-from vectorplot.tolerances.of_numbers import LEAST_DIVISOR
+from vectorplot.tolerances import LEAST_DIVISOR
 
 
 def next_positions(offsets: Ints, position: Ints) -> Ints:

@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.exact.predicates import polygon_orientation
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.tolerances.of_numbers import ROUNDING
+from vectorplot.tolerances import ROUNDING
 
 
 @dataclass(frozen=True, eq=False)

@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.tolerances.of_extent import UNITED_OF_EXTENT
+from vectorplot.tolerances import UNITED_OF_EXTENT
 
 POLYGON, MULTIPOLYGON = 3, 6
 """The numbers of shapely's types."""

@@ -1,12 +1,10 @@
 from .anything import scene_of
 from .description import describe
-from .expressions.expression import Expression, parse_expression
-from .molecules.molecule import Molecule
-from .molecules.molecule_scene import molecule_scene
-from .molecules.read_molecule import read_molecule
-from .scenes.scene_language import parse_scene, read_scene
-from .scenes.scene_writer import write_scene
-from .terrains.read_terrain import read_terrain
+from .expressions import Expression, parse_expression
+from .molecules import Molecule, molecule_scene, read_molecule
+from .scene_language import parse_scene, read_scene
+from .scene_writer import write_scene
+from .terrain_files import read_terrain
 
 __all__ = [
     "Expression",

@@ -8,20 +8,19 @@ from json import dumps
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.degenerate import without_stutter
-from vectorplot.geometry.repair.mesh_repair import MeshReport, mesh_report, without_loose_vertices
+from vectorplot.geometry.mesh_repair import MeshReport, mesh_report, without_loose_vertices, without_stutter
 from vectorplot.io.anything import scene_of
-from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
-from vectorplot.scene.coincidence.seamless_scene import without_seams
-from vectorplot.scene.cuts.cut import CutPlane
-from vectorplot.scene.cuts.exploded import shown_apart
+from vectorplot.io.scene_writer import curve_text, surface_text
+from vectorplot.scene.cuts import CutPlane
+from vectorplot.scene.exploded import shown_apart
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.parts import creases
+from vectorplot.scene.view import without_seams
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
-from vectorplot.tolerances.of_numbers import ROUNDING
+from vectorplot.surfaces.trimmed import creases
+from vectorplot.tolerances import ROUNDING
 
 
 def describe(scene: object) -> list[str]:

@@ -1,26 +1,32 @@
-from .cuts.cut import Cut, CutPlane
-from .cuts.explosion import Explosion
-from .depth_cue import DepthCue
-from .fields import Fields
+from .added_lines import even_sections, round_sections, with_lines, without_level_lines
+from .cuts import Cut, CutPlane, Explosion
 from .hatching import Hatching, Stippling
-from .item import Item, Pattern
+from .item import Item, Pattern, SurfaceNormals
+from .labels import Along, AtVertex, Label, OnCurve, OnPage
 from .light import Light
-from .lines.added_lines import even_sections, round_sections, with_lines, without_level_lines
-from .lines.integral_lines import FieldLines, GeodesicLines, GeodesicsBetween, KnownCurves, ShortestPaths
 from .material import Material
-from .naming.labels import Along, AtVertex, Label, OnCurve, OnPage
-from .naming.scales import BoxAxes, Colouring
-from .pages.inks import Inks
-from .pages.page import Page
-from .pages.paper import sheet_size
+from .page import Page, sheet_size
+from .pens import DepthCue, Inks
 from .placement import Placement, field_of_vision, fitted_picture
+from .scales import BoxAxes, Colouring, Fields
 from .scene import Scene
-from .surface_lines import Section, SurfaceLines, SurfacePath, even_cosines, path_on_surface
-from .surface_normals import SurfaceNormals
-from .terrains.level_lines import level_sections, round_heights
-from .terrains.terrain_lines import Roads, Serpentine, WaterCourses, Watersheds
-from .terrains.terrain_mesh import terrain_mesh, terrain_scene
-from .terrains.tints import TINTS, hill_light, tinted
+from .surface_lines import (
+    FieldLines,
+    GeodesicLines,
+    GeodesicsBetween,
+    KnownCurves,
+    Roads,
+    Section,
+    Serpentine,
+    ShortestPaths,
+    SurfaceLines,
+    SurfacePath,
+    WaterCourses,
+    Watersheds,
+    even_cosines,
+    path_on_surface,
+)
+from .terrains import TINTS, hill_light, level_sections, round_heights, terrain_mesh, terrain_scene, tinted
 from .view import View, look
 
 __all__ = [

@@ -10,11 +10,10 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import largest_component
-from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
-from vectorplot.surfaces.quadric_bodies.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
+from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.stacked import StackedSurfaces
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
-from vectorplot.tolerances.of_numbers import LARGEST
+from vectorplot.tolerances import LARGEST
 
 GRID = 64
 """Cells of the grid over the domain, in each direction, on which a surface is looked at first."""

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -9,11 +10,16 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.cameras.unit_projection import Projection
-from vectorplot.scene.pages.page import Page
+from vectorplot.geometry.camera import VIEWS, Camera, Point
+from vectorplot.geometry.projections import Projection
+from vectorplot.geometry.rotations import upright_turn
+from vectorplot.geometry.vectors import normalize
+from vectorplot.scene.page import FIT, Page, length_mm, sheet_size
 from vectorplot.scene.scene import Scene
-from vectorplot.tolerances.of_extent import FLAT_PICTURE
+from vectorplot.tolerances import FLAT_PICTURE
+from vectorplot.words import unknown
 
 
 @dataclass(frozen=True, eq=False)
@@ -279,3 +285,126 @@ def box_corners(bounds: Floats) -> Floats:
     """(8,3) the corners of a box from its smallest and largest coordinates (2,3)."""
     low, high = bounds
     return np.asarray(np.where(np.array(list(np.ndindex(2, 2, 2))) == 1, high, low))
+
+
+# Sheets of paper that are as large as the picture on them, its margin around.
+
+LEAST_MM = 1.0
+"""What a picture without width or height, such as a straight line, has for it: a sheet needs both."""
+
+
+@dataclass(frozen=True)
+class FittedPage(Page):
+    """A sheet that is cut to the size of its picture, which fills the whole sheet first.
+
+    Pictures of the camera's field of vision, and empty ones, leave it whole.
+    """
+
+    def around(self, width_mm: float, height_mm: float) -> Page:
+        """The sheet cut to a picture of that size and its margin."""
+        border = 2.0 * self.margin_mm
+        return Page(max(width_mm, LEAST_MM) + border, max(height_mm, LEAST_MM) + border, self.margin_mm)
+
+
+@dataclass(frozen=True)
+class PageOfWidth(Page):
+    """A sheet of a width, and as high as its picture is then.
+
+    Its own height is for pictures of the camera's field of vision, empty ones, and those without width.
+    """
+
+    @property
+    def room(self) -> tuple[float, float]:
+        """Width and height in mm inside the margin: as high as one likes."""
+        return self.width_mm - 2.0 * self.margin_mm, math.inf
+
+    def around(self, width_mm: float, height_mm: float) -> Page:
+        """The sheet cut to the height of a picture and its margin."""
+        return Page(self.width_mm, max(height_mm, LEAST_MM) + 2.0 * self.margin_mm, self.margin_mm)
+
+
+def fitted_page(sheet: Page) -> FittedPage:
+    """A sheet that is to be cut to the size of its picture."""
+    return FittedPage(sheet.width_mm, sheet.height_mm, sheet.margin_mm)
+
+
+def page_of_width(sheet: Page, width_mm: float) -> PageOfWidth:
+    """A sheet of a width; of another one it has the margin, and the proportions inside it.
+
+    Errors: InputError for a width that is not finite and positive, or that the margin leaves nothing of.
+    """
+    border = 2.0 * sheet.margin_mm
+    height = max(width_mm - border, 0.0) * (sheet.height_mm - border) / (sheet.width_mm - border) + border
+    # Where margins leave nothing, the width is to be told, not the height.
+    return PageOfWidth(width_mm, height if width_mm > border else width_mm, sheet.margin_mm)
+
+
+# From where a scene is looked at, and on what page, where that is said in a word or not at all.
+
+
+def default_camera(scene: Scene, up: Point = (0.0, 0.0, 1.0)) -> Camera:
+    """A central projection of the whole scene from the front, the right and above, for what stands upright along up.
+
+    The front of a scene with z upwards is where y is smallest, with y upwards where z is largest.
+    """
+    return camera_around(scene.bounds, up)
+
+
+def camera_around(bounds: Floats, up: Point = (0.0, 0.0, 1.0)) -> Camera:
+    """The same, of a scene with these bounds (2,3)."""
+    low, high = bounds
+    centre, size = (low + high) / 2.0, math.dist(low, high)
+    direction = normalize(matmul(np.array([0.45, -0.8, 0.45]), upright_turn(up)))
+    eye = centre + direction * 2.2 * (size if size > 0.0 else 1.0)
+    return Camera(eye=tuple(eye.tolist()), target=tuple(centre.tolist()))
+
+
+def camera_of(camera: Camera | str | None, scene: Scene) -> Camera:
+    """The camera that a scene is looked at with: the one given, the main view of that name with its target in the
+    middle of the scene, or that of the scene, else default_camera.
+
+    Errors: InputError for another word, TypeError for what is no camera.
+    """
+    if camera is None:
+        return scene.camera or default_camera(scene)
+    if isinstance(camera, Camera):
+        return camera
+    if not isinstance(camera, str):
+        raise TypeError(f"a camera is a Camera or the name of a view, not {type(camera).__name__}")
+    if camera not in VIEWS:
+        raise unknown("view", camera, VIEWS)
+    whole = default_camera(scene)
+    return Camera.view(camera, target=whole.target, distance=whole.distance)
+
+
+def page_of(page: Page | str | None, scene: Scene, width: float | str | None = None, fit: bool = True) -> Page:
+    """The page of a picture: the one given, the sheet of that name or size, landscape where that word follows, or that
+    of the scene, else A4; of "fit" one of the two latter, cut to the picture. With a width, in mm or as a text with its
+    unit, a page as wide, as high as the picture, and with that one's margin.
+
+    fit: the picture is to fill the page.
+    Errors: InputError for another word, for what is no width, and for a page cut to a picture that is not to fill it;
+    TypeError for what is no page.
+    """
+    sheet = _sheet_of(page, scene)
+    if width is not None:
+        sheet = page_of_width(sheet, length_mm(width) if isinstance(width, str) else float(width))
+    if not fit and isinstance(sheet, FittedPage | PageOfWidth):
+        raise InputError("a page as large as its picture, or of a width, does not go with no-fit")
+    return sheet
+
+
+def _sheet_of(page: Page | str | None, scene: Scene) -> Page:
+    if page is None:
+        return scene.page or Page()
+    if isinstance(page, Page):
+        return page
+    if not isinstance(page, str):
+        raise TypeError(f"a page is a Page or a text such as 'A4', '200x150' or 'fit', not {type(page).__name__}")
+    sheet, _, way = page.strip().partition(" ")
+    if (way := way.strip().lower()) not in ("", "landscape", "portrait"):
+        raise InputError(f"page {page!r}: expected a sheet, and perhaps 'landscape' or 'portrait'")
+    fitted = sheet.lower() == FIT
+    found = (scene.page or Page()) if fitted else Page(*sheet_size(sheet))
+    found = found.landscape if way == "landscape" else found.portrait if way == "portrait" else found
+    return fitted_page(found) if fitted else found

@@ -11,14 +11,13 @@ from numpy.typing import ArrayLike
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.degenerate import without_stutter
-from vectorplot.geometry.repair.mesh_repair import mended
+from vectorplot.geometry.mesh_repair import mended, without_stutter
 from vectorplot.scene.item import Item
 from vectorplot.scene.surface_lines import SurfaceLines
-from vectorplot.surfaces.families.swept.tube import tube as tube_surface
-from vectorplot.surfaces.graphs.graph import graph as graph_surface
+from vectorplot.surfaces.graphs import graph as graph_surface
 from vectorplot.surfaces.surface import Domain
-from vectorplot.tolerances.of_numbers import COMPUTED
+from vectorplot.surfaces.swept import tube as tube_surface
+from vectorplot.tolerances import COMPUTED
 from vectorplot.words import DRAWN, LineKind
 
 DIVISIONS = 20

@@ -2,32 +2,35 @@
 
 from __future__ import annotations
 
+import warnings
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import chain
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
-from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.motions.movable import Movable
-from vectorplot.scene.cuts.cut import Cut
-from vectorplot.scene.cuts.explosion import Explosion
-from vectorplot.scene.depth_cue import DepthCue
+from vectorplot.geometry.rotations import Movable
+from vectorplot.scene.cuts import Cut, Explosion
 from vectorplot.scene.extent import bounds_of_surfaces, in_range, smooth_bounds
 from vectorplot.scene.item import Item
+from vectorplot.scene.labels import Label, renamed
 from vectorplot.scene.light import Exposure, Light, check_exposure
-from vectorplot.scene.naming.labels import Label
-from vectorplot.scene.naming.scales import BoxAxes, Colouring
-from vectorplot.scene.pages.inks import Inks
-from vectorplot.scene.pages.page import Page
-from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
-from vectorplot.surfaces.quadric_bodies.capped_quadrics import bounds_of_capped_quadrics, capped_quadric_of
-from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
+from vectorplot.scene.page import Page
+from vectorplot.scene.pens import DepthCue, Inks
+from vectorplot.scene.scales import BoxAxes, Colouring
+from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
+from vectorplot.surfaces.function_surface import FunctionSurface
+from vectorplot.surfaces.graphs import Graph, PolarGraph
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.words import check_colour
 
 
@@ -195,3 +198,105 @@ def _bounds_of_one(name: str, shape: Surface | ImplicitSurface | Curve) -> Float
         return smooth_bounds(shape)
     except InputError as error:
         raise InputError(f"{name}: {error.cause}") from None
+
+
+# Several scenes as one, whose items have names of their own.
+
+
+def renamed_labels(scene: Scene, items: Sequence[Item]) -> tuple[Label, ...]:
+    """The labels of a scene whose items have other names now."""
+    names = {old.name: new.name for old, new in zip(reversed(scene.items), reversed(items), strict=True)}
+    return tuple(renamed(label, names) for label in scene.labels)
+
+
+def renamed_cuts(scene: Scene, items: Sequence[Item]) -> tuple[Cut, ...]:
+    """The cuts of a scene whose items have other names now: each goes through these items alone."""
+    named = [[new.name for old, new in zip(scene.items, items, strict=True) if c.is_for(old.name)] for c in scene.cuts]
+    return tuple(replace(cut, items=tuple(names)) for cut, names in zip(scene.cuts, named, strict=True))
+
+
+def together(scenes: Sequence[Scene]) -> Scene:
+    """All items and lights; cuts go through the items of their own scenes; what there can be only one of is that of the
+    first scene that has it."""
+    if len(scenes) == 1:
+        return scenes[0]
+    items = _told_apart([item for scene in scenes for item in scene.items])
+    ends = np.cumsum([len(scene) for scene in scenes]).tolist()
+    parts = list(zip(scenes, ends, strict=True))
+    return Scene(
+        items,
+        tuple(light for scene in scenes for light in scene.lights),
+        next((scene.camera for scene in scenes if scene.camera), None),
+        next((scene.page for scene in scenes if scene.page), None),
+        next((scene.background for scene in scenes if scene.background), None),
+        next((scene.title for scene in scenes if scene.title), ""),
+        tuple(chain(*(renamed_labels(scene, items[end - len(scene) : end]) for scene, end in parts))),
+        next((scene.colouring for scene in scenes if scene.colouring), None),
+        next((scene.box for scene in scenes if scene.box), None),
+        cuts=tuple(chain(*(renamed_cuts(scene, items[end - len(scene) : end]) for scene, end in parts))),
+        exposure=next((scene.exposure for scene in scenes if scene.exposure != 1.0), 1.0),
+        depth_cue=next((scene.depth_cue for scene in scenes if scene.depth_cue), None),
+        inks=next((_inks(scene, items[end - len(scene) : end]) for scene, end in parts if scene.inks), None),
+        explosion=next((scene.explosion for scene in scenes if scene.explosion), None),
+        exaggeration=next((scene.exaggeration for scene in scenes if scene.exaggeration != 1.0), 1.0),
+    )
+
+
+def _inks(scene: Scene, items: Sequence[Item]) -> Inks | None:
+    """The pens of a scene whose items have other names now."""
+    names = {old.name: new.name for old, new in zip(reversed(scene.items), reversed(items), strict=True)}
+    return None if scene.inks is None else scene.inks.renamed(names)
+
+
+def _told_apart(items: Sequence[Item]) -> tuple[Item, ...]:
+    """The items, those whose names came before with numbers behind them."""
+    count: Counter[str] = Counter()
+    taken = {item.name for item in items}
+    result = []
+    for item in items:
+        count[item.name] += 1
+        name = item.name
+        if count[item.name] > 1:
+            number = count[item.name]
+            while f"{item.name} {number}" in taken:
+                number += 1
+            count[item.name], name = number, f"{item.name} {number}"
+            taken.add(name)
+        result.append(item if name == item.name else replace(item, name=name))
+    return tuple(result)
+
+
+# Items whose surfaces run to infinity, or are empty: what is shown of them ends somewhere, or is nothing.
+
+
+def tell_what_is_cut_off(scene: Scene) -> None:
+    """An InputWarning, with the name of the item, for every surface that is cut off because it runs to infinity."""
+    for item in scene.items:
+        if not isinstance(item.shape, Mesh) and (text := _cut_off(item.shape)):
+            warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=3)
+
+
+def tell_of_empty_surface(item: Item, stacklevel: int) -> None:
+    """An InputWarning, with its name, for an implicit surface of which no triangles were found, unless it is cut."""
+    if is_implicit(item.shape) and not item.cut_by:
+        text = f"{item.name}: the surface has no points in its box: nothing of it is shown"
+        warnings.warn(text, InputWarning, stacklevel=stacklevel)
+
+
+def _cut_off(shape: Any) -> str:
+    """Where a surface is cut off, in its own coordinates; nothing where it is not."""
+    while not isinstance(shape, Graph | PolarGraph | FunctionSurface) and hasattr(shape, "surface"):
+        shape = shape.surface
+    if isinstance(shape, PolarGraph):
+        shape = shape.plane
+    if not isinstance(shape, Graph | FunctionSurface):
+        return ""
+    function, names = (shape.heights, "z") if isinstance(shape, Graph) else (shape.function, "xyz")
+    if function.limits is None:
+        return ""
+    ranges = [
+        f"{name} from {low:.4g} to {high:.4g}"
+        for name, low, high in zip(names, *function.limits, strict=True)
+        if np.isfinite(low)
+    ]
+    return f"runs to infinity: shown is {', '.join(ranges)}"

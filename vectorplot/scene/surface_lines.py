@@ -4,22 +4,478 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.curves.curve import number, parameter_range, positive
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
-from vectorplot.curves.parameters import parameter_range
 from vectorplot.errors import InputError
-from vectorplot.geometry.algebra import determinant
-from vectorplot.geometry.cuts.half_spaces import moved_planes
+from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.elementary import cbrt
+from vectorplot.geometry.mesh_cuts import moved_planes
 from vectorplot.geometry.vectors import norm
-from vectorplot.scene.lines.integral_lines import IntegralLines
-from vectorplot.scene.terrains.terrain_lines import TerrainLines
-from vectorplot.tolerances.of_numbers import ROUNDING
+from vectorplot.tolerances import ROUNDING
 from vectorplot.words import LineKind
+
+if TYPE_CHECKING:
+    from vectorplot.features.curve_tracing import SurfaceCurves
+    from vectorplot.features.mesh_lines import MeshCurves
+    from vectorplot.features.tangent_fields import TangentField
+
+
+# Integral curves that an item asks for: of fields of directions, geodesics and shortest ways.
+
+MOST_STARTS = 10_000
+"""The largest number of points that curves of one field are asked for through."""
+
+MOST_PAIRS = 100
+"""The largest number of pairs of places that geodesics are asked for between."""
+
+USUAL_APART = 1.0 / 24.0
+"""Part of the extent of a shape that neighbours are apart where nothing is said."""
+
+
+class PointsOf(NamedTuple):
+    """What lines on one sort of shape begin with: so many numbers a point, a start and its direction, and what these
+    numbers are."""
+
+    points: int
+    starts: int
+    what: str
+
+
+ON_SURFACES = PointsOf(2, 3, "u v on a surface")
+ON_MESHES = PointsOf(3, 6, "x y z on a polyhedron")
+
+
+@dataclass(frozen=True)
+class FieldLines:
+    """Lines of a surface or a mesh that follow a field of directions: through given points, or evenly all over it.
+
+    Parameters
+    ----------
+    field : TangentField
+        Such as PrincipalDirections() of the room features.
+    apart : float, optional
+        How far neighbours are from each other, in world units; a twenty-fourth of the extent of the shape where None.
+    through : tuple of (float, float), or of (float, float, float)
+        Parameters u, v of points on a surface, or points in the world, of which the nearest ones on a mesh count; where
+        there are some, the lines through these are drawn and no others.
+    length : float, optional
+        How long the lines through given points are to each side of these at most, in world units; ten times the extent
+        of the shape where None.
+
+    Raises
+    ------
+    InputError
+        For a distance or a length that is not positive, a length without points, points that are not two finite numbers
+        each, or three each, more than 10000 of them.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import features, scene
+    >>> lines = scene.FieldLines(features.SteepestSlope(), apart=0.25)
+    >>> bool(vp.SurfaceLines(integral=(lines,)))
+    True
+    """
+
+    field: TangentField
+    apart: float | None = None
+    through: tuple[tuple[float, ...], ...] = ()
+    length: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.apart is not None:
+            positive("field lines: distance", self.apart)
+        object.__setattr__(self, "through", _rows("field lines", self.through, ON_SURFACES.points, ON_MESHES.points))
+        if self.length is not None:
+            positive("field lines: length", self.length)
+            if not self.through:
+                raise InputError("field lines: a length is for lines through given points")
+
+    def transformed(self, matrix: Floats, larger: float) -> FieldLines:
+        """The lines of the shape under a 4x4 matrix acting on columns that makes lengths so many times larger."""
+        apart = None if self.apart is None else larger * self.apart
+        length = None if self.length is None else larger * self.length
+        return replace(self, apart=apart, through=_moved(self.through, matrix), length=length)
+
+
+@dataclass(frozen=True)
+class GeodesicLines:
+    """Geodesics of a surface or a mesh, from given points in given directions.
+
+    Parameters
+    ----------
+    starts : tuple of (float, float, float), or of six float
+        On a surface parameters u, v, and the angle in radians from the direction in which u grows, counter-clockwise
+        about the normals; for a mesh points in the world, of which the nearest ones on it count, and directions.
+    length : float, optional
+        How long they are at most, in world units; ten times the extent of the shape where None.
+
+    Raises
+    ------
+    InputError
+        For a length that is not positive, starts that are not three finite numbers each, or six each, more than 10000
+        of them.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene
+    >>> bool(vp.SurfaceLines(integral=(scene.GeodesicLines(((0.0, 0.0, 1.0),), length=20.0),)))
+    True
+    """
+
+    starts: tuple[tuple[float, ...], ...]
+    length: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.length is not None:
+            positive("geodesics: length", self.length)
+        object.__setattr__(self, "starts", _rows("geodesics", self.starts, ON_SURFACES.starts, ON_MESHES.starts))
+
+    def transformed(self, matrix: Floats, larger: float) -> GeodesicLines:
+        """The lines of the shape under a 4x4 matrix acting on columns that makes lengths so many times larger."""
+        length, starts = None if self.length is None else larger * self.length, self.starts
+        if starts and len(starts[0]) == ON_MESHES.starts:
+            points = _moved(tuple(row[:3] for row in starts), matrix)
+            ways = matmul(np.array(starts)[:, 3:], matrix[:3, :3].T)
+            starts = tuple((*point, *way) for point, way in zip(points, ways.tolist(), strict=True))
+        return replace(self, length=length, starts=starts)
+
+
+@dataclass(frozen=True)
+class ShortestPaths:
+    """The shortest ways on a mesh from one point to another.
+
+    Parameters
+    ----------
+    ends : tuple of six float
+        Two points in the world, of which the nearest ones on the mesh count, for each way.
+
+    Raises
+    ------
+    InputError
+        For ends that are not six finite numbers each, more than 10000 of them.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene
+    >>> bool(vp.SurfaceLines(integral=(scene.ShortestPaths(((0, 0, 0, 1, 1, 1),)),)))
+    True
+    """
+
+    ends: tuple[tuple[float, ...], ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "ends", _rows("shortest paths", self.ends, ON_MESHES.starts, ON_MESHES.starts))
+
+    def transformed(self, matrix: Floats, larger: float) -> ShortestPaths:
+        """The ways on the mesh under a 4x4 matrix acting on columns."""
+        ends = [_moved(tuple(row[k : k + 3] for row in self.ends), matrix) for k in (0, 3)]
+        return ShortestPaths(tuple((*one, *two) for one, two in zip(*ends, strict=True)))
+
+
+@dataclass(frozen=True)
+class GeodesicsBetween:
+    """Geodesics of a surface from one place to another, the shortest ones.
+
+    Parameters
+    ----------
+    pairs : tuple of (float, float, float, float)
+        Parameters u, v of where each begins, and those of where it ends.
+    most : int
+        How many from each place to the other.
+    length : float, optional
+        How long they are at most, in world units; three times the extent of the surface where None.
+
+    Raises
+    ------
+    InputError
+        For a length or a number that is not positive, pairs that are not four finite numbers each, more than 100 of
+        them.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene
+    >>> bool(vp.SurfaceLines(integral=(scene.GeodesicsBetween(((0.0, 0.0, 1.0, 0.5),)),)))
+    True
+    """
+
+    pairs: tuple[tuple[float, ...], ...]
+    most: int = 1
+    length: float | None = None
+
+    def __post_init__(self) -> None:
+        if self.length is not None:
+            positive("geodesics: length", self.length)
+        if not 1 <= self.most <= MOST_PAIRS:
+            raise InputError(f"geodesics between places: {self.most} of them, expected 1 to {MOST_PAIRS}")
+        if len(self.pairs) > MOST_PAIRS:
+            raise InputError(f"geodesics between places: {len(self.pairs)} pairs, expected at most {MOST_PAIRS}")
+        object.__setattr__(self, "pairs", _rows("geodesics between places", self.pairs, 4, 4))
+
+    def transformed(self, matrix: Floats, larger: float) -> GeodesicsBetween:
+        """The lines of the surface under a 4x4 matrix acting on columns that makes lengths so many times larger."""
+        return self if self.length is None else replace(self, length=larger * self.length)
+
+
+@dataclass(frozen=True, eq=False)
+class KnownCurves:
+    """Curves on a surface or a mesh that are known already, and are only to be drawn.
+
+    Parameters
+    ----------
+    curves : SurfaceCurves or MeshCurves
+        On the shape of their item, in world coordinates.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import features, geometry, scene
+    >>> cube = geometry.box((2, 2, 2))
+    >>> found = features.evenly_spaced_mesh_curves(cube, features.SteepestSlope(), 0.5)
+    >>> item = vp.Item("cube", cube, curves=vp.SurfaceLines(integral=(scene.KnownCurves(found),)))
+    >>> len(vp.draw(item, lines="integral").layers) > 0
+    True
+    """
+
+    curves: SurfaceCurves | MeshCurves
+
+    def transformed(self, matrix: Floats, larger: float) -> KnownCurves:
+        """The same curves under a 4x4 matrix acting on columns."""
+        points = matmul(self.curves.points, matrix[:3, :3].T) + matrix[:3, 3]
+        return KnownCurves(replace(self.curves, points=points))
+
+
+IntegralLines = FieldLines | GeodesicLines | GeodesicsBetween | ShortestPaths | KnownCurves
+
+
+def check_points(lines: IntegralLines, on: PointsOf) -> None:
+    """Nothing, where lines begin at points of the sort of shape they are on. Errors: InputError where not."""
+    if isinstance(lines, GeodesicsBetween | KnownCurves):
+        return
+    if isinstance(lines, FieldLines):
+        name, rows, width = "field lines", lines.through, on.points
+    elif isinstance(lines, ShortestPaths):
+        name, rows, width = "shortest paths", lines.ends, ON_MESHES.starts
+    else:
+        name, rows, width = "geodesics", lines.starts, on.starts
+    if rows and len(rows[0]) != width:
+        raise InputError(f"{name}: expected points {on.what}, {width} numbers each, got {len(rows[0])}")
+
+
+def _rows(name: str, rows: tuple[tuple[float, ...], ...], width: int, other: int) -> tuple[tuple[float, ...], ...]:
+    """The rows, of one width or the other, as numbers."""
+    if len(rows) > MOST_STARTS:
+        raise InputError(f"{name}: {len(rows)} points, expected at most {MOST_STARTS}")
+    try:
+        values = np.array(rows, dtype=np.float64).reshape(len(rows), -1 if rows else width)
+    except (TypeError, ValueError):
+        values = np.full((1, 0), np.nan)
+    if values.shape[1] not in (width, other) or not np.isfinite(values).all():
+        widths = f"{width}" if width == other else f"{width}, or {other},"
+        raise InputError(f"{name}: expected {widths} finite numbers for each point")
+    return tuple(tuple(row) for row in values.tolist())
+
+
+def _moved(points: tuple[tuple[float, ...], ...], matrix: Floats) -> tuple[tuple[float, ...], ...]:
+    """Points in space under a matrix (4,4); parameters as they are."""
+    if not points or len(points[0]) != ON_MESHES.points:
+        return points
+    return tuple(map(tuple, (matmul(np.array(points), matrix[:3, :3].T) + matrix[:3, 3]).tolist()))
+
+
+# Lines that a terrain asks for: water, watersheds, valleys and roads.
+
+Pair = tuple[float, float]
+
+MOST_SOURCES = 10_000
+"""Places that water is asked to run from, at most."""
+
+
+@dataclass(frozen=True)
+class WaterCourses:
+    """The ways of water from given places, down where it is steepest.
+
+    Parameters
+    ----------
+    places : tuple of (float, float)
+        x and y of the sources, in world coordinates.
+
+    Raises
+    ------
+    InputError
+        For places that are not pairs of finite numbers, more than 10000 of them.
+
+    Notes
+    -----
+    See `water_courses` of the room features.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import scene
+    >>> bool(vp.SurfaceLines(terrain=(scene.WaterCourses(((3.0, 4.0),)),)))
+    True
+    """
+
+    places: tuple[Pair, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "places", _pairs("water", self.places))
+
+    def transformed(self, matrix: Floats) -> WaterCourses:
+        """The same places under a 4x4 matrix acting on columns that keeps verticals. Errors: InputError for others."""
+        return replace(self, places=_points_moved("water", self.places, matrix))
+
+
+@dataclass(frozen=True)
+class Watersheds:
+    """The lines that part waters, from saddles up to summits; or valley lines, from saddles down to pits.
+
+    Parameters
+    ----------
+    valleys : bool
+        Whether they are valley lines.
+
+    Notes
+    -----
+    See `watersheds` and `valley_lines` of the room features.
+
+    Examples
+    --------
+    >>> from vectorplot import scene
+    >>> scene.Watersheds().valleys
+    False
+    """
+
+    valleys: bool = False
+
+    def transformed(self, matrix: Floats) -> Watersheds:
+        """The same."""
+        return self
+
+
+@dataclass(frozen=True)
+class Roads:
+    """The roads of constant slope between two places: to the left of the steepest way up, and to its right.
+
+    Parameters
+    ----------
+    start, end : (float, float)
+        x and y, in world coordinates.
+
+    Raises
+    ------
+    InputError
+        For places that are not two finite numbers.
+
+    Notes
+    -----
+    See `roads` of the room features.
+
+    Examples
+    --------
+    >>> from vectorplot import scene
+    >>> scene.Roads((0, 0), (3, 4)).end
+    (3.0, 4.0)
+    """
+
+    start: Pair
+    end: Pair
+
+    def __post_init__(self) -> None:
+        start, end = _pairs("road", (self.start, self.end))
+        object.__setattr__(self, "start", start)
+        object.__setattr__(self, "end", end)
+
+    def transformed(self, matrix: Floats) -> Roads:
+        """The same places under a 4x4 matrix acting on columns that keeps verticals. Errors: InputError for others."""
+        return Roads(*_points_moved("road", (self.start, self.end), matrix))
+
+
+@dataclass(frozen=True)
+class Serpentine:
+    """A road with hairpin bends between two places, of at most a given slope.
+
+    Parameters
+    ----------
+    start, end : (float, float)
+        x and y, in world coordinates.
+    slope_deg : float
+        The largest slope of its legs, in degrees.
+    radius, width : float, optional
+        Of the bends, and how far from the straight line of the plan they begin at most, in world units; a thirtieth of
+        the distance of the ends, and all of it, where None.
+
+    Raises
+    ------
+    InputError
+        For places that are not two finite numbers, a slope that is not between 0 and 90 degrees, a radius or a width
+        that is not positive.
+
+    Notes
+    -----
+    See `serpentine` of the room features.
+
+    Examples
+    --------
+    >>> from vectorplot import scene
+    >>> scene.Serpentine((0, 0), (3, 4), slope_deg=7).end
+    (3.0, 4.0)
+    """
+
+    start: Pair
+    end: Pair
+    slope_deg: float
+    radius: float | None = None
+    width: float | None = None
+
+    def __post_init__(self) -> None:
+        start, end = _pairs("serpentine", (self.start, self.end))
+        object.__setattr__(self, "start", start)
+        object.__setattr__(self, "end", end)
+        if not 0.0 < number("serpentine: slope", self.slope_deg) < 90.0:
+            raise InputError(f"serpentine: slope {self.slope_deg:g}, expected an angle between 0 and 90 degrees")
+        for name in ("radius", "width"):
+            if getattr(self, name) is not None:
+                positive(f"serpentine: {name}", getattr(self, name))
+
+    def transformed(self, matrix: Floats) -> Serpentine:
+        """The same places under a 4x4 matrix acting on columns that keeps verticals, with lengths as areas of the plan
+        grow. Errors: InputError for others."""
+        scale = float(np.sqrt(abs(determinant(matrix[:2, :2]))))
+        radius, width = (None if size is None else scale * size for size in (self.radius, self.width))
+        start, end = _points_moved("serpentine", (self.start, self.end), matrix)
+        return Serpentine(start, end, self.slope_deg, radius, width)
+
+
+TerrainLines = WaterCourses | Watersheds | Roads | Serpentine
+
+
+def _pairs(name: str, pairs: tuple[Pair, ...]) -> tuple[Pair, ...]:
+    if len(pairs) > MOST_SOURCES:
+        raise InputError(f"{name}: {len(pairs)} places, expected at most {MOST_SOURCES}")
+    try:
+        values = np.array(pairs, dtype=np.float64)
+    except (TypeError, ValueError):
+        values = np.full((1, 0), np.nan)
+    if values.ndim != 2 or values.shape[1] != 2 or not np.isfinite(values).all():
+        raise InputError(f"{name}: expected two finite numbers for each place, x and y")
+    return tuple((x, y) for x, y in values.tolist())
+
+
+def _points_moved(name: str, pairs: tuple[Pair, ...], matrix: Floats) -> tuple[Pair, ...]:
+    if matrix[:2, 2].any() or matrix[2, :2].any():
+        raise InputError(f"{name}: a terrain that is tilted has no places x and y any more")
+    return tuple((x, y) for x, y in (matmul(np.array(pairs), matrix[:2, :2].T) + matrix[:2, 3]).tolist())
+
 
 Vector = tuple[float, float, float]
 

@@ -1,7 +1,5 @@
-from .depth.depth_buffer import DepthBuffer, depth_buffer, depth_range
-from .depth.depth_code import DepthCode
-from .light.face_shades import Shades, face_colours, face_middles, face_shades, view_lights
-from .light.illumination import (
+from .depth import DepthBuffer, DepthCode, depth_buffer, depth_range
+from .illumination import (
     AMBIENT,
     DIRECT_SHARE,
     FINISHES,
@@ -13,25 +11,22 @@ from .light.illumination import (
     reflected,
     shades,
 )
-from .light.palettes import (
-    COLOUR_MAP,
-    PALETTE_LIMITS,
-    PALETTE_SIZE,
-    ColourMap,
-    colour_map,
-    palette,
-    shaded_colours,
-    spectrum,
+from .image import Image, png_bytes
+from .palettes import COLOUR_MAP, PALETTE_LIMITS, PALETTE_SIZE, ColourMap, colour_map, palette, shaded_colours, spectrum
+from .screen import HalfSpace, ScreenTriangles, raster_size, raster_system, screen_triangles
+from .seen_region import SeenRegion, region_in_picture
+from .shaded_faces import Shades, face_colours, face_middles, face_shades, view_lights
+from .shadow_maps import (
+    MapSettings,
+    ShadowBuffer,
+    ShadowMap,
+    SquareMap,
+    recipe_matrix,
+    shadow_buffer,
+    square_map,
+    texels_per_unit,
 )
-from .raster.image import Image
-from .raster.png import png_bytes
-from .raster.screen import HalfSpace, ScreenTriangles, raster_size, raster_system, screen_triangles
-from .shadows.map_settings import MapSettings
-from .shadows.seen_region import SeenRegion, region_in_picture
-from .shadows.shadow_buffer import ShadowBuffer, shadow_buffer
-from .shadows.shadow_map import ShadowMap, texels_per_unit
-from .shadows.trapezoid import Axis, adapted_size, bounding_trapezoid, line_of_sight, trapezoid
-from .shadows.trapezoid_matrix import SquareMap, recipe_matrix, square_map
+from .trapezoids import Axis, adapted_size, bounding_trapezoid, line_of_sight, trapezoid
 
 __all__ = [
     "AMBIENT",

@@ -1,52 +1,57 @@
-from .algebraic import AlgebraicSurface, implicitized
-from .curvature import first_form, gaussian_curvature, mean_curvature, second_form
-from .families.capped import Capped, Frustum, rod
-from .families.cyclide import ImplicitCyclide, dupin_cyclide
-from .families.cylinder import Cone, Cylinder
-from .families.ellipsoid import Ellipsoid, Sphere
-from .families.hyperbolic_paraboloid import HyperbolicParaboloid
-from .families.hyperboloid import Hyperboloid, HyperboloidSheet, Paraboloid
-from .families.minimal import IsotropicCurve, MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
-from .families.quadric import (
+from .algebraic import AlgebraicSurface, first_form, gaussian_curvature, implicitized, mean_curvature, second_form
+from .capped_bodies import Capped, Frustum, rod
+from .function_surface import FunctionSurface, surface_of_function
+from .graphs import (
+    Disc,
+    Graph,
+    PolarGraph,
+    PolygonRegion,
+    Region,
+    densified_grid,
+    graph,
+    graph_over_disc,
+    grid_of_scattered,
+)
+from .implicit import BoxedImplicit, CutImplicit, ImplicitFunction, implicit_of_function
+from .inversion import InvertedImplicit, InvertedSurface, inverted
+from .minimal import IsotropicCurve, MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
+from .placed_surface import PlacedImplicit, PlacedSurface
+from .quadrics import (
+    Cone,
+    Cylinder,
+    Ellipsoid,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    HyperboloidSheet,
+    Paraboloid,
     Quadric,
+    Sphere,
     implicit_cone,
     implicit_cylinder,
     implicit_ellipsoid,
     implicit_plane,
     implicit_sphere,
 )
-from .families.swept.helical import helical_surface
-from .families.swept.motions import Motion, Rotoid, Screw, SpiralMotion, Translation
-from .families.swept.revolution import revolution_surface
-from .families.swept.rotoidal import rotoidal_surface
-from .families.swept.spiral import spiral_surface
-from .families.swept.swept import Swept
-from .families.swept.translation import translation_surface
-from .families.swept.tube import tube
-from .families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
-from .function_surface import FunctionSurface, surface_of_function
-from .graphs.graph import Graph, PolarGraph, graph, graph_over_disc
-from .graphs.graph_regions import Disc, PolygonRegion, Region
-from .graphs.height_grid import densified_grid, grid_of_scattered
-from .implicit_function import ImplicitFunction, implicit_of_function
-from .inversion import InvertedImplicit, InvertedSurface, inverted
-from .normals import unit_normals
-from .placed_surface import PlacedImplicit, PlacedSurface
-from .splines.landscape import landscape
-from .splines.spline_surface import SplineSurface, nurbs_surface, spline_surface
+from .splines import SplineSurface, landscape, nurbs_surface, spline_surface
+from .stacked import unit_normals
 from .surface import Domain, ImplicitSurface, Surface
-from .terrains.terrain import (
-    Terrain,
-    densified_terrain,
-    exaggerated,
-    terrain,
-    terrain_of_points,
-    thinned_terrain,
+from .swept import (
+    Motion,
+    Rotoid,
+    Screw,
+    SpiralMotion,
+    Swept,
+    Translation,
+    helical_surface,
+    revolution_surface,
+    rotoidal_surface,
+    spiral_surface,
+    translation_surface,
+    tube,
 )
-from .trims.boxed_implicit import BoxedImplicit
-from .trims.cut_implicit import CutImplicit
-from .trims.cut_surface import CutSurface
-from .trims.trimmed import TrimmedSurface
+from .terrains import Terrain, densified_terrain, exaggerated, terrain, terrain_of_points, thinned_terrain
+from .tori import ImplicitCyclide, ImplicitTorus, ImplicitTorusByDistance, Torus, dupin_cyclide
+from .trimmed import CutSurface, TrimmedSurface
 
 __all__ = [
     "AlgebraicSurface",

@@ -11,11 +11,9 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numeric_function
 from vectorplot.errors import InputError
-from vectorplot.surfaces.jets import FirstJets, SecondJets
 from vectorplot.surfaces.placed_surface import MovableSurface
-from vectorplot.surfaces.surface import Domain, Surface
-from vectorplot.tolerances.of_extent import GAP_OF_EXTENT
-from vectorplot.tolerances.of_values import WRONG_DERIVATIVE
+from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets, Surface
+from vectorplot.tolerances import GAP_OF_EXTENT, WRONG_DERIVATIVE
 
 LOOKS = 16
 """Columns and rows of the points at which a seam is looked at."""

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
-from vectorplot.curves.parameters import positive, vector
-from vectorplot.surfaces.families.quadric import checked_box
+from vectorplot.curves.curve import positive, vector
 from vectorplot.surfaces.placed_surface import MovableImplicit, MovableSurface
+from vectorplot.surfaces.quadrics import checked_box
 from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
 
 

@@ -11,12 +11,22 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
-from vectorplot.curves.placed_curve import Placed, PlacedCurve, rows_and_shift
+from vectorplot.curves.placed_curves import Placed, PlacedCurve, rows_and_shift
 from vectorplot.geometry.algebra import inverse_matrix, matmul
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.motions.movable import Movable
-from vectorplot.surfaces.jets import FirstJets, SecondJets, first_jets, second_jets
-from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, hessians, is_implicit, is_parametrised
+from vectorplot.geometry.rotations import Movable
+from vectorplot.surfaces.surface import (
+    Domain,
+    FirstJets,
+    ImplicitSurface,
+    SecondJets,
+    Surface,
+    first_jets,
+    hessians,
+    is_implicit,
+    is_parametrised,
+    second_jets,
+)
 
 
 class MovableSurface(Movable["PlacedSurface"]):

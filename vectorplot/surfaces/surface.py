@@ -182,3 +182,70 @@ def hessians(surface: ImplicitSurface, points: Floats) -> Floats:
     slopes = numeric_function(gradient, 3, ranges)
     rows = np.stack(slopes.gradient(*np.moveaxis(np.asarray(points, dtype=np.float64), -1, 0)), axis=-2)
     return np.asarray(0.5 * (rows + np.swapaxes(rows, -1, -2)))
+
+
+# Points and derivatives of a surface at once: what they have in common, sines say, is computed a single time.
+
+FirstJets = tuple[Floats, Floats, Floats]
+"""Points (..., 3), and their derivatives by u and by v."""
+
+SecondJets = tuple[Floats, Floats, Floats, Floats, Floats, Floats]
+"""These, and the second derivatives: by u twice, by u and v, by v twice."""
+
+
+class WithJets(Protocol):
+    """A surface that tells its points and derivatives at once; to the last bit what it says when asked for each."""
+
+    def first_jets(self, u: Floats, v: Floats) -> FirstJets:
+        """(..., 3) points and derivatives by u and by v."""
+        ...
+
+    def second_jets(self, u: Floats, v: Floats) -> SecondJets:
+        """(..., 3) these, and the second derivatives: by u twice, by u and v, by v twice."""
+        ...
+
+
+def tells_jets(surface: Surface) -> TypeGuard[WithJets]:
+    """Whether a surface tells its points and derivatives at once.
+
+    isinstance, which looks through all members of the protocol, takes as long as evaluating a few points.
+    """
+    return hasattr(surface, "first_jets") and hasattr(surface, "second_jets")
+
+
+def first_jets(surface: Surface, u: Floats, v: Floats) -> FirstJets:
+    """(..., 3) points of any surface and derivatives by u and by v, asked for one after the other where it does not
+    tell them at once."""
+    if tells_jets(surface):
+        return surface.first_jets(u, v)
+    return surface.points(u, v), *surface.partials(u, v)
+
+
+def second_jets(surface: Surface, u: Floats, v: Floats) -> SecondJets:
+    """(..., 3) these, and the second derivatives: by u twice, by u and v, by v twice."""
+    if tells_jets(surface):
+        return surface.second_jets(u, v)
+    return surface.points(u, v), *surface.partials(u, v), *surface.second_partials(u, v)
+
+
+# Surfaces over other domains than their own, which close otherwise.
+
+
+@dataclass(frozen=True, eq=False)
+class OverDomain:
+    """The points of a surface over a part of its domain, or over one that does not close where its own does."""
+
+    surface: Surface
+    domain: Domain
+
+    def points(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return self.surface.points(u, v)
+
+    def partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
+        """(..., 3) derivatives by u and by v."""
+        return self.surface.partials(u, v)
+
+    def second_partials(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
+        """(..., 3) second derivatives: by u twice, by u and v, by v twice."""
+        return self.surface.second_partials(u, v)

@@ -1,6 +1,3 @@
-from .compare import assert_drawings_equal
-from .curve_distance import hausdorff
-from .curve_points import curves_in_space
 from .curves import (
     BranchCount,
     assert_closed,
@@ -10,10 +7,12 @@ from .curves import (
     assert_on_surface,
     assert_same_curve,
     branch_count,
+    curves_in_space,
+    hausdorff,
 )
-from .drawing_checks import assert_drawing_is_right, edge_points
-from .integral_curve_assertions import assert_geodesic, assert_integral_curve
-from .rays.sight import Sight, visible_by_rays
+from .drawings import assert_drawing_is_right, assert_drawings_equal, edge_points
+from .integral_curves import assert_geodesic, assert_integral_curve
+from .rays import Sight, visible_by_rays
 from .shapes import hard_shapes
 
 __all__ = [

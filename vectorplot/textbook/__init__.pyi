@@ -1,26 +1,52 @@
+from .device import DepthCueing, Device
 from .field_steps import euler_curves, runge_kutta_curves
-from .intersections import LineCut, line_and_line, line_and_plane, polygons_common_segment, segments
-from .orders.graph_orders import graph_order, graph_triangles
-from .orders.outline_positions import Position, RelativePosition, in_convex_polygon, relative_position
-from .orders.ring_orders import ring_order, sliced_meridian
-from .orders.sphere_orders import sphere_order
-from .planes import Plane
-from .screens.depth_queries import depth_planes, points_visible, visible_line_pixels
-from .screens.device import DepthCueing, Device
-from .screens.drawn_pixels import with_lines, with_polygons, with_rubber_bands, with_smooth_polygons
-from .screens.erasing_faces import Erased, erasing_edges, interleaved
-from .screens.framebuffer import Framebuffer, cleared, pixel_colours, swapped_buffers, with_colour, with_pixels
-from .viewing.bases import basis_of, basis_of_gaze, frame_from_world, world_from_frame
-from .viewing.changed_coordinates import changed_coordinates, with_target_as_origin
-from .viewing.frustum import Frustum
-from .viewing.homogeneous_points import dehomogenized, homogeneous, transformed
-from .viewing.viewing_matrices import (
+from .framebuffer import (
+    Erased,
+    Framebuffer,
+    cleared,
+    depth_planes,
+    erasing_edges,
+    interleaved,
+    pixel_colours,
+    points_visible,
+    swapped_buffers,
+    visible_line_pixels,
+    with_colour,
+    with_lines,
+    with_pixels,
+    with_polygons,
+    with_rubber_bands,
+    with_smooth_polygons,
+)
+from .intersections import LineCut, Plane, line_and_line, line_and_plane, polygons_common_segment, segments
+from .orders import (
+    Position,
+    RelativePosition,
+    graph_order,
+    graph_triangles,
+    in_convex_polygon,
+    relative_position,
+    ring_order,
+    sliced_meridian,
+    sphere_order,
+)
+from .viewing import (
+    Frustum,
     ViewVolume,
+    basis_of,
+    basis_of_gaze,
     camera_matrix,
+    changed_coordinates,
+    dehomogenized,
+    frame_from_world,
+    homogeneous,
     pixel_matrix,
     segments_to_pixels,
+    transformed,
     viewport,
     window_transform,
+    with_target_as_origin,
+    world_from_frame,
 )
 
 __all__ = [

@@ -8,12 +8,11 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.curves.parameters import positive
+from vectorplot.curves.curve import positive
 from vectorplot.errors import InputError
-from vectorplot.features.integral.charts import MAIN, charts
-from vectorplot.features.integral.flows import FieldFlow
-from vectorplot.features.integral.sites import Sites
-from vectorplot.features.integral.tangent_fields import TangentField
+from vectorplot.features.surface_integration import FieldFlow
+from vectorplot.features.surface_places import MAIN, Sites, charts
+from vectorplot.features.tangent_fields import TangentField
 from vectorplot.surfaces.surface import Surface
 
 Rates = Callable[[Floats], Floats]

@@ -1,5 +1,4 @@
-from .commands import command_line
-from .keys import KEYS, pressed
+from .answers import KEYS, command_line, pressed
 from .notebook import show
 from .pictures import picture
 from .state import ViewerState, first_state

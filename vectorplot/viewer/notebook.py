@@ -8,10 +8,11 @@ from typing import TYPE_CHECKING
 
 from vectorplot.errors import InputError
 from vectorplot.io.anything import scene_of
-from vectorplot.viewer.sources import Given, Source
+from vectorplot.viewer.pictures import Given, Source
 
 if TYPE_CHECKING:
     from vectorplot.viewer.widget import ViewerWidget
+
 
 MISSING = "show needs anywidget: pip install 'vectorplot[notebook]'"
 

@@ -2,19 +2,28 @@
 
 from __future__ import annotations
 
+import asyncio
+import hashlib
+import threading
+from collections import OrderedDict
 from collections.abc import Callable
-from dataclasses import dataclass, replace
-from typing import Any
+from concurrent.futures import Future, ThreadPoolExecutor
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any, TypeVar
 
-from vectorplot.animation.modes import MODES
-from vectorplot.draw import draw
+from vectorplot.animation.animation import MODES
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.paint import paint
-from vectorplot.render import render
+from vectorplot.errors import InputError
+from vectorplot.io.read_file import SCENE_SUFFIXES, read
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.pictures.draw import draw
+from vectorplot.pictures.paint import paint
+from vectorplot.pictures.render import render
 from vectorplot.save import write
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.raster.image import Image
+from vectorplot.shading.image import Image
 from vectorplot.viewer.state import ViewerState, camera_of_state, lights_of_state, page_of_state
 
 PIXELS_HIGH = 720
@@ -109,3 +118,148 @@ def for_browser(made: Drawing | Image) -> tuple[bytes, str]:
     if isinstance(made, Image) or sum(len(mark) for layer in made.layers for mark in layer.marks) > MOST_MARKS:
         return write(made, "png"), "image/png"
     return write(made, "svg"), "image/svg+xml"
+
+
+# Pictures that are being made: of each page the latest wins, and what nobody waits for any more stops.
+
+Made = TypeVar("Made")
+
+MOST_PAGES = 64
+"""Of more pages that are open at once the jobs wait for those of others."""
+
+
+class SupersededError(Exception):
+    """The page has asked for something newer, or the program ends."""
+
+
+@dataclass(eq=False)
+class Job:
+    """Work of one page; progress is handed to the verbs, which stop where it raises SupersededError.
+
+    frames: how many are done, and how many there are, where it makes a movie; heard is told of each.
+    """
+
+    stopped: threading.Event = field(default_factory=threading.Event)
+    frames: tuple[int, int] = (0, 0)
+    heard: Callable[[int, int], None] | None = None
+
+    def frame(self, done: int, count: int) -> None:
+        """So many frames of so many are done."""
+        self.frames = (done, count)
+        if self.heard is not None:
+            self.heard(done, count)
+
+    def progress(self, stage: str, fraction: float) -> None:
+        """Let the work go on, or stop it."""
+        if self.stopped.is_set():
+            raise SupersededError(stage)
+
+
+class Jobs:
+    """A thread that makes pictures, one after the other."""
+
+    def __init__(self) -> None:
+        self.latest: dict[str, Job] = {}
+        self.lock = threading.Lock()
+        self.pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="picture")
+
+    def submit(
+        self, page: str, work: Callable[[Job], Made], heard: Callable[[int, int], None] | None = None
+    ) -> tuple[Job, Future[Made]]:
+        """The job of a page's work, and what will come of it: SupersededError where it is stopped.
+
+        What the page has asked for before is stopped. heard: is told how many frames are done.
+        """
+        job = Job(heard=heard)
+        with self.lock:
+            if page not in self.latest and len(self.latest) >= MOST_PAGES:
+                page = next(iter(self.latest))
+            before = self.latest.pop(page, None)
+            self.latest[page] = job
+        if before is not None:
+            before.stopped.set()
+
+        def working() -> Made:
+            job.progress("begin", 0.0)
+            return work(job)
+
+        return job, self.pool.submit(working)
+
+    async def run(self, page: str, work: Callable[[Job], Made]) -> Made:
+        """What the work makes. Errors: SupersededError where the page asks for something newer first."""
+        job, made = self.submit(page, work)
+        try:
+            return await asyncio.wrap_future(made)
+        finally:
+            self.end(job)
+
+    def end(self, job: Job) -> None:
+        """Stop a job that nobody waits for any more, because it is done or its page has gone."""
+        job.stopped.set()
+        with self.lock:
+            self.latest = {page: other for page, other in self.latest.items() if other is not job}
+
+    def close(self) -> None:
+        """Stop all work; waits for what is running to notice."""
+        for job in list(self.latest.values()):
+            job.stopped.set()
+        self.pool.shutdown(wait=True, cancel_futures=True)
+
+
+# The scene that is looked at: a file, or the text that stands in the page's editor in its place.
+
+MOST_TEXT = 1 << 20
+"""Longer scene files are shown, and not edited."""
+
+KEPT = 4
+"""So many scenes are kept that were read."""
+
+
+@dataclass(eq=False)
+class Source:
+    """A file, and the scenes that were read from it and from texts in its place, the latest KEPT of them."""
+
+    path: Path
+    _kept: OrderedDict[str, Scene] = field(default_factory=OrderedDict)
+    _lock: threading.Lock = field(default_factory=threading.Lock)
+
+    def text(self) -> str | None:
+        """What the file says, where it is a text in the scene language and not too long to edit; otherwise None."""
+        if self.path.suffix.lower() not in SCENE_SUFFIXES or self.path.stat().st_size > MOST_TEXT:
+            return None
+        try:
+            return self.path.read_text(encoding="utf-8-sig")
+        except ValueError:
+            return None
+
+    def scene(self, text: str | None) -> Scene:
+        """What the text describes, or the file where it is None. Errors: InputError with the line, OSError."""
+        key = f"file {self.path.stat().st_mtime_ns}" if text is None else hashlib.sha256(text.encode()).hexdigest()
+        with self._lock:
+            found = self._kept.get(key)
+        if found is None:
+            found = read(self.path) if text is None else parse_scene(text, str(self.path), beside=self.path)
+            if not isinstance(found, Scene):
+                raise InputError("is no scene", file=str(self.path))
+        with self._lock:
+            self._kept[key] = found
+            self._kept.move_to_end(key)
+            while len(self._kept) > KEPT:
+                self._kept.popitem(last=False)
+        return found
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """A scene that is of no file, and has no text."""
+
+    shown: Scene
+    path: Path = Path("scene")
+
+    def text(self) -> str | None:
+        """None: there is nothing to edit."""
+        return None
+
+    def scene(self, text: str | None) -> Scene:
+        """The scene."""
+        return self.shown

@@ -17,7 +17,7 @@ from typing import Any
 from aiohttp import web
 
 from vectorplot.viewer.answers import ERRORS, Answers, json_bytes, told
-from vectorplot.viewer.jobs import Jobs, SupersededError
+from vectorplot.viewer.pictures import Jobs, SupersededError
 
 HOST = "127.0.0.1"
 

@@ -9,17 +9,17 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.animation.modes import MODES
+from vectorplot.animation.animation import MODES
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.cameras.camera import Camera, Point
+from vectorplot.geometry.camera import Camera, Point
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
-from vectorplot.scene.pages.page import Page
-from vectorplot.scene.point_of_view import camera_of, default_camera
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import camera_of, default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.tolerances.of_angles import NO_AZIMUTH_SINE
+from vectorplot.tolerances import NO_AZIMUTH_SINE
 from vectorplot.words import check_word
 
 WIDEST_DEG = 150.0

@@ -2,21 +2,49 @@
 
 from __future__ import annotations
 
+import base64
+import json
+import re
 from collections.abc import Callable, Mapping
 from concurrent.futures import CancelledError, Future
+from importlib.resources import files
 from typing import Any
 
 import anywidget
 import traitlets
 
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.shading.raster.image import Image
+from vectorplot.shading.image import Image
 from vectorplot.viewer.answers import ERRORS, Answers, json_bytes, told
-from vectorplot.viewer.jobs import Job, Jobs, SupersededError
-from vectorplot.viewer.pictures import picture
-from vectorplot.viewer.sources import Given, Source
+from vectorplot.viewer.pictures import Given, Job, Jobs, Source, SupersededError, picture
 from vectorplot.viewer.state import ViewerState, first_state
-from vectorplot.viewer.widget_script import widget_script
+
+# The page of the viewer as one module of JavaScript, as widgets in notebooks have it.
+
+SCRIPTS = (
+    *("program.js", "projection.js", "recording.js", "canvases.js", "recorder.js", "viewer.js"),
+    "notebook.js",
+)
+"""What the widget runs; each file knows only those before it."""
+
+
+def widget_script() -> str:
+    """The scripts as one module, with the body of the page and its style: what a notebook is given."""
+    page = _page_file("index.html").partition("<body>")[2].partition("</body>")[0]
+    icon = base64.b64encode(_page_file("icon.svg").encode()).decode()
+    page = page.replace('"icon.svg"', f'"data:image/svg+xml;base64,{icon}"')
+    texts = [f"const PAGE = {json.dumps(page)};", f"const STYLE = {json.dumps(_page_file('viewer.css'))};"]
+    return "\n".join([*texts, *(_without_imports(_page_file(name)) for name in SCRIPTS)])
+
+
+def _page_file(name: str) -> str:
+    return files("vectorplot.viewer").joinpath("page", name).read_text(encoding="utf-8")
+
+
+def _without_imports(script: str) -> str:
+    """A script whose imports stand before it in the same file; what others import of it is known there by itself."""
+    inside = re.sub(r'^import .* from "\./.*";$', "", script, flags=re.MULTILINE)
+    return re.sub(r"^export (?!default)", "", inside, flags=re.MULTILINE)
 
 
 class ViewerWidget(anywidget.AnyWidget):

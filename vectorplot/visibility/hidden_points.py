@@ -12,7 +12,7 @@ from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.placement import box_corners
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_extent import AROUND_OF_EXTENT, TOUCHING_OF_EXTENT
+from vectorplot.tolerances import AROUND_OF_EXTENT, TOUCHING_OF_EXTENT
 from vectorplot.visibility.polyhedra.occluders import face_occluders
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
@@ -113,10 +113,9 @@ def _by_sheets(scene: Scene, view: View, points: Floats, items: int) -> Bools:
     near = [number for number, item in enumerate(scene.items) if _may_hide(item.shape, item.hides, view, points)]
     if not near:
         return np.zeros((points.shape[1], items), dtype=np.bool_)
-    from vectorplot.visibility.smooth.rays import Samples, counts_in_front
-    from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-    from vectorplot.visibility.smooth.targets import targets_of
-    from vectorplot.visibility.smooth.tracing.traced import scene_sheets
+    from vectorplot.visibility.smooth.rays import Samples, counts_in_front, targets_of
+    from vectorplot.visibility.smooth.sheets import Sheets
+    from vectorplot.visibility.smooth.traced import scene_sheets
 
     sheets = Sheets(scene_sheets(scene, view, frozenset(range(items)) - frozenset(near)))
     count = points.shape[1]

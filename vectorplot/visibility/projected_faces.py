@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.chunks import mapped, slices
+from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.columns import cross
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_numbers import SINGLE_BOX_LEAST, SINGLE_BOX_SHARE
+from vectorplot.tolerances import SINGLE_BOX_LEAST, SINGLE_BOX_SHARE
 
 Floats32 = NDArray[np.float32]
 Bytes = NDArray[np.int8]

@@ -20,9 +20,8 @@ from vectorplot.animation import (
     read_movie,
     unpacked,
 )
-from vectorplot.animation.movies.coloured_polygons import coloured_polygons
-from vectorplot.animation.movies.pruning import pruned
-from vectorplot.backends.cairo.surfaces import drawing_pixels
+from vectorplot.animation.movies import coloured_polygons, pruned
+from vectorplot.backends.cairo import drawing_pixels
 from vectorplot.backends.raster import painted
 from vectorplot.drawing import Fills
 from vectorplot.geometry import box
@@ -239,7 +238,7 @@ def test_polygons_are_left_out_where_nobody_sees_them():
 def test_a_pruned_movie_shows_the_same_pixels_and_is_smaller(monkeypatch):
     drawing = vp.paint(DATA / "town.scene", vp.Camera((62, -88, 18), fov_deg=30), page="160x110")
     less = movie_of([drawing])
-    monkeypatch.setattr("vectorplot.animation.movies.recorder.pruned", lambda frame, item: np.ones(len(frame), bool))
+    monkeypatch.setattr("vectorplot.animation.movies.pruned", lambda frame, item: np.ones(len(frame), bool))
     more = movie_of([drawing])
     assert sum(map(len, encoded(less))) < 0.8 * sum(map(len, encoded(more)))
     (shown,), (whole,) = frame_drawings(less), frame_drawings(more)

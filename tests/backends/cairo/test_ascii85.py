@@ -6,7 +6,7 @@ import base64
 
 import numpy as np
 
-from vectorplot.backends.cairo.ascii85 import ascii85_decoded, ascii85_encoded
+from vectorplot.backends.cairo import ascii85_decoded, ascii85_encoded
 
 
 def test_all_lengths_and_zeros_are_coded_as_by_the_standard_library() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.backends.cairo.mesh_borders import border_sides, outer_sides
+from vectorplot.backends.page import border_sides, outer_sides
 
 LARGE = np.array([(0, 0), (90_000, 0), (0, 90_000)])
 SMALL = np.array([(10_000, 10_000), (20_000, 10_000), (10_000, 20_000)])

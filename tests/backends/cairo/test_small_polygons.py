@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from vectorplot.backends.cairo.small_polygons import SMALL_MICRONS, in_meshes
-from vectorplot.backends.page.areas import Areas
+from vectorplot.backends.cairo import SMALL_MICRONS, in_meshes
+from vectorplot.backends.page import Areas
 
 TRIANGLE = [(0, 0), (400, 0), (0, 400)]
 QUAD = [(0, 0), (500, 0), (500, 500), (0, 500)]

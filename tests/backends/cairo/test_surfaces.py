@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from support.backend_samples import drawing_of, grey_of_png, paths_of, program, run
 from support.effort import examples
 
-from vectorplot.backends.cairo.surfaces import eps_bytes, pdf_bytes, png_bytes, ps_bytes
+from vectorplot.backends.cairo import eps_bytes, pdf_bytes, png_bytes, ps_bytes
 from vectorplot.drawing.drawing import Pen
 from vectorplot.errors import InputError
 from vectorplot.save import save

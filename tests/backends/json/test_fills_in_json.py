@@ -6,8 +6,7 @@ import json
 
 import numpy as np
 
-from vectorplot.backends.json.fills_in_json import fills_text
-from vectorplot.backends.json.number_arrays import point_texts
+from vectorplot.backends.json import fills_text, point_texts
 from vectorplot.drawing.fills import Fills
 
 

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from support.backend_samples import drawing_of, paths_of
 
-from vectorplot.backends.json.json_document import json_bytes, read_drawing
+from vectorplot.backends.json import json_bytes, read_drawing
 from vectorplot.drawing.drawing import Paths
 from vectorplot.errors import InputError
 from vectorplot.save import save

@@ -7,9 +7,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.fill_samples import fan, flat, shaded
 
-from vectorplot.backends.page.areas import RUN_LENGTH, areas
-from vectorplot.backends.svg.shaded_strips import SHADE_ERROR, nearly_flat
-from vectorplot.backends.svg.svg_document import svg_text
+from vectorplot.backends.page import RUN_LENGTH, areas
+from vectorplot.backends.svg import SHADE_ERROR, nearly_flat, svg_text
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import SEAM_MM, FillKind, Fills
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 import numpy as np
 import pytest
 
-from vectorplot.backends.page.merged_triangles import merged, slopes
+from vectorplot.backends.shaded_triangles import merged, slopes
 
 
 def grid(count: int) -> np.ndarray:

@@ -13,9 +13,8 @@ from scipy.ndimage import median_filter
 from support.fill_samples import colour_at, fan, flat, page_of, pictures, shaded
 
 import vectorplot as vp
-from vectorplot.backends.page.areas import areas
-from vectorplot.backends.page.transparency_groups import SIDE_BY_SIDE_MICRONS, beside_a_side, groups_of, outline
-from vectorplot.backends.svg.svg_document import svg_bytes, svg_text
+from vectorplot.backends.page import SIDE_BY_SIDE_MICRONS, areas, beside_a_side, groups_of, outline
+from vectorplot.backends.svg import svg_bytes, svg_text
 from vectorplot.drawing.fills import FillKind
 
 DARK, BLUE = (16, 20, 24), (0, 0, 255)

@@ -9,9 +9,9 @@ import pytest
 import shapely
 from support.fill_samples import fan, flat, page_of, pictures, shaded
 
-from vectorplot.backends.cairo.surfaces import pdf_bytes, ps_bytes
-from vectorplot.backends.page.areas import areas
-from vectorplot.backends.page.underlaps import HOLLOW_MICRONS, grown, underlaps
+from vectorplot.backends.cairo import pdf_bytes, ps_bytes
+from vectorplot.backends.page import areas
+from vectorplot.backends.shaded_triangles import HOLLOW_MICRONS, grown, underlaps
 from vectorplot.drawing.fills import Fills
 
 DARK = (16, 20, 24)

@@ -5,7 +5,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from vectorplot.backends.svg.shaded_strips import SHADE_ERROR, stops_of, strips_of
+from vectorplot.backends.svg import SHADE_ERROR, stops_of, strips_of
 
 
 def worst_error(corners, colours) -> tuple[float, int]:

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 from support.backend_samples import drawing_of, paths_of
 from support.effort import examples
 
-from vectorplot.backends.svg.path_data import millimetres
-from vectorplot.backends.svg.svg_document import svg_bytes, svg_text
+from vectorplot.backends.svg import millimetres, svg_bytes, svg_text
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 
 SVG = "{http://www.w3.org/2000/svg}"

@@ -10,7 +10,7 @@ from PIL import Image
 
 import vectorplot as vp
 from vectorplot.backends import tikz_bytes
-from vectorplot.backends.cairo.surfaces import drawing_pixels
+from vectorplot.backends.cairo import drawing_pixels
 from vectorplot.errors import InputError
 
 DOCUMENT = (

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 from support.paths import ROOT
 
-from vectorplot.animation.movies.reader import read_movie
+from vectorplot.animation.movies import read_movie
 from vectorplot.cli.main import run
 
 

@@ -7,10 +7,9 @@ import signal
 
 import pytest
 
-from vectorplot.batch.finished_pictures import RECORD
-from vectorplot.cli.main import run
-from vectorplot.cli.many.picture_per_file import files_of, out_names
-from vectorplot.cli.stopping import stoppable
+from vectorplot.batch.running import RECORD
+from vectorplot.cli.main import run, stoppable
+from vectorplot.cli.many import files_of, out_names
 
 
 @pytest.fixture
@@ -70,7 +69,7 @@ def test_bad_input_is_a_line_and_the_others_are_made(parts, tmp_path, capsys):
 
 
 def test_a_signal_leaves_what_is_finished(parts, tmp_path, monkeypatch, capsys):
-    from vectorplot.batch import finished_pictures
+    from vectorplot.batch import running as finished_pictures
 
     real = finished_pictures.Records.add
 

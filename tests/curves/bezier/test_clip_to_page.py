@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.curves.bezier.clip_to_page import clipped_paths
-from vectorplot.curves.bezier.paths import BezierPaths, bezier_points, bezier_tangents, lengths
+from vectorplot.curves.bezier import BezierPaths, bezier_points, bezier_tangents, clipped_paths, lengths
 
 LOW, HIGH = np.zeros(2), np.array([10.0, 7.0])
 

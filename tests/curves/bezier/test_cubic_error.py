@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.curves.bezier.cubic_error import HIGHEST, bernstein, cubic_error, places
+from vectorplot.curves.bezier import HIGHEST, bernstein, cubic_error, places
 
 MANY = np.linspace(0.0, 1.0, 2001)
 

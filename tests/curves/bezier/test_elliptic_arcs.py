@@ -6,8 +6,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.effort import examples
 
-from vectorplot.curves.bezier.elliptic_arcs import EllipseArcs, arc_segments, recognised_arcs
-from vectorplot.curves.bezier.paths import bezier_points
+from vectorplot.curves.arcs import EllipseArcs, arc_segments, recognised_arcs
+from vectorplot.curves.bezier import bezier_points
 from vectorplot.errors import InputError
 
 TOL = 2e-5

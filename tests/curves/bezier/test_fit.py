@@ -12,10 +12,10 @@ from hypothesis import strategies as st
 from scipy.spatial import cKDTree
 from support.effort import examples
 
-from vectorplot.curves.bezier.fit import fitted, fitted_curve, fitted_paths
-from vectorplot.curves.bezier.paths import BezierPath
+from vectorplot.curves.bezier import BezierPath
+from vectorplot.curves.bezier_fit import fitted, fitted_curve, fitted_paths
 from vectorplot.errors import InputError
-from vectorplot.testing.curve_distance import Tree
+from vectorplot.testing.curves import Tree
 
 TURN = np.linspace(0, 2 * np.pi, 401)[:-1]
 

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.curves.bezier.arcs import EllipseArc, arc_error, arc_path, recognised_arc
-from vectorplot.curves.bezier.paths import BezierPath, bezier_points, flattened, lengths, split
+from vectorplot.curves.arcs import EllipseArc, arc_error, arc_path, recognised_arc
+from vectorplot.curves.bezier import BezierPath, bezier_points, flattened, lengths, split
 from vectorplot.errors import InputError
-from vectorplot.testing.curve_distance import Tree
+from vectorplot.testing.curves import Tree
 
 CONTROL = np.array([[[0, 0, 0], [1, 2, 0], [3, 2, 1], [4, 0, 1]], [[4, 0, 1], [5, -2, 1], [7, 3, 0], [8, 0, 0]]], float)
 PATH = BezierPath(CONTROL)

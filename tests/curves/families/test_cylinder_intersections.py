@@ -5,7 +5,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from vectorplot.curves.families.cylinder_intersections import cylinder_intersection
+from vectorplot.curves.families import cylinder_intersection
 from vectorplot.errors import InputError, InputWarning
 
 size = st.floats(0.1, 10)

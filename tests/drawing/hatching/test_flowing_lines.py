@@ -12,11 +12,11 @@ import pytest
 
 import vectorplot as vp
 from vectorplot import features
-from vectorplot.backends.cairo.surfaces import png_bytes
-from vectorplot.drawing.hatching.line_ranks import _farthest_first, place_ranks
+from vectorplot.backends.cairo import png_bytes
+from vectorplot.drawing.hatching import _farthest_first, place_ranks
 from vectorplot.geometry import box
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.painting.flowing_lines import field_of
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.pictures.fills import field_of
 from vectorplot.scene import terrain_mesh
 from vectorplot.surfaces import Domain, Sphere, graph, terrain
 

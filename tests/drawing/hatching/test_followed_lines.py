@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.backends.cairo.surfaces import png_bytes
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.backends.cairo import png_bytes
+from vectorplot.io.scene_language import parse_scene
 from vectorplot.surfaces import Sphere
 
 SUN = vp.Light((2.0, -3.0, 4.0), parallel=True, intensity=1.0)

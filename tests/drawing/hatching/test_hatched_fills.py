@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.backends.cairo.surfaces import png_bytes
+from vectorplot.backends.cairo import png_bytes
 from vectorplot.drawing import Fills, hatched_fills
 
 FLAT = np.eye(4)

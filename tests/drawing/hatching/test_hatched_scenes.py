@@ -10,8 +10,8 @@ from support.scene_rays import faces_of, lacking, page_rays
 
 import vectorplot as vp
 from vectorplot import surfaces
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import Page
 
 PAGE = Page(200.0, 140.0, 0.0)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from vectorplot.backends.tikz.nodes import latex
-from vectorplot.drawing.lettering.formulas import without_formulas, without_formulas_in_strokes
+from vectorplot.backends.tikz import latex
+from vectorplot.drawing.formulas import without_formulas, without_formulas_in_strokes
 from vectorplot.errors import InputError
 
 

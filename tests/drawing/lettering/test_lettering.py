@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.drawing.lettering.text import lettered
-from vectorplot.drawing.lettering.text_along import lettered_along
+from vectorplot.drawing.letters import lettered
+from vectorplot.drawing.text_along import lettered_along
 from vectorplot.geometry import box
 
 ASCII = "".join(map(chr, range(33, 127)))

@@ -13,8 +13,8 @@ import vectorplot as vp
 from vectorplot.arrays import Floats
 from vectorplot.cli.main import run
 from vectorplot.drawing.texts import Texts
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.words import LineKind
 
 EGG = "EGG gray surface ellipsoid 4 3 2\n  level_lines at -1.5, -1, -0.5, 0, 0.5, 1, 1.5 index 2"

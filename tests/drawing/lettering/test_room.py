@@ -8,10 +8,10 @@ import shapely
 
 import vectorplot as vp
 from vectorplot.drawing import lettered_along
-from vectorplot.drawing.lettering.interrupted import inside_box
-from vectorplot.drawing.lettering.stroke_lengths import StrokeLengths
+from vectorplot.drawing.labels import StrokeLengths
+from vectorplot.drawing.text_along import inside_box
 from vectorplot.geometry import box
-from vectorplot.scene.pages.fitted_pages import fitted_page
+from vectorplot.scene.placement import fitted_page
 
 BLOCK = vp.Item("block", box((2, 1, 1)), "red")
 CAMERA = vp.Camera((6, -9, 5), (1, 0.5, 0.5))

@@ -11,13 +11,13 @@ import shapely
 import vectorplot as vp
 from vectorplot.curves import Circle, Line
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.lettering.interrupted import grown, outside_boxes, outside_others
-from vectorplot.drawing.strokes.stroke_paths import chosen
+from vectorplot.drawing.strokes import chosen
+from vectorplot.drawing.text_along import grown, outside_boxes, outside_others
 from vectorplot.geometry import box
 from vectorplot.save import FORMATS, write
 from vectorplot.scene import look
 from vectorplot.surfaces import Cylinder, Sphere, Torus
-from vectorplot.testing.rays.sight import visible_by_rays
+from vectorplot.testing.rays import visible_by_rays
 from vectorplot.visibility import points_hidden_by, project_faces
 
 NAMES = "ABCDEFGH"

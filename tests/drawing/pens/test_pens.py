@@ -6,9 +6,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.drawing.pens.pen_rules import pen_rules
-from vectorplot.drawing.pens.style_file import read_style
-from vectorplot.drawing.pens.styles import STYLES
+from vectorplot.drawing.pens import STYLES, pen_rules, read_style
 from vectorplot.errors import InputError
 from vectorplot.geometry import box
 from vectorplot.words import LineKind

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.pens.thinned_ends import thinned_ends
+from vectorplot.drawing.finishing import thinned_ends
 
 WIDTH = 0.25
 

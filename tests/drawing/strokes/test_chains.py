@@ -4,7 +4,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.drawing.strokes.chains import NO_END, chains
+from vectorplot.drawing.strokes import NO_END, chains
 
 
 @st.composite

@@ -7,10 +7,10 @@ import pytest
 import shapely
 from support.sample_paths import lines_of, polylines
 
-from vectorplot.curves.bezier.paths import bezier_points, bezier_tangents
+from vectorplot.curves.bezier import bezier_points, bezier_tangents
 from vectorplot.drawing.drawing import CurvedStrokes, Layer, Paths, Pen
-from vectorplot.drawing.strokes.curved_strokes import curved_strokes, one_mark
-from vectorplot.drawing.strokes.finishing import inked
+from vectorplot.drawing.finishing import inked
+from vectorplot.drawing.stroke_curves import curved_strokes, one_mark
 from vectorplot.errors import InputError
 
 TOLERANCE = 0.02

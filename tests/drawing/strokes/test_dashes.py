@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 import shapely
 
+from vectorplot.drawing.dashes import dashed
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.dashes import dashed
 from vectorplot.errors import InputError
 
 

@@ -8,17 +8,14 @@ import numpy as np
 import pytest
 from support.sample_paths import polylines
 
-from vectorplot.curves.bezier.paths import bezier_tangents
+from vectorplot.curves.bezier import bezier_tangents
+from vectorplot.drawing.dashes import dashed
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.curved_strokes import curved_strokes
-from vectorplot.drawing.strokes.dashes import dashed
-from vectorplot.drawing.strokes.finishing import long_strokes
-from vectorplot.drawing.strokes.join import joined
-from vectorplot.drawing.strokes.long_strokes import split_long
-from vectorplot.drawing.strokes.page_clip import clipped
-from vectorplot.drawing.strokes.pen_order.order import pen_ordered
-from vectorplot.drawing.strokes.simplify import without_collinear_points
-from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.drawing.finishing import long_strokes
+from vectorplot.drawing.pen_order import pen_ordered
+from vectorplot.drawing.simplify import without_collinear_points
+from vectorplot.drawing.stroke_curves import curved_strokes
+from vectorplot.drawing.strokes import chosen, clipped, concatenated, joined, split_long
 
 
 def ellipse(t):

@@ -11,9 +11,9 @@ import shapely
 import vectorplot as vp
 from vectorplot.curves import AkimaSpline, BSpline, CubicSpline, PlacedCurve, SplineCurve, nurbs_curve, spline_curve
 from vectorplot.drawing import CurvedStrokes, Paths, curved_strokes
-from vectorplot.drawing.strokes.simplify import without_collinear_points
+from vectorplot.drawing.simplify import without_collinear_points
 from vectorplot.surfaces import PlacedSurface, Sphere, nurbs_surface, spline_surface
-from vectorplot.surfaces.splines.line_pieces import line_pieces
+from vectorplot.surfaces.splines import line_pieces
 from vectorplot.testing.shapes import box
 
 POINTS = np.array([(0, 0, 0), (2, 1, 0), (3, 0, 1), (2, -2, 2), (0, -1, 1), (1, 1, 3)], dtype=float)

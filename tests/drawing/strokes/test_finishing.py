@@ -7,11 +7,11 @@ import numpy as np
 import pytest
 from support.sample_paths import length_mm, polylines
 
+from vectorplot.drawing import finishing
 from vectorplot.drawing.drawing import Layer, Pen
-from vectorplot.drawing.strokes import finishing
-from vectorplot.drawing.strokes.finishing import inked
-from vectorplot.drawing.strokes.stroke_paths import concatenated
-from vectorplot.geometry.chunks import threads
+from vectorplot.drawing.finishing import inked
+from vectorplot.drawing.strokes import concatenated
+from vectorplot.geometry.budget import threads
 from vectorplot.words import LineKind
 
 

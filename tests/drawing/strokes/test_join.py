@@ -5,8 +5,7 @@ from hypothesis import strategies as st
 from support.effort import examples
 from support.sample_paths import canonical, length_mm, lines_of, pieces, polylines
 
-from vectorplot.drawing.strokes.join import joined
-from vectorplot.drawing.strokes.stroke_paths import chosen
+from vectorplot.drawing.strokes import chosen, joined
 
 TOL = 1e-4
 

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 from support.effort import examples
 from support.sample_paths import length_mm, lines_of, polylines
 
-from vectorplot.drawing.strokes.long_strokes import split_long
+from vectorplot.drawing.strokes import split_long
 from vectorplot.errors import InputError
 
 

@@ -2,7 +2,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.drawing.strokes.neighbours import clusters, connected
+from vectorplot.drawing.strokes import clusters, connected
 
 
 def test_the_smallest_index_stands_for_a_component():

@@ -5,7 +5,7 @@ import pytest
 import shapely
 
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.page_clip import clipped
+from vectorplot.drawing.strokes import clipped
 
 PAGE = (0.0, 0.0, 10.0, 6.0)
 

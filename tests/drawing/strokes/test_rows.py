@@ -7,9 +7,8 @@ import pytest
 from support.sample_paths import polylines
 
 from vectorplot.drawing.drawing import NO_CURVE
-from vectorplot.drawing.strokes.finishing import long_strokes
-from vectorplot.drawing.strokes.rows import going_on, in_rows, without_dots
-from vectorplot.drawing.strokes.stroke_paths import chosen
+from vectorplot.drawing.finishing import long_strokes
+from vectorplot.drawing.strokes import chosen, going_on, in_rows, without_dots
 
 TOL = 1e-4
 

@@ -3,14 +3,11 @@
 import numpy as np
 from support.sample_paths import polylines
 
+from vectorplot.drawing.dashes import dashed
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.strokes.dashes import dashed
-from vectorplot.drawing.strokes.join import joined
-from vectorplot.drawing.strokes.long_strokes import split_long
-from vectorplot.drawing.strokes.page_clip import clipped
-from vectorplot.drawing.strokes.pen_order.order import pen_ordered
-from vectorplot.drawing.strokes.simplify import without_collinear_points
-from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated, unrolled
+from vectorplot.drawing.pen_order import pen_ordered
+from vectorplot.drawing.simplify import without_collinear_points
+from vectorplot.drawing.strokes import chosen, clipped, concatenated, joined, split_long, unrolled
 
 # The smooth strokes lie above y = 50, the others below.
 STROKES = polylines(

@@ -9,10 +9,10 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.effects import cut_scene
 from vectorplot.geometry import box, prism
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import Cut
-from vectorplot.scene.naming.joined_scenes import together
+from vectorplot.scene.scene import together
 from vectorplot.surfaces import Cylinder, Ellipsoid, Sphere, Torus, rod
 from vectorplot.testing.shapes import without
 

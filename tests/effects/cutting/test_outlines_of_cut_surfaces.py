@@ -10,7 +10,7 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot import features, surfaces
-from vectorplot.features.parametric.parameter_lines import domain_borders
+from vectorplot.features.parameter_curves import domain_borders
 from vectorplot.geometry import HalfSpaces
 
 FAMILIES = {

@@ -6,11 +6,10 @@ import tracemalloc
 
 import numpy as np
 
-from vectorplot.effects.decals.convex_decals import convex_decals
-from vectorplot.effects.decals.decal_polygons import Decals
-from vectorplot.effects.shadows.shadow_decals import shadow_decals
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.plane_cuts import polygon_areas
+from vectorplot.effects.decals import Decals, convex_decals
+from vectorplot.effects.shadows import shadow_decals
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.polygon_cuts import polygon_areas
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals.decal_polygons import Decals, joined_decals, no_decals
+from vectorplot.effects.decals import Decals, joined_decals, no_decals
 
 
 def _decals(face: list[int], level: list[int], colour: list[int], colours: tuple[str, ...]) -> Decals:

@@ -4,11 +4,9 @@ import numpy as np
 import pytest
 from support.seen_rays import topmost
 
-from vectorplot.effects.decals.decal_polygons import joined_decals, no_decals
-from vectorplot.effects.decals.decals_on_pieces import laid
-from vectorplot.effects.decals.pattern_decals import pattern_decals
-from vectorplot.effects.mirrors.reflections import mirrors, reflections
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.effects.decals import joined_decals, laid, no_decals, pattern_decals
+from vectorplot.effects.mirrors import mirrors, reflections
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.material import Material

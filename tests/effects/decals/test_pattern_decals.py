@@ -3,13 +3,12 @@ import pytest
 import shapely
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals.decal_polygons import Decals, joined_decals, no_decals
-from vectorplot.effects.decals.pattern_decals import pattern_decals, patterns_in_shadows
+from vectorplot.effects.decals import Decals, joined_decals, no_decals, pattern_decals, patterns_in_shadows
 from vectorplot.errors import InputError
-from vectorplot.features.meshes.patterns import face_frames
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.features.mesh_lines import face_frames
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import box
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look

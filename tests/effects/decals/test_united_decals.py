@@ -7,16 +7,13 @@ import pytest
 from support.blocked_lights import wrong_points
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals.decal_polygons import Decals, no_decals
-from vectorplot.effects.decals.united_decals import disjoint_decals, united_decals
-from vectorplot.effects.shadows.shadow_decals import cast_shadows, shadow_decals
-from vectorplot.effects.shadows.shadow_grades import shadow_decals_of
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.plane_cuts import polygon_areas
+from vectorplot.effects.decals import Decals, disjoint_decals, no_decals, united_decals
+from vectorplot.effects.shadows import cast_shadows, shadow_decals, shadow_decals_of
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.polygon_cuts import polygon_areas
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View, look
-from vectorplot.testing.curved_meshes import torus_mesh
-from vectorplot.testing.shapes import box, numbered, rotated_boxes
+from vectorplot.testing.shapes import box, numbered, rotated_boxes, torus_mesh
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.projected_faces import project_faces
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.effects.glass.beams import Solid, soup_in_beams
-from vectorplot.effects.glass.refracted_polygons import Soup
-from vectorplot.effects.glass.sight_rays import traced
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.convex_hulls import hull_mesh
+from vectorplot.effects.glass import Solid, soup_in_beams
+from vectorplot.effects.refraction import Soup, traced
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.convex_polygons import hull_mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look

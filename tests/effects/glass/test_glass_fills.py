@@ -9,15 +9,15 @@ from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.regions import polygons_of
-from vectorplot.paint import paint
+from vectorplot.pictures.paint import paint
 from vectorplot.save import write
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.palettes import palette
+from vectorplot.shading.palettes import palette
 from vectorplot.testing.shapes import box
 
 SUN = Light((-1.0, -2.0, 4.0), parallel=True, intensity=0.8)

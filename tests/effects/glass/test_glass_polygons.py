@@ -5,12 +5,12 @@ from support.effort import several
 from support.seen_rays import sight_rays, topmost, triangles
 from support.triangle_rays import first_hits
 
-from vectorplot.effects.decals.decal_polygons import Decals
-from vectorplot.effects.glass.glass_polygons import refracting_items, seen_in_glass
-from vectorplot.effects.glass.refraction import refracted
+from vectorplot.effects.decals import Decals
+from vectorplot.effects.glass import refracting_items, seen_in_glass
+from vectorplot.effects.refraction import refracted
 from vectorplot.geometry import ragged
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.convex_hulls import hull_mesh
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.convex_polygons import hull_mesh
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material

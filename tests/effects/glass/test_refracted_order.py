@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.effects.glass.refracted_order import refracted_order
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.effects.glass import refracted_order
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look

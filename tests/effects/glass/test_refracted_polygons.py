@@ -7,9 +7,8 @@ from collections import Counter
 import numpy as np
 import pytest
 
-from vectorplot.effects.glass.refracted_polygons import Soup, bent
-from vectorplot.effects.glass.sight_rays import SightWays, traced
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.effects.refraction import SightWays, Soup, bent, traced
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.effects.glass.refraction import (
+from vectorplot.effects.refraction import (
     angle_of_refraction,
     inverse_refraction,
     plate_shift,

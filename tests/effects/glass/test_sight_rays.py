@@ -3,9 +3,15 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.effects.glass.refraction import plate_shift, seen_in_surface, tangents_of_rays
-from vectorplot.effects.glass.sight_rays import SightWays, traced, virtual_points
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.effects.refraction import (
+    SightWays,
+    plate_shift,
+    seen_in_surface,
+    tangents_of_rays,
+    traced,
+    virtual_points,
+)
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look

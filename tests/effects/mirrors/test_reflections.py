@@ -6,12 +6,12 @@ from support.effort import several
 from support.seen_rays import sight_rays, topmost, triangles
 from support.triangle_rays import first_hits
 
-from vectorplot.effects.mirrors.reflections import Mirrors, mirrored_view, mirrors, originals, reflections
-from vectorplot.effects.windows.window_polygons import SeenThrough
+from vectorplot.effects.mirrors import Mirrors, mirrored_view, mirrors, originals, reflections
+from vectorplot.effects.windows import SeenThrough
 from vectorplot.geometry import ragged
-from vectorplot.geometry.bodies.bodies_of_revolution import revolution
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import revolution
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene

@@ -11,11 +11,7 @@ import shapely
 
 import vectorplot as vp
 from vectorplot.drawing import typeset
-from vectorplot.effects.scales.axis_numbers import axis_numbers
-from vectorplot.effects.scales.box_axes import with_box
-from vectorplot.effects.scales.colour_maps import COLOUR_MAPS, map_colours
-from vectorplot.effects.scales.coloured_scene import coloured
-from vectorplot.effects.scales.scaled_scene import scaled
+from vectorplot.effects.scales import COLOUR_MAPS, axis_numbers, coloured, map_colours, scaled, with_box
 from vectorplot.errors import InputError
 from vectorplot.geometry import box as solid_box
 from vectorplot.geometry import ragged

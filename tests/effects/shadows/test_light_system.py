@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.effects.shadows.light_system import FacePlanes, light_boxes, light_system
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.effects.shadow_casters import FacePlanes, light_boxes, light_system
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, numbered, rotated_boxes

@@ -9,19 +9,17 @@ from support.blocked_lights import face_points, scene_triangles, wrong_points
 from support.triangle_rays import blocked
 
 import vectorplot as vp
-from vectorplot.effects.shadows.light_system import FacePlanes, light_system
-from vectorplot.effects.shadows.lit_bodies import LitBodies, lit_bodies
-from vectorplot.effects.shadows.shadow_decals import cast_within, shadow_decals
-from vectorplot.effects.shadows.shadow_pairs import Receivers
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.effects.lit_bodies import LitBodies, lit_bodies
+from vectorplot.effects.shadow_casters import FacePlanes, Receivers, light_system
+from vectorplot.effects.shadows import cast_within, shadow_decals
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces import Sphere
-from vectorplot.testing.curved_meshes import bumpy_icosphere, torus_mesh
-from vectorplot.testing.shapes import box
+from vectorplot.testing.shapes import box, bumpy_icosphere, torus_mesh
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.projected_faces import project_faces
 

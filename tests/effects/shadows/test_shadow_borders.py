@@ -7,13 +7,11 @@ import pytest
 from support.blocked_lights import FacePoints, face_points, highest_grade
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals.decal_polygons import joined_decals
-from vectorplot.effects.shadows.shadow_borders import shadow_borders
-from vectorplot.effects.shadows.shadow_decals import cast_shadows
-from vectorplot.effects.shadows.shadow_grades import graded, shadow_decals_of
-from vectorplot.effects.shadows.shadow_shades import LEVELS
+from vectorplot.effects.decals import joined_decals
+from vectorplot.effects.shadows import LEVELS, cast_shadows, graded, shadow_decals_of
+from vectorplot.effects.soft_shadows import shadow_borders
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View, look

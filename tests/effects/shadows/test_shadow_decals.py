@@ -10,23 +10,29 @@ from support.hard_shapes import HARD_SHAPES
 from support.triangle_rays import blocked
 
 from vectorplot.arrays import Floats
-from vectorplot.effects.shadows.light_system import FacePlanes, light_system
-from vectorplot.effects.shadows.shadow_casters import shadow_casters
-from vectorplot.effects.shadows.shadow_decals import cast_shadows, shadow_crossings, shadow_decals
-from vectorplot.effects.shadows.shadow_pairs import Receivers, candidates
+from vectorplot.effects.shadow_casters import FacePlanes, Receivers, candidates, light_system, shadow_casters
+from vectorplot.effects.shadows import cast_shadows, shadow_crossings, shadow_decals
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.bodies_of_revolution import revolution
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.plane_cuts import parts_of, polygon_areas
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polygon_cuts import parts_of, polygon_areas
+from vectorplot.geometry.solids import revolution
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, torus_mesh
-from vectorplot.testing.shapes import box, numbered, random_convex_solids, rotated_boxes, rotation
-from vectorplot.textbook.orders.graph_orders import graph_triangles
-from vectorplot.visibility.painter.cuts.slices import cut_into_slices
+from vectorplot.testing.shapes import (
+    box,
+    bumpy_icosphere,
+    grid_graph,
+    numbered,
+    random_convex_solids,
+    rotated_boxes,
+    rotation,
+    torus_mesh,
+)
+from vectorplot.textbook.orders import graph_triangles
+from vectorplot.visibility.painter.cuts import cut_into_slices
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces

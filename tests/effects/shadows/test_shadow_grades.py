@@ -6,18 +6,16 @@ import numpy as np
 import pytest
 from support.blocked_lights import wrong_points
 
-import vectorplot.effects.shadows.shadow_grades as grades
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.shadows.shadow_decals import cast_shadows, shadow_decals
-from vectorplot.effects.shadows.shadow_grades import Shadows, graded, joined_shadows, shadow_decals_of
+from vectorplot.effects import shadows as grades
+from vectorplot.effects.shadows import Shadows, cast_shadows, graded, joined_shadows, shadow_decals, shadow_decals_of
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.plane_cuts import polygon_areas
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.polygon_cuts import polygon_areas
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.testing.curved_meshes import torus_mesh
-from vectorplot.testing.shapes import box, numbered
+from vectorplot.testing.shapes import box, numbered, torus_mesh
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.projected_faces import project_faces
 

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.effects.shadows.shadow_decals import cast_shadows, cast_within
+from vectorplot.effects.shadows import cast_shadows, cast_within
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light

@@ -10,10 +10,9 @@ from support.blocked_lights import face_points, highest_grade
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals.decal_polygons import joined_decals
-from vectorplot.effects.shadows.shadow_decals import shadow_decals
-from vectorplot.effects.shadows.transparent_shadows import transparent_shadows
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.effects.decals import joined_decals
+from vectorplot.effects.shadows import shadow_decals, transparent_shadows
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material

@@ -7,8 +7,8 @@ import pytest
 import shapely
 
 import vectorplot as vp
-from vectorplot.effects.shadows.shadow_decals import cast_shadows
-from vectorplot.effects.shadows.united_shadows import united_shadows
+from vectorplot.effects.shadows import cast_shadows
+from vectorplot.effects.soft_shadows import united_shadows
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.scene.view import look
 

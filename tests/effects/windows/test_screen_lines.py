@@ -2,9 +2,9 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.effects.windows.screen_lines import item_opacities, screen_door, screen_door_pixels, sparseness
+from vectorplot.effects.windows import item_opacities, screen_door, screen_door_pixels, sparseness
 from vectorplot.errors import InputError
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scene_language import parse_scene
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene

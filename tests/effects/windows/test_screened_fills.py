@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.effects.windows.screened_fills import screened
+from vectorplot.effects.windows import screened
 
 SQUARE = np.array([[0.0, 0.0], [10.0, 0.0], [10.0, 10.0], [0.0, 10.0]])
 

@@ -7,15 +7,10 @@ import pytest
 
 import vectorplot as vp
 from vectorplot import features, surfaces
-from vectorplot.features.feature_lines.bending import Sight
-from vectorplot.features.feature_lines.clear_lines import Detail
-from vectorplot.features.feature_lines.implicit_feature_lines import implicit_feature_lines
-from vectorplot.features.feature_lines.mesh_bending import mesh_bending
-from vectorplot.features.feature_lines.mesh_feature_lines import mesh_feature_lines
-from vectorplot.features.feature_lines.surface_bending import implicit_bending, surface_bending
-from vectorplot.features.feature_lines.surface_feature_lines import surface_feature_lines
-from vectorplot.features.meshes.mesh_curves import face_triangles
-from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.feature_lines import Detail, Sight, implicit_bending, surface_bending, surface_feature_lines
+from vectorplot.features.mesh_feature_lines import implicit_feature_lines, mesh_bending, mesh_feature_lines
+from vectorplot.features.mesh_lines import face_triangles
 from vectorplot.words import DRAWN, FEATURE_KINDS, WIRES, LineKind
 
 EYE = np.array([20.0, 3.0, 8.0])

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.implicit.implicit_conditions import (
+from vectorplot.features.implicit_surfaces import (
     ImplicitCentralContour,
     ImplicitIsophote,
     ImplicitParallelContour,
@@ -13,8 +13,8 @@ from vectorplot.features.implicit.implicit_conditions import (
     MeetsPlane,
     sight_line_bending,
 )
-from vectorplot.surfaces.families.quadric import implicit_cylinder, implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus
+from vectorplot.surfaces.quadrics import implicit_cylinder, implicit_sphere
+from vectorplot.surfaces.tori import ImplicitTorus
 
 TORUS = ImplicitTorus(3.0, 1.0)
 CONDITIONS = {

@@ -4,8 +4,10 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.implicit.implicit_borders import implicit_borders
-from vectorplot.features.implicit.implicit_curves import (
+from vectorplot.features.contours import contour, isophotes, parallel_contour, point_light_isophotes
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.implicit_curves import (
+    implicit_borders,
     implicit_contour,
     implicit_contour_in_view,
     implicit_intersection,
@@ -15,25 +17,22 @@ from vectorplot.features.implicit.implicit_curves import (
     implicit_plane_sections,
     implicit_point_light_isophotes,
 )
-from vectorplot.features.implicit.implicit_cusps import implicit_contour_cusps, implicit_parallel_contour_cusps
-from vectorplot.features.implicit.implicit_mesh import implicit_mesh
-from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
-from vectorplot.features.parametric.contour import contour, parallel_contour
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.surfaces.families.cyclide import ImplicitCyclide, dupin_cyclide
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.quadric import (
+from vectorplot.features.implicit_cusps import implicit_contour_cusps, implicit_parallel_contour_cusps
+from vectorplot.features.implicit_meshes import implicit_mesh
+from vectorplot.features.implicit_tracing import ImplicitTracing
+from vectorplot.geometry.camera import Camera
+from vectorplot.surfaces.implicit import implicit_of_function
+from vectorplot.surfaces.quadrics import (
+    Ellipsoid,
     Quadric,
+    Sphere,
     implicit_cone,
     implicit_cylinder,
     implicit_ellipsoid,
     implicit_plane,
     implicit_sphere,
 )
-from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
-from vectorplot.surfaces.implicit_function import implicit_of_function
+from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, ImplicitTorusByDistance, Torus, dupin_cyclide
 from vectorplot.testing import assert_contour, assert_isophote, assert_on_both, assert_on_surface, assert_same_curve
 
 EYE = np.array([8.0, -3.0, 6.0])

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
-from vectorplot.geometry.repair.adjacency import body_record
-from vectorplot.geometry.repair.winding import edge_uses, is_closed_oriented
-from vectorplot.surfaces.families.quadric import implicit_cone, implicit_cylinder, implicit_plane, implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance
-from vectorplot.surfaces.implicit_function import implicit_of_function
+from vectorplot.features.implicit_surfaces import polygonized, settled_mesh
+from vectorplot.geometry.adjacency import body_record
+from vectorplot.geometry.winding import edge_uses, is_closed_oriented
+from vectorplot.surfaces.implicit import implicit_of_function
+from vectorplot.surfaces.quadrics import implicit_cone, implicit_cylinder, implicit_plane, implicit_sphere
+from vectorplot.surfaces.tori import ImplicitTorus, ImplicitTorusByDistance
 
 BOX = np.array([[-2.0] * 3, [2.0] * 3])
 

@@ -11,14 +11,10 @@ import vectorplot as vp
 from vectorplot import features, scene, surfaces
 from vectorplot.errors import InputError
 from vectorplot.features import Tracing, evenly_spaced_curves
-from vectorplot.features.integral.charts import charts
-from vectorplot.features.integral.flows import FieldFlow
-from vectorplot.features.integral.integral_curves import courses_from
-from vectorplot.features.integral.integration import Accuracy, Until
-from vectorplot.features.integral.spacing import uncrowded_lines
-from vectorplot.features.integral.spacing.crowd import Crowd, Ground, crowds_itself, thinned
-from vectorplot.features.integral.spacing.gaps import widest_first
-from vectorplot.features.integral.spacing.places_along import PlacesAlong
+from vectorplot.features import streamlines as uncrowded_lines
+from vectorplot.features.streamlines import Crowd, Ground, PlacesAlong, crowds_itself, thinned, widest_first
+from vectorplot.features.surface_integration import Accuracy, FieldFlow, Until, courses_from
+from vectorplot.features.surface_places import charts
 from vectorplot.surfaces import Cylinder, Domain, Sphere, Torus
 from vectorplot.testing import curves_in_space
 
@@ -136,7 +132,7 @@ def _ends(curves):
 
 @pytest.mark.slow
 def test_every_verb_shows_the_same_lines(monkeypatch):
-    from vectorplot.visibility.smooth.tracing import integral_items
+    from vectorplot.visibility.smooth import parametric_items as integral_items
 
     found = []
 

@@ -8,7 +8,7 @@ from vectorplot import features
 from vectorplot.curves import Loxodrome
 from vectorplot.errors import InputError
 from vectorplot.features import Accuracy, Sites, Tracing, geodesics, integral_curves
-from vectorplot.features.integral.curvature_fields import principal
+from vectorplot.features.tangent_fields import principal
 from vectorplot.geometry import HalfSpaces
 from vectorplot.scene import FieldLines
 from vectorplot.surfaces import (
@@ -256,9 +256,8 @@ def test_geodesics_of_sphere_cylinder_cone_and_torus():
 @pytest.mark.slow
 @pytest.mark.capability("G9.4-field")
 def test_a_geodesic_of_the_torus_keeps_clairauts_constant():
-    from vectorplot.features.integral.charts import charts
-    from vectorplot.features.integral.flows import GeodesicFlow
-    from vectorplot.features.integral.integration import courses
+    from vectorplot.features.surface_integration import GeodesicFlow, courses
+    from vectorplot.features.surface_places import charts
 
     torus = Torus(3, 1)
     flow = GeodesicFlow(torus, charts(torus))

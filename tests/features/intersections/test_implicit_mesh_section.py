@@ -5,16 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
-from vectorplot.features.implicit.polygonize import polygonized
-from vectorplot.features.intersections.implicit_mesh_section import ImplicitPatch, implicit_mesh_section
-from vectorplot.features.intersections.mesh_section import mesh_section
-from vectorplot.features.parametric.curve_tracing import Tracing
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.implicit_surfaces import polygonized
+from vectorplot.features.implicit_tracing import ImplicitTracing
+from vectorplot.features.mesh_sections import ImplicitPatch, implicit_mesh_section, mesh_section
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import Quadric, implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.placed_surface import PlacedImplicit
+from vectorplot.surfaces.quadrics import Quadric, Sphere, implicit_sphere
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.testing import hausdorff
 from vectorplot.testing.shapes import box
 

@@ -3,16 +3,15 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.intersections.mesh_section import mesh_section
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.surface_sections import plane_sections
+from vectorplot.features.contours import plane_sections
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.mesh_sections import mesh_section
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.quadrics import Cylinder, Sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 
 SIDES = [[0, 1, 3, 2], [4, 6, 7, 5], [0, 4, 5, 1], [2, 3, 7, 6], [0, 2, 6, 4], [1, 5, 7, 3]]
 

@@ -3,15 +3,14 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.intersections.self_intersection import self_intersections
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.intersections import self_intersections
+from vectorplot.io.scene_language import parse_scene
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Cylinder, Sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 
 TURN = 2.0 * np.pi
 SQUARE = Domain(-1, 1, -1, 1)

@@ -9,18 +9,16 @@ from hypothesis import strategies as st
 from support.effort import examples
 
 from vectorplot.errors import InputError
-from vectorplot.features.intersections.surface_intersection import intersections_of_grids, surface_intersection
-from vectorplot.features.intersections.surface_patches import SurfaceGrids
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.surface_sections import section_by_implicit
+from vectorplot.features.contours import section_by_implicit
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.intersections import intersections_of_grids, surface_intersection
+from vectorplot.features.patches import SurfaceGrids
 from vectorplot.geometry.rotations import rotation_about
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.quadric import implicit_ellipsoid, implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Cylinder, Ellipsoid, Sphere, implicit_ellipsoid, implicit_sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 
 QUARTER = np.array([[0.0, 0.0, 1.0], [0.0, 1.0, 0.0], [-1.0, 0.0, 0.0]])
 

@@ -1,15 +1,14 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.meshes.edges import Edges, Faces, mesh_edges
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.features.edge_lines import Edges, Faces, mesh_edges
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.circulation import unbalanced_vertices
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.testing.curved_meshes import bumpy_icosphere, moebius_strip, torus_mesh
-from vectorplot.testing.shapes import box
+from vectorplot.testing.shapes import box, bumpy_icosphere, moebius_strip, torus_mesh
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import LineKind
 

@@ -1,12 +1,11 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.meshes.edges import Faces
-from vectorplot.features.meshes.mesh_intersections import Intersections, face_intersections
+from vectorplot.features.edge_lines import Faces
+from vectorplot.features.mesh_intersections import Intersections, face_intersections
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
-from vectorplot.testing.curved_meshes import bumpy_icosphere
-from vectorplot.testing.shapes import box
+from vectorplot.testing.shapes import box, bumpy_icosphere
 
 
 def met(*meshes: Mesh) -> Intersections:

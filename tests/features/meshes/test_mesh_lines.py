@@ -7,9 +7,10 @@ from hypothesis import strategies as st
 from support.effort import examples
 
 from vectorplot.errors import InputError
-from vectorplot.features.implicit.polygonize import polygonized
-from vectorplot.features.meshes.mesh_curves import NO_FACE
-from vectorplot.features.meshes.mesh_lines import (
+from vectorplot.features.grid_triangulation import mesh_of_grid
+from vectorplot.features.implicit_surfaces import polygonized
+from vectorplot.features.mesh_lines import (
+    NO_FACE,
     mesh_contour_across_faces,
     mesh_isophote_edges,
     mesh_isophotes,
@@ -20,14 +21,12 @@ from vectorplot.features.meshes.mesh_lines import (
     mesh_point_light_isophotes,
     vertex_normals,
 )
-from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
-from vectorplot.geometry.bodies.solids import box
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.mesh_repair import mended
-from vectorplot.geometry.repair.winding import edge_uses
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import implicit_cylinder, implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus
+from vectorplot.geometry.mesh_repair import mended
+from vectorplot.geometry.solids import box
+from vectorplot.geometry.winding import edge_uses
+from vectorplot.surfaces.quadrics import Sphere, implicit_cylinder, implicit_sphere
+from vectorplot.surfaces.tori import ImplicitTorus
 from vectorplot.testing import hausdorff
 from vectorplot.words import LineKind
 
@@ -282,7 +281,7 @@ def test_sections_by_many_planes_are_those_by_each(monkeypatch):
     ball, normal, offsets = mesh_of_grid(Sphere().points(u, v), closed_u=True), (1.0, 2.0, 2.0), np.linspace(-1, 1, 9)
     each = [mesh_plane_sections(ball, normal, d) for d in offsets]
     for at_once in (1, 3 * len(ball.corners), 1 << 20):
-        monkeypatch.setattr("vectorplot.features.meshes.mesh_curves.TRIANGLES_AT_ONCE", at_once)
+        monkeypatch.setattr("vectorplot.features.mesh_lines.TRIANGLES_AT_ONCE", at_once)
         whole = mesh_plane_sections(ball, normal, offsets)
         assert np.array_equal(whole.points, np.concatenate([own.points for own in each]))
         assert np.array_equal(whole.faces, np.concatenate([own.faces for own in each]))

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.features.meshes import mesh_intersections
-from vectorplot.features.meshes.edges import Faces
-from vectorplot.features.meshes.mesh_intersections import self_intersections_of_parts
+from vectorplot.features import mesh_intersections
+from vectorplot.features.edge_lines import Faces
+from vectorplot.features.mesh_intersections import self_intersections_of_parts
 from vectorplot.geometry import box
 from vectorplot.geometry.mesh import Mesh
 

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
 from vectorplot.errors import InputError
-from vectorplot.features.meshes.mesh_lines import mesh_isophotes, mesh_point_light_isophotes, vertex_normals
-from vectorplot.features.meshes.smooth_patches import apart_at_creases
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.features.edge_lines import apart_at_creases
+from vectorplot.features.mesh_lines import mesh_isophotes, mesh_point_light_isophotes, vertex_normals
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene

@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.conditions import (
+from vectorplot.features.conditions import (
     CentralContour,
     ImplicitSection,
     Isophote,
@@ -15,14 +15,11 @@ from vectorplot.features.parametric.conditions import (
     PlaneSection,
     PointIsophote,
 )
-from vectorplot.surfaces.families.cylinder import Cone
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.quadric import implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.quadrics import Cone, Ellipsoid, HyperbolicParaboloid, Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 
 SURFACES = {
     "torus": Torus(3.0, 1.0),

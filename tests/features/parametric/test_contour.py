@@ -3,15 +3,13 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.parametric.contour import contour, contour_in_view, parallel_contour
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.zeros.zero_doubts import EVERYWHERE
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.normals import unit_normals
+from vectorplot.features.contours import contour, contour_in_view, parallel_contour
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.zero_curves import EVERYWHERE
+from vectorplot.geometry.camera import Camera
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Ellipsoid, HyperbolicParaboloid, Sphere
+from vectorplot.surfaces.stacked import unit_normals
+from vectorplot.surfaces.tori import Torus
 
 EYE = np.array([8.0, -3.0, 6.0])
 

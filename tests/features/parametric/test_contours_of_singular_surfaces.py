@@ -8,8 +8,8 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot import curves, features, surfaces
-from vectorplot.features.parametric.wrapping import wrapped
-from vectorplot.surfaces.normals import unit_normals
+from vectorplot.features.holes import wrapped
+from vectorplot.surfaces.stacked import unit_normals
 
 ROUND = 'u 0 "2*pi" v 0 "2*pi" closed_u closed_v'
 SURFACES = {

@@ -4,13 +4,12 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.cuspidal_edges import singular_lines
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.cusps import singular_lines
 from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.quadrics import Cylinder, Sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 
 TURN = 2.0 * np.pi
 SQUARE = Domain(-1, 1, -1, 1)

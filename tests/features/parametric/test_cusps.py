@@ -3,15 +3,14 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.parametric.conditions import CentralContour, ParallelContour
-from vectorplot.features.parametric.contour import contour, parallel_contour
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.cusps import contour_cusps, contour_with_cusps, sight_curvatures
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.features.conditions import CentralContour, ParallelContour
+from vectorplot.features.contours import contour, parallel_contour
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.cusps import contour_cusps, contour_with_cusps, sight_curvatures
+from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Ellipsoid, Sphere
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 
 
 def torus_cusps(major, minor, slant):

@@ -4,14 +4,13 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.isophotes import isophotes, point_light_isophotes
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs.graph import graph
-from vectorplot.surfaces.normals import unit_normals
+from vectorplot.features.contours import isophotes, point_light_isophotes
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.quadrics import Cylinder, Sphere
+from vectorplot.surfaces.stacked import unit_normals
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 
 LIGHT = np.array([2.0, 1.0, 3.0]) / np.sqrt(14.0)
 

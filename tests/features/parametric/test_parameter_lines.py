@@ -4,21 +4,12 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.parameter_lines import (
-    borders,
-    parameter_lines,
-    parameter_lines_of_each,
-    u_lines,
-    v_lines,
-)
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs.graph import graph
-from vectorplot.surfaces.graphs.graph_regions import Disc
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.parameter_curves import borders, parameter_lines, parameter_lines_of_each, u_lines, v_lines
+from vectorplot.surfaces.graphs import Disc, graph
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Cone, Cylinder, HyperbolicParaboloid, Sphere
+from vectorplot.surfaces.tori import Torus
 
 
 def test_parameter_lines_of_the_torus_are_closed_circles_within_the_tolerance():

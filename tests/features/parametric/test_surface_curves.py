@@ -4,9 +4,9 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.features.parametric.parameter_lines import v_lines
-from vectorplot.features.parametric.surface_curves import no_curves, with_points
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.features.curve_tracing import no_curves, with_points
+from vectorplot.features.parameter_curves import v_lines
+from vectorplot.surfaces.quadrics import Sphere
 
 SPHERE = Sphere(2.0)
 LINES = v_lines(SPHERE, [-0.5, 0.0, 0.7])

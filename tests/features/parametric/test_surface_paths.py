@@ -6,16 +6,16 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot.drawing.drawing import CurvedStrokes
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.surface_paths import surface_path
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.parameter_curves import surface_path
 from vectorplot.geometry.budget import Budget
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.surface_lines import SurfaceLines, path_on_surface
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.quadrics import Sphere
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import assert_drawing_is_right
-from vectorplot.testing.curve_distance import Tree
+from vectorplot.testing.curves import Tree
 from vectorplot.words import LineKind
 
 TORUS = Torus(3.0, 1.0)

@@ -6,14 +6,19 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputWarning
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.surface_sections import level_lines, plane_sections, section_by_implicit
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.hyperbolic_paraboloid import HyperbolicParaboloid
-from vectorplot.surfaces.families.hyperboloid import Hyperboloid
-from vectorplot.surfaces.families.quadric import Quadric, implicit_cylinder, implicit_plane, implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.features.contours import level_lines, plane_sections, section_by_implicit
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.surfaces.quadrics import (
+    Cylinder,
+    HyperbolicParaboloid,
+    Hyperboloid,
+    Quadric,
+    Sphere,
+    implicit_cylinder,
+    implicit_plane,
+    implicit_sphere,
+)
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 
 BOX = [[-9.0] * 3, [9.0] * 3]
 

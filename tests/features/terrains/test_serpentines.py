@@ -9,13 +9,13 @@ import pytest
 import vectorplot as vp
 from vectorplot import features
 from vectorplot.errors import InputError
-from vectorplot.features.terrains.draped import draped
-from vectorplot.features.terrains.places import Ground
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.features.terrain_serpentines import draped
+from vectorplot.features.terrain_water import Ground
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import Serpentine
-from vectorplot.scene.terrains.terrain_mesh import terrain_mesh
-from vectorplot.surfaces.terrains.terrain import terrain
+from vectorplot.scene.terrains import terrain_mesh
+from vectorplot.surfaces.terrains import terrain
 from vectorplot.testing import curves_in_space
 
 SLOPE, RADIUS = np.radians(12.0), 0.2

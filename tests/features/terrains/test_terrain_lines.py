@@ -7,10 +7,10 @@ import vectorplot as vp
 from vectorplot import features
 from vectorplot.errors import InputError
 from vectorplot.geometry.rotations import rotation_z
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene.terrains.terrain_mesh import terrain_mesh
-from vectorplot.surfaces.terrains.terrain import terrain
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
+from vectorplot.scene.terrains import terrain_mesh
+from vectorplot.surfaces.terrains import terrain
 from vectorplot.testing import curves_in_space
 
 

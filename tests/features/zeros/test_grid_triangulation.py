@@ -2,8 +2,8 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.zeros.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.features.grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
+from vectorplot.surfaces.quadrics import Sphere
 
 
 def torus_grid(columns, rows, a=3.0, b=1.0):

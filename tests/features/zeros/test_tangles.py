@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.features.zero_curves import zero_manifold_of_f_uv
 from vectorplot.surfaces.surface import Domain
 
 SQUARE = Domain(-2.0, 2.0, -2.0, 2.0)

@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.features.zeros.zero_crossings import (
+from vectorplot.features.scalar_fields import (
     bracketed_zeros,
     cubic_parabola,
     zero_by_bisection,

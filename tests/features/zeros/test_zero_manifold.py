@@ -7,7 +7,7 @@ from hypothesis import strategies as st
 from support.effort import examples
 
 from vectorplot.errors import InputError
-from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.features.zero_curves import zero_manifold_of_f_uv
 from vectorplot.surfaces.surface import Domain
 
 SQUARE = Domain(-1, 1, -1, 1)

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv, zero_manifolds
+from vectorplot.features.zero_curves import zero_manifold_of_f_uv, zero_manifolds
 from vectorplot.geometry.budget import Budget
 from vectorplot.surfaces.surface import Domain
 

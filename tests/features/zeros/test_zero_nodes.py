@@ -4,7 +4,7 @@ subdivisions, between them."""
 import numpy as np
 import pytest
 
-from vectorplot.features.zeros.zero_manifold import zero_manifold_of_f_uv
+from vectorplot.features.zero_curves import zero_manifold_of_f_uv
 from vectorplot.surfaces.surface import Domain
 
 TURN = 2 * np.pi

@@ -8,9 +8,9 @@ from support.drawn import drawn
 
 import vectorplot as vp
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.bodies.prisms import prism, regular_polygon
-from vectorplot.geometry.repair.adjacency import body_record
-from vectorplot.geometry.repair.winding import is_closed_oriented
+from vectorplot.geometry.adjacency import body_record
+from vectorplot.geometry.solids import prism, regular_polygon
+from vectorplot.geometry.winding import is_closed_oriented
 from vectorplot.testing import assert_drawing_is_right
 
 SWEEP = [[0, 2, 0], [0, -1.4, 0], [0, -2, 0.6], [0, -2, 1.2], [0, -1.4, 1.6], [0, 2, 1.6]]

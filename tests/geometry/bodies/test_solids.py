@@ -8,19 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.prisms import prism
-from vectorplot.geometry.bodies.solids import (
-    BOTTOM,
-    TOP,
-    box,
-    has_convex_outline,
-    placed,
-    polyhedron,
-    turned_outwards,
-)
+from vectorplot.geometry.adjacency import body_record, mesh_edges
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.adjacency import body_record, mesh_edges
-from vectorplot.geometry.repair.winding import is_closed_oriented
+from vectorplot.geometry.solids import BOTTOM, TOP, box, has_convex_outline, placed, polyhedron, prism, turned_outwards
+from vectorplot.geometry.winding import is_closed_oriented
 
 lengths = st.floats(0.01, 100).flatmap(lambda x: st.sampled_from([x, -x]))
 

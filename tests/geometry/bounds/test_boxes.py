@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.bounds.boxes import overlapping_boxes, overlapping_pairs
+from vectorplot.geometry.boxes import overlapping_boxes, overlapping_pairs
 
 
 def boxes(rng, count, size):

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.geometry.bounds.slab_hulls import DIRECTIONS, SlabHulls
+from vectorplot.geometry.boxes import DIRECTIONS, SlabHulls
 
 
 def hulls_of(sets):

@@ -6,8 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import VIEWS, Camera
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.camera import VIEWS, Camera
+from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.rotations import look_rotation, rotation_x, rotation_z
 
 BOOK = Camera(eye=(10, 5, 7), target=(1, 2, -1), twist_deg=np.degrees(0.3))

@@ -6,9 +6,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.collineation import collineate, depth_of, project, uncollineate, unproject
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.projections import CoordinateSystem, collineate, depth_of, project, uncollineate, unproject
 
 EYE, TARGET, P = (10.0, 5.0, 7.0), (1.0, 2.0, -1.0), np.array([3.0, -2.0, 4.0])
 BOOK = Camera(eye=EYE, target=TARGET, twist_deg=np.degrees(0.3))

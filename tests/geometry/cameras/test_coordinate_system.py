@@ -7,11 +7,9 @@ from hypothesis import strategies as st
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.collineation import collineate, project
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.geometry.cameras.pixel_window import PixelWindow
+from vectorplot.geometry.camera import Camera, PixelWindow
+from vectorplot.geometry.projections import CoordinateSystem, collineate, project
+from vectorplot.geometry.solids import box
 
 EYE, TARGET, P = (10.0, 5.0, 7.0), (1.0, 2.0, -1.0), np.array([3.0, -2.0, 4.0])
 BOOK = Camera(eye=EYE, target=TARGET, twist_deg=np.degrees(0.3))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras import lens
+from vectorplot.geometry import camera as lens
 
 
 @pytest.mark.capability("G2.2-focal")

@@ -7,14 +7,13 @@ from hypothesis import strategies as st
 from support.effort import several
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.collineation import collineate, depth_of
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.geometry.cameras.pixel_window import PixelWindow
-from vectorplot.geometry.clipping import clip_windows, clipped_lines, clipped_polygons
-from vectorplot.geometry.clipping.clip_windows import Box, Window
-from vectorplot.geometry.clipping.clipped_polygons import Polygons
-from vectorplot.textbook.viewing.frustum import Frustum
+from vectorplot.geometry import clipping as clip_windows
+from vectorplot.geometry import clipping as clipped_lines
+from vectorplot.geometry import clipping as clipped_polygons
+from vectorplot.geometry.camera import Camera, PixelWindow
+from vectorplot.geometry.clipping import Box, Polygons, Window
+from vectorplot.geometry.projections import CoordinateSystem, collineate, depth_of
+from vectorplot.textbook.viewing import Frustum
 
 HUNDRED = Window(0, 100, 0, 100)
 SCREEN = CoordinateSystem.of_screen(Camera(eye=(9, -7, 6), target=(1, 0, 1), twist_deg=15), PixelWindow(800, 600))

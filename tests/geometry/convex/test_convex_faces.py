@@ -5,11 +5,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.convex_faces import convex_faces
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.pictures.draw import draw
 from vectorplot.testing import assert_drawings_equal
 from vectorplot.testing.shapes import box, scene_of
 

@@ -11,7 +11,7 @@ from support.effort import several
 
 from vectorplot.errors import InputError
 from vectorplot.exact.predicates import orient2d
-from vectorplot.geometry.convex.convex_hulls import convex_hull, convex_hulls, hull_mesh
+from vectorplot.geometry.convex_polygons import convex_hull, convex_hulls, hull_mesh
 
 
 @pytest.mark.slow

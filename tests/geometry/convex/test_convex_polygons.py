@@ -8,7 +8,7 @@ import shapely
 from support.effort import several
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.convex.convex_polygons import convex_polygon_parts, is_convex_polygon, signed_area
+from vectorplot.geometry.convex_polygons import convex_polygon_parts, is_convex_polygon, signed_area
 
 
 def test_a_polygon_with_a_hole():

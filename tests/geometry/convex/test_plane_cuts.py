@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.arrays import Floats
-from vectorplot.geometry.convex.plane_cuts import PlaneBundles, crossings_of, cut_by_planes, planes_of, polygon_areas
+from vectorplot.geometry.polygon_cuts import PlaneBundles, crossings_of, cut_by_planes, planes_of, polygon_areas
 
 SQUARE = np.array([[0.0, 1.0, 1.0, 0.0], [0.0, 0.0, 1.0, 1.0], [0.0, 0.0, 0.0, 0.0]])
 ONE = np.array([0, 4])

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.geometry.convex.polygon_clipping import clipped_by_convex, inside_convex
+from vectorplot.geometry.polygon_cuts import clipped_by_convex, inside_convex
 
 SQUARE = np.array([[0.0, 2.0, 2.0, 0.0], [0.0, 0.0, 2.0, 2.0]])
 

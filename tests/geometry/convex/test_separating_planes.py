@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.convex import separating_planes
-from vectorplot.geometry.convex.convex_hulls import hull_mesh
-from vectorplot.geometry.convex.separating_planes import (
+from vectorplot.geometry import separating_planes
+from vectorplot.geometry.convex_polygons import hull_mesh
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.separating_planes import (
     FIRST_ABOVE,
     FIRST_BELOW,
     NOT_FOUND,
@@ -19,7 +20,6 @@ from vectorplot.geometry.convex.separating_planes import (
     separations_after_moves,
     spheres_power,
 )
-from vectorplot.geometry.mesh import Mesh
 from vectorplot.testing.shapes import box, prism, rotation
 
 SQUARE = Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [[0, 1, 2, 3]])

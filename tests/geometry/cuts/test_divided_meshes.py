@@ -5,8 +5,14 @@ import pytest
 
 from vectorplot.features import mesh_of_grid
 from vectorplot.geometry import HalfSpaces, Mesh, box
-from vectorplot.geometry.cuts.divided_meshes import divided_mesh, section_sides
-from vectorplot.geometry.cuts.section_faces import PlaneFrame, mesh_of_regions, region_of_sides, window
+from vectorplot.geometry.mesh_cuts import (
+    PlaneFrame,
+    divided_mesh,
+    mesh_of_regions,
+    region_of_sides,
+    section_sides,
+    window,
+)
 from vectorplot.surfaces import Torus
 
 U = np.array([1.0, 2.0, -2.0]) / 3.0

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cuts.level_bands import level_bands
+from vectorplot.geometry.mesh_cuts import level_bands
 
 
 def grid(n):

@@ -8,26 +8,19 @@ import numpy as np
 import pytest
 from support.paths import DATA
 
-from vectorplot.draw import draw
-from vectorplot.geometry.bodies.solids import box, polyhedron
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.convex.separating_planes import FIRST_ABOVE, separations
+from vectorplot.geometry.adjacency import NO_FACE, body_record, common_edge, face_records, mesh_edges, neighbour_faces
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import contour_branches
-from vectorplot.geometry.repair.adjacency import (
-    NO_FACE,
-    body_record,
-    common_edge,
-    face_records,
-    mesh_edges,
-    neighbour_faces,
-)
+from vectorplot.geometry.separating_planes import FIRST_ABOVE, separations
+from vectorplot.geometry.solids import box, polyhedron
 from vectorplot.io.read_file import read
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
-from vectorplot.shading.light.face_shades import face_middles, face_normals, face_shades, view_lights
-from vectorplot.visibility.painter.pairs.face_pairs import BEHIND, IN_FRONT
-from vectorplot.visibility.painter.priorities import priorities, view_objects, wholly_hidden
+from vectorplot.shading.shaded_faces import face_middles, face_normals, face_shades, view_lights
+from vectorplot.visibility.painter.groups import priorities, view_objects, wholly_hidden
+from vectorplot.visibility.painter.pairs import BEHIND, IN_FRONT
 from vectorplot.words import MATERIALS, check_colour
 
 VERTICES = [

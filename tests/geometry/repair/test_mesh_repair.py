@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.mesh_repair import Mending, is_closed_oriented, mended, mesh_report
+from vectorplot.geometry.mesh_repair import Mending, is_closed_oriented, mended, mesh_report
 
 EPS32 = 2.0**-23
 CUBE = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]

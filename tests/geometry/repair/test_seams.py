@@ -6,14 +6,12 @@ import trimesh
 from support.drawn import drawn
 
 import vectorplot as vp
-from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
+from vectorplot.features.grid_triangulation import mesh_of_grid
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.mesh_repair import is_closed_oriented, mesh_report
-from vectorplot.geometry.repair.seams import joined_seams
+from vectorplot.geometry.mesh_repair import is_closed_oriented, joined_seams, mesh_report
 from vectorplot.io.description import describe
 from vectorplot.testing import assert_drawings_equal
-from vectorplot.testing.curved_meshes import bumpy_icosphere, grid_graph, moebius_strip, torus_mesh
-from vectorplot.testing.shapes import box, prism, without
+from vectorplot.testing.shapes import box, bumpy_icosphere, grid_graph, moebius_strip, prism, torus_mesh, without
 
 CAMERA = vp.Camera((5.0, -7.0, 4.0))
 SHAPES = {

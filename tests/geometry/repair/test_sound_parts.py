@@ -10,10 +10,9 @@ import pytest
 import vectorplot as vp
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.mesh_repair import Mending, mended
-from vectorplot.geometry.repair.sound_parts import sound_parts
+from vectorplot.geometry.mesh_repair import Mending, mended, sound_parts
 from vectorplot.testing.shapes import box
-from vectorplot.tolerances.of_numbers import ULP
+from vectorplot.tolerances import ULP
 
 
 def tile(x: float = 0.0) -> Mesh:

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from vectorplot.geometry.repair import weld
-from vectorplot.geometry.repair.weld import close_points, distinct_points, one_each
+from vectorplot.geometry import weld
+from vectorplot.geometry.weld import close_points, distinct_points, one_each
 
 
 @pytest.mark.parametrize("kind", [np.float32, np.float64])

@@ -1,12 +1,12 @@
 import numpy as np
 import pytest
 
-from vectorplot.geometry.chunks import threads
+from vectorplot.geometry.budget import threads
+from vectorplot.geometry.connectivity import circulation
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair.circulation import circulation
-from vectorplot.geometry.repair.degenerate import thin_faces
-from vectorplot.geometry.repair.weld import distinct_points
-from vectorplot.geometry.repair.winding import (
+from vectorplot.geometry.mesh_repair import thin_faces
+from vectorplot.geometry.weld import distinct_points
+from vectorplot.geometry.winding import (
     consistent_winding,
     edge_uses,
     inside_out,
@@ -15,7 +15,7 @@ from vectorplot.geometry.repair.winding import (
     signed_volumes,
     turned_faces,
 )
-from vectorplot.testing.curved_meshes import bumpy_icosphere
+from vectorplot.testing.shapes import bumpy_icosphere
 
 CUBE = [[0, 3, 2, 1], [4, 5, 6, 7], [0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7]]
 

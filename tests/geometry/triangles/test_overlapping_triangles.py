@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.geometry.triangles.overlapping_triangles import overlapping
+from vectorplot.geometry.triangles import overlapping
 
 
 def said(one, other):

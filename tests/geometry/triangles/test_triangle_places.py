@@ -2,9 +2,9 @@
 
 import numpy as np
 
-from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
-from vectorplot.geometry.triangles.triangle_places import PlacedTriangles
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.features.grid_triangulation import mesh_of_grid
+from vectorplot.geometry.triangles import PlacedTriangles
+from vectorplot.surfaces.quadrics import Sphere
 
 
 def test_points_of_triangles_are_found_in_them_now_and_later():

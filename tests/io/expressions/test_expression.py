@@ -13,9 +13,8 @@ from hypothesis import strategies as st
 from support.effort import examples
 
 from vectorplot.errors import InputError
-from vectorplot.io.expressions import expression_derivatives
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.expressions.expression_parser import FUNCTIONS, MAX_DEPTH, MAX_LENGTH, MAX_NODES
+from vectorplot.io import expressions as expression_derivatives
+from vectorplot.io.expressions import FUNCTIONS, MAX_DEPTH, MAX_LENGTH, MAX_NODES, parse_expression
 
 NUMPY = {
     **{name: getattr(np, name) for name in "sin cos tan sinh cosh tanh exp log log2 log10 sqrt cbrt".split()},

@@ -3,8 +3,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.expressions.expression_nodes import OPERATIONS, Nodes, Program
+from vectorplot.io.expressions import OPERATIONS, Nodes, Program, parse_expression
 
 
 def programmed(*texts: str) -> Program:

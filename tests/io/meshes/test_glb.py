@@ -10,7 +10,7 @@ import trimesh
 from fuzz.fuzz_meshes import random_tree
 
 from vectorplot.errors import InputError
-from vectorplot.io.meshes.glb import read_glb
+from vectorplot.io.glb import read_glb
 from vectorplot.io.read_file import read
 
 POINTS = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype="<f4")

@@ -4,7 +4,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.effort import examples
 
-from vectorplot.io.meshes.numerals import PAD, NumeralError, decimals, integers, padded
+from vectorplot.io.mesh_file import PAD, NumeralError, decimals, integers, padded
 
 
 def placed(words: list[str]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

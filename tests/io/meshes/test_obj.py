@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.io.meshes import mesh_file
-from vectorplot.io.meshes.obj import read_obj
+from vectorplot.io import mesh_file
+from vectorplot.io.obj import read_obj
 
 
 def obj(folder: Path, text: str | bytes) -> Path:

@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.io.meshes.off import read_off
+from vectorplot.io.off import read_off
 
 POINTS = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.io.meshes.ply import read_ply
+from vectorplot.io.ply import read_ply
 
 POINTS = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (1.0, 1.0, 0.0), (0.0, 1.0, 0.1)]
 FACES = [[0, 1, 2, 3], [2, 1, 0], [3, 2, 1]]

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.io.meshes.stl import read_stl
 from vectorplot.io.read_file import read
+from vectorplot.io.stl import read_stl
 
 TETRAHEDRON = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]], dtype=np.float32)
 FACES = np.array([[0, 2, 1], [0, 1, 3], [1, 2, 3], [2, 0, 3]])

@@ -11,7 +11,7 @@ from support.paths import ROOT
 
 import vectorplot as vp
 from vectorplot.io import Molecule, molecule_scene, read_molecule
-from vectorplot.io.molecules.elements import elements_of
+from vectorplot.io.molecules import elements_of
 
 WATER = "3\nwater\nO 0 0 0\nH 0.757 0.586 0\nH -0.757 0.586 0\n"
 
@@ -144,7 +144,7 @@ def test_bonds_turn_with_the_molecule_and_go_by_distance():
     random = np.random.default_rng(3)
     caffeine = read_molecule(ROOT / "data" / "caffeine.xyz")
     turn, _ = np.linalg.qr(random.normal(size=(3, 3)))
-    from vectorplot.io.molecules.molecule import bonds_between
+    from vectorplot.io.molecules import bonds_between
 
     elements = elements_of(caffeine.symbols)
     assert np.array_equal(bonds_between(elements, caffeine.places @ turn + 1e3), caffeine.bonds)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.io.molecules.xyz import read_xyz
+from vectorplot.io.molecules import read_xyz
 
 
 @pytest.mark.parametrize(

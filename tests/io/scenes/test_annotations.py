@@ -7,7 +7,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.io import parse_scene
-from vectorplot.io.scenes.scene_words import ANNOTATION_WORDS
+from vectorplot.io.scene_words import ANNOTATION_WORDS
 
 A, B, C = (0.0, 0.0, 0.0), (3.0, 4.0, 0.0), (0.0, 0.0, -2.0)
 ALIKE = {

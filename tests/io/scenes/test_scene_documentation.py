@@ -5,11 +5,11 @@ from __future__ import annotations
 import pytest
 from support.paths import DOCS
 
-from vectorplot.io.scenes.items.item_reader import HANDLERS
-from vectorplot.io.scenes.items.scene_item import CAP_WORDS
-from vectorplot.io.scenes.reserved_words import RESERVED
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_words import FORM_WORDS, ITEM_WORDS
+from vectorplot.io.reserved_words import RESERVED
+from vectorplot.io.scene_item import CAP_WORDS
+from vectorplot.io.scene_items import HANDLERS
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_words import FORM_WORDS, ITEM_WORDS
 from vectorplot.words import COLOURS, MATERIALS, PALETTES
 
 DOCUMENTED = (DOCS / "scene-language.md").read_text().split("```")[1::2]

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.scenes.scene_formulas import (
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.scene_slots import (
     Formulas,
     formula_graph,
     formula_graph_over_disc,
@@ -12,10 +12,8 @@ from vectorplot.io.scenes.scene_formulas import (
     formula_surface,
 )
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.graphs.graph import graph
-from vectorplot.surfaces.graphs.graph_regions import Disc
-from vectorplot.surfaces.jets import first_jets, second_jets
-from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.graphs import Disc, graph
+from vectorplot.surfaces.surface import Domain, first_jets, second_jets
 
 SQUARE = Domain(-1.0, 1.0, -1.0, 1.0)
 

@@ -4,7 +4,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scene_language import parse_scene
 
 BOX = "S red box 1 1 1"
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 import vectorplot as vp
-from vectorplot.drawing.pens.styles import STYLES
+from vectorplot.drawing.pens import STYLES
 from vectorplot.errors import InputError
 from vectorplot.io import parse_scene, read_scene, write_scene
 from vectorplot.scene import Explosion, Inks

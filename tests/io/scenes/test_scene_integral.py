@@ -6,8 +6,8 @@ import pytest
 import vectorplot as vp
 from vectorplot import features, geometry, surfaces
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import FieldLines, GeodesicLines, GeodesicsBetween, ShortestPaths
 from vectorplot.testing import assert_drawing_is_right, assert_integral_curve, curves_in_space
 

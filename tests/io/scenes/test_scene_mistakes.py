@@ -8,8 +8,8 @@ from hypothesis import strategies as st
 from support.scene_texts import PYRAMID
 
 from vectorplot.errors import InputError
-from vectorplot.io.scenes import scene_language
-from vectorplot.io.scenes.scene_language import parse_scene, read_scene
+from vectorplot.io import scene_language
+from vectorplot.io.scene_language import parse_scene, read_scene
 
 SLAB = "T translation base_points 0 0 0, 9 0 0, 9 9 0, 0 9 0 trans_vector 0 0 1"
 CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"

@@ -8,29 +8,25 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.sample_surfaces import FAMILIES, same_surface
 
-from vectorplot.curves.families.helix import Helix
-from vectorplot.curves.families.line import Line
-from vectorplot.curves.placed_curve import PlacedCurve
+from vectorplot.curves.families import Helix, Line
+from vectorplot.curves.placed_curves import PlacedCurve
 from vectorplot.errors import InputError
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_surface_writer import surface_text
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import surface_text, write_scene
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.swept.revolution import revolution_surface
-from vectorplot.surfaces.families.torus import ImplicitTorus, ImplicitTorusByDistance, Torus
 from vectorplot.surfaces.function_surface import surface_of_function
-from vectorplot.surfaces.graphs.graph import graph
-from vectorplot.surfaces.graphs.graph_regions import Disc
-from vectorplot.surfaces.implicit_function import implicit_of_function
+from vectorplot.surfaces.graphs import Disc, graph
+from vectorplot.surfaces.implicit import implicit_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
+from vectorplot.surfaces.quadrics import Cylinder, Sphere
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.trims.trimmed import TrimmedSurface
+from vectorplot.surfaces.swept import revolution_surface
+from vectorplot.surfaces.tori import ImplicitTorus, ImplicitTorusByDistance, Torus
+from vectorplot.surfaces.trimmed import TrimmedSurface
 from vectorplot.testing.shapes import box
 
 number = st.floats(-1e6, 1e6)

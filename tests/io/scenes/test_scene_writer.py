@@ -11,16 +11,15 @@ from support.paths import DATA
 
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.io.scenes.scene_language import parse_scene, read_scene
-from vectorplot.io.scenes.scene_surface_writer import curve_text, surface_text
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.geometry.solids import box
+from vectorplot.io.scene_language import parse_scene, read_scene
+from vectorplot.io.scene_writer import curve_text, surface_text, write_scene
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.words import COLOURS, MATERIALS
 

@@ -6,18 +6,15 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.effects.scales.axis_numbers import axis_numbers
-from vectorplot.effects.scales.box_axes import with_box
-from vectorplot.effects.scales.coloured_scene import coloured
+from vectorplot.effects.scales import axis_numbers, coloured, with_box
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.read_file import read
-from vectorplot.io.terrains.read_terrain import read_terrain
-from vectorplot.io.terrains.terrain_scene import usual_exaggeration
-from vectorplot.scene.lines.added_lines import round_sections, with_numbers
-from vectorplot.scene.naming.joined_scenes import together
-from vectorplot.scene.naming.scales import BoxAxes, Colouring
-from vectorplot.scene.terrains.level_lines import round_heights
-from vectorplot.surfaces.terrains.terrain import Terrain, terrain
+from vectorplot.io.terrain_files import read_terrain, usual_exaggeration
+from vectorplot.scene.added_lines import round_sections, with_numbers
+from vectorplot.scene.scales import BoxAxes, Colouring
+from vectorplot.scene.scene import together
+from vectorplot.scene.terrains import round_heights
+from vectorplot.surfaces.terrains import Terrain, terrain
 from vectorplot.words import LineKind
 
 HEAD = "ncols 3\nnrows 2\nxllcorner 100\nyllcorner 200\ncellsize 10\nNODATA_value -9999\n"

@@ -7,10 +7,10 @@ from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.cli.main import run
-from vectorplot.geometry.repair.adjacency import body_record, mesh_edges
+from vectorplot.geometry.adjacency import body_record, mesh_edges
 from vectorplot.io.read_file import read
-from vectorplot.scene.coincidence.pools import pools
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.scene.view import pools
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
 
 FILES = sorted(DATA.glob("*.scene"))

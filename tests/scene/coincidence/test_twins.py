@@ -13,9 +13,7 @@ import vectorplot as vp
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.rotations import rotation_z
-from vectorplot.scene.coincidence.same_place import are_in_one_place
-from vectorplot.scene.coincidence.twins import NOTHING, fingerprint, first_twins, without_twins
-from vectorplot.scene.view import look
+from vectorplot.scene.view import NOTHING, are_in_one_place, fingerprint, first_twins, look, without_twins
 from vectorplot.surfaces import Domain, Sphere, Torus, graph
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.testing.shapes import box

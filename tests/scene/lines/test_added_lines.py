@@ -6,7 +6,7 @@ import pytest
 import vectorplot as vp
 from vectorplot import geometry
 from vectorplot.errors import InputError
-from vectorplot.scene.lines.added_lines import even_sections, round_sections, with_lines
+from vectorplot.scene.added_lines import even_sections, round_sections, with_lines
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.surfaces import Sphere
 

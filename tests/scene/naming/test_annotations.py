@@ -11,7 +11,7 @@ import shapely
 import vectorplot as vp
 from vectorplot import io
 from vectorplot.geometry import box
-from vectorplot.scene.naming.label_anchors import label_anchors
+from vectorplot.scene.annotations import label_anchors
 
 CUBE = vp.Item("CUBE", box((2, 2, 2)))
 CAMERA = vp.Camera((6, -5, 4), target=(1, 1, 1))

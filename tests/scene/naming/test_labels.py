@@ -9,8 +9,8 @@ import vectorplot as vp
 from vectorplot import io
 from vectorplot.curves import Circle
 from vectorplot.geometry import box
-from vectorplot.scene.naming.label_anchors import label_anchors
-from vectorplot.scene.naming.labels import capital_height
+from vectorplot.scene.annotations import label_anchors
+from vectorplot.scene.labels import capital_height
 from vectorplot.surfaces import Sphere
 
 ITEMS = (vp.Item("CUBE", box((2, 2, 2))), vp.Item("RING", Circle(radius=2.0)), vp.Item("BALL", Sphere(1.0)))

@@ -10,11 +10,10 @@ from vectorplot.cli.main import run
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.scene.pages.fitted_pages import fitted_page, page_of_width
-from vectorplot.scene.pages.page import Page
-from vectorplot.scene.placement import fitted_picture
+from vectorplot.geometry.solids import box
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import fitted_page, fitted_picture, page_of_width
 
 SLAB = vp.Scene((vp.Item("slab", box((4.0, 1.0, 2.0))),), page=Page(100.0, 200.0, 5.0))
 POLE = vp.Scene((vp.Item("pole", box((1.0, 1.0, 30.0))),))

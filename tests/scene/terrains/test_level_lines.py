@@ -5,11 +5,11 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
-from vectorplot.scene.terrains.level_lines import level_sections, round_heights
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
+from vectorplot.scene.terrains import level_sections, round_heights
+from vectorplot.surfaces.quadrics import Sphere
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.testing import curves_in_space
 
 UP = (0.0, 0.0, 1.0)

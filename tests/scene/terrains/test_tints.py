@@ -6,9 +6,8 @@ import pytest
 import vectorplot as vp
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.scene.terrains.terrain_mesh import terrain_mesh
-from vectorplot.scene.terrains.tints import hill_light, tinted
-from vectorplot.surfaces.terrains.terrain import terrain
+from vectorplot.scene.terrains import hill_light, terrain_mesh, tinted
+from vectorplot.surfaces.terrains import terrain
 
 
 def hills(count=25):

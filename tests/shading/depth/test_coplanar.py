@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.paint import paint
-from vectorplot.render import render
+from vectorplot.pictures.paint import paint
+from vectorplot.pictures.render import render
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.depth.coplanar import coplanar_faces
+from vectorplot.shading.depth import coplanar_faces
 from vectorplot.testing.shapes import box, rotation
 
 COLOURS = ("#ff0000", "#00ff00", "#0000ff")

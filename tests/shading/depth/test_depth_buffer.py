@@ -10,15 +10,14 @@ from support.pixel_rays import beside_edges, first_triangles, pixel_rays
 from support.shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import box
 from vectorplot.scene.item import Item
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.depth.depth_buffer import depth_buffer, depth_range, strips
-from vectorplot.shading.depth.depth_code import DepthCode
-from vectorplot.shading.raster.screen import front_facing, raster_system, screen_triangles
+from vectorplot.shading.depth import DepthCode, depth_buffer, depth_range, strips
+from vectorplot.shading.screen import front_facing, raster_system, screen_triangles
 
 
 def buffer_of(points, corners, camera, columns=COLUMNS, rows=ROWS, **options):

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from support.shaded_scenes import triangles_of
 
-from vectorplot.shading.light.corner_normals import corner_normals, face_normals, unit
-from vectorplot.testing.curved_meshes import bumpy_icosphere
-from vectorplot.testing.shapes import box
+from vectorplot.shading.shaded_faces import corner_normals, unit
+from vectorplot.shading.shaded_faces import mesh_face_normals as face_normals
+from vectorplot.testing.shapes import box, bumpy_icosphere
 
 
 def normals_of(points, corners, angle):

@@ -5,8 +5,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.shading.light.depth_cueing import LEAST, MIDDLE, depth_shades, edge_shades
-from vectorplot.shading.light.illumination import shade_numbers
+from vectorplot.shading.illumination import LEAST, MIDDLE, depth_shades, edge_shades, shade_numbers
 
 
 @pytest.mark.capability("G4.4-depthcue")

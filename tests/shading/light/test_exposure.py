@@ -14,8 +14,8 @@ from vectorplot.geometry import box
 from vectorplot.io import parse_scene, write_scene
 from vectorplot.scene import look
 from vectorplot.shading import face_shades, palette, view_lights
-from vectorplot.shading.light.exposure import exposed_scene
-from vectorplot.shading.light.illumination import DIRECT_SHARE
+from vectorplot.shading.illumination import DIRECT_SHARE
+from vectorplot.shading.shaded_faces import exposed_scene
 
 LIGHTS = (vp.Light((1, -2, 3), parallel=True, intensity=1.0), vp.Light((2, -2, 1), parallel=True, intensity=1.0))
 CAMERA = vp.Camera((4.0, -6.0, 5.0))

@@ -8,19 +8,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.light import face_shades as fs
-from vectorplot.shading.light import fading
-from vectorplot.shading.light.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
-from vectorplot.shading.light.palettes import palette
-from vectorplot.testing.curved_meshes import torus_mesh
-from vectorplot.testing.shapes import box, rotation
+from vectorplot.shading import illumination as fading
+from vectorplot.shading import shaded_faces as fs
+from vectorplot.shading.illumination import AMBIENT, DARK_SIDE, DIRECT_SHARE, FINISHES
+from vectorplot.shading.palettes import palette
+from vectorplot.testing.shapes import box, rotation, torus_mesh
 
 CAMERA = Camera((6.0, 5.0, 4.0))
 LIGHTS = (Light((5.0, -3.0, 8.0)), Light((-2.0, 4.0, 5.0), parallel=True, intensity=0.4))
@@ -228,7 +227,7 @@ def test_a_highlight_measured_by_angles_differs_from_vertex_to_vertex():
     angles = np.linspace(0.1, 1.5, 20)
     assert np.array_equal(measured.weight_at(np.cos(angles)), np.sort(measured.weight_at(np.cos(angles))))
     # At the mirror direction the highlight is k2 w(alpha), and nothing else changes from vertex to vertex.
-    from vectorplot.shading.light.illumination import light_shares
+    from vectorplot.shading.illumination import light_shares
 
     normals = np.stack((np.sin(angles / 1.0), np.zeros(20), np.cos(angles)), axis=1)
     lamp = Light((0.0, 0.0, 1.0), parallel=True)

@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.scene.light import Light
-from vectorplot.shading.light import illumination as il
-from vectorplot.shading.light.illumination import FINISHES, Finish
+from vectorplot.shading import illumination as il
+from vectorplot.shading.illumination import FINISHES, Finish
 
 SIZE = 32
 

@@ -5,11 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.bodies.solids import box
+from vectorplot.geometry.solids import box
 from vectorplot.scene.item import Item
-from vectorplot.shading.light.nearness import nearby, triangles_of_items
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.shading.fineness import nearby, triangles_of_items
+from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
 
 PLACES = np.random.default_rng(3).uniform(-1.5, 1.5, (2000, 3))
 

@@ -9,15 +9,15 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.effects.shadows.shadow_shades import shadow_shades
+from vectorplot.effects.shadows import shadow_shades
 from vectorplot.errors import InputError
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.face_shades import light_colours
-from vectorplot.shading.light.palettes import palette, shaded_colours
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.shading.palettes import palette, shaded_colours
+from vectorplot.shading.shaded_faces import light_colours
+from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.testing.shapes import box
 
 SUN = Light((-1.0, -2.0, 3.0), parallel=True, intensity=0.8)

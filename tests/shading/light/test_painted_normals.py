@@ -7,18 +7,17 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.paint import paint
-from vectorplot.render import render
+from vectorplot.pictures.paint import paint
+from vectorplot.pictures.render import render
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
-from vectorplot.scene.pages.page import Page
+from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.light.corner_normals import at_corners, view_normals
-from vectorplot.shading.light.flat_regions import plane_middles, plane_numbers
-from vectorplot.shading.raster.scene_triangles import scene_triangles
+from vectorplot.shading.screen import scene_triangles
+from vectorplot.shading.shaded_faces import at_corners, plane_middles, plane_numbers, view_normals
 from vectorplot.testing.shapes import box
 
 SUN = Light((1.0, -2.0, 3.0), parallel=True, intensity=1.0)
@@ -123,7 +122,7 @@ def test_both_verbs_have_the_same_normals() -> None:
 def test_paint_and_render_agree_on_round_meshes_and_floors_near_a_lamp(kind: str) -> None:
     from support.backend_samples import grey_of_png
 
-    from vectorplot.backends.cairo.surfaces import png_bytes
+    from vectorplot.backends.cairo import png_bytes
 
     if kind == "prism":
         scene = Scene((Item("A", prism(20)),), (SUN,))
@@ -158,7 +157,7 @@ POSTS = tuple(Item(f"POST{k}", box((4 * k - 6, 9 * k, 0), (4 * k - 5, 9 * k + 1,
 def test_shades_along_a_floor_are_the_same_in_paint_and_render(lights: tuple[Light, ...], parallel: bool) -> None:
     from support.backend_samples import grey_of_png
 
-    from vectorplot.backends.cairo.surfaces import png_bytes
+    from vectorplot.backends.cairo import png_bytes
 
     scene = Scene((FLOOR, *POSTS), lights)
     camera = Camera((5.0, -30.0, 24.0), (0.0, 12.0, 0.0), fov_deg=40.0, parallel=parallel, height=30.0)

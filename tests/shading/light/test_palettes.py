@@ -6,9 +6,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.shading.light import palettes
-from vectorplot.shading.light.palettes import PALETTE_LIMITS, PLAIN, colour_map, palette, palette_number, ramp, spectrum
-from vectorplot.textbook.screens.device import Device
+from vectorplot.shading import palettes
+from vectorplot.shading.palettes import PALETTE_LIMITS, PLAIN, colour_map, palette, palette_number, ramp, spectrum
+from vectorplot.textbook.device import Device
 from vectorplot.words import COLOURS, PALETTES
 
 limit = st.tuples(*[st.floats(0, 1)] * 3)

@@ -8,9 +8,9 @@ from support.pixel_rays import pixel_rays
 from support.shaded_scenes import COLUMNS, ROWS, camera_of, sample
 
 from vectorplot.errors import InputError
-from vectorplot.shading.depth.depth_buffer import depth_buffer
-from vectorplot.shading.raster.barycentrics import visible_points
-from vectorplot.shading.raster.screen import raster_system, screen_triangles
+from vectorplot.shading.depth import depth_buffer
+from vectorplot.shading.lighting import visible_points
+from vectorplot.shading.screen import raster_system, screen_triangles
 
 
 @pytest.mark.parametrize("seed", range(8))

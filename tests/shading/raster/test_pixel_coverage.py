@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.shading.raster import pixel_coverage
-from vectorplot.shading.raster.pixel_coverage import SUBPIXELS
+from vectorplot.shading import pixel_coverage
+from vectorplot.shading.pixel_coverage import SUBPIXELS
 
 SIDE = 64
 

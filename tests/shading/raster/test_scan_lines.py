@@ -8,8 +8,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.effort import examples
 
-from vectorplot.geometry.clipping.clipped_polygons import Polygons
-from vectorplot.shading.raster.scan_lines import polygon_pixels
+from vectorplot.geometry.clipping import Polygons
+from vectorplot.shading.pixel_coverage import polygon_pixels
 
 COLUMNS, ROWS = 60, 50
 

@@ -9,7 +9,17 @@ from hypothesis import strategies as st
 from support.effort import several
 
 from vectorplot.errors import InputError
-from vectorplot.shading.shadows.trapezoid import (
+from vectorplot.shading.shadow_maps import (
+    column_major,
+    depth_row,
+    four_by_four,
+    quadrilateral_map,
+    recipe_factors,
+    recipe_map,
+    recipe_matrix,
+    square_map,
+)
+from vectorplot.shading.trapezoids import (
     LARGEST_ETA,
     Axis,
     adapted_size,
@@ -27,16 +37,6 @@ from vectorplot.shading.shadows.trapezoid import (
     tapered_map,
     trapezoid,
     widths,
-)
-from vectorplot.shading.shadows.trapezoid_matrix import (
-    column_major,
-    depth_row,
-    four_by_four,
-    quadrilateral_map,
-    recipe_factors,
-    recipe_map,
-    recipe_matrix,
-    square_map,
 )
 
 STEPS = several(2001, long=4001)

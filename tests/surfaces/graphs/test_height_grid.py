@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.zeros.grid_triangulation import mesh_of_grid
-from vectorplot.geometry.repair.winding import is_closed_oriented
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs.height_grid import densified_grid, grid_of_scattered
+from vectorplot.features.grid_triangulation import mesh_of_grid
+from vectorplot.geometry.winding import is_closed_oriented
+from vectorplot.surfaces.graphs import densified_grid, grid_of_scattered
+from vectorplot.surfaces.tori import Torus
 
 
 def hills(x, y):

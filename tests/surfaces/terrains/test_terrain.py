@@ -4,14 +4,8 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.scene.terrains.terrain_mesh import terrain_mesh
-from vectorplot.surfaces.terrains.terrain import (
-    densified_terrain,
-    exaggerated,
-    terrain,
-    terrain_of_points,
-    thinned_terrain,
-)
+from vectorplot.scene.terrains import terrain_mesh
+from vectorplot.surfaces.terrains import densified_terrain, exaggerated, terrain, terrain_of_points, thinned_terrain
 
 
 def test_arrays_masked_ones_and_wrong_ones():

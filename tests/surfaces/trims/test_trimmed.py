@@ -2,11 +2,10 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.quadrics import Cylinder, Sphere
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
-from vectorplot.surfaces.trims.trimmed import TrimmedSurface
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
+from vectorplot.surfaces.trimmed import TrimmedSurface
 
 
 def test_a_part_has_the_points_and_derivatives_of_the_whole():

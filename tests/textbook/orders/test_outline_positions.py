@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.textbook.orders.outline_positions import Position, in_convex_polygon, relative_position
+from vectorplot.textbook.orders import Position, in_convex_polygon, relative_position
 
 SQUARE = np.array([(0.0, 0, 0), (2, 0, 0), (2, 2, 0), (0, 2, 0)])
 

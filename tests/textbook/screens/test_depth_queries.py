@@ -8,12 +8,12 @@ from support.pixel_rays import beside_edges, first_triangles
 from support.shaded_scenes import COLUMNS, ROWS, camera_of, floor, sample, triangles_of
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.bodies.solids import box
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.clipping.clipped_polygons import Polygons
-from vectorplot.shading.depth.depth_buffer import depth_buffer, strip
-from vectorplot.shading.raster.screen import raster_system, screen_triangles
-from vectorplot.textbook.screens.depth_queries import depth_planes, points_visible, visible_line_pixels
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.clipping import Polygons
+from vectorplot.geometry.solids import box
+from vectorplot.shading.depth import depth_buffer, strip
+from vectorplot.shading.screen import raster_system, screen_triangles
+from vectorplot.textbook.framebuffer import depth_planes, points_visible, visible_line_pixels
 
 
 def in_pixels(system, points):

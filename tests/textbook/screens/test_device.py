@@ -8,18 +8,16 @@ import pytest
 from support.backend_samples import grey_of_pgm, run
 
 import vectorplot as vp
-from vectorplot.backends.page.areas import Areas
-from vectorplot.backends.page.page_marks import page_marks
+from vectorplot.backends.page import Areas, page_marks
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.geometry.cameras.pixel_window import PixelWindow
-from vectorplot.geometry.clipping import clipped_lines
-from vectorplot.geometry.clipping.clip_windows import Box, Window
-from vectorplot.shading.light.depth_cueing import LEAST, depth_shades
+from vectorplot.geometry import clipping as clipped_lines
+from vectorplot.geometry.camera import Camera, PixelWindow
+from vectorplot.geometry.clipping import Box, Window
+from vectorplot.geometry.projections import CoordinateSystem
+from vectorplot.shading.illumination import LEAST, depth_shades
 from vectorplot.testing.shapes import box
-from vectorplot.textbook.screens import drawn_pixels
-from vectorplot.textbook.screens.device import DepthCueing, Device
+from vectorplot.textbook import framebuffer as drawn_pixels
+from vectorplot.textbook.device import DepthCueing, Device
 
 COLUMNS, ROWS = 60, 45
 

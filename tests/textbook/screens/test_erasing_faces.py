@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box, cyclic_bars, interpenetrating_boxes, rotated_boxes
-from vectorplot.textbook.screens.erasing_faces import Erased, erasing_edges, interleaved
+from vectorplot.textbook.framebuffer import Erased, erasing_edges, interleaved
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
 from vectorplot.visibility.painter.painters_order import painters_order
 

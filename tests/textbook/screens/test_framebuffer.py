@@ -10,14 +10,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.clipping.clipped_polygons import Polygons
-from vectorplot.shading.raster.pixel_lines import line_pixels
-from vectorplot.shading.raster.png import png_bytes
-from vectorplot.shading.raster.supersampling import averaged, averaged_light
-from vectorplot.textbook.screens import drawn_pixels
-from vectorplot.textbook.screens import framebuffer as fb
-from vectorplot.textbook.screens.device import Device
-from vectorplot.textbook.screens.framebuffer import Framebuffer
+from vectorplot.geometry.clipping import Polygons
+from vectorplot.shading.image import averaged, averaged_light, png_bytes
+from vectorplot.shading.pixel_coverage import line_pixels
+from vectorplot.textbook import framebuffer as drawn_pixels
+from vectorplot.textbook import framebuffer as fb
+from vectorplot.textbook.device import Device
+from vectorplot.textbook.framebuffer import Framebuffer
 
 PLACES = st.tuples(st.integers(-40, 60), st.integers(-40, 60))
 

@@ -5,9 +5,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.geometry.cameras.pixel_window import PixelWindow
+from vectorplot.geometry.camera import Camera, PixelWindow
+from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.textbook import changed_coordinates, with_target_as_origin
 
 EYE, TARGET = (10.0, 5.0, 7.0), (1.0, 2.0, -1.0)

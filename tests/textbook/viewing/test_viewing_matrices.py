@@ -7,10 +7,9 @@ from hypothesis import strategies as st
 
 from vectorplot import textbook as vw
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.coordinate_system import CoordinateSystem
-from vectorplot.geometry.cameras.pixel_window import PixelWindow
-from vectorplot.textbook.viewing.viewing_matrices import ViewVolume
+from vectorplot.geometry.camera import Camera, PixelWindow
+from vectorplot.geometry.projections import CoordinateSystem
+from vectorplot.textbook.viewing import ViewVolume
 
 EYE, GAZE, UP, P = (3, 2, 6), (-1, -0.5, -2), (0, 1, 0), (0.5, 0.25, -1)
 VOLUME = ViewVolume(-1, 1.5, -0.75, 1, -2, -20)

@@ -7,8 +7,8 @@ import vectorplot as vp
 from vectorplot.geometry import box
 from vectorplot.scene import look
 from vectorplot.visibility import project_faces
-from vectorplot.visibility.painter.embedded_bodies import body_sides
 from vectorplot.visibility.painter.image_faces import drawn_faces
+from vectorplot.visibility.painter.unseen import body_sides
 
 
 def _closed_grid(of, across, along):

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from vectorplot.arrays import Ints
-from vectorplot.visibility.painter.gathering import side_by_side
 from vectorplot.visibility.painter.image_faces import ImageFaces, polygons_of
+from vectorplot.visibility.painter.painters_order import side_by_side
 
 
 def squares(places) -> ImageFaces:

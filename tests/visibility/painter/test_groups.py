@@ -11,9 +11,9 @@ import vectorplot as vp
 from vectorplot.backends.raster import painted
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.geometry.camera import Camera
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import box

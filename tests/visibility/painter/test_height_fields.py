@@ -8,23 +8,20 @@ from hypothesis import given
 from hypothesis import strategies as st
 from support.painted import nearest, sample_points, top_polygon
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.graphs.graph import graph, vertical
-from vectorplot.surfaces.graphs.graph_regions import Disc
+from vectorplot.surfaces.graphs import Disc, graph, vertical
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.height_fields import known_orders
+from vectorplot.visibility.painter.height_fields import known_orders, plan_of
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.pairs.box_pairs import box_pairs
-from vectorplot.visibility.painter.pairs.face_pairs import drawn_before, face_relations
-from vectorplot.visibility.painter.plans import plan_of
+from vectorplot.visibility.painter.pairs import box_pairs, drawn_before, face_relations
 
 
 def scattered(seed: int, count: int = 90) -> Mesh:

@@ -9,7 +9,7 @@ from support.painted import compared, nearest, sample_points, top_polygon
 from support.strewn import STREWN, placed
 
 from vectorplot.geometry.budget import Budget
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene

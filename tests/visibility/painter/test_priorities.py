@@ -7,12 +7,11 @@ import pytest
 from support.painted import nearest, sample_points, top_polygon
 from support.strewn import STREWN, placed
 
-from vectorplot.effects.shadows.shadow_decals import cast_shadows
+from vectorplot.effects.shadows import cast_shadows
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
-from vectorplot.testing.curved_meshes import torus_mesh
 from vectorplot.testing.shapes import (
     box,
     cyclic_bars,
@@ -21,15 +20,24 @@ from vectorplot.testing.shapes import (
     random_convex_solids,
     rotated_boxes,
     scene_of,
+    torus_mesh,
 )
-from vectorplot.textbook.orders.sphere_orders import sphere_order
-from vectorplot.visibility.painter.groups import gordian_knots, grouped_order, knot_report, object_order
+from vectorplot.textbook.orders import sphere_order
+from vectorplot.visibility.painter.groups import (
+    demands,
+    gordian_knots,
+    grouped_order,
+    knot_report,
+    object_order,
+    priorities,
+    view_objects,
+    which_first,
+    wholly_hidden,
+)
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks, mikado
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.pairs.convex_bodies import convex_bodies, outlined_items
-from vectorplot.visibility.painter.pairs.face_pairs import APART, BEHIND, IN_FRONT, STRADDLING
-from vectorplot.visibility.painter.priorities import demands, priorities, view_objects, which_first, wholly_hidden
+from vectorplot.visibility.painter.pairs import APART, BEHIND, IN_FRONT, STRADDLING, convex_bodies, outlined_items
 from vectorplot.visibility.projected_faces import project_faces
 
 EYE = Camera((9.0, 7.0, 6.0), (0, 0, 0))

@@ -10,12 +10,11 @@ import shapely
 
 import vectorplot as vp
 from vectorplot.geometry.budget import USUAL, Budget
-from vectorplot.geometry.cameras.unit_projection import projection_of
-from vectorplot.painting.seen import without_unseen_facets
+from vectorplot.geometry.projections import projection_of
+from vectorplot.pictures.fills import without_unseen_facets
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.view import look, view_of
-from vectorplot.shading.light.fineness.faceted import faceted
-from vectorplot.shading.light.fineness.picture_fineness import picture_fineness
+from vectorplot.shading.fineness import faceted, picture_fineness
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.unseen import unseen_faces
 from vectorplot.visibility.projected_faces import project_faces

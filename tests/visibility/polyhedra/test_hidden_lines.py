@@ -11,7 +11,7 @@ from support.effort import several
 from support.hard_shapes import HARD_SHAPES
 from support.seen import EVERY_EDGE, Seen, seen, wrong_samples
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.testing.shapes import hollow_bodies, random_convex_solids, rotated_boxes

@@ -9,8 +9,8 @@ import pytest
 from support.drawn import drawn
 
 import vectorplot as vp
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.testing import assert_drawings_equal
 
 CUBE = """C gray {form} vertices 0 0 0, 2 0 0, 2 2 0, 0 2 0, 0 0 2, 2 0 2, 2 2 2, 0 2 2

@@ -1,13 +1,12 @@
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.testing.curved_meshes import torus_mesh
-from vectorplot.testing.shapes import box, hollow_bodies, random_convex_solids
+from vectorplot.testing.shapes import box, hollow_bodies, random_convex_solids, torus_mesh
 from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, solid_items, solid_occluders
 from vectorplot.visibility.projected_faces import project_faces
 

@@ -6,11 +6,11 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
+from vectorplot.geometry import connectivity as pieces
+from vectorplot.geometry import mesh_repair
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.repair import mesh_repair, pieces
-from vectorplot.geometry.repair.seams import MANY_FACES, joined_seams
-from vectorplot.testing.curved_meshes import bumpy_icosphere
-from vectorplot.testing.shapes import box
+from vectorplot.geometry.mesh_repair import MANY_FACES, joined_seams
+from vectorplot.testing.shapes import box, bumpy_icosphere
 
 BALL = bumpy_icosphere(5, bump=0.2)
 FAR = BALL.transformed([(1, 0, 0, 1.1), (0, 1, 0, 0), (0, 0, 1, 0), (0, 0, 0, 1)])

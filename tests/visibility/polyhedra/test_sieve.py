@@ -7,14 +7,12 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.geometry import box
-from vectorplot.speed.scenes import bars, boxes, weave
+from vectorplot.speed.measure import bars, boxes, weave
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra import hidden_lines
-from vectorplot.visibility.polyhedra.covered_cells import entered
+from vectorplot.visibility.polyhedra.hidden_lines import Segments, clip_pairs, entered, sieve
 from vectorplot.visibility.polyhedra.lines import edge_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
-from vectorplot.visibility.polyhedra.pairs import Segments, clip_pairs
-from vectorplot.visibility.polyhedra.sieve import sieve
 
 KINDS = frozenset({vp.LineKind.CONTOUR, vp.LineKind.CREASE})
 TUBE = box((0.7, 5.0, 0.5), caps=())

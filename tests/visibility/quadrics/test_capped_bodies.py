@@ -8,27 +8,26 @@ import numpy as np
 import pytest
 from support.body_rays import body_sight, off_surface, unit_body
 
-from vectorplot.draw import draw
 from vectorplot.drawing.drawing import CurvedStrokes
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.geometry.camera import Camera
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.capped import Capped, Frustum, rod
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.capped_bodies import Capped, Frustum, rod
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Ellipsoid, Sphere
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.polyhedra.lines import straight_lines
 from vectorplot.visibility.quadrics import closed_forms as first_engine
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
 from vectorplot.visibility.quadrics.hidden_arcs import visible_arcs
-from vectorplot.visibility.smooth.smooth_lines import whole_lines_and_chords
-from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth.hidden_curves import whole_lines_and_chords
+from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 LINES = SurfaceLines(columns=5, rows=3)

@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 from support.ball_rays import sight
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.capped_bodies import ball_of
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.quadric_bodies.balls import ball_of
+from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
 from vectorplot.visibility.quadrics.hidden_arcs import visible_arcs

@@ -5,18 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.quadric_bodies.balls import ball_of
-from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
-from vectorplot.visibility.quadrics.conic_arcs import joined_arcs
-from vectorplot.visibility.quadrics.conic_curves import conic_curves
-from vectorplot.visibility.quadrics.lines.ball_arcs import ball_arcs
+from vectorplot.surfaces.capped_bodies import ball_of
+from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
+from vectorplot.visibility.quadrics.bodies import balls_of
+from vectorplot.visibility.quadrics.body_lines import ball_arcs
+from vectorplot.visibility.quadrics.conic_arcs import conic_curves, joined_arcs
 
 LINES = SurfaceLines(columns=5, rows=4)
 

@@ -6,13 +6,12 @@ import numpy as np
 import pytest
 from support.body_rays import body_sight, off_surface, unit_body
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.families.capped import Capped, rod
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.capped_bodies import Capped, rod
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Ellipsoid, Sphere
 from vectorplot.testing.shapes import box
 from vectorplot.words import LineKind
 

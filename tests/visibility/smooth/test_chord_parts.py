@@ -10,17 +10,17 @@ from support.effort import several
 from support.smooth_parts import around, polylines
 from support.smooth_scenes import implicit_surfaces, mixed_scenes, single_surfaces, views
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.visibility.polyhedra.lines import joined_lines
-from vectorplot.visibility.smooth.chord_parts import ChordParts
-from vectorplot.visibility.smooth.sheets import sight_lines
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords, whole_lines_and_chords
-from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth import sight_lines
+from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords, whole_lines_and_chords
+from vectorplot.visibility.smooth.sheets import Sheets
+from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth.traced_curves import ChordParts
 from vectorplot.words import FEATURE_KINDS, LineKind
 
 SCENES = single_surfaces() | implicit_surfaces() | mixed_scenes()

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from support.smooth_parts import ball_from_above, polylines
 
-from vectorplot.tolerances.of_extent import SAFE_IN_IMAGE
-from vectorplot.visibility.smooth.clearances import BEYOND, clearances
+from vectorplot.tolerances import SAFE_IN_IMAGE
+from vectorplot.visibility.smooth.hidden_curves import BEYOND, clearances
 from vectorplot.words import LineKind
 
 TOLERANCE = 1e-5

@@ -5,22 +5,21 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
-from vectorplot.geometry.bodies.solids import box
 from vectorplot.geometry.budget import USUAL, unheard
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.solids import box
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.visibility.polyhedra.lines import joined_lines
-from vectorplot.visibility.smooth.hidden_curves import hidden_curves
-from vectorplot.visibility.smooth.smooth_lines import cut_lines_and_chords
-from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords, hidden_curves
+from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from support.smooth_parts import polylines
 
-from vectorplot.visibility.smooth.events.events import Events
-from vectorplot.visibility.smooth.hidden_pieces import Counts, carried, cut
-from vectorplot.visibility.smooth.tallies import Tally
+from vectorplot.visibility.smooth.events import Events
+from vectorplot.visibility.smooth.hidden_curves import Counts, carried, cut
+from vectorplot.visibility.smooth.rays import Tally
 
 LINES = polylines([(x, 0.0, 0.0) for x in (0.0, 1.0, 2.0)], [(0.0, 1.0, 0.0), (1.0, 1.0, 0.0)])
 

@@ -7,15 +7,14 @@ import pytest
 from support.smooth_parts import ball_from_above
 
 from vectorplot.geometry.budget import USUAL
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.torus import Torus
-from vectorplot.visibility.smooth.rays import Samples, counts_in_front
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.targets import targets_of
-from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
+from vectorplot.surfaces.tori import Torus
+from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
+from vectorplot.visibility.smooth.rays import Samples, counts_in_front, targets_of
+from vectorplot.visibility.smooth.sheets import Sheets
 
 
 def test_points_behind_inside_in_front_and_beside() -> None:

@@ -7,7 +7,7 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.scene.view import look
 from vectorplot.surfaces import Capped, Cylinder
-from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 

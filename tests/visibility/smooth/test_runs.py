@@ -5,9 +5,8 @@ from __future__ import annotations
 import numpy as np
 from support.smooth_parts import around, ball_from_above, polylines
 
-from vectorplot.visibility.smooth.events.events import Events
-from vectorplot.visibility.smooth.hidden_pieces import cut
-from vectorplot.visibility.smooth.runs import without_short_runs
+from vectorplot.visibility.smooth.events import Events
+from vectorplot.visibility.smooth.hidden_curves import cut, without_short_runs
 
 
 def runs(curves, parts, values, shortest):

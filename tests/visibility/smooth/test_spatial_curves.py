@@ -5,19 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.implicit.implicit_conditions import ImplicitIsophote, MeetsPlane
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.implicit_surfaces import ImplicitIsophote, MeetsPlane
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import Quadric, implicit_sphere
+from vectorplot.surfaces.quadrics import Quadric, Sphere, implicit_sphere
 from vectorplot.surfaces.surface import ImplicitSurface
-from vectorplot.visibility.smooth.sheets.family import Chords, NearChords, SpatialCurves
-from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet, implicit_sheet
-from vectorplot.visibility.smooth.tracing.implicit_meetings import implicit_with_implicit, parametrised_with_implicit
-from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
+from vectorplot.visibility.smooth.families import Chords, NearChords, SpatialCurves
+from vectorplot.visibility.smooth.meetings import implicit_with_implicit, parametrised_with_implicit
+from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
+from vectorplot.visibility.smooth.sheets import ImplicitSheet, implicit_sheet
 
 FINE = Tracing(tolerance=1e-4)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.visibility.smooth.tallies import Cells, Tally, all_tallies, no_tally
+from vectorplot.visibility.smooth.rays import Cells, Tally, all_tallies, no_tally
 
 
 def random_tally(rows: int, items: int, entries: int, seed: int) -> Tally:

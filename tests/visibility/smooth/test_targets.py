@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from support.smooth_parts import ball_from_above
 
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.targets import distance_to, inside, targets_of, weights
+from vectorplot.visibility.smooth.rays import distance_to, inside, targets_of, weights
+from vectorplot.visibility.smooth.sheets import Sheets
 
 TRIANGLE = np.array([[[0.0, 0.0], [2.0, 0.0], [0.0, 2.0]]])
 

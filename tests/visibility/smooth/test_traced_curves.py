@@ -7,15 +7,15 @@ from dataclasses import replace
 import numpy as np
 from support.smooth_parts import polylines
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.surface import Domain
-from vectorplot.visibility.smooth.sheets.family import ParameterCurves
-from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
-from vectorplot.visibility.smooth.tracing.traced_curves import at_once
+from vectorplot.visibility.smooth.families import ParameterCurves
+from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
+from vectorplot.visibility.smooth.traced_curves import at_once
 
 
 def test_over_a_hole_between_two_of_its_points_a_curve_is_its_chord() -> None:

@@ -9,8 +9,7 @@ from pathlib import Path
 import click
 
 from vectorplot.cli.options import numbers
-from vectorplot.cli.picture import check_place
-from vectorplot.cli.progress import progress_bar
+from vectorplot.cli.picture import check_place, progress_bar
 
 PLOTS = ("svg", "ps", "eps", "pdf", "png", "json")
 
@@ -31,8 +30,8 @@ def accuracy(
     All together takes a minute or two. Errors are the same on every run; seconds are those of the processor, on one
     thread.
     """
-    from vectorplot.accuracy.catalogue import APPROXIMATIONS
-    from vectorplot.accuracy.error_tables import as_text, listed
+    from vectorplot.accuracy.results import as_text, listed
+    from vectorplot.accuracy.verb import APPROXIMATIONS
     from vectorplot.accuracy.verb import accuracy as measure
 
     if listing:
@@ -43,7 +42,7 @@ def accuracy(
     with progress_bar(quiet=quiet) as progress:
         found = measure(*names, values=values, progress=progress)
     if out is not None:
-        from vectorplot.accuracy.folder import write_folder
+        from vectorplot.accuracy.results import write_folder
 
         write_folder(found, out, format_)
     click.echo(as_text(found))

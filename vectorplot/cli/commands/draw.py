@@ -6,22 +6,25 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.common_options import (
+from vectorplot.cli.options import at_least, place
+from vectorplot.cli.picture_options import (
     BACKGROUND,
     DEPTH_CUE,
     DRAWING_FORMATS,
     FRAME,
+    HALO,
+    HATCHING_OPTIONS,
+    LAYERS,
+    PAGE_OPTIONS,
+    STROKE_OPTIONS,
     TEXT,
     TITLE,
     TOLERANCE,
     crease_angle_option,
+    hatching_from,
     lines_option,
     picture_verb,
 )
-from vectorplot.cli.options import at_least, place
-from vectorplot.cli.strokes.hatching_options import HATCHING_OPTIONS, hatching_from
-from vectorplot.cli.strokes.stroke_options import HALO, LAYERS, STROKE_OPTIONS
-from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
@@ -82,7 +85,7 @@ def draw(scene: Scene, **told: Any) -> Drawing:
 
     Camera options replace the fields of the camera in the scene file one by one.
     """
-    from vectorplot.draw import draw as draw_scene
+    from vectorplot.pictures.draw import draw as draw_scene
 
     hatch, rest = hatching_from(told)
     standing, strips = rest.pop("panorama"), rest.pop("strips")
@@ -97,8 +100,8 @@ def _all_round(
     scene: Scene, standing: tuple[float, ...], strips: int | None, hatched: bool, told: dict[str, Any]
 ) -> Drawing:
     """The panorama from a place. Bad usage for options that a panorama has nothing to do for."""
-    from vectorplot.geometry.cameras.panoramic_view import Panorama
-    from vectorplot.panorama import panorama
+    from vectorplot.geometry.camera import Panorama
+    from vectorplot.pictures.panorama import panorama
 
     given = click.get_current_context().params
     unlike = {name: given[name] for name in ("eye", "target", "up", "twist", "fov", "height", "near", "far", "view")}

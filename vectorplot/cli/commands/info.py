@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from vectorplot.cli.options import upwards
-from vectorplot.cli.progress import told_warnings
+from vectorplot.cli.picture import told_warnings
 from vectorplot.errors import printable
 
 
@@ -16,9 +16,9 @@ from vectorplot.errors import printable
 def info(files: tuple[str, ...], up: tuple[float, float, float] | None, quiet: bool) -> None:
     """Say what the files hold: counts, whether it is closed and convex, its size, and what is wrong with it."""
     from vectorplot.io.description import describe
-    from vectorplot.io.standard_input import read_named
-    from vectorplot.io.upwards import stood_up
-    from vectorplot.scene.naming.joined_scenes import together
+    from vectorplot.io.mesh_file import stood_up
+    from vectorplot.io.read_file import read_named
+    from vectorplot.scene.scene import together
 
     with told_warnings(quiet=quiet):
         scene = together([read_named(file) for file in files])

@@ -6,13 +6,16 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.common_options import (
+from vectorplot.cli.picture_options import (
     BACKGROUND,
     DEPTH_CUE,
     DRAWING_FORMATS,
     EXPOSURE,
+    FACE_OPTIONS,
     FRAME,
     LIGHTS,
+    OVERLAID_OPTIONS,
+    PAGE_OPTIONS,
     TEXT,
     TITLE,
     TOLERANCE,
@@ -21,9 +24,6 @@ from vectorplot.cli.common_options import (
     picture_verb,
     shadows_option,
 )
-from vectorplot.cli.face_options import FACE_OPTIONS
-from vectorplot.cli.strokes.stroke_options import OVERLAID_OPTIONS
-from vectorplot.cli.view_options import PAGE_OPTIONS
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
@@ -60,6 +60,6 @@ def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:
 
     Camera options replace the fields of the camera in the scene file one by one.
     """
-    from vectorplot.paint import paint as paint_scene
+    from vectorplot.pictures.paint import paint as paint_scene
 
     return paint_scene(scene, smooth=not flat, **told)

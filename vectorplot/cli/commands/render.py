@@ -6,23 +6,24 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.common_options import (
+from vectorplot.cli.options import between, pixels
+from vectorplot.cli.picture_options import (
     BACKGROUND,
     DEPTH_CUE,
     EXPOSURE,
     LIGHTS,
+    OVERLAID_OPTIONS,
     crease_angle_option,
+    fit_option,
     lines_option,
     picture_verb,
     shadows_option,
 )
-from vectorplot.cli.options import between, pixels
-from vectorplot.cli.strokes.stroke_options import OVERLAID_OPTIONS
-from vectorplot.cli.view_options import fit_option
 
 if TYPE_CHECKING:
     from vectorplot.scene.scene import Scene
-    from vectorplot.shading.raster.image import Image
+    from vectorplot.shading.image import Image
+
 
 FORMATS = ("png",)
 SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
@@ -78,6 +79,6 @@ def render(scene: Scene, *, shadow_bits: str, **told: Any) -> Image:
 
     Camera options replace the fields of the camera in the scene file one by one.
     """
-    from vectorplot.render import render as render_scene
+    from vectorplot.pictures.render import render as render_scene
 
     return render_scene(scene, shadow_bits=int(shadow_bits), **told)

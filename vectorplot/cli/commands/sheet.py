@@ -9,20 +9,21 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.common_options import (
+from vectorplot.cli.options import format_of, upwards
+from vectorplot.cli.picture import Source, make_pages, make_picture
+from vectorplot.cli.picture_options import (
+    CUT_SPACING,
     DRAWING_FORMATS,
     EXPLAIN,
     INPUT,
+    LANDSCAPE,
     OUT,
     QUIET,
+    VIEW_WORDS,
     crease_angle_option,
     format_option,
     with_options,
 )
-from vectorplot.cli.cut_options import CUT_SPACING
-from vectorplot.cli.options import format_of, upwards
-from vectorplot.cli.picture import Source, make_pages, make_picture
-from vectorplot.cli.view_options import LANDSCAPE, VIEW_WORDS
 
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report
@@ -32,7 +33,7 @@ if TYPE_CHECKING:
 
 def _name_of_mesh(path: str) -> str:
     """The name of a file without its suffix, where the file has no title of its own to say."""
-    from vectorplot.io.meshes.read_mesh import MESH_SUFFIXES
+    from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     return Path(path).stem if Path(path).suffix.lower() in MESH_SUFFIXES else ""
 
@@ -93,7 +94,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     A named page lies on the side that gives the views more room. Several INPUTs become a sheet each, the pages of one
     PDF.
     """
-    from vectorplot.technical.technical_sheet import technical_sheet
+    from vectorplot.pictures.technical_sheet import technical_sheet
 
     if told.pop("landscape"):
         told["page"] = f"{told['page'].split(' ')[0]} landscape"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from vectorplot.cli.options import format_of
-from vectorplot.cli.progress import progress_bar
+from vectorplot.cli.picture import progress_bar
 
 
 @click.command(short_help="Measure what pictures cost, and how that grows.")
@@ -30,11 +30,8 @@ def speed(
     """
     from vectorplot.errors import InputError
     from vectorplot.save import FORMATS, save
-    from vectorplot.speed.log import read_log, write_log
-    from vectorplot.speed.measure import measure
-    from vectorplot.speed.plot import plot
-    from vectorplot.speed.scenes import SERIES
-    from vectorplot.speed.tables import comparison, tables
+    from vectorplot.speed.measure import SERIES, measure
+    from vectorplot.speed.results import comparison, plot, read_log, tables, write_log
     from vectorplot.words import nearest
 
     if picture is not None:

@@ -10,14 +10,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from vectorplot.cli.films.frames import check_out
+from vectorplot.cli.frames import check_out
 from vectorplot.cli.options import between
-from vectorplot.cli.picture import check_place
-from vectorplot.cli.progress import progress_bar, told_warnings
+from vectorplot.cli.picture import check_place, progress_bar, told_warnings
 
 if TYPE_CHECKING:
-    from vectorplot.film import Film
+    from vectorplot.pictures.film import Film
     from vectorplot.scene.scene import Scene
+
 
 PAGE_SHOWN_OPTIONS = (
     click.option("--no-browser", is_flag=True, help="Print the address and open no browser."),
@@ -46,8 +46,8 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
     page records what one does there.
     Ctrl-C stops it, and q in the page.
     """
-    from vectorplot.io.folders import data_file
-    from vectorplot.viewer.sources import Source
+    from vectorplot.io.named_files import data_file
+    from vectorplot.viewer.pictures import Source
 
     file = None if video is None else _file(video)
     source = Source(Path(data_file(scene_file)))
@@ -92,9 +92,9 @@ def show_address(address: str, *, no_browser: bool) -> None:
 
 def _film(animation: str) -> Callable[[Scene], Film]:
     """What an animation, found as the book has it, makes of a scene."""
-    from vectorplot.animate import animate
     from vectorplot.animation.animation_file import read_animation
-    from vectorplot.io.folders import animation_file
+    from vectorplot.io.named_files import animation_file
+    from vectorplot.pictures.film import animate
 
     path = animation_file(animation)
     return lambda scene: animate(read_animation(path, scene))
@@ -103,7 +103,7 @@ def _film(animation: str) -> Callable[[Scene], Film]:
 def _file(video: str) -> Path:
     """The file of a movie: one with a suffix of its own, or as the book has it. Bad usage for other suffixes, and an
     OSError where nothing can be written there."""
-    from vectorplot.io.folders import VIDEOS, movie_to_write
+    from vectorplot.io.named_files import VIDEOS, movie_to_write
     from vectorplot.save_frames import MOVIES, ONE_FILE
 
     suffix = Path(video).suffix[1:].lower()

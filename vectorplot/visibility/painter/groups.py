@@ -7,12 +7,323 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry import ragged
+from vectorplot.geometry.convex_polygons import convex_hulls
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polygon_cuts import inside_convex
+from vectorplot.geometry.separating_planes import Surroundings, separations
 from vectorplot.scene.view import View
+from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
 from vectorplot.visibility.painter.mikado import component_ranks, mikado
-from vectorplot.visibility.painter.priorities import demands, priorities, view_objects
+from vectorplot.visibility.painter.pairs import (
+    APART,
+    BEHIND,
+    IN_FRONT,
+    STRADDLING,
+    Codes,
+    box_pairs,
+    boxes_of_items,
+    face_relations,
+    outlined_items,
+    pairs_across,
+)
+from vectorplot.visibility.projected_faces import project_faces
+
+# Which of two objects is in front of the other, in the system of an eye or of a lamp: tables of decisions.
+#
+# The painter itself compares only what overlaps, and cuts where nothing else helps; these are the decisions one by one.
+
+
+@dataclass(frozen=True, eq=False)
+class Objects:
+    """Items, or groups of them, as an eye or a lamp sees them.
+
+    Parameters
+    ----------
+    view : View
+        As of scene.look.
+    faces : ImageFaces
+        Those drawn.
+    owner : (n,) array of int
+        The object of each face, -1 for none.
+    box : (6, k) array of float
+        Smallest and largest x, y and height of each object in the image; inside out where nothing of it is drawn.
+    around : Surroundings
+        Boxes and spheres in the view.
+
+    Notes
+    -----
+    Made by view_objects.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
+    >>> objects = visibility.view_objects(view)
+    >>> isinstance(objects, visibility.Objects), len(objects), objects.owner.tolist()
+    (True, 1, [0, 0, 0])
+    """
+
+    view: View
+    faces: ImageFaces
+    owner: Ints
+    box: Floats
+    around: Surroundings
+
+    def __len__(self) -> int:
+        return int(self.box.shape[1])
+
+
+def view_objects(view: View, object_of: ArrayLike | None = None) -> Objects:
+    """The objects of a view.
+
+    Parameters
+    ----------
+    view : View
+        As of scene.look; the view of a lamp makes the system of a lamp: there in front means nearer to the lamp.
+    object_of : (i,) array_like of int, optional
+        The object that each item belongs to, from 0 on, or -1 for none; every item is an object where None.
+
+    Returns
+    -------
+    Objects
+        What priorities and wholly_hidden ask.
+
+    Raises
+    ------
+    InputError
+        For a table of another length, or an object without points.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> cubes = tuple(vp.Item(name, geometry.box((1, 1, 1))) for name in ("one", "two", "three"))
+    >>> view = scene.look(vp.Scene(cubes), vp.Camera((5, 4, 3)))
+    >>> len(visibility.view_objects(view)), len(visibility.view_objects(view, [0, 0, 1]))
+    (3, 2)
+    """
+    items = len(view.item_vertices) - 1
+    of = np.arange(items) if object_of is None else np.asarray(object_of, dtype=np.intp)
+    if of.shape != (items,) or (of < -1).any():
+        raise InputError(f"{items} items need as many numbers of objects, from -1 on")
+    faces = image_faces(view, drawn_faces(view, project_faces(view)))
+    owner = of[view.face_item[faces.source]]
+    count = int(of.max(initial=-1)) + 1
+    box = np.tile(np.array([[np.inf], [-np.inf]] * 3), count)
+    drawn = owner >= 0
+    for row in range(6):
+        (np.maximum if row % 2 else np.minimum).at(box[row], owner[drawn], faces.box[row, drawn])
+    return Objects(
+        view, faces, owner, box, Surroundings.of([_mesh(view, np.flatnonzero(of == k)) for k in range(count)])
+    )
+
+
+def _mesh(view: View, items: Ints) -> Mesh:
+    """Some items of the view as one mesh, in its coordinates."""
+    vertex, _ = ragged.take(view.item_vertices, items)
+    number = np.full(view.points.shape[1], -1, dtype=np.intp)
+    number[vertex] = np.arange(len(vertex))
+    position, offsets = ragged.take(view.offsets, np.flatnonzero(np.isin(view.face_item, items)))
+    return Mesh(view.points[:, vertex].T, number[view.corners[position]], offsets)
+
+
+def which_first(objects: Objects, first: Ints, second: Ints, *, critical: bool = False) -> Codes:
+    """(p,) codes of pairs of objects, as of face_relations: APART where neither hides anything of the other, IN_FRONT
+    where the first has to be drawn later, BEHIND where the second has, STRADDLING where both would have to.
+
+    Boxes in the image that do not overlap decide nothing; then depths that do not, spheres and planes that keep apart;
+    what is left open the outlines of the faces decide. critical: always the outlines, so that no priority is given
+    where nothing overlaps.
+    Source: Glaeser, section 5.5; errata G5-02, G5-03, G5-05.
+    """
+    box = objects.box
+    codes = np.full(len(first), APART, dtype=np.int8)
+    left = np.flatnonzero(_overlap(box[0:2], first, second) & _overlap(box[2:4], first, second))
+    if not critical:
+        a, b = first[left], second[left]
+        apart = ~_overlap(box[4:6], a, b)
+        told = np.where(apart, np.where(box[4, a] >= box[5, b], IN_FRONT, BEHIND), APART)
+        eye = (0.0, 0.0, 1.0, 0.0) if objects.view.eye is None else objects.view.eye
+        nearer = separations(objects.around, a, b).nearer(eye)
+        told = np.where(apart | (nearer == 0), told, np.where(nearer > 0, IN_FRONT, BEHIND))
+        codes[left] = told
+        left = left[told == APART]
+    codes[left] = _by_outlines(objects, first[left], second[left])
+    return codes
+
+
+def _overlap(span: Floats, first: Ints, second: Ints) -> Bools:
+    return np.asarray(np.minimum(span[1, first], span[1, second]) > np.maximum(span[0, first], span[0, second]))
+
+
+def _by_outlines(objects: Objects, first: Ints, second: Ints) -> Codes:
+    """(p,) codes of pairs from those of all their faces."""
+    count = len(objects)
+    key = np.minimum(first, second) * count + np.maximum(first, second)
+    asked, pair = np.unique(key, return_inverse=True)
+    # For every pair asked: whether the smaller number is in front somewhere, and behind somewhere.
+    front, behind = np.zeros((2, len(asked)), dtype=np.bool_)
+    wanted = np.zeros(count + 1, dtype=np.bool_)
+    wanted[np.concatenate([first, second])] = True
+    faces = np.flatnonzero(wanted[objects.owner])
+    some, owner = objects.faces.some(faces), objects.owner[faces]
+    for a, b in box_pairs(some.box, objects.view.tolerance):
+        keys = np.minimum(owner[a], owner[b]) * count + np.maximum(owner[a], owner[b])
+        place = np.minimum(np.searchsorted(asked, keys), max(len(asked) - 1, 0))
+        use = np.flatnonzero((asked[place] == keys) & (owner[a] != owner[b])) if len(asked) else place[:0]
+        codes = face_relations(some, a[use], b[use], objects.view.tolerance)
+        turned = owner[a[use]] > owner[b[use]]
+        for code, here, there in ((IN_FRONT, front, behind), (BEHIND, behind, front)):
+            met = (codes == code) | (codes == STRADDLING)
+            here[place[use[met & ~turned]]] = True
+            there[place[use[met & turned]]] = True
+    swapped = first > second
+    hides = np.where(swapped, behind[pair], front[pair])
+    hidden = np.where(swapped, front[pair], behind[pair])
+    return np.select([hides & hidden, hides, hidden], [STRADDLING, IN_FRONT, BEHIND], APART).astype(np.int8)
+
+
+def priorities(objects: Objects, subset: ArrayLike | None = None, *, critical: bool = False) -> Codes:
+    """What objects do to one another: a table of all pairs.
+
+    Parameters
+    ----------
+    objects : Objects
+        As of view_objects.
+    subset : (k,) array_like of int, optional
+        Some of the objects; all of them where None.
+    critical : bool
+        The outlines of the faces always decide, so that no priority is given where nothing overlaps.
+
+    Returns
+    -------
+    (k, k) array of int8
+        Row against column: APART where neither hides anything of the other, IN_FRONT where the first has to be drawn
+        later, BEHIND where the second has, STRADDLING where both would have to. Opposite places say the same of each
+        other.
+
+    Notes
+    -----
+    Boxes in the image that do not overlap decide nothing; then depths that do not, spheres and planes that keep apart;
+    what is left open the outlines of the faces decide. The table has as many places as there are pairs: for thousands
+    of objects painters_order, which compares only what overlaps, is the way.
+
+    Source: Glaeser, sections 5.5 and 5.6; errata G5-02, G5-03, G5-05.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> above = geometry.box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2))
+    >>> boxes = (vp.Item("high", above), vp.Item("low", geometry.box((1, 1, 1))))
+    >>> table = visibility.priorities(visibility.view_objects(scene.look(vp.Scene(boxes), vp.Camera((2, 3, 9)))))
+    >>> bool(table[0, 1] == visibility.IN_FRONT), bool(table[1, 0] == visibility.BEHIND)
+    (True, True)
+    """
+    chosen = np.arange(len(objects)) if subset is None else np.asarray(subset, dtype=np.intp)
+    row, column = np.triu_indices(len(chosen), 1)
+    table = np.full((len(chosen), len(chosen)), APART, dtype=np.int8)
+    codes = which_first(objects, chosen[row], chosen[column], critical=critical)
+    table[row, column] = codes
+    table[column, row] = np.select([codes == IN_FRONT, codes == BEHIND], [BEHIND, IN_FRONT], codes)
+    return table
+
+
+def demands(table: Codes) -> tuple[Ints, Ints]:
+    """A table of priorities as demands.
+
+    Parameters
+    ----------
+    table : (k, k) array of int8
+        As of priorities.
+
+    Returns
+    -------
+    before, after : (d,) arrays of int
+        The objects before[k] have to be drawn before the objects after[k].
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import visibility
+    >>> from vectorplot.visibility import APART, BEHIND, IN_FRONT
+    >>> before, after = visibility.demands(np.array([[APART, IN_FRONT], [BEHIND, APART]]))
+    >>> before.tolist(), after.tolist()
+    ([1], [0])
+    """
+    before, after = np.nonzero((table == BEHIND) | (table == STRADDLING))
+    return before, after
+
+
+def wholly_hidden(objects: Objects) -> Bools:
+    """The objects of which nothing is seen, since one convex body in front of them covers them: they need not be drawn.
+
+    Parameters
+    ----------
+    objects : Objects
+        As of view_objects.
+
+    Returns
+    -------
+    (k,) array of bool
+        True where the outline of the object lies inside that of one closed convex item in front of it. Objects of which
+        nothing is drawn anyway count as hidden.
+
+    Notes
+    -----
+    Source: Glaeser, section 5.5, case 3; errata G5-02, G6-05.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, scene, visibility
+    >>> behind = geometry.box((1, 1, 1), placement=(1, 0, 0, -3, 0, 1, 0, 1, 0, 0, 1, 1))
+    >>> items = (vp.Item("wall", geometry.box((1, 4, 4))), vp.Item("cube", behind))
+    >>> view = scene.look(vp.Scene(items), vp.Camera((20, 2, 2), target=(0, 2, 2)))
+    >>> visibility.wholly_hidden(visibility.view_objects(view)).tolist()
+    [False, True]
+    """
+    view, faces, count = objects.view, objects.faces, len(objects)
+    corner_owner = np.repeat(objects.owner, np.diff(faces.offsets))
+    order = np.argsort(corner_owner, kind="stable")
+    order = order[np.searchsorted(corner_owner[order], 0) :]
+    first = np.searchsorted(corner_owner[order], np.arange(count + 1))
+    points = faces.points[:, order]
+    corner, starts = convex_hulls(points[:2].T, first)
+    outlines = points[:, corner]
+    hidden = np.diff(starts) == 0
+    convex = _convex(objects)
+    for one, two in box_pairs(objects.box, view.tolerance):
+        behind, front = np.concatenate([one, two]), np.concatenate([two, one])
+        use = convex[front]
+        behind, front = behind[use], front[use]
+        (inner, outer), ends = zip(*(_some(outlines, starts, which) for which in (behind, front)), strict=True)
+        within = np.flatnonzero(inside_convex(inner, ends[0], outer, ends[1], tolerance=view.tolerance))
+        codes = which_first(objects, behind[within], front[within], critical=True)
+        hidden[behind[within[codes == BEHIND]]] = True
+    return np.asarray(hidden, dtype=np.bool_)
+
+
+def _convex(objects: Objects) -> Bools:
+    """(k,) the objects that are one closed convex item each, and hide."""
+    item = objects.view.face_item[objects.faces.source]
+    solid = outlined_items(objects.view, project_faces(objects.view))
+    least, most = np.full(len(objects), len(solid)), np.full(len(objects), -1)
+    owned = objects.owner >= 0
+    np.minimum.at(least, objects.owner[owned], item[owned])
+    np.maximum.at(most, objects.owner[owned], item[owned])
+    return np.asarray((least == most) & np.append(solid, False)[least])
+
+
+def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
+    position, ends = ragged.take(offsets, which)
+    return points[:2, position], ends
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,3 +557,82 @@ def group_ranks(count: int, before: Ints, after: Ints, owner: Ints) -> tuple[Int
         if not broken:
             return rank[unit], tuple(sorted(undone))
         undone |= broken
+
+
+# Items whose faces overlap in the image in more pairs than can be compared, and the order that is left for them.
+
+OF_THE_BUDGET = 8
+"""Two faces are compared in so small a part of the time of other pairs that the budget means so many more of them."""
+
+OF_EACH = 32
+"""So many pairs may be compared for each thing, if that is more in all: large meshes have some ten of each."""
+
+ROUNDS = 4
+"""So often the items with the most pairs are taken away before all are."""
+
+
+def pairs_allowed(pairs: int, things: int) -> int:
+    """How many pairs of a number of things may be compared with a budget of pairs."""
+    return max(OF_THE_BUDGET * pairs, OF_EACH * things)
+
+
+def crowded_items(
+    box: Floats, item: Ints, field: Ints, tolerance: float, most: int
+) -> tuple[Ints, tuple[Ints, Ints] | None]:
+    """The items to be left out so that no more than most pairs remain to be compared, in ascending order; and the pairs
+    that remain, as of pairs_across, where they are known and so few that they come in one lot.
+
+    box (4,t), item (t,), field (t,): of things, as of pairs_across. They are those that have most pairs of all, as far
+    as these were counted; what is done follows most, not how many pairs there are.
+    """
+    pairs: tuple[Ints, Ints] | None = None
+    kept = np.arange(box.shape[1])
+    out = np.zeros(int(item.max(initial=-1)) + 1, dtype=np.bool_)
+    for _ in range(ROUNDS):
+        if len(kept) * (len(kept) - 1) // 2 <= most:
+            break
+        tally, total = np.zeros(len(out), dtype=np.intp), 0
+        pairs = kept[:0], kept[:0]
+        for first, second in pairs_across(box[:, kept], field[kept], tolerance):
+            pairs = (kept[first], kept[second]) if total == 0 else None
+            total += len(first)
+            for ends in (first, second):
+                tally += np.bincount(item[kept[ends]], minlength=len(out))
+            if total > most:
+                break
+        if total <= most:
+            break
+        by_number = np.argsort(-tally, kind="stable")
+        out[by_number[: int(np.searchsorted(np.cumsum(tally[by_number]), total)) + 1]] = True
+        kept = np.flatnonzero(~out[item])
+    else:
+        out[item] = True
+    return np.flatnonzero(out), pairs
+
+
+def around(box: Floats, item: Ints, some: Ints, tolerance: float) -> Bools:
+    """(i,) some items, and what they overlap in the image, and what that overlaps, and so on, by the boxes of items.
+
+    box (4 or more, n), item (n,): of polygons.
+    """
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    count = int(item.max(initial=-1)) + 1
+    bounds = boxes_of_items(box, item, count)
+    there = np.flatnonzero(bounds[0] <= bounds[1])
+    label = np.arange(count)
+    for first, second in box_pairs(bounds[:, there], tolerance):
+        ends = label[there[first]], label[there[second]]
+        graph = coo_array((np.ones(len(first), dtype=np.int8), ends), shape=(count, count))
+        label = connected_components(graph, directed=False)[1].astype(np.intp)[label]
+    return np.isin(label, label[some])
+
+
+def by_depth(faces: ImageFaces) -> ImageFaces:
+    """The faces by where they reach farthest from the eye, those that do so farther first.
+
+    Right where neighbours are small, as triangles of surfaces are, and apart in depth.
+    Source: Newell, Newell and Sancha (1972), their first order.
+    """
+    return faces.some(np.lexsort((faces.rank, faces.box[4])))

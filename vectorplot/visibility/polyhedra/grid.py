@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.records import IN_COLUMNS
-from vectorplot.tolerances.of_extent import SMALLEST_CELL
+from vectorplot.tolerances import SMALLEST_CELL
 
 Floats32 = NDArray[np.float32]
 

@@ -8,20 +8,401 @@ from functools import partial
 from itertools import pairwise
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
-from vectorplot.geometry.chunks import mapped, slices
-from vectorplot.scene.coincidence.twins import first_twins
-from vectorplot.scene.view import View
+from vectorplot.geometry.budget import mapped, slices
+from vectorplot.geometry.columns import cross
+from vectorplot.scene.view import View, first_twins
+from vectorplot.tolerances import COVERED_MARGIN, SINGLE_LINE_SHARE
 from vectorplot.visibility.polyhedra import grid as grids
-from vectorplot.visibility.polyhedra.covered_cells import covered_cells, entered
-from vectorplot.visibility.polyhedra.grid import Entries, Floats32, Grid, Pieces
+from vectorplot.visibility.polyhedra.grid import MAX_COVER_TESTS, Entries, Floats32, Grid, Pieces
 from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, joined, solid_occluders
-from vectorplot.visibility.polyhedra.pairs import Hits, Segments, clip_pairs
-from vectorplot.visibility.polyhedra.sieve import sieve
 from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
+
+# Which pairs of a piece of a line and an occluder need a closer look: those that nothing in the image keeps apart.
+#
+# All of it is in single precision and errs on the side of the closer look. What is said of a piece or of an occluder is
+# packed into single values of 16 bytes: so the processor fetches it at once.
+
+Packed = NDArray[np.complex128]
+
+SIDES = 2
+"""So many sides of an outline are tried: the first ones, which for convex solids are the longest."""
+
+
+@dataclass(frozen=True, eq=False)
+class Sieve:
+    """Pieces and occluders in the image, packed.
+
+    piece_boxes (p,): (right, -left, top, -bottom), boxes (k,): (left, -right, bottom, -top); ends (p,): x and y of the
+    first end of each piece, then of the last; sides: for each of the SIDES (k,) lines as (a, b, c, 0), where
+    a x + b y + c is below zero for what lies outside for certain.
+    """
+
+    piece_boxes: Packed
+    boxes: Packed
+    ends: Packed
+    sides: tuple[Packed, ...]
+
+    def passing(self, piece: Ints, occluder: Ints) -> Ints:
+        """The pairs, by their positions, whose boxes overlap and of which no side of the outline keeps the piece
+        outside."""
+        passing = np.flatnonzero(_overlapping(self.piece_boxes.take(piece), self.boxes.take(occluder)))
+        for side in self.sides:
+            reaching = _reaching(self.ends.take(piece.take(passing)), side.take(occluder.take(passing)))
+            passing = passing.compress(reaching)
+        return passing
+
+
+def sieve(view: View, grid: Grid, pieces: Pieces, occluders: Occluders) -> Sieve:
+    """The sieve for pieces in a grid, which holds all of them, and occluders."""
+    left, right, bottom, top = pieces.box
+    piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
+    left, right, bottom, top = occluders.box
+    boxes = _packed(np.stack([left, -right, bottom, -top]))
+    return Sieve(piece_boxes, boxes, _packed(pieces.ends), _sides(view, grid, occluders))
+
+
+def _sides(view: View, grid: Grid, occluders: Occluders) -> tuple[Packed, ...]:
+    """The first sides of every outline as lines in the image, moved outwards by more than what rounding may do."""
+    reach = max(
+        abs(grid.left),
+        abs(grid.bottom),
+        abs(grid.left + grid.cell * float(grid.columns[0])),
+        abs(grid.bottom + grid.cell * float(grid.rows[0])),
+    )
+    last = occluders.first[1:] - 1
+    sides = []
+    for number in range(SIDES):
+        plane = np.minimum(occluders.first[:-1] + occluders.behind + number, last)
+        a, b, c, d = occluders.planes.take(plane, axis=1)
+        shift = _shift(view, a, b, c) - d
+        size = (np.abs(a) + np.abs(b)) * reach + np.abs(shift)
+        # An occluder without an outline fills the image.
+        outline = occluders.first[:-1] + occluders.behind <= last
+        line = np.stack([a, b, shift + SINGLE_LINE_SHARE * size, np.zeros_like(a)]) / np.where(size > 0.0, size, 1.0)
+        line[:3, ~outline] = [[0.0], [0.0], [1.0]]
+        sides.append(_packed(line.astype(np.float32)))
+    return tuple(sides)
+
+
+def _shift(view: View, a: Floats, b: Floats, c: Floats) -> Floats:
+    """What the middle of the image plane adds to the heights above planes with these normals."""
+    if view.eye is None:
+        x, y = view.target[:2]
+        return np.asarray(a * x + b * y, dtype=np.float64)
+    x, y, z = view.eye
+    return np.asarray(a * x + b * y + c * (z - view.focus), dtype=np.float64)
+
+
+def _packed(rows: Floats32) -> Packed:
+    """(n,) columns (4,n) of single precision, each packed into one value."""
+    return np.ascontiguousarray(rows.T).view(np.complex128).ravel()
+
+
+def _overlapping(piece_box: Packed, box: Packed) -> Bools:
+    """Which pairs of packed boxes overlap."""
+    below = box.view(np.float32) < piece_box.view(np.float32)
+    return np.asarray(below.view(np.uint32) == np.uint32(0x01010101), dtype=np.bool_)
+
+
+def _reaching(ends: Packed, side: Packed) -> Bools:
+    """Which pairs of packed ends and lines have an end that is not outside for certain."""
+    x, y, last_x, last_y = ends.view(np.float32).reshape(-1, 4).T
+    a, b, c, _ = side.view(np.float32).reshape(-1, 4).T
+    return np.asarray(np.maximum(a * x + b * y, a * last_x + b * last_y) >= -c, dtype=np.bool_)
+
+
+# One segment against one convex occluder, for many pairs at once.
+
+FULL = 0.75
+"""Pairs that are done with are taken out when they are more than the rest of this part."""
+
+
+@dataclass(frozen=True, eq=False)
+class Segments:
+    """Straight segments in the view's coordinates, all of them beyond the near plane.
+
+    Parameters
+    ----------
+    start, end : (3, n) array of float
+        Their ends, such as points_of of a view gives them.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import visibility
+    >>> len(visibility.Segments(start=np.zeros((3, 4)), end=np.ones((3, 4))))
+    4
+    """
+
+    start: Floats
+    end: Floats
+
+    def __len__(self) -> int:
+        return int(self.start.shape[1])
+
+
+@dataclass(frozen=True, eq=False)
+class Hits:
+    """Hidden zones of single pairs: pair (h,) which one, low and high (h,) parameters, and side (h,): 0, or where the
+    segment runs along a border of the occluder's shadow, 1 with the shadow on its left, -1 on its right."""
+
+    pair: Ints
+    low: Floats
+    high: Floats
+    side: Ints
+
+
+def clip_pairs(
+    view: View,
+    segments: Segments,
+    occluders: Occluders,
+    segment: Ints,
+    occluder: Ints,
+    low: Floats,
+    high: Floats,
+    beyond: Bools,
+) -> Hits:
+    """What occluders hide of segments between the parameters low and high, pair by pair.
+
+    The points that a convex thing hides, itself included, form a convex set, so a zone is one interval: the segment
+    clipped by the occluder's planes, those towards the eye first; beyond (n,) tells the pairs that need not be
+    clipped by these, since the part lies behind all of the occluder. A distance below the view's tolerance is zero,
+    and zero does not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
+    Source: Glaeser, section 7.2; errata G7-01 and G7-02.
+    """
+    skipped = occluders.behind.take(occluder) * beyond
+    pair, reach = _over_first_plane(
+        view, segments, occluders, segment, occluders.first.take(occluder) + skipped, beyond
+    )
+    low, high, side = low.take(pair), high.take(pair), np.zeros(len(pair), dtype=np.intp)
+    of = segment.take(pair)
+    ends = np.concatenate([segments.start.take(of, axis=1), segments.end.take(of, axis=1)])
+    occluder, skipped = occluder.take(pair), skipped.take(pair)
+    first, behind = occluders.first.take(occluder) + skipped, occluders.behind.take(occluder) - skipped
+    count = occluders.first.take(occluder + 1) - first
+    through = [(pair[:0], low[:0], high[:0], side[:0])]
+    final = occluders.planes.shape[1] - 1
+    for step in range(int(count.max(initial=0))):
+        if step:
+            reach = _heights(view, occluders, np.minimum(first + step, final), ends)
+        at_start, at_end = reach
+        product = at_start * at_end
+        inside = np.maximum(at_start, at_end) > 0.0
+        along = np.flatnonzero((product == 0.0) & (at_start == at_end) & (step >= behind))
+        if len(along):
+            inward = occluders.planes[:3].take(np.minimum(first[along] + step, final), axis=1)
+            new = _shadow_side(view, ends[:3].take(along, axis=1), ends[3:].take(along, axis=1), inward)
+            inside[along] = (side[along] == 0) | (side[along] == new)
+            side[along] = new
+        crossing = np.flatnonzero(product < 0.0)
+        if len(crossing):
+            begin, end = at_start.take(crossing), at_end.take(crossing)
+            where, leaving = begin / (begin - end), begin > 0.0
+            out, into = crossing.compress(leaving), crossing.compress(~leaving)
+            high[out] = np.minimum(high.take(out), where.compress(leaving))
+            low[into] = np.maximum(low.take(into), where.compress(~leaving))
+        inside &= low < high
+        last = inside & (count == step + 1)
+        if last.any():
+            done = np.flatnonzero(last)
+            through.append((pair.take(done), low.take(done), high.take(done), side.take(done)))
+            inside &= ~last
+        if np.count_nonzero(inside) > FULL * len(inside):
+            # Few are done with: they stay, marked by an empty interval, since moving the others costs more.
+            np.putmask(high, ~inside, -1.0)
+        else:
+            kept = np.flatnonzero(inside)
+            ends = ends.take(kept, axis=1)
+            low, high = low.take(kept), high.take(kept)
+            pair, side, first, count, behind = (of.take(kept) for of in (pair, side, first, count, behind))
+    pair, low, high, side = (np.concatenate(column) for column in zip(*through, strict=True))
+    return Hits(pair, low, high, side)
+
+
+def _over_first_plane(
+    view: View, segments: Segments, occluders: Occluders, segment: Ints, plane: Ints, beyond: Bools
+) -> tuple[Ints, tuple[Floats, Floats]]:
+    """The pairs of which the segment reaches over the first plane that is looked at, and both ends' distances from it.
+
+    Most pairs of a mesh end here: the faces around a line do not hide it. A line in a plane of the outline stays.
+    """
+    a, b, c, d = (row.take(plane) for row in occluders.planes)
+    x, y, z = (row.take(segment) for row in segments.start)
+    at_start = a * x + b * y + c * z - d
+    x, y, z = (row.take(segment) for row in segments.end)
+    at_end = a * x + b * y + c * z - d
+    least = np.where(beyond, -view.tolerance, view.tolerance)
+    pair = np.flatnonzero(np.maximum(at_start, at_end) > least)
+    return pair, (_snapped(at_start.take(pair), view.tolerance), _snapped(at_end.take(pair), view.tolerance))
+
+
+def _heights(view: View, occluders: Occluders, plane: Ints, ends: Floats) -> tuple[Floats, Floats]:
+    """Distances of both ends (6,n) of segments from planes, snapped to zero."""
+    normals = occluders.planes.take(plane, axis=1)
+    return _height(normals, ends[:3], view.tolerance), _height(normals, ends[3:], view.tolerance)
+
+
+def _height(planes: Floats, points: Floats, tolerance: float) -> Floats:
+    """Distances of points (3,n) from planes (4,n), snapped to zero."""
+    height = planes[0] * points[0]
+    term = planes[1] * points[1]
+    height += term
+    height += np.multiply(planes[2], points[2], out=term)
+    height -= planes[3]
+    return _snapped(height, tolerance)
+
+
+def _snapped(distance: Floats, tolerance: float) -> Floats:
+    distance *= np.abs(distance) > tolerance
+    return distance
+
+
+def _shadow_side(view: View, start: Floats, end: Floats, inward: Floats) -> Ints:
+    """(n,) 1 where the inward normals (3,n) point to the left of start -> end in the image, else -1."""
+    along = end - start
+    if view.eye is None:
+        left = np.stack([-along[1], along[0], np.zeros(along.shape[1])])
+    else:
+        left = cross(along, start - view.eye[:, None])
+    return np.where((left * inward).sum(axis=0) > 0.0, 1, -1)
+
+
+# Which cells of the image occluders cover, and which they touch.
+
+LARGE_LEVEL = 2
+"""What would be entered at this level or a coarser one is entered in finer cells, but only in those that its outline
+touches, as long as it leaves many of them out: a long thin thing would be met by everything in its box."""
+
+THIN = 0.8
+"""A thing that touches at most so many of the finer cells in the cells it touches is entered in these."""
+
+
+AT_ONCE = 1 << 14
+"""So many pairs of cells and planes are looked at in one step, or one plane for every cell."""
+
+
+def covered_cells(view: View, grid: Grid, occluders: Occluders) -> Floats32:
+    """(cells,) for each cell of the finest level, a depth beyond which everything in it is hidden by one occluder
+    alone; infinite where there is none."""
+    table = np.full(int(grid.first[-1]), np.inf, dtype=np.float32)
+    occluder, column, row, level = _inner_cells(grid, occluders.box)
+    if len(occluder):
+        whole = _inside_outline(view, grid, occluders, (occluder, column, row, level), np.minimum, COVERED_MARGIN)
+        cell = grid.numbers(column[whole], row[whole], level[whole])
+        np.minimum.at(table, cell, occluders.farthest[occluder[whole]])
+    for level_above in range(grid.levels - 1, 0, -1):
+        rows, columns = int(grid.rows[level_above - 1]), int(grid.columns[level_above - 1])
+        above = table[grid.first[level_above] : grid.first[level_above + 1]].reshape(int(grid.rows[level_above]), -1)
+        below = table[grid.first[level_above - 1] : grid.first[level_above]].reshape(rows, columns)
+        np.minimum(below, above.repeat(2, axis=0)[:rows].repeat(2, axis=1)[:, :columns], out=below)
+    return table[: grid.first[1]]
+
+
+def entered(view: View, grid: Grid, occluders: Occluders, which: Ints, most: int) -> Entries:
+    """Some of the occluders, entered in the cells where they could hide something, in finer ones as long as there are
+    not many more of these than most."""
+    box = occluders.box.take(which, axis=1)
+    level = grids.entry_level(grid, box)
+    thing, column, row = grids.touched(grid, box, level)
+    occluder, level = which[thing], level[thing]
+    large = level >= LARGE_LEVEL
+    kept: list[tuple[Ints, ...]] = [(occluder[~large], column[~large], row[~large], level[~large])]
+    thing, *cells = (part[large] for part in (thing, occluder, column, row, level))
+    touching = _inside_outline(view, grid, occluders, tuple(cells), np.maximum, -COVERED_MARGIN)
+    thing, *cells = (part.compress(touching) for part in (thing, *cells))
+    while len(thing):
+        owner, finer = _finer(grid, *cells)
+        if len(owner) > most:
+            break
+        touching = _inside_outline(view, grid, occluders, finer, np.maximum, -COVERED_MARGIN)
+        owner = owner.compress(touching)
+        count, made = np.bincount(thing, minlength=len(which)), np.bincount(thing[owner], minlength=len(which))
+        thin = (made <= THIN * 4.0 * count)[thing]
+        kept.append(tuple(part[~thin] for part in cells))
+        goes_on = thin[owner]
+        thing, cells = thing[owner[goes_on]], [part.compress(touching)[goes_on] for part in finer]
+        last = cells[-1] == 0
+        kept.append(tuple(part[last] for part in cells))
+        thing, *cells = (part[~last] for part in (thing, *cells))
+    kept.append(tuple(cells))
+    return grids.entries(grid, *(np.concatenate(part) for part in zip(*kept, strict=True)))
+
+
+def _finer(grid: Grid, occluder: Ints, column: Ints, row: Ints, level: Ints) -> tuple[Ints, tuple[Ints, ...]]:
+    """The four cells below each of some cells, none of them of the finest level, that are in the grid; and which cell
+    each is below."""
+    owner = np.repeat(np.arange(len(occluder)), 4)
+    step = np.tile(np.arange(4), len(occluder))
+    finer = (occluder[owner], 2 * column[owner] + (step & 1), 2 * row[owner] + (step >> 1), level[owner] - 1)
+    inside = (finer[1] < grid.columns[finer[3]]) & (finer[2] < grid.rows[finer[3]])
+    return owner.compress(inside), tuple(part.compress(inside) for part in finer)
+
+
+def _inside_outline(
+    view: View,
+    grid: Grid,
+    occluders: Occluders,
+    cells: tuple[Ints, ...],
+    extreme: Callable[[Floats, float], Floats],
+    margin: float,
+) -> Bools:
+    """Which cells, given as (occluder, column, row, level), have an extreme distance above the margin from every
+    plane of an occluder's outline: with the minimum those that lie wholly inside it, with the maximum all those that
+    touch it and a few near its corners."""
+    occluder, column, row, level = cells
+    size = grid.cell * (1 << level)
+    corner = np.stack([grid.left + column * size, grid.bottom + row * size])
+    if view.eye is None:
+        base = np.concatenate([corner + view.target[:2, None], np.zeros((1, len(occluder)))])
+    else:
+        depth = np.full((1, len(occluder)), view.eye[2] - view.focus)
+        base = np.concatenate([corner + view.eye[:2, None], depth])
+    result = np.ones(len(occluder), dtype=np.bool_)
+    last, step = occluders.first[1:] - 1, 0
+    plane = occluders.first[occluder] + occluders.behind[occluder]
+    left = np.arange(len(occluder))
+    while len(left):
+        # Of few cells many planes at once, of many one after the other, each of those that are left.
+        width = max(AT_ONCE // len(left), 1)
+        which = np.minimum(plane[left] + step + np.arange(width)[:, None], last[occluder[left]])
+        a, b, c, d = occluders.planes.take(which, axis=1)
+        distance = a * base[0, left] + b * base[1, left] + c * base[2, left] - d
+        distance += (extreme(a, 0.0) + extreme(b, 0.0)) * size[left]
+        inside = (distance > margin).all(axis=0)
+        result[left[~inside]] = False
+        step += width
+        left = left[inside & (plane[left] + step <= last[occluder[left]])]
+    return result
+
+
+def _inner_cells(grid: Grid, box: Floats32) -> tuple[Ints, Ints, Ints, Ints]:
+    """(occluder, column, row, level) of cells wholly inside the boxes (4,n)."""
+    box = box.astype(np.float64)
+    limits = [
+        np.clip((box[0] - grid.left) / grid.cell, 0, grid.columns[0]),
+        np.clip((box[1] - grid.left) / grid.cell, 0, grid.columns[0]),
+        np.clip((box[2] - grid.bottom) / grid.cell, 0, grid.rows[0]),
+        np.clip((box[3] - grid.bottom) / grid.cell, 0, grid.rows[0]),
+    ]
+    cells = (limits[1] - limits[0]) * (limits[3] - limits[2])
+    level = np.ceil(np.log2(np.maximum(cells / MAX_COVER_TESTS, 1.0)) / 2.0).astype(np.intp)
+    level = np.minimum(level, grid.levels - 1)
+    scale = (1 << level).astype(np.float64)
+    c0, c1 = np.ceil(limits[0] / scale).astype(np.intp), np.floor(limits[1] / scale).astype(np.intp)
+    r0, r1 = np.ceil(limits[2] / scale).astype(np.intp), np.floor(limits[3] / scale).astype(np.intp)
+    c1, r1 = np.minimum(c1, grid.columns[level]), np.minimum(r1, grid.rows[level])
+    wide, tall = np.maximum(c1 - c0, 0), np.maximum(r1 - r0, 0)
+    count = wide * tall
+    occluder = ragged.owner(count)
+    step = ragged.place(count)
+    width = wide[occluder]
+    return occluder, c0[occluder] + step % width, r0[occluder] + step // width, level[occluder]
+
 
 PAIRS_AT_ONCE = 1 << 17
 """Pairs of a piece and an occluder handled at once."""

@@ -10,40 +10,41 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.features.meshes.edges import Edges, Faces, mesh_edges
-from vectorplot.features.meshes.mesh_curves import MeshCurves
-from vectorplot.features.meshes.mesh_intersections import face_intersections, self_intersections_of_parts
-from vectorplot.features.meshes.mesh_lines import (
+from vectorplot.features.edge_lines import Edges, Faces, mesh_edges, smooth_mesh_edges
+from vectorplot.features.mesh_intersections import face_intersections, self_intersections_of_parts
+from vectorplot.features.mesh_lines import (
+    MeshCurves,
     mesh_isophote_edges,
     mesh_isophotes,
     mesh_plane_sections,
     mesh_point_light_isophote_edges,
     mesh_point_light_isophotes,
+    pattern_outline,
 )
-from vectorplot.features.meshes.patterns import pattern_outline
-from vectorplot.features.meshes.smooth_edges import smooth_mesh_edges
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.bounds.boxes import overlapping_boxes
+from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard
 from vectorplot.geometry.columns import dot
+from vectorplot.geometry.connectivity import pieces_of_faces
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh_cuts import HalfSpaces
+from vectorplot.geometry.mesh_repair import MANY_FACES
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.records import IN_COLUMNS
-from vectorplot.geometry.repair.pieces import pieces_of_faces
-from vectorplot.geometry.repair.seams import MANY_FACES
-from vectorplot.scene.coincidence.twins import first_twins
+from vectorplot.scene.added_lines import curve_light
 from vectorplot.scene.item import Item
-from vectorplot.scene.lines.curve_light import curve_light
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import Placement, field_of_vision
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.terrains.terrain_lines import Roads, Serpentine, TerrainLines, WaterCourses
-from vectorplot.scene.view import View
-from vectorplot.tolerances.of_extent import CUT_EDGE_OF_EXTENT
+from vectorplot.scene.surface_lines import Roads, Serpentine, TerrainLines, WaterCourses
+from vectorplot.scene.view import View, first_twins
+from vectorplot.tolerances import CUT_EDGE_OF_EXTENT
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import FEATURE_KINDS, LineKind
 
 if TYPE_CHECKING:
-    from vectorplot.visibility.smooth.chord_parts import ChordParts
+    from vectorplot.visibility.smooth.traced_curves import ChordParts
 
 
 @dataclass(frozen=True, eq=False)
@@ -492,7 +493,7 @@ def mesh_curve_lines(
                     found = mesh_plane_sections(item.shape, section.normal, section.offsets)
                     parts.append(_lines_of_curves(view, found, section.kind, number, item.curves.smooth))
             if LineKind.INTEGRAL in wanted and item.curves.integral:
-                from vectorplot.visibility.polyhedra.mesh_integral_lines import item_integral_lines
+                from vectorplot.visibility.polyhedra.smooth_lines import item_integral_lines
 
                 told = part_of(done, number, len(scene.items))
                 for place, lines in enumerate(item.curves.integral):
@@ -504,7 +505,7 @@ def mesh_curve_lines(
                     found = _terrain_lines(item, item.shape, asked)
                     parts.append(_lines_of_curves(view, found, LineKind.INTEGRAL, number, item.curves.smooth))
             if features := [kind for kind in FEATURE_KINDS if kind in wanted]:
-                from vectorplot.visibility.polyhedra.feature_lines import item_feature_lines
+                from vectorplot.visibility.polyhedra.smooth_lines import item_feature_lines
 
                 for kind, found in item_feature_lines(item, item.shape, view, features).items():
                     parts.append(_lines_of_curves(view, found, kind, number, True))
@@ -514,9 +515,9 @@ def mesh_curve_lines(
 def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
     """What a terrain asks for. Errors: InputError with the item's name."""
     # Terrains are rare: what finds their lines is loaded for them.
-    from vectorplot.features.terrains.roads import roads
-    from vectorplot.features.terrains.serpentines import serpentine
-    from vectorplot.features.terrains.water import valley_lines, water_courses, watersheds
+    from vectorplot.features.terrain_roads import roads
+    from vectorplot.features.terrain_serpentines import serpentine
+    from vectorplot.features.terrain_water import valley_lines, water_courses, watersheds
 
     try:
         if isinstance(asked, WaterCourses):
@@ -533,7 +534,7 @@ def _terrain_lines(item: Item, mesh: Mesh, asked: TerrainLines) -> MeshCurves:
 
 def _contours_across_faces(view: View, mesh: Mesh, number: int, crease_angle_deg: float) -> Lines:
     # Few meshes are taken for smooth shapes: what finds their contours is loaded for them.
-    from vectorplot.visibility.polyhedra.smooth_contour_lines import smooth_contour_lines
+    from vectorplot.visibility.polyhedra.smooth_lines import smooth_contour_lines
 
     found = smooth_contour_lines(mesh, view, crease_angle_deg)
     numbers = np.full(len(found.side), number)
@@ -558,3 +559,117 @@ def _lines_of_curves(view: View, curves: MeshCurves, kind: LineKind, item: int, 
     kinds = np.full(len(begin), int(kind))
     lines = straight_lines(points.take(begin, axis=1), points.take(end, axis=1), kinds, numbers, np.zeros_like(numbers))
     return replace(lines, smooth=np.full(len(begin), smooth))
+
+
+# What part of a segment is in front of the eye, and inside the picture.
+
+
+def window_planes(view: View, low: Floats, high: Floats) -> Floats:
+    """(4,4) planes (unit normal, constant) of a window in the image plane from low to high (2,), positive inside."""
+    (left, bottom), (right, top) = low, high
+    if view.eye is None:
+        x, y = view.target[:2]
+        rows = [[1, 0, 0, x + left], [-1, 0, 0, -x - right], [0, 1, 0, y + bottom], [0, -1, 0, -y - top]]
+        return np.array(rows, dtype=np.float64)
+    d = view.focus
+    normals = np.array([[d, 0, left], [-d, 0, -right], [0, d, bottom], [0, -d, -top]])
+    normals /= np.sqrt((normals * normals).sum(axis=1))[:, None]
+    return np.column_stack([normals, matmul(normals, view.eye)])
+
+
+def near_plane(view: View) -> Floats:
+    """(1,4) the near plane, positive beyond it; no row in a parallel projection."""
+    if view.eye is None:
+        return np.zeros((0, 4))
+    return np.array([[0.0, 0.0, -1.0, view.near - view.eye[2]]])
+
+
+def inside(planes: Floats, start: Floats, end: Floats) -> tuple[Floats, Floats]:
+    """Parameters (n,) between which segments (3,n) have no negative distance from any plane; low > high: nowhere.
+
+    Source: Glaeser, section 2.5, with the near plane first (errata G2-08, G2-09).
+    """
+    low, high = np.zeros(start.shape[1]), np.ones(start.shape[1])
+    for a, b, c, d in planes:
+        at_start = a * start[0] + b * start[1] + c * start[2] - d
+        at_end = a * end[0] + b * end[1] + c * end[2] - d
+        crossing = (at_start < 0.0) != (at_end < 0.0)
+        where = at_start / np.where(crossing, at_start - at_end, 1.0)
+        entering = crossing & (at_start < 0.0)
+        low = np.where(entering, np.maximum(low, where), low)
+        high = np.where(crossing & ~entering, np.minimum(high, where), high)
+        high = np.where((at_start < 0.0) & (at_end < 0.0), -1.0, high)
+    return low, high
+
+
+def frame_of(view: View, lines: Lines, page: Page, fit: bool) -> Placement | None:
+    """The frame of a picture of lines: the camera's field of vision where they are not to be fitted to the page, or
+    reach too far; else None."""
+    if fit and not view.reaches_too_far(lines.start, lines.end):
+        return None
+    return field_of_vision(view, page, fit)
+
+
+def in_frame(view: View, lines: Lines, frame: Placement | None) -> Lines:
+    """The lines in front of the eye, and inside the frame of the picture if it has one."""
+    planes = near_plane(view)
+    if frame is not None:
+        planes = np.concatenate([planes, window_planes(view, *frame.window)])
+    if not len(planes):
+        return lines
+    low, high = inside(planes, lines.start, lines.end)
+    kept = np.flatnonzero(low < high)
+    return lines.cut(view, kept, low[kept], high[kept])
+
+
+# Which lines are edges of cuts, and which are ghosts of what was cut away.
+
+
+def with_kinds_of_cuts(scene: Scene, view: View, lines: Lines, kinds: frozenset[LineKind]) -> Lines:
+    """The lines; borders of items on what was cut away of them are edges of cuts, and in the planes of these; all
+    outlines of ghosts but those are ghosts, and sections of cut faces are hatches. Borders that
+    were looked for only because of that are left out."""
+    kind, kept = lines.kind.copy(), np.ones(len(lines), dtype=np.bool_)
+    start, end = lines.start, lines.end
+    for number, item in enumerate(scene.items):
+        own = kinds if item.lines is None else frozenset(map(LineKind.from_word, item.lines))
+        if item.is_cut_face:
+            kind[(lines.item == number) & (kind == LineKind.SECTION)] = LineKind.HATCH
+        if not item.cut_by or not own & {LineKind.CUT, LineKind.BOUNDARY, LineKind.GHOST}:
+            continue
+        which = np.flatnonzero((lines.item == number) & (kind == LineKind.BOUNDARY))
+        shifts, cut = _onto_cuts(item.cut_by, view, lines.some(which), 2 if item.is_cut_face else 1)
+        which, other = which[cut], which[~cut]
+        if LineKind.GHOST in own:
+            kind[lines.item == number] = LineKind.GHOST
+            # Where it was cut the edge of what is left runs.
+            kept[which] = False
+            continue
+        kind[which] = LineKind.CUT
+        kept[which], kept[other] = LineKind.CUT in own, LineKind.BOUNDARY in own and not item.is_cut_face
+        start, end = start.copy(), end.copy()
+        start[:, which] += shifts[0][:, cut]
+        end[:, which] += shifts[1][:, cut]
+    if kept.all() and (kind == lines.kind).all():
+        return lines
+    return replace(lines, kind=kind, start=start, end=end).some(kept)
+
+
+def _onto_cuts(regions: tuple[HalfSpaces, ...], view: View, lines: Lines, planes: int) -> tuple[Floats, Bools]:
+    """The ways (2,3,n) of both ends of lines onto the planes on which they run along the borders of regions, and which
+    of them do so on so many planes. Rims of holes are looked at from a little inside of the surface."""
+    ways, found = np.zeros((2, 3, len(lines))), np.zeros(len(lines), dtype=np.intp)
+    for region in regions:
+        normals = matmul(np.array(region.normals), view.axes.T)
+        offsets = (np.array(region.offsets) - matmul(np.array(region.normals), view.centre)) / view.scale
+        here = HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(offsets.tolist()))
+        heights = np.stack([here.heights(points.T) for points in (lines.start, lines.end)])
+        before = (heights >= -CUT_EDGE_OF_EXTENT).all(axis=(0, 1))
+        off = np.abs(heights).max(axis=0)
+        nearest = np.argmin(off, axis=0)
+        column = np.arange(len(lines))
+        on = before & (off[nearest, column] <= CUT_EDGE_OF_EXTENT)
+        way = -heights[:, nearest, column][:, None, :] * normals[nearest].T
+        ways[:, :, on] = way[:, :, on]
+        found += np.where(before, (off <= CUT_EDGE_OF_EXTENT).sum(axis=0), 0)
+    return ways, found >= planes

@@ -8,11 +8,11 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.chunks import mapped, slices
+from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.columns import cross
-from vectorplot.geometry.repair.circulation import unbalanced_vertices
+from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_numbers import SINGLE_DEPTH_LEAST, SINGLE_DEPTH_SHARE
+from vectorplot.tolerances import SINGLE_DEPTH_LEAST, SINGLE_DEPTH_SHARE
 from vectorplot.visibility.projected_faces import CHUNK, Floats32, ProjectedFaces, newell
 
 MAX_SOLID_FACES = 128

@@ -11,42 +11,40 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.bounds.boxes import overlapping_boxes
+from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot
+from vectorplot.scene.added_lines import curve_light
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
-from vectorplot.scene.lines.curve_light import curve_light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.quadric_bodies.balls import Ball, ball_of
-from vectorplot.surfaces.quadric_bodies.capped_quadrics import capped_quadric_of
-from vectorplot.tolerances.of_values import HOMOTHETIC
+from vectorplot.surfaces.capped_bodies import Ball, ball_of, capped_quadric_of
+from vectorplot.tolerances import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines, items_wanting, kinds_of
-from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
-from vectorplot.visibility.quadrics.bodies.seen_bodies import Bodies
-from vectorplot.visibility.quadrics.bodies.seen_capped import capped_bodies_of
-from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, beyond_near, joined_arcs
-from vectorplot.visibility.quadrics.conic_curves import ConicArcs
-from vectorplot.visibility.quadrics.lines.ball_arcs import ball_arcs
-from vectorplot.visibility.quadrics.lines.ball_meetings import (
+from vectorplot.visibility.quadrics.bodies import balls_of, capped_bodies_of
+from vectorplot.visibility.quadrics.body_lines import (
+    are_round,
+    ball_arcs,
+    capped_arcs,
+    capped_isophotes,
+    capped_sections,
+)
+from vectorplot.visibility.quadrics.conic_arcs import Arcs, ConicArcs, OwnSides, beyond_near, joined_arcs
+from vectorplot.visibility.quadrics.covers import Bodies, own_bodies
+from vectorplot.visibility.quadrics.meetings import (
+    are_bodies_apart,
     are_homothetic,
     balls_with_balls,
     balls_with_faces,
-    overlapping_balls,
-)
-from vectorplot.visibility.quadrics.lines.body_meetings import (
-    are_bodies_apart,
     capped_at_faces,
     circles_on_one_axis,
+    meet_inside_balls,
     near_capped,
     on_one_axis,
+    overlapping_balls,
 )
-from vectorplot.visibility.quadrics.lines.capped_arcs import capped_arcs
-from vectorplot.visibility.quadrics.lines.capped_sections import are_round, capped_isophotes, capped_sections
-from vectorplot.visibility.quadrics.lines.meetings_inside import meet_inside_balls
-from vectorplot.visibility.quadrics.own_bodies import own_bodies
 from vectorplot.words import FEATURE_KINDS, LineKind
 
 Seen = Callable[[Bodies, Arcs, OwnSides], Visibility]

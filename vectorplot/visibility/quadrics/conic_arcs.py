@@ -3,14 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.exact import intervals
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.elementary import arccos, arctan2
-from vectorplot.visibility.quadrics.bodies.eye_coordinates import EyeCoordinates
+from vectorplot.geometry.elementary import arccos, arctan, arctan2, tan
+from vectorplot.geometry.records import IN_COLUMNS
+from vectorplot.geometry.vectors import dot
+from vectorplot.scene.view import View
+from vectorplot.tolerances import LEAST_DIVISOR, UNION_OF_SEGMENT, WHOLE_TURN
+from vectorplot.visibility.polyhedra.grid import Floats32
+from vectorplot.visibility.polyhedra.hidden_lines import SLIVER
+from vectorplot.visibility.quadrics.bodies import EyeCoordinates, eye_coordinates
+from vectorplot.visibility.smooth.families import Along, Chords
+from vectorplot.visibility.smooth.traced_curves import Curves
 from vectorplot.words import LineKind
 
 
@@ -164,3 +173,208 @@ def _beyond(least: Floats, slope: Floats, low: Floats, high: Floats) -> tuple[Fl
     begin = np.where(slope > 0.0, np.maximum(low, at), low)
     end = np.where(slope < 0.0, np.minimum(high, at), high)
     return begin, np.where((slope == 0.0) & (least > 0.0), low, end)
+
+
+# Arcs cut into pieces of less than a half turn, as rational Bézier curves of degree two.
+
+IN_A_TURN = 8
+"""Pieces of a whole turn: fewer have larger boxes, which more things overlap; more cost more."""
+
+LARGE, MOST = 2.0, 512
+"""An arc so many times larger in the picture than what hides is cut finer, into so many pieces at most."""
+
+
+@dataclass(frozen=True, eq=False)
+class Pieces:
+    """Parts of arcs: control (3,4,n) homogeneous control points; arc (n,); middle, half (n,):
+    from middle - half to middle + half in the arc's parameter; box (4,n) left, right, bottom, top in the image; nearest
+    and farthest (n,) depth."""
+
+    control: Floats = field(metadata=IN_COLUMNS)
+    arc: Ints
+    middle: Floats
+    half: Floats
+    box: Floats32 = field(metadata=IN_COLUMNS)
+    nearest: Floats
+    farthest: Floats
+
+    def __len__(self) -> int:
+        return len(self.arc)
+
+    def some(self, which: Ints | Bools) -> Pieces:
+        """Some of the pieces."""
+        return records.some(self, which)
+
+    def parameters(self, arcs: Arcs, which: Ints, t: Floats) -> Floats:
+        """(k,) the arcs' parameters at t, 0 to 1 along pieces which (k,)."""
+        middle, half = self.middle[which], self.half[which]
+        s = 2.0 * t - 1.0
+        # The tangent of the half angle goes evenly along the weighted curve.
+        straight = arcs.straight[self.arc[which]]
+        turned = 2.0 * arctan(tan(np.where(straight, 0.0, 0.5 * half)) * s)
+        turned = np.where(straight, half * s, turned)
+        return np.where(t <= 0.0, middle - half, np.where(t >= 1.0, middle + half, middle + turned))
+
+
+def cut_arcs(sight: EyeCoordinates, arcs: Arcs, typical: float) -> Pieces:
+    """The arcs in pieces; typical: the size of what hides, in the image."""
+    reach = np.sqrt(arcs.first * arcs.first + arcs.second * arcs.second)
+    size = reach.max(axis=1, initial=0.0)
+    if sight.central:
+        size = size / np.maximum(np.abs(arcs.middle[:, 2]) - reach[:, 2], 0.1 * np.abs(arcs.middle[:, 2]) + sight.near)
+    span = arcs.high - arcs.low
+    wide = size * np.where(arcs.straight, span, 1.0) / (LARGE * typical)
+    turns = np.where(arcs.straight, 1.0, span / (2.0 * np.pi))
+    in_all = np.where(arcs.straight, np.ceil(wide), np.ceil(turns * np.maximum(IN_A_TURN, 8.0 * wide)))
+    # No piece may turn by more than a third of a half turn: its weights stay above a half.
+    fewest = np.where(arcs.straight, 1.0, np.ceil(span / (np.pi / 3.0)))
+    count = np.maximum(np.clip(in_all, 1.0, MOST), fewest).astype(np.intp)
+    arc, step = ragged.owner(count), ragged.place(count)
+    half = 0.5 * span[arc] / count[arc]
+    middle = arcs.low[arc] + (2 * step + 1) * half
+    control = _control(arcs, arc, middle, half)
+    depth = control[:, 2] / control[:, 3]
+    nearest, farthest = depth.min(axis=0), depth.max(axis=0)
+    image = control[:, :2] / control[:, 3:4]
+    if sight.central:
+        image = image / np.maximum(depth, sight.near)[:, None]
+        image[:, :, nearest < sight.near] = np.nan
+    low, high = image.min(axis=0), image.max(axis=0)
+    return Pieces(control, arc, middle, half, packed_box(low, high), nearest, farthest)
+
+
+def _control(arcs: Arcs, arc: Ints, middle: Floats, half: Floats) -> Floats:
+    """(3,4,n) control points: both ends, and where the tangents meet, with its weight."""
+    straight = arcs.straight[arc]
+    weight = np.where(straight, 1.0, np.cos(half))
+    centre, first, second = arcs.middle[arc].T, arcs.first[arc].T, arcs.second[arc].T
+    divisor = arcs.weight[arc]
+    control = np.empty((3, 4, len(arc)))
+    one = np.ones(len(arc))
+    for k, (t, w) in enumerate(((middle - half, one), (middle, weight), (middle + half, one))):
+        along = np.where(straight, t, np.cos(t)), np.where(straight, 0.0, np.sin(t))
+        control[k, :3] = centre * w + first * along[0] + second * along[1]
+        control[k, 3] = w + divisor * along[0]
+    return control
+
+
+def packed_box(low: Floats, high: Floats) -> Floats32:
+    """(4,n) boxes from lower left to upper right corners (2,n), rounded outwards; everything where these are not
+    numbers."""
+    below, above = np.float32(-np.inf), np.float32(np.inf)
+    left, bottom = np.nextafter(np.where(np.isnan(low), -np.inf, low).astype(np.float32), below)
+    right, top = np.nextafter(np.where(np.isnan(high), np.inf, high).astype(np.float32), above)
+    return np.stack([left, right, bottom, top])
+
+
+# Arcs of conics as the curves of the second engine: chords within a tolerance, and all of the arc between them.
+
+LOOKS = 9
+"""Places along an arc at which one looks how sharply its image bends."""
+
+FEWEST, CHORDS = 8, 4096
+"""Chords of an arc, at least and at most: nine points tell an arc from another curve."""
+
+SAFE = 1.2
+"""The image may bend so much more between the places looked at."""
+
+
+@dataclass(frozen=True, eq=False)
+class ConicArcs:
+    """Arcs in the view's coordinates. The place of a point is (t, 0, 0), the level of a curve its number among arcs."""
+
+    arcs: Arcs
+    sheet: int = -1
+    second: int = -1
+
+    def between(self, chords: Chords, part: Floats) -> Along:
+        """The curves at a part of their chords."""
+        start, end = chords.places
+        way = (end - start)[:, 0]
+        t = start[:, 0] + part * way
+        points, slopes, _ = self.arcs.at(chords.level.astype(np.intp), t)
+        places = np.zeros_like(points)
+        places[:, 0] = t
+        return Along(places, points, slopes * way[:, None])
+
+
+def conic_curves(view: View, arcs: Arcs, behind: Ints, tolerance: float) -> Curves:
+    """Arcs, hidden by behind (n,) items already, with chords off them by no more than the tolerance in the image."""
+    sight = eye_coordinates(view)
+    count = np.clip(np.ceil(_bends(sight, view.focus, arcs) / np.sqrt(8.0 * tolerance)), FEWEST, CHORDS).astype(np.intp)
+    count[arcs.straight] = 1
+    arc, step = ragged.owner(count + 1), ragged.place(count + 1)
+    t = arcs.low[arc] + (arcs.high - arcs.low)[arc] * step / count[arc]
+    last = step == count[arc]
+    t[last] = arcs.high[arc[last]]
+    whole = np.abs(arcs.high - arcs.low - 2.0 * np.pi) <= WHOLE_TURN
+    in_view = arcs.in_view(sight)
+    points = in_view.at(arc, np.where(last & whole[arc], arcs.low[arc], t))[0]
+    places = np.zeros_like(points)
+    places[:, 0] = t
+    return Curves(
+        points,
+        places,
+        np.full_like(points, np.nan),
+        ragged.offsets(count + 1),
+        whole,
+        arcs.kind,
+        arcs.item,
+        np.zeros(len(arcs), dtype=np.intp),
+        np.arange(len(arcs), dtype=np.float64),
+        (ConicArcs(in_view),),
+        arcs.side,
+        behind,
+    )
+
+
+def _bends(sight: EyeCoordinates, focus: float, arcs: Arcs) -> Floats:
+    """(n,) the length of each arc's way times the root of the largest second derivative of its image: with that many
+    chords, times the root of an eighth, they are a unit off."""
+    span = arcs.high - arcs.low
+    largest = np.zeros(len(arcs))
+    every = np.arange(len(arcs))
+    for part in np.linspace(0.0, 1.0, LOOKS).tolist():
+        point, slope, second = arcs.at(every, arcs.low + part * span)
+        if sight.central:
+            depth = np.maximum(point[:, 2:], max(sight.near, LEAST_DIVISOR))
+            image = point[:, :2] / depth
+            image_slope = (slope[:, :2] - image * slope[:, 2:]) / depth
+            bend = (second[:, :2] - 2.0 * image_slope * slope[:, 2:] - image * second[:, 2:]) / depth * focus
+        else:
+            bend = second[:, :2]
+        largest = np.maximum(largest, np.hypot(bend[:, 0], bend[:, 1]))
+    return np.asarray(span * np.sqrt(SAFE * largest))
+
+
+# The parts of circles that lie to one side of planes.
+
+
+def parts_inside(
+    circles: tuple[Floats, Floats, Floats], circle: Ints, forms: Floats, tolerance: float
+) -> tuple[Ints, Floats, Floats]:
+    """The parts of circles that are nowhere outside of planes: which circle (k,), and from where to where (k,) in its
+    angle.
+
+    circles: middles and conjugate radii (n,3); forms (p,4) of unit gradient, negative outside, each for a circle (p,).
+    Parts below ten tolerances are left out. Degenerate: what is not finite cuts nothing.
+    """
+    middle, first, second = circles
+    # Outside of the plane where base + reach cos(t - turn) < 0.
+    base = dot(middle[circle], forms[:, :3]) + forms[:, 3]
+    x, y = dot(first[circle], forms[:, :3]), dot(second[circle], forms[:, :3])
+    reach, turn = np.hypot(x, y), arctan2(y, x)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        half = arccos(np.clip(base / reach, -1.0, 1.0))
+    out = np.isfinite(base) & (base < reach)
+    circle, turn, half = circle[out], turn[out], np.where(base[out] <= -reach[out], np.pi, half[out])
+    low = np.mod(turn + np.pi - half, 2.0 * np.pi) / (2.0 * np.pi)
+    high = low + half / np.pi
+    round_ = high > 1.0
+    owner = np.concatenate([circle, circle[round_]])
+    low, high = np.concatenate([low, np.zeros(round_.sum())]), np.concatenate([np.minimum(high, 1.0), high[round_] - 1])
+    gap = np.full(len(middle), UNION_OF_SEGMENT)
+    of, low, high = intervals.complement(len(middle), *intervals.union(owner, low, high, gap), gap)
+    radius = np.sqrt(np.maximum(dot(first, first), dot(second, second)))[of]
+    long = (high - low) * 2.0 * np.pi * radius > SLIVER * tolerance
+    return of[long], low[long] * 2.0 * np.pi, high[long] * 2.0 * np.pi

@@ -2,30 +2,281 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry import records
-from vectorplot.geometry.components import all_finite, greatest_component, least_component
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry import ragged, records
+from vectorplot.geometry.vectors import all_finite, dot, greatest_component, least_component
 from vectorplot.scene.view import View
-from vectorplot.tolerances.of_angles import GRAZING_ANGLE
-from vectorplot.tolerances.of_extent import (
+from vectorplot.tolerances import (
     CONTACT_MEETING,
+    CONTACT_PLACES,
+    GRAZING_ANGLE,
+    LEAST_DIVISOR,
     LOCAL_MEETING,
     MET_OF_EXTENT,
     ONE_MEETING,
+    ONE_MEETING_PLACES,
     SETTLED_OF_EXTENT,
     TOUCHING_OF_EXTENT,
 )
-from vectorplot.tolerances.of_parameters import CONTACT_PLACES, ONE_MEETING_PLACES
-from vectorplot.visibility.smooth.blocks import Block, in_blocks
-from vectorplot.visibility.smooth.sheets import sight_lines
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.tallies import Tally, all_tallies
-from vectorplot.visibility.smooth.targets import Targets, distance_to, inside, weights
+from vectorplot.visibility.smooth import sight_lines
+from vectorplot.visibility.smooth.box_strips import Block, BoxStrips, in_blocks
+from vectorplot.visibility.smooth.sheets import Sheets
+
+# Sheets as targets of sight lines and of curves: a tree over the images of their triangles.
+
+STRIP = 16
+"""Triangles, one beside the other, of which the tree has one box."""
+
+
+@dataclass(frozen=True, eq=False)
+class Vertices:
+    """The vertices (n,) of sheets that hide: points (n,3), places (n,3) on their sheets, image (n,2), depth (n,)."""
+
+    points: Floats
+    places: Floats
+    image: Floats
+    depth: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Triangles:
+    """Triangles (t,): the sheet of each; vertices (t,3); margin (t,): how far the image of the sheet may be off theirs;
+    off (t,): how far the sheet is in space."""
+
+    sheet: Ints
+    vertices: Ints
+    margin: Floats
+    off: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Targets:
+    """The triangles (t,) of sheets that hide, sheet after sheet, as far as they are in front of the eye, and the
+    vertices that they have in common."""
+
+    triangles: Triangles
+    vertices: Vertices
+
+    def __len__(self) -> int:
+        return len(self.sheet)
+
+    @property
+    def sheet(self) -> Ints:
+        """(t,) the sheet of each."""
+        return self.triangles.sheet
+
+    def some(self, which: Ints | Bools) -> Targets:
+        """Some of the triangles, in their order."""
+        return Targets(records.some(self.triangles, which), self.vertices)
+
+    def range_of_sheet(self, number: int) -> slice:
+        """Where the triangles of one sheet are."""
+        first, last = np.searchsorted(self.sheet, [number, number + 1]).tolist()
+        return slice(first, last)
+
+    def of_sheet(self, number: int) -> Targets:
+        """The triangles of one sheet."""
+        return self.some(np.arange(len(self))[self.range_of_sheet(number)])
+
+    def corners(self, which: Ints | slice) -> Floats:
+        """(k,3,3) the corners in space of some of the triangles."""
+        return self._of_corners(self.vertices.points, which)
+
+    def places(self, which: Ints | slice) -> Floats:
+        """(k,3,3) the places of the corners on their sheets."""
+        return self._of_corners(self.vertices.places, which)
+
+    def image(self, which: Ints | slice) -> Floats:
+        """(k,3,2) the images of the corners."""
+        return self._of_corners(self.vertices.image, which)
+
+    def depth(self, which: Ints | slice) -> Floats:
+        """(k,3) the depths of the corners."""
+        return self._of_corners(self.vertices.depth, which)
+
+    def _of_corners(self, values: Floats, which: Ints | slice) -> Floats:
+        # take is several times as fast as an index between brackets.
+        return values.take(self.triangles.vertices[which], axis=0)
+
+    @cached_property
+    def box(self) -> Floats:
+        """(2,2) the box around the image, enlarged by the margins; empty without triangles."""
+        low, high = self._boxes.low, self._boxes.high
+        return np.stack([low.min(axis=1, initial=np.inf), high.max(axis=1, initial=-np.inf)])
+
+    @cached_property
+    def _boxes(self) -> BoxStrips:
+        """(t,) boxes around the images of triangles, enlarged by their margins."""
+        x, y = self.vertices.image.T
+        margin = self.triangles.margin
+        corners = [np.stack([x.take(column), y.take(column)]) for column in self.triangles.vertices.T]
+        low, high = np.minimum(corners[0], corners[1]), np.maximum(corners[0], corners[1])
+        return BoxStrips(np.minimum(low, corners[2]) - margin, np.maximum(high, corners[2]) + margin, STRIP)
+
+    def may_reach(self, low: Floats, high: Floats) -> Bools:
+        """(k,) which boxes (k,2), from low to high, overlap the one around all of them."""
+        return np.asarray(((low <= self.box[1]) & (high >= self.box[0])).all(axis=1))
+
+    def near_boxes(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
+        """Pairs of a box (k,2), from low to high, and a triangle whose box, enlarged by its margin, overlaps it."""
+        close = np.flatnonzero(self.may_reach(low, high))
+        if not len(close):
+            return close, close
+        box, triangle = self._boxes.overlapping(low[close].T, high[close].T)
+        return close[box], triangle
+
+
+def targets_of(view: View, sheets: Sheets) -> Targets:
+    """The sheets as seen in a view; triangles that reach before the near plane are left out, and those of a sheet that
+    hides nothing."""
+    hiding = [number for number, sheet in enumerate(sheets) if sheet.hides]
+    own = [sheets[number] for number in hiding]
+    none, nothing = np.zeros((0, 3)), np.zeros((0, 3), dtype=np.intp)
+    points = np.concatenate([none, *(sheet.vertices for sheet in own)])
+    places = np.concatenate([none, *(sheet.vertex_places for sheet in own)])
+    image, depth = sight_lines.image(view, points), sight_lines.depth(view, points)
+    first = ragged.starts([len(sheet.vertices) for sheet in own])
+    corners = np.concatenate([nothing, *(sheet.corners + k for sheet, k in zip(own, first.tolist(), strict=True))])
+    number = np.repeat(np.array(hiding, dtype=np.intp), [len(sheet.corners) for sheet in own])
+    off = 2.0 * np.concatenate([none[:, 0], *(sheet.sags for sheet in own)])
+    nearest = np.minimum.reduce([depth.take(column) for column in corners.T])
+    kept = nearest > view.near
+    if not kept.all():
+        corners, number, off, nearest = corners[kept], number[kept], off[kept], nearest[kept]
+    scale = 1.0 if view.eye is None else view.focus / np.maximum(nearest, view.near)
+    return Targets(Triangles(number, corners, off * scale, off), Vertices(points, places, image, depth))
+
+
+def weights(triangle: Floats, points: Floats) -> Floats:
+    """(k,3) barycentric coordinates of points (k,2) in triangles (k,3,2); not finite for those seen edge-on."""
+    a, b, c = triangle[:, 0], triangle[:, 1], triangle[:, 2]
+    ab, ac, ap = b - a, c - a, points - a
+    area = ab[:, 0] * ac[:, 1] - ab[:, 1] * ac[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        two = (ap[:, 0] * ac[:, 1] - ap[:, 1] * ac[:, 0]) / area
+        three = (ab[:, 0] * ap[:, 1] - ab[:, 1] * ap[:, 0]) / area
+        return np.stack([1.0 - two - three, two, three], axis=1)
+
+
+def inside(weight: Floats) -> Floats:
+    """(k,3) the nearest barycentric coordinates within the triangle, about."""
+    # Triangles seen edge-on have no such coordinates: their middle is as good.
+    clipped = np.clip(np.where(np.isfinite(weight), weight, 1.0 / 3.0), 0.0, 1.0)
+    return np.asarray(clipped / clipped.sum(axis=1, keepdims=True))
+
+
+def distance_to(triangle: Floats, points: Floats) -> Floats:
+    """(k,) how far points (k,2) are from triangles (k,3,2), those seen edge-on as well; 0 in their insides."""
+    corners = triangle.swapaxes(0, 1)
+    away, turns = [], []
+    for a, b in zip(corners, np.roll(corners, -1, axis=0), strict=True):
+        side, to = b - a, points - a
+        along = np.clip(dot(side, to) / np.maximum(dot(side, side), LEAST_DIVISOR), 0.0, 1.0)
+        off = to - along[:, None] * side
+        away.append(dot(off, off))
+        turns.append(side[:, 0] * to[:, 1] - side[:, 1] * to[:, 0])
+    around = np.stack(turns, axis=1)
+    within = (least_component(around) > 0.0) | (greatest_component(around) < 0.0)
+    return np.where(within, 0.0, np.sqrt(least_component(np.stack(away, axis=1))))
+
+
+# Numbers of sheets by item: of thousands of items a curve has to do with a few.
+
+
+@dataclass(frozen=True, eq=False)
+class Tally:
+    """Whole numbers by row and item, 0 where there is no entry: row, item and value (n,) of each entry; entries of one
+    row and item add up."""
+
+    row: Ints
+    item: Ints
+    value: Ints
+
+    def table(self, rows: int, items: int) -> Ints:
+        """(rows, items) the numbers."""
+        result = np.zeros((rows, items), dtype=np.intp)
+        np.add.at(result, (self.row, self.item), self.value)
+        return result
+
+    def of_rows(self, which: Ints) -> Tally:
+        """What is said of some rows (w,), which are numbered as they stand there."""
+        order = np.argsort(self.row, kind="stable")
+        row = self.row[order]
+        first = np.searchsorted(row, which)
+        sizes = np.searchsorted(row, which, side="right") - first
+        own = order[ragged.ranges(first, sizes)]
+        return Tally(ragged.owner(sizes), self.item[own], self.value[own])
+
+    def in_rows(self, rows: Ints) -> Tally:
+        """The same with these numbers (rows,) of the rows."""
+        return Tally(rows[self.row], self.item, self.value)
+
+
+def all_tallies(parts: Sequence[Tally]) -> Tally:
+    """The entries of all parts."""
+    none = np.zeros(0, dtype=np.intp)
+    row, item, value = (
+        np.concatenate([none, *columns])
+        for columns in zip(*((part.row, part.item, part.value) for part in (no_tally(), *parts)), strict=True)
+    )
+    return Tally(row, item, value)
+
+
+def no_tally() -> Tally:
+    """Nothing but zeros."""
+    none = np.zeros(0, dtype=np.intp)
+    return Tally(none, none, none)
+
+
+@dataclass(frozen=True, eq=False)
+class Cells:
+    """The cells (c,) of a table of pieces and items in which something may stand: for every item that a curve has to do
+    with one for each of its pieces, in a row.
+
+    piece, item (c,): whose they are; pair (q,): curves and items in ascending order, as one number; first (q,): the
+    first cell of each; items: how many there are; curve (p,): that of every piece, ascending; begin (p,): the first
+    piece of that curve.
+    """
+
+    piece: Ints
+    item: Ints
+    pair: Ints
+    first: Ints
+    items: int
+    curve: Ints
+    begin: Ints
+
+    @classmethod
+    def of(cls, curve: Ints, tallies: Sequence[Tally]) -> Cells:
+        """Those that tallies of pieces (p,) of curves (p,) say something of."""
+        items = 1 + max((int(tally.item.max(initial=-1)) for tally in tallies), default=-1)
+        pair = np.unique(np.concatenate([curve[tally.row] * items + tally.item for tally in tallies]))
+        of, item = np.divmod(pair, max(items, 1))
+        begin, end = np.searchsorted(curve, of), np.searchsorted(curve, of, side="right")
+        sizes = end - begin
+        return cls(
+            ragged.ranges(begin, sizes),
+            np.repeat(item, sizes),
+            pair,
+            ragged.starts(sizes),
+            items,
+            curve,
+            np.searchsorted(curve, curve),
+        )
+
+    def values(self, tally: Tally) -> Ints:
+        """(c,) the numbers of one of the tallies."""
+        pair = np.searchsorted(self.pair, self.curve[tally.row] * self.items + tally.item)
+        result = np.zeros(len(self.piece), dtype=np.intp)
+        np.add.at(result, self.first[pair] + tally.row - self.begin[tally.row], tally.value)
+        return result
+
 
 ROUNDS = 12
 

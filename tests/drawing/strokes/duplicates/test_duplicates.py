@@ -5,8 +5,8 @@ from hypothesis import strategies as st
 from support.effort import examples
 from support.sample_paths import canonical, farthest_from, length_mm, pieces, samples_of, segments_of
 
-from vectorplot.drawing.strokes.duplicates.duplicates import without_duplicates
-from vectorplot.drawing.strokes.stroke_paths import chosen
+from vectorplot.drawing.duplicates import without_duplicates
+from vectorplot.drawing.strokes import chosen
 
 TOL = 1e-4
 

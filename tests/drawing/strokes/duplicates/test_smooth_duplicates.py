@@ -7,8 +7,8 @@ import numpy as np
 import pytest
 from support.sample_paths import length_mm, polylines
 
-from vectorplot.drawing.strokes.duplicates.smooth_duplicates import without_smooth_duplicates
-from vectorplot.drawing.strokes.stroke_paths import chosen, concatenated
+from vectorplot.drawing.duplicates import without_smooth_duplicates
+from vectorplot.drawing.strokes import chosen, concatenated
 
 TOL = 1e-4
 

@@ -1,8 +1,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.drawing.strokes.pen_order.near_ends import crowd, nearer_than
-from vectorplot.drawing.strokes.pen_order.tour_ends import curves_through
+from vectorplot.drawing.pen_order import crowd, curves_through, nearer_than
 
 COUNT = 2000
 OPPOSITE = np.arange(COUNT) ^ 1

@@ -10,9 +10,9 @@ from hypothesis import strategies as st
 from support.effort import examples, several
 from support.sample_paths import pieces, polylines
 
-from vectorplot.drawing.strokes.pen_order.order import pen_ordered, travel_mm
-from vectorplot.drawing.strokes.stroke_paths import chosen
-from vectorplot.speed.clock import cpu_seconds
+from vectorplot.drawing.pen_order import pen_ordered, travel_mm
+from vectorplot.drawing.strokes import chosen
+from vectorplot.speed.results import cpu_seconds
 
 
 def numbered(paths):
@@ -188,7 +188,7 @@ def test_twenty_thousand_strokes_and_a_few_take_no_time_to_speak_of():
 @pytest.mark.slow
 def test_ordering_does_not_import_scipy():
     code = (
-        "import sys; from vectorplot.drawing.strokes.pen_order.order import pen_ordered;"
+        "import sys; from vectorplot.drawing.pen_order import pen_ordered;"
         "from vectorplot.drawing.drawing import Paths; pen_ordered(Paths.empty()); sys.exit('scipy' in sys.modules)"
     )
     assert subprocess.run([sys.executable, "-c", code], check=False).returncode == 0

@@ -5,9 +5,8 @@ from hypothesis import strategies as st
 from support.effort import examples
 from support.sample_paths import pieces
 
-from vectorplot.drawing.strokes.pen_order import touching
-from vectorplot.drawing.strokes.pen_order.order import pen_ordered, travel_mm
-from vectorplot.drawing.strokes.pen_order.touching import trails
+from vectorplot.drawing import pen_order as touching
+from vectorplot.drawing.pen_order import pen_ordered, trails, travel_mm
 
 
 def ordered_travel(ends):

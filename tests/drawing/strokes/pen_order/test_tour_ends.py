@@ -1,6 +1,6 @@
 import numpy as np
 
-from vectorplot.drawing.strokes.pen_order.tour_ends import curves_through, mutual_nearest
+from vectorplot.drawing.pen_order import curves_through, mutual_nearest
 
 COUNT = 500
 

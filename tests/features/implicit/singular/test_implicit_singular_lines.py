@@ -8,14 +8,13 @@ from functools import cache
 import numpy as np
 import pytest
 
-from vectorplot.features.implicit.implicit_curves import implicit_plane_sections
-from vectorplot.features.implicit.implicit_tracing import ImplicitTracing
-from vectorplot.features.implicit.polygonize import polygonized
-from vectorplot.features.implicit.singular.implicit_singular_lines import SingularLines, singular_lines
-from vectorplot.features.implicit.singular.singular_curves import refined_line
+from vectorplot.features.implicit_curves import implicit_plane_sections, refined_line
+from vectorplot.features.implicit_singular_lines import SingularLines, singular_lines
+from vectorplot.features.implicit_surfaces import polygonized
+from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.geometry.polylines import Polylines
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.scene_slots import Formulas, formula_implicit
 from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.testing.shapes import rotation

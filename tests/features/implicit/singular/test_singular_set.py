@@ -1,14 +1,13 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.facet_demands import Within
+from vectorplot.features.edge_splitting import Within
 from vectorplot.features.facets import facets
-from vectorplot.features.implicit.polygonize import polygonized, settled_mesh
-from vectorplot.features.implicit.singular.implicit_singular_lines import singular_lines
-from vectorplot.features.implicit.singular.singular_set import led_into_lines, led_into_singular_set
-from vectorplot.io.expressions.expression import parse_expression
-from vectorplot.io.scenes.scene_formulas import Formulas, formula_implicit
-from vectorplot.surfaces.implicit_function import ImplicitFunction
+from vectorplot.features.implicit_singular_lines import led_into_lines, led_into_singular_set, singular_lines
+from vectorplot.features.implicit_surfaces import polygonized, settled_mesh
+from vectorplot.io.expressions import parse_expression
+from vectorplot.io.scene_slots import Formulas, formula_implicit
+from vectorplot.surfaces.implicit import ImplicitFunction
 
 BOX = np.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])
 

@@ -9,11 +9,10 @@ import vectorplot as vp
 from vectorplot import Mesh, features, geometry
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features import AsymptoticDirections, PrincipalDirections, mesh_integral_curves
-from vectorplot.features.integral.on_meshes.mesh_flows import FaceFieldFlow
-from vectorplot.features.integral.on_meshes.mesh_sides import mesh_sides
-from vectorplot.features.meshes.mesh_curves import face_triangles
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.features.mesh_integration import FaceFieldFlow, mesh_sides
+from vectorplot.features.mesh_lines import face_triangles
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_integral_curve
 
 CUBE = geometry.box((2, 2, 2))

@@ -6,8 +6,8 @@ from scipy.spatial import cKDTree
 
 from vectorplot import Mesh, features
 from vectorplot.errors import InputError
-from vectorplot.features.integral.on_meshes.mesh_combing import _away
-from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.features.mesh_streamlines import _away
+from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_integral_curve
 from vectorplot.testing.shapes import box
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial import cKDTree
 
-from vectorplot.features.integral.on_meshes.place_cells import PlaceCells
+from vectorplot.features.mesh_streamlines import PlaceCells
 
 
 @pytest.mark.parametrize("reach", [0.05, 0.3, 0.5])

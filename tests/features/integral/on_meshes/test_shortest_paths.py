@@ -7,7 +7,7 @@ from vectorplot import Mesh, features
 from vectorplot.errors import InputError
 from vectorplot.features import mesh_distances, mesh_shortest_paths
 from vectorplot.geometry import Budget
-from vectorplot.surfaces.families.quadric import implicit_sphere
+from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_geodesic
 from vectorplot.testing.shapes import box
 

@@ -5,14 +5,13 @@ import pytest
 
 import vectorplot as vp
 from vectorplot import features, surfaces
-from vectorplot.features.facet_demands import Within
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.edge_splitting import Within
 from vectorplot.features.facets import facets
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.parametric.holes.hole_rims import hole_rims
-from vectorplot.features.parametric.holes.holed_triangles import cut_at_holes
-from vectorplot.features.parametric.holes.holes import beside_rim_chords, into_surface, is_known
-from vectorplot.features.parametric.parameter_lines import domain_borders, u_lines, v_lines
-from vectorplot.testing.curve_points import curves_in_space
+from vectorplot.features.hole_rims import cut_at_holes, hole_rims
+from vectorplot.features.holes import beside_rim_chords, into_surface, is_known
+from vectorplot.features.parameter_curves import domain_borders, u_lines, v_lines
+from vectorplot.testing.curves import curves_in_space
 
 
 def dome(size: float = 1.0, away: float = 0.0):

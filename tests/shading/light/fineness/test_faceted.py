@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.curves.families.circle import Circle
-from vectorplot.features.facet_demands import Within
+from vectorplot.curves.families import Circle
+from vectorplot.features.edge_splitting import Within
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.fineness.faceted import faceted
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.shading.fineness import faceted
+from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
 
 

@@ -9,31 +9,25 @@ import pytest
 import shapely
 from support.line_distances import distances
 
-from vectorplot.accuracy.of_surfaces.painted_facets import outlines
-from vectorplot.accuracy.truth import on_page
+from vectorplot.accuracy.approximation import on_page
+from vectorplot.accuracy.of_surfaces import outlines
+from vectorplot.features.contours import contour
+from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.edge_splitting import LOOKS, NONE, Edges, Vertices
-from vectorplot.features.facets import facets
-from vectorplot.features.parametric.contour import contour
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.features.patch_nets import Patch
-from vectorplot.geometry.cameras.camera import Camera
-from vectorplot.geometry.cameras.unit_projection import projection_of
-from vectorplot.paint import paint
+from vectorplot.features.facets import Patch, facets
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.projections import projection_of
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
-from vectorplot.scene.pages.page import Page
-from vectorplot.scene.placement import allowed_in_space
-from vectorplot.scene.point_of_view import default_camera
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import allowed_in_space, default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.light.fineness.picture_fineness import picture_fineness
-from vectorplot.shading.light.fineness.refinement import SHADE_ERROR
-from vectorplot.shading.light.nearness import Nearby
-from vectorplot.surfaces.families.cyclide import dupin_cyclide
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
-from vectorplot.surfaces.graphs.graph import graph
+from vectorplot.shading.fineness import SHADE_ERROR, Nearby, picture_fineness
+from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
-from vectorplot.tolerances.of_measuring import TRUE_CONTOUR
+from vectorplot.surfaces.tori import ImplicitTorus, Torus, dupin_cyclide
+from vectorplot.tolerances import TRUE_CONTOUR
 
 WAVES = graph(lambda x, y: np.sin(3.0 * x) * np.cos(2.0 * y), Domain(-2.0, 2.0, -2.0, 2.0))
 CLOSED = {

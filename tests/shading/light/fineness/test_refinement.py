@@ -6,8 +6,8 @@ import numpy as np
 import shapely
 
 import vectorplot as vp
-from vectorplot.geometry.bodies.bodies_of_revolution import revolution
 from vectorplot.geometry.regions import polygons_of
+from vectorplot.geometry.solids import revolution
 
 LATITUDE = np.linspace(-np.pi / 2, np.pi / 2, 13)
 BALL = revolution(20.0 * np.column_stack([np.cos(LATITUDE), 0 * LATITUDE, np.sin(LATITUDE)]), 20)

@@ -3,7 +3,7 @@
 import pytest
 
 import vectorplot as vp
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scene_language import parse_scene
 
 CAMERA = vp.Camera((12.0, -6.0, 4.0), (0.0, 0.0, 0.0))
 BALL = "BALL red surface sphere 1\n"

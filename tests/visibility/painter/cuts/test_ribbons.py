@@ -11,18 +11,17 @@ from support.strewn import placed
 
 import vectorplot as vp
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.io.scenes.scene_language import parse_scene
-from vectorplot.io.scenes.scene_writer import write_scene
+from vectorplot.io.scene_language import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
-from vectorplot.testing.curved_meshes import torus_mesh
-from vectorplot.testing.shapes import box, numbered
-from vectorplot.textbook.orders.graph_orders import graph_triangles
-from vectorplot.visibility.painter.cuts.ribbons import in_slices, ribbon_order, ribbons
+from vectorplot.testing.shapes import box, numbered, torus_mesh
+from vectorplot.textbook.orders import graph_triangles
+from vectorplot.visibility.painter.cuts import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces, view_points
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import project_faces

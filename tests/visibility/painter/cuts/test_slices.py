@@ -10,17 +10,15 @@ from support.painted import wrong_points
 from support.strewn import placed
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import look
-from vectorplot.testing.curved_meshes import torus_mesh
-from vectorplot.testing.shapes import box, numbered, scene_of
-from vectorplot.textbook.orders.graph_orders import graph_order, graph_triangles
-from vectorplot.textbook.orders.ring_orders import ring_order, sliced_meridian
-from vectorplot.visibility.painter.cuts.slices import cut_into_slices, eye_coordinate, slice_order, sliced_order
+from vectorplot.testing.shapes import box, numbered, scene_of, torus_mesh
+from vectorplot.textbook.orders import graph_order, graph_triangles, ring_order, sliced_meridian
+from vectorplot.visibility.painter.cuts import cut_into_slices, eye_coordinate, slice_order, sliced_order
 from vectorplot.visibility.painter.image_faces import image_faces, image_points, polygons_of
+from vectorplot.visibility.painter.mikado import Precedence
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.precedence import Precedence
 
 
 def graph_mesh(x, y, heights):

@@ -6,7 +6,7 @@ import shapely
 from support.top_fills import fills_of, top_at
 
 import vectorplot as vp
-from vectorplot.io.scenes.scene_language import parse_scene
+from vectorplot.io.scene_language import parse_scene
 
 FROM_ABOVE = vp.Camera((7.0, 5.0, 3.5), (0.0, 0.0, 0.0))
 PARALLEL = vp.Camera((5.0, -7.0, 2.0), (0.0, 0.0, 0.0), parallel=True)

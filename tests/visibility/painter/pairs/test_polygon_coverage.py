@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.visibility.painter.pairs.polygon_coverage import Covered, coverage
+from vectorplot.visibility.painter.transparent_sheets import Covered, coverage
 
 GRID = 1e-6
 

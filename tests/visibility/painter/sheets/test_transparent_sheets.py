@@ -10,18 +10,18 @@ import shapely
 from support.effort import several
 
 from vectorplot.arrays import Ints
-from vectorplot.backends.page.page_marks import page_marks
+from vectorplot.backends.page import page_marks
 from vectorplot.drawing.fills import FillKind
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.paint import paint
+from vectorplot.pictures.paint import paint
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.families.torus import Torus
+from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
+from vectorplot.surfaces.tori import Torus
 from vectorplot.visibility.painter.image_faces import ImageFaces, polygons_of
-from vectorplot.visibility.painter.sheets.transparent_sheets import in_sheets
+from vectorplot.visibility.painter.transparent_sheets import in_sheets
 
 GLASS = Material("transparent", opacity=0.5)
 WIDTH = 1e-3

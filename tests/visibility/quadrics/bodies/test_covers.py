@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.quadric_bodies.balls import ball_of
-from vectorplot.visibility.quadrics.bodies.covers import ball_covers, disc_boxes
-from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
+from vectorplot.surfaces.capped_bodies import ball_of
+from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
+from vectorplot.visibility.quadrics.bodies import balls_of
+from vectorplot.visibility.quadrics.covers import ball_covers, disc_boxes
 
 
 def balls_at(shapes, camera):

@@ -5,15 +5,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
+from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.quadric_bodies.balls import ball_of, bounds_of_balls
-from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
+from vectorplot.surfaces.quadrics import Cylinder, Ellipsoid, Sphere
+from vectorplot.visibility.quadrics.bodies import balls_of
 
 SHEARED = np.array([[1.0, 0.2, 0.0], [0.0, 0.8, -0.3], [0.4, 0.0, 1.2]])
 SHAPES = [

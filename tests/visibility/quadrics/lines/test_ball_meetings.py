@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.ellipsoid import Ellipsoid, Sphere
-from vectorplot.surfaces.quadric_bodies.balls import ball_of
+from vectorplot.surfaces.capped_bodies import ball_of
+from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
 from vectorplot.testing.shapes import box, prism
-from vectorplot.visibility.quadrics.bodies.seen_balls import balls_of
-from vectorplot.visibility.quadrics.lines.ball_meetings import (
+from vectorplot.visibility.quadrics.bodies import balls_of
+from vectorplot.visibility.quadrics.meetings import (
     are_homothetic,
     balls_with_balls,
     balls_with_faces,

@@ -6,17 +6,16 @@ import numpy as np
 import pytest
 from support.body_rays import body_sight, off_surface, unit_body
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section, SurfaceLines, even_cosines
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.capped import Capped, Frustum
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.capped_bodies import Capped, Frustum
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Sphere
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
 from vectorplot.visibility.quadrics.hidden_arcs import whole_arcs
 from vectorplot.words import LineKind

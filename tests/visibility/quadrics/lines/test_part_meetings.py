@@ -8,13 +8,12 @@ import numpy as np
 import pytest
 from scipy.special import ellipe
 
-from vectorplot.draw import draw
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
+from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.families.capped import Capped, Frustum, rod
-from vectorplot.surfaces.families.cylinder import Cone, Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
+from vectorplot.surfaces.capped_bodies import Capped, Frustum, rod
+from vectorplot.surfaces.quadrics import Cone, Cylinder, Sphere
 
 SEEN_FROM = Camera((8, -9, 6), (0, 0, 0), parallel=True)
 

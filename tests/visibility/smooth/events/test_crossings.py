@@ -9,10 +9,10 @@ import pytest
 from support.smooth_parts import around, ball_from_above, polylines
 
 from vectorplot.geometry.budget import USUAL
-from vectorplot.visibility.smooth.events import crossings as crossings_room
-from vectorplot.visibility.smooth.events.crossings import crossings
-from vectorplot.visibility.smooth.sheets.family import ParameterCurves
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
+from vectorplot.visibility.smooth import crossings as crossings_room
+from vectorplot.visibility.smooth.crossings import crossings
+from vectorplot.visibility.smooth.families import ParameterCurves
+from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.words import LineKind
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from support.smooth_parts import ball_from_above, polylines
 
-from vectorplot.visibility.smooth.events.cubics import Cubics, cubics
+from vectorplot.visibility.smooth.crossings import Cubics, cubics
 
 
 def test_hermites_arc_is_the_cubic_with_these_ends() -> None:

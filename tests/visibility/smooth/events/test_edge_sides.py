@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 from support.smooth_parts import ball_from_above
 
-from vectorplot.visibility.smooth.events.edge_sides import covered_sides, turn
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
+from vectorplot.visibility.smooth.sheets import Sheets
+from vectorplot.visibility.smooth.traced_curves import covered_sides, turn
 from vectorplot.words import LineKind
 
 

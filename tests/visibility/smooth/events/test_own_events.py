@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 from support.smooth_parts import around, ball_from_above, polylines
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
-from vectorplot.visibility.smooth.events.own_events import edge_on_curves, facing_of, own_events
-from vectorplot.visibility.smooth.sheets.family import ParameterCurves
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
-from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.surfaces.tori import Torus
+from vectorplot.visibility.smooth.events import edge_on_curves, facing_of, own_events
+from vectorplot.visibility.smooth.families import ParameterCurves
+from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
+from vectorplot.visibility.smooth.sheets import Sheets
+from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 

@@ -11,11 +11,11 @@ import vectorplot as vp
 from vectorplot.geometry.budget import USUAL
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces import Domain, surface_of_function
-from vectorplot.visibility.smooth.events.piercings import piercings
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.targets import targets_of
-from vectorplot.visibility.smooth.tracing.traced import TracedScene, scene_sheets, traced_scene
-from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.visibility.smooth.piercings import piercings
+from vectorplot.visibility.smooth.rays import targets_of
+from vectorplot.visibility.smooth.sheets import Sheets
+from vectorplot.visibility.smooth.traced import TracedScene, scene_sheets, traced_scene
+from vectorplot.visibility.smooth.traced_curves import Curves
 
 
 def test_a_line_through_a_sphere_goes_in_behind_one_sheet_and_out_behind_none() -> None:

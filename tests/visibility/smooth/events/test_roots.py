@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from support.smooth_parts import polylines
 
-from vectorplot.visibility.smooth.events.roots import roots_along
+from vectorplot.visibility.smooth.events import roots_along
 
 LINE = polylines([(x, 0.0, 0.0) for x in np.linspace(0.0, 4.0, 9)])
 

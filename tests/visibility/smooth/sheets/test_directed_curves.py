@@ -6,9 +6,8 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.surfaces import Domain, Sphere, surface_of_function
-from vectorplot.visibility.smooth.sheets.directed_curves import DirectedCurves
-from vectorplot.visibility.smooth.sheets.family import Chords
-from vectorplot.visibility.smooth.sheets.parametric_sheet import parametric_sheet
+from vectorplot.visibility.smooth.families import Chords, DirectedCurves
+from vectorplot.visibility.smooth.sheets import parametric_sheet
 
 
 def chords(places: Floats, directions: Floats) -> Chords:

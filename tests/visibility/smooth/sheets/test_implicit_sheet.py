@@ -5,15 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.families.quadric import Quadric, implicit_sphere
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.placed_surface import PlacedImplicit
-from vectorplot.visibility.smooth.sheets.implicit_sheet import ImplicitSheet, implicit_sheet, placed_in_view
-from vectorplot.visibility.smooth.tracing.parametric_items import sheets_of_parametrised
+from vectorplot.surfaces.quadrics import Quadric, implicit_sphere
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
+from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
+from vectorplot.visibility.smooth.sheets import ImplicitSheet, implicit_sheet, placed_in_view
 
 CUT = Quadric([1.0, 1.0, 1.0, *[0.0] * 6, -1.0], np.array([[-1.2, -0.7, -1.2], [0.8, 1.2, 0.6]]))
 

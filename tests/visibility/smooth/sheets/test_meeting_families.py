@@ -5,20 +5,18 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.parametric.curve_tracing import Tracing
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.ellipsoid import Sphere
-from vectorplot.surfaces.families.quadric import implicit_sphere
 from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.quadrics import Cylinder, Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.smooth.tracing.meetings import meetings
-from vectorplot.visibility.smooth.tracing.traced import scene_sheets
-from vectorplot.visibility.smooth.tracing.traced_curves import Curves
+from vectorplot.visibility.smooth.meetings import meetings
+from vectorplot.visibility.smooth.traced import scene_sheets
+from vectorplot.visibility.smooth.traced_curves import Curves
 
 CAMERA = Camera((5.0, -7.0, 4.0))
 BLOCK = box((0.3, -0.4, -2.0), (2.0, 1.8, 0.5))

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.features.parametric.holes.holes import just_inside
+from vectorplot.features.holes import just_inside
 from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
 from vectorplot.surfaces.surface import Domain
-from vectorplot.visibility.smooth.sheets.parametric_sheet import ParametricSheet, parametric_sheet
+from vectorplot.visibility.smooth.sheets import ParametricSheet, parametric_sheet
 
 SQUARE = Domain(-1.0, 1.0, -1.0, 1.0)
 SHARE = np.array([-0.7, 0.1, 0.6])

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.surfaces.families.minimal import minimal_spiral_surface
-from vectorplot.surfaces.families.torus import Torus
 from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.minimal import minimal_spiral_surface
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain
-from vectorplot.visibility.smooth.sheets.parametric_sheet import parametric_sheet, parametric_sheets
+from vectorplot.surfaces.tori import Torus
+from vectorplot.visibility.smooth.sheets import parametric_sheet, parametric_sheets
 
 
 @pytest.mark.parametrize("growth", [0.5, 2.0, 4.0])

@@ -5,19 +5,17 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry.cameras.camera import Camera
+from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.rotations import rotation_x
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.view import View, look
-from vectorplot.surfaces.families.cylinder import Cylinder
-from vectorplot.surfaces.families.hyperboloid import Paraboloid
-from vectorplot.surfaces.families.torus import ImplicitTorus, Torus
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.visibility.smooth.sheets.scene_sheets import Sheets
-from vectorplot.visibility.smooth.sheets.surface_sheet import Sheet
-from vectorplot.visibility.smooth.tracing.traced import scene_sheets, traced_scene
+from vectorplot.surfaces.quadrics import Cylinder, Paraboloid
+from vectorplot.surfaces.tori import ImplicitTorus, Torus
+from vectorplot.visibility.smooth.sheets import Sheet, Sheets
+from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 SHAPES = (

@@ -1,1 +1,0 @@
-"""Approximations of curves, on the page and on surfaces."""

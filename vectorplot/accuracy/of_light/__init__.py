@@ -1,1 +1,0 @@
-"""Approximations of shadows and of refraction."""

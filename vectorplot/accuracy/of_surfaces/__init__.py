@@ -1,1 +1,0 @@
-"""Approximations of surfaces by triangles."""

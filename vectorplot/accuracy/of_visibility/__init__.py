@@ -1,1 +1,0 @@
-"""Approximations of what is hidden."""

@@ -1,1 +1,0 @@
-"""Movies as files of polygons: the values, the two files, and what they show."""

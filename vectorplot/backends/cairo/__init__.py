@@ -1,1 +1,0 @@
-"""PostScript, EPS, PDF and PNG, through cairo."""

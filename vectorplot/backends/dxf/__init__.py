@@ -1,1 +1,0 @@
-"""DXF, through ezdxf."""

@@ -1,1 +1,0 @@
-"""Drawings in whole microns on their page: what all backends start from."""

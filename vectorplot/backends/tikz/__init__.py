@@ -1,1 +1,0 @@
-"""Pictures for LaTeX, in PGF/TikZ."""

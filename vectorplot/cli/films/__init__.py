@@ -1,1 +1,0 @@
-"""The commands that make frames, and what they share."""

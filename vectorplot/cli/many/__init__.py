@@ -1,1 +1,0 @@
-"""Options and files of commands that make many pictures."""

@@ -1,1 +1,0 @@
-"""Options for how strokes and hatchings look."""

@@ -1,1 +1,0 @@
-"""Cubic Bézier curves and elliptic arcs through polylines."""

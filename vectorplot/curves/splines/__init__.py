@@ -1,1 +1,0 @@
-"""Splines: curves of polynomial pieces, through points or drawn by them."""

@@ -1,1 +1,0 @@
-"""Letters of single strokes, as a pen writes them."""

@@ -1,1 +1,0 @@
-"""Labels of a scene: which ones a picture shows, their marks, and those that there is room for."""

@@ -1,0 +1,252 @@
+"""Strokes sorted into layers, each drawn with one pen."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.drawing.drawing import Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.layers import (
+    BLACK,
+    FRAME_PEN,
+    KIND_LAYER,
+    PENS,
+    ink,
+    layers_by_colour,
+    layers_by_kind,
+    layers_by_object,
+    layers_of,
+)
+from vectorplot.drawing.pens import (
+    PenRule,
+    Pens,
+    RulesByTarget,
+    Style,
+    check_targets,
+    frame_pen,
+    pen_of,
+    pen_rules,
+    rules_by_target,
+    scaled_pen,
+    style_of_scene,
+)
+from vectorplot.drawing.strokes import concatenated
+from vectorplot.errors import InputError
+from vectorplot.scene.page import Page
+from vectorplot.scene.pens import Inks
+from vectorplot.shading.palettes import palette
+from vectorplot.words import LineKind, check_word, unknown
+
+_HATCH = KIND_LAYER[LineKind.HATCH]
+
+CUT_HATCH = "cut hatch"
+"""The layer of hatches of cuts where other faces are hatched too."""
+
+LAYER_WORDS = ("kind", "object", "colour")
+"""What strokes that share a layer may have in common."""
+
+
+def layer_words(layers: str) -> tuple[str, ...]:
+    """What strokes of a layer have in common: one of LAYER_WORDS, or several with commas between them, each once.
+
+    Errors: InputError for other words.
+    """
+    words = tuple(dict.fromkeys(word.strip() for word in layers.split(",")))
+    for word in words:
+        check_word("layers", word, LAYER_WORDS)
+    return words
+
+
+def line_list(words: str | Iterable[str]) -> tuple[str, ...]:
+    """The words, or those of one text with commas between them."""
+    given = words.split(",") if isinstance(words, str) else words
+    return tuple(word.strip() for word in given if word.strip())
+
+
+def sorted_layers(
+    paths: Paths,
+    items: Sequence[str],
+    colours: Sequence[str],
+    layers: str = "kind",
+    rules: Sequence[PenRule] = (),
+    hatches: Sequence[Layer] = (),
+) -> tuple[Layer, ...]:
+    """The layers of strokes; hidden ones have one of their own.
+
+    items, colours: the name and the colour of every item; layers: as of layer_words; hatches: layers of hatching, which
+    come last; by kind the first of them has its place among the kinds. Where rules give strokes of a layer different
+    pens, it becomes as many as of in_pens.
+    Errors: InputError for rules for items that are not there.
+    """
+    check_targets(rules, items)
+    words = layer_words(layers)
+    if words == ("kind",):
+        return in_pens(_by_kind(paths, hatches), items, rules)
+    if words == ("object",):
+        found = layers_by_object(paths, items)
+    elif words == ("colour",):
+        found = layers_by_colour(paths, colours)
+    else:
+        found = _by_several(paths, items, colours, words)
+    return in_pens((*found, *hatches), items, rules)
+
+
+def _by_kind(paths: Paths, hatches: Sequence[Layer]) -> Sequence[Layer]:
+    """Layers by kind. The first one that hatches has its number among them, whatever else is drawn."""
+    if not hatches:
+        return layers_by_kind(paths)
+    found = layers_by_kind(concatenated((paths, *(strokes for layer in hatches for strokes in layer.strokes))))
+    place = list(PENS).index(_HATCH)
+    own = [one for one in layers_by_kind(paths) if one.name == _HATCH and len(one.strokes[0])]
+    cuts = [replace(one, name=CUT_HATCH) for one in own]
+    return (*found[:place], hatches[0], *found[place + 1 :], *hatches[1:], *cuts)
+
+
+def not_plotted(layers: Sequence[Layer], unplotted: Sequence[str], others: Sequence[str]) -> tuple[Layer, ...]:
+    """The layers, those of these names there to be looked at only, with all their steps of depth.
+
+    others: names that layers may have where there are such lines, beside kinds. Errors: InputError for a name that no
+    layer has or may have.
+    """
+    known = (*(layer.name for layer in layers), *PENS, "frame", "background", *others)
+    for name in unplotted:
+        if name not in known:
+            raise unknown("unplotted", name, tuple(dict.fromkeys(known)))
+    named = {layer.name for layer in layers if layer.name.rpartition(" depth ")[0] in unplotted}.union(unplotted)
+    return tuple(replace(layer, plotted=False) if layer.name in named else layer for layer in layers)
+
+
+def _by_several(paths: Paths, items: Sequence[str], colours: Sequence[str], words: Sequence[str]) -> tuple[Layer, ...]:
+    """A layer for everything that strokes have in common, in the order of the words, and one for hidden strokes."""
+    hues = list(dict.fromkeys(colours))
+    kinds = list(PENS)
+    of_item = np.array([hues.index(colour) for colour in colours], dtype=np.intp)
+    of_kind = np.array([kinds.index(KIND_LAYER[kind]) for kind in LineKind])
+    named = {"kind": kinds, "object": list(items), "colour": hues}
+    numbers = {"kind": of_kind[paths.kind], "object": paths.item, "colour": of_item[paths.item]}
+    key = np.zeros(len(paths), dtype=np.intp)
+    for word in words:
+        key = key * len(named[word]) + numbers[word]
+    shown = paths.hidden_by == 0
+    used, which = np.unique(key[shown], return_inverse=True)
+    layers = []
+    for number in used.tolist():
+        parts = {}
+        for word in reversed(words):
+            number, own = divmod(number, len(named[word]))
+            parts[word] = named[word][own]
+        width = PENS[parts.get("kind", "visible")].width_mm
+        colour = ink(parts["colour"]) if "colour" in parts else BLACK
+        layers.append((" ".join(parts[word] for word in words), Pen(width, colour), True))
+    layer = np.full(len(paths), len(layers))
+    layer[shown] = which
+    return layers_of(paths, layer, [*layers, ("hidden", PENS["hidden"], True)])
+
+
+def in_pens(layers: Sequence[Layer], items: Sequence[str], rules: Sequence[PenRule]) -> tuple[Layer, ...]:
+    """The layers with the pens that rules give their strokes.
+
+    A layer whose strokes have several pens becomes one for each of them: one keeps its name and its number, the others,
+    with what their pens are added to it, come after all layers, in the order of their first strokes.
+    """
+    if not rules:
+        return tuple(layers)
+    said = rules_by_target(rules)
+    parts = [_parted(layer, items, said) for layer in layers]
+    return (*(own for own, _ in parts), *(one for _, others in parts for one in others))
+
+
+def _parted(layer: Layer, items: Sequence[str], rules: RulesByTarget) -> tuple[Layer, list[Layer]]:
+    """The layer, with the strokes of one pen, and those of the other pens of its strokes."""
+    (paths,) = layer.strokes
+    hidden = paths.hidden_by > 0
+    several = max(len(items), 1) * 2
+    key = (paths.kind * 2 + hidden) * several + paths.item
+    used, first, which = np.unique(key, return_index=True, return_inverse=True)
+    pens: dict[Pen, int] = {}
+    number = np.zeros(len(used), dtype=np.intp)
+    for k in np.argsort(first, kind="stable").tolist():
+        at = first[k]
+        pen = pen_of(rules, layer.pen, int(paths.kind[at]), bool(hidden[at]), items[paths.item[at]])
+        number[k] = pens.setdefault(pen, len(pens))
+    if len(pens) < 2:
+        return replace(layer, pen=next(iter(pens), layer.pen)), []
+    main = pens.get(layer.pen, 0)
+    named = [(layer.name if k == main else f"{layer.name} {_told(pen)}", pen, True) for pen, k in pens.items()]
+    found = list(layers_of(paths, number[which.ravel()], named))
+    return found.pop(main), found
+
+
+def _told(pen: Pen) -> str:
+    dashed = " dashed" if pen.dash_mm else ""
+    return f"{pen.width_mm:.3g} {pen.colour}{dashed}"
+
+
+# The pens of lines that lie over painted or shaded faces.
+
+
+@dataclass(frozen=True)
+class OverlaidPens:
+    """Rules of pens, the last one that fits counts, and the colour of the paper that goes with them, if one does."""
+
+    rules: tuple[PenRule, ...]
+    background: str | None
+
+    def layers(self, paths: Paths, items: Sequence[str], width: float | None = None, mm: float = 1.0) -> list[Layer]:
+        """Strokes in layers by kind, with their pens.
+
+        items: the name of every item; width: of all pens where no rule says otherwise, those of the kinds where None;
+        mm: how long a millimetre is in units of the page, in which width is said. Rules for items that are not there
+        have no effect.
+        """
+        found: Sequence[Layer] = layers_by_kind(paths)
+        if width is not None:
+            found = [replace(layer, pen=replace(layer.pen, width_mm=width / mm)) for layer in found]
+        return [replace(layer, pen=scaled_pen(layer.pen, mm)) for layer in in_pens(found, items, self.rules)]
+
+    def letters(self, pen: Pen) -> Pen:
+        """The pen of letters, where rules say nothing the one given."""
+        return pen_of(rules_by_target(self.rules), pen, int(LineKind.LABEL), False, "")
+
+    def border(self, letters: Pen) -> Pen:
+        """The pen of a frame and a title, where that of letters is known."""
+        return frame_pen(self.rules, replace(FRAME_PEN, colour=letters.colour))
+
+
+def overlaid_pens(
+    inks: Inks | None,
+    style: Style | str | None,
+    pens: Pens | None,
+    dashes: str | Mapping[str, str] | Iterable[str] | None,
+) -> OverlaidPens:
+    """The pens that a scene asks for and those that are asked for beside it, which come first.
+
+    A scene's own wireframe has nothing to say where faces are filled.
+    Errors: InputError for unknown styles, what is no pen or dash, and a wireframe that is asked for.
+    """
+    asked = pen_rules(pens, dashes)
+    chosen, own = style_of_scene(inks, style)
+    if chosen.look != "plain":
+        if style is not None:
+            raise InputError(f"the style {chosen.look} shows lines alone: it is for draw")
+        return OverlaidPens(asked, None)
+    return OverlaidPens((*chosen.rules, *own, *asked), chosen.background)
+
+
+# The paper under the lines, and what pens are on a larger one.
+
+
+def sheet_layer(colour: str, page: Page) -> Layer:
+    """A layer, not to be plotted, that is the whole sheet in a colour: of a palette its brightest shade."""
+    sheet = Fills.whole_page(page.width_mm, page.height_mm, palette(colour)[-1])
+    return Layer("background", Pen(), (sheet,), plotted=False)
+
+
+def pen_scale(page: Page) -> float:
+    """How many times larger than A4 a page is, in length."""
+    a4 = Page()
+    return math.hypot(page.width_mm, page.height_mm) / math.hypot(a4.width_mm, a4.height_mm)

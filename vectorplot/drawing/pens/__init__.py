@@ -1,1 +1,0 @@
-"""What draws lines: pens by kind and by item, and styles."""

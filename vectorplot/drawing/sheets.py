@@ -1,0 +1,568 @@
+"""Several drawings on one sheet of paper."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import chain
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.drawing.dashes import CHAIN_MM, dashed
+from vectorplot.drawing.drawing import NO_CURVE, CurvedStrokes, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.letters import Lettering, lettered
+from vectorplot.drawing.texts import Texts
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import page_of
+from vectorplot.scene.scene import Scene
+from vectorplot.words import LineKind
+
+NO_ITEM = -1
+
+Mark = Paths | CurvedStrokes | Fills | Texts
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedDrawing:
+    """A drawing on a sheet: where its lower left corner is, in mm, and how many times larger it is there."""
+
+    drawing: Drawing
+    x_mm: float
+    y_mm: float
+    scale: float
+
+
+@dataclass(frozen=True, eq=False)
+class Sheet:
+    """A sheet of paper with drawings on it.
+
+    Parameters
+    ----------
+    page : Page or str
+        Or its name or size, such as "A3", "A3 landscape" or "200x150".
+    title : str
+        What it shows.
+    drawings : tuple of PlacedDrawing
+        What is on it, in drawing order; place adds to them.
+
+    Raises
+    ------
+    InputError
+        For a page that is none.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> one = vp.draw(triangle, "top", page="60x60")
+    >>> sheet = vp.Sheet("A5 landscape").place(one, 10, 10).place(one, 110, 10, scale=1.5)
+    >>> sheet.drawing()
+    <Drawing '': 210x148 mm, marks: contour 2>
+    """
+
+    page: Page | str = "A4"
+    title: str = ""
+    drawings: tuple[PlacedDrawing, ...] = ()
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "page", page_of(self.page, Scene(())))
+
+    def place(self, drawing: Drawing, x_mm: float, y_mm: float, scale: float = 1.0) -> Sheet:
+        """The sheet with one more drawing on it.
+
+        Parameters
+        ----------
+        drawing : Drawing
+            What is put on top of the others.
+        x_mm, y_mm : float
+            Where the lower left corner of its page goes, from that of the sheet.
+        scale : float
+            How many times larger it is there.
+
+        Returns
+        -------
+        Sheet
+            A new one.
+
+        Raises
+        ------
+        InputError
+            For places that are not finite, and a scale that is not finite and positive.
+
+        Notes
+        -----
+        Nothing is cut off at the edges of either page.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> empty = vp.draw([], page="40x40")
+        >>> len(vp.Sheet("A4").place(empty, 20, 30).place(empty, 80, 30).drawings)
+        2
+        """
+        if not (math.isfinite(x_mm) and math.isfinite(y_mm)):
+            raise InputError(f"a drawing at {x_mm:g}, {y_mm:g} mm: not a place on a sheet")
+        if not 0.0 < scale < math.inf:
+            raise InputError(f"a drawing {scale:g} times larger: expected a number that is finite and positive")
+        return replace(self, drawings=(*self.drawings, PlacedDrawing(drawing, x_mm, y_mm, scale)))
+
+    def drawing(self) -> Drawing:
+        """All of the sheet as one drawing.
+
+        Returns
+        -------
+        Drawing
+            Layers of one name and pen are one, where the first of them is, and there are no empty ones; items of one
+            name are one. Strokes, curves and fills are those of the drawings, moved and scaled, pens as wide as they
+            were; points3d are those of the world still, and page_from_world is the identity, as the drawings need not
+            look at the world alike.
+
+        Notes
+        -----
+        A layer lies below the next one in all drawings: so these lie beside each other, or the lower ones do not show
+        fills of later layers.
+        """
+        names = tuple(dict.fromkeys(name for placed in self.drawings for name in placed.drawing.items))
+        number = {name: index for index, name in enumerate(names)}
+        merged: dict[tuple[str, Pen, bool], list[Mark]] = {}
+        curves = 0
+        for placed in self.drawings:
+            of_item = np.array([*(number[name] for name in placed.drawing.items), NO_ITEM], dtype=np.intp)
+            taken = curves
+            for layer in placed.drawing.layers:
+                marks = merged.setdefault((layer.name, layer.pen, layer.plotted), [])
+                moved = (moved_mark(mark, placed.scale, np.array([placed.x_mm, placed.y_mm])) for mark in layer.marks)
+                marks.extend(_renumbered(mark, of_item, taken) for mark in moved)
+                curves = max((curves, *(taken + int(paths.curve.max(initial=-1)) + 1 for paths in layer.strokes)))
+        drawn = {key: tuple(mark for mark in marks if len(mark)) for key, marks in merged.items()}
+        layers = tuple(Layer(name, pen, marks, plotted) for (name, pen, plotted), marks in drawn.items() if marks)
+        page = page_of(self.page, Scene(()))
+        return Drawing(page.width_mm, page.height_mm, layers, names, self.title)
+
+
+def moved_mark(mark: Mark, scale: float, by: Floats) -> Mark:
+    """A mark scale times larger about the lower left corner of its page, and then moved by (2,) mm."""
+    if isinstance(mark, Texts):
+        points = scale * mark.points + by
+        return replace(mark, points=points, size_mm=scale * mark.size_mm, room_mm=scale * mark.room_mm)
+    if isinstance(mark, Fills):
+        return replace(mark, points=scale * mark.points + by)
+    if isinstance(mark, Paths):
+        return _moved_paths(mark, scale, by)
+    beziers = replace(mark.beziers, control=scale * mark.beziers.control + by, error=scale * mark.beziers.error)
+    arcs = replace(
+        mark.arcs,
+        centre=scale * mark.arcs.centre + by,
+        first=scale * mark.arcs.first,
+        second=scale * mark.arcs.second,
+    )
+    return CurvedStrokes(_moved_paths(mark.paths, scale, by), beziers, arcs)
+
+
+def _moved_paths(paths: Paths, scale: float, by: Floats) -> Paths:
+    return replace(paths, points=scale * paths.points + by, handles=scale * paths.handles)
+
+
+def _renumbered(mark: Mark, of_item: Ints, curves: int) -> Mark:
+    """A mark with new numbers (n+1,) of its items, the last one that of none, and of its curves, so many more."""
+    if isinstance(mark, Texts):
+        return mark
+    if isinstance(mark, Fills):
+        return replace(mark, item=of_item[mark.item])
+    if isinstance(mark, Paths):
+        return _renumbered_paths(mark, of_item, curves)
+    return replace(mark, paths=_renumbered_paths(mark.paths, of_item, curves))
+
+
+def _renumbered_paths(paths: Paths, of_item: Ints, curves: int) -> Paths:
+    curve = np.where(paths.curve < 0, paths.curve, paths.curve + curves)
+    return replace(paths, item=of_item[paths.item], curve=curve)
+
+
+# Drawings side by side in rows.
+
+
+def contact_sheet(
+    drawings: Sequence[Drawing],
+    page: Page | str = "A4",
+    *,
+    columns: int | None = None,
+    gap_mm: float = 5.0,
+    title: str = "",
+) -> Drawing:
+    """Drawings in rows from the upper left, each as large as its cell allows, in the middle of it.
+
+    Parameters
+    ----------
+    drawings : sequence of Drawing
+        In reading order.
+    page : Page or str
+        The sheet, as of Sheet; its margin stays empty.
+    columns : int, optional
+        How many stand side by side; where None, as many as make the smallest of them the largest.
+    gap_mm : float
+        Between cells.
+    title : str
+        What it shows.
+
+    Returns
+    -------
+    Drawing
+        As of Sheet.drawing.
+
+    Raises
+    ------
+    InputError
+        For a page that is none, or has no room for so many; for no columns; for a gap that is negative or not finite.
+
+    Notes
+    -----
+    Degenerate: without drawings the sheet is empty.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
+    >>> views = [vp.draw(triangle, view, page="80x60") for view in ("top", "iso", "bottom")]
+    >>> vp.contact_sheet(views, "A4").width_mm
+    210.0
+    """
+    sheet = Sheet(page, title)
+    if columns is not None and columns < 1:
+        raise InputError(f"a contact sheet in {columns} columns: expected one or more")
+    if not 0.0 <= gap_mm < math.inf:
+        raise InputError(f"a gap of {gap_mm:g} mm: expected a length that is finite and not negative")
+    if not drawings:
+        return sheet.drawing()
+    paper, count = page_of(sheet.page, Scene(())), len(drawings)
+    size = np.array([(drawing.width_mm, drawing.height_mm) for drawing in drawings])
+    inside = np.array([paper.width_mm, paper.height_mm]) - 2.0 * paper.margin_mm
+    tried = np.arange(1, count + 1) if columns is None else np.array([columns])
+    cells = np.stack([tried, -(-count // tried)], axis=1)
+    rooms = (inside - (cells - 1) * gap_mm) / cells
+    best = int((rooms[:, None] / size).min(axis=(1, 2)).argmax())
+    room, wide = rooms[best], int(tried[best])
+    if not (room > 0.0).all():
+        raise InputError(f"page {paper.width_mm:g}x{paper.height_mm:g} mm: no room for {count} drawings")
+    scale = (room / size).min(axis=1)
+    row, column = np.divmod(np.arange(count), wide)
+    middle = np.stack([column + 0.5, cells[best, 1] - row - 0.5], axis=1) * room
+    corner = paper.margin_mm + middle + np.stack([column, cells[best, 1] - 1 - row], axis=1) * gap_mm
+    corner -= 0.5 * scale[:, None] * size
+    for drawing, (x, y), factor in zip(drawings, corner.tolist(), scale.tolist(), strict=True):
+        sheet = sheet.place(drawing, x, y, factor)
+    return sheet.drawing()
+
+
+# Strokes that belong to the sheet and to nothing in the world: frames, title blocks, marks, letters.
+
+
+def page_strokes(lines: Sequence[Floats], rings: Sequence[Floats] = ()) -> Paths:
+    """Open and closed polylines on the page, in mm; their points in the world are those of the page at height 0."""
+    every = [*rings, *lines]
+    points = np.array([*chain(*every)]).reshape(-1, 2)
+    count = len(every)
+    return Paths(
+        points,
+        ragged.offsets([len(line) for line in every]),
+        np.arange(count) < len(rings),
+        np.full(count, int(LineKind.LABEL)),
+        np.full(count, NO_ITEM),
+        np.zeros(count, dtype=np.intp),
+        np.column_stack([points, np.zeros(len(points))]),
+        curve=np.full(count, NO_CURVE),
+    )
+
+
+def rectangle(left: float, low: float, right: float, top: float) -> Floats:
+    """(4,2) its corners, counter-clockwise."""
+    return np.array([(left, low), (right, low), (right, top), (left, top)])
+
+
+# The frame of a technical drawing: the border of the drawing space, centring marks, and zones along it.
+#
+# Source: ISO 5457, clauses 4.2 to 4.4.
+
+FRAME, RULES = Pen(0.7), Pen(0.35)
+"""What draws the border and the centring marks, and what the zones."""
+
+FILING_MM = 10.0
+"""So much wider than the others is the left margin inside a frame: there is where a sheet is filed."""
+
+BAND_MM = 5.0
+"""The width of the zones around the border, and half of the length of centring marks."""
+
+ZONE_MM = 50.0
+"""The length of a zone, counted from the middle of the sheet; what is left at the ends is longer or shorter."""
+
+SHORTEST_ZONE = 0.25
+"""What is left at an end is a zone of its own where it is no shorter, as a part of a whole one."""
+
+LETTERS_MM = 3.5
+"""The height of the names of zones."""
+
+LETTERS = "ABCDEFGHJKLMNPQRSTUVWXYZ"
+"""The names of zones from the top down, without I and O, which look like figures."""
+
+
+def drawing_space(page: Page, framed: bool) -> Floats:
+    """(2,2) the lower left and the upper right corner of what a drawing may fill: the page but for its margin."""
+    margin = page.margin_mm
+    left = margin + (FILING_MM if framed else 0.0)
+    return np.array([(left, margin), (page.width_mm - margin, page.height_mm - margin)])
+
+
+def frame_layers(page: Page) -> tuple[Layer, ...]:
+    """Layers with the border, its marks and its zones: frame, rules and label.
+
+    Errors: InputError for a margin too narrow for the zones.
+    """
+    if not page.margin_mm >= BAND_MM:
+        raise InputError(f"a frame needs a margin of {BAND_MM:g} mm or more, got {page.margin_mm:g} mm")
+    (left, low), (right, top) = drawing_space(page, True).tolist()
+    if not (left < right and low < top):
+        raise InputError(f"page {page.width_mm:g}x{page.height_mm:g} mm: no room for a frame")
+    middle = (0.5 * page.width_mm, 0.5 * page.height_mm)
+    marks = [np.array([(middle[0], y - BAND_MM), (middle[0], y + BAND_MM)]) for y in (low, top)] + [
+        np.array([(x - BAND_MM, middle[1]), (x + BAND_MM, middle[1])]) for x in (left, right)
+    ]
+    rules, letters = [], []
+    for axis, (begin, end) in enumerate(((left, right), (low, top))):
+        ends = _zones(begin, end, middle[axis])
+        between = (0.5 * (ends[1:] + ends[:-1])).tolist()
+        across = (low, top) if axis == 0 else (left, right)
+        for side, line in zip((-1.0, 1.0), across, strict=True):
+            rules += [_along(axis, [(at, line), (at, line + side * BAND_MM)]) for at in ends[1:-1].tolist()]
+            for number, at in enumerate(between):
+                name = str(number + 1) if axis == 0 else LETTERS[(len(between) - 1 - number) % len(LETTERS)]
+                ((x, y),) = _along(axis, [(at, line + 0.5 * side * BAND_MM)]).tolist()
+                text = lettered(name, (x, y), size_mm=LETTERS_MM, align="centre", level="middle")
+                letters += [text.strokes[k] for k in range(len(text.strokes))]
+    outer = rectangle(left - BAND_MM, low - BAND_MM, right + BAND_MM, top + BAND_MM)
+    return (
+        Layer("rules", RULES, (page_strokes(rules, [outer]),)),
+        Layer("frame", FRAME, (page_strokes(marks, [rectangle(left, low, right, top)]),)),
+        Layer("label", PENS["label"], (page_strokes(letters),)),
+    )
+
+
+def _zones(begin: float, end: float, middle: float) -> Floats:
+    """Where zones end along one side, from one end of it to the other."""
+    before, behind = (max(math.ceil((half / ZONE_MM) - SHORTEST_ZONE), 1) for half in (middle - begin, end - middle))
+    inside = middle + ZONE_MM * np.arange(1 - before, behind)
+    return np.array([begin, *inside.tolist(), end])
+
+
+def _along(axis: int, points: list[tuple[float, float]]) -> Floats:
+    """Points given along an axis and across it."""
+    return np.array(points)[:, :: 1 if axis == 0 else -1]
+
+
+# Scales of technical drawings: lengths on paper to lengths of the thing.
+
+
+@dataclass(frozen=True)
+class DrawingScale:
+    """How many mm on paper show how many units of the world, as in 1:2.
+
+    Parameters
+    ----------
+    paper, world : float
+        Of 1:2 these are 1 and 2.
+
+    Raises
+    ------
+    InputError
+        By `of`, for a text that says no scale.
+
+    Examples
+    --------
+    >>> from vectorplot.drawing import DrawingScale
+    >>> half = DrawingScale.of("1:2")
+    >>> str(half), half.factor
+    ('1:2', 0.5)
+    """
+
+    paper: float
+    world: float
+
+    @property
+    def factor(self) -> float:
+        """Mm on paper for a unit of the world."""
+        return self.paper / self.world
+
+    def __str__(self) -> str:
+        return f"{_figures(self.paper)}:{_figures(self.world)}"
+
+    @classmethod
+    def of(cls, text: str) -> DrawingScale:
+        """The scale that a text such as 1:2 or 5:1 says. Errors: InputError for another text, and numbers that are not
+        finite and positive."""
+        sides = re.fullmatch(r"\s*([^:]+):([^:]+)", str(text))
+        try:
+            paper, world = (float(side) for side in sides.groups()) if sides else (math.nan, math.nan)
+        except ValueError:
+            paper = world = math.nan
+        if not (0.0 < paper < math.inf and 0.0 < world < math.inf and 0.0 < paper / world < math.inf):
+            raise InputError(f"scale {text!r}: expected two numbers such as 1:2")
+        return cls(paper, world)
+
+    @classmethod
+    def largest_standard(cls, factor: float) -> DrawingScale:
+        """The largest standard scale with a factor no larger than one that is finite and positive.
+
+        Source: ISO 5455, table 1 and clause 5: 1, 2 and 5 times powers of ten, beyond the table too.
+        """
+        power = math.floor(math.log10(factor))
+        steps = [(digit, exponent) for exponent in (power - 1, power, power + 1) for digit in (1, 2, 5)]
+        scales = [_standard(digit, exponent) for digit, exponent in steps]
+        return max((scale for scale in scales if scale.factor <= factor), key=lambda scale: scale.factor)
+
+
+def _standard(digit: int, exponent: int) -> DrawingScale:
+    if exponent >= 0:
+        return DrawingScale(digit * 10.0**exponent, 1.0)
+    return DrawingScale(1.0, 10.0**-exponent / digit)
+
+
+def _figures(number: float) -> str:
+    return str(int(number)) if number.is_integer() else repr(number)
+
+
+# The title block of a technical drawing.
+#
+# Source: ISO 7200 (fields), ISO 5456-2 (the symbols of the projection methods).
+
+BLOCK_MM = (150.0, 30.0)
+"""Width and height of a title block; it is narrower where there is less room."""
+
+ROWS_MM = (9.0, 9.0, 12.0)
+"""The heights of its rows, from below."""
+
+SYMBOL = 0.2
+"""What part of the width the symbol of the projection method has, at the right of the two lower rows."""
+
+CAPTIONS_MM = 1.8
+"""The height of the capitals of the names of fields, the smallest of ISO 3098."""
+
+BLOCK_LETTERS_MM = (3.5, 3.5, 5.0)
+"""The height of capitals in each row."""
+
+INSET_MM = 2.0
+"""From the sides of a cell to its letters."""
+
+FEET_MM = (1.5, 1.5, 2.2)
+"""From the bottoms of the cells of each row to their letters."""
+
+CAPTION_MM = 1.2
+"""From the top of a cell to its name."""
+
+SYMBOL_MM = 7.0
+"""The larger diameter of the frustum of the symbol; the smaller one is half of it, its length as much as the larger."""
+
+THIN = Pen(0.25)
+
+
+@dataclass(frozen=True)
+class TitleBlock:
+    """What a title block says.
+
+    Parameters
+    ----------
+    title, author, date, sheet : str
+        As given; sheet: the number of the sheet, such as 1/2.
+    scale, size : str
+        Of the drawing and of its paper.
+    angle : {"first", "third"}
+        The projection method, which is said by its symbol.
+    """
+
+    title: str
+    author: str
+    date: str
+    sheet: str
+    scale: str
+    size: str
+    angle: str
+
+    def layers(self, space: Floats) -> tuple[Layer, ...]:
+        """Layers with the block in the lower right corner of the drawing space (2,2): frame, rules, thin and label.
+
+        Errors: InputError for a character without strokes, and for words that have no room.
+        """
+        right, low = float(space[1, 0]), float(space[0, 1])
+        left = max(right - BLOCK_MM[0], float(space[0, 0]))
+        rows = (low + np.cumsum([0.0, *ROWS_MM])).tolist()
+        symbol = right - SYMBOL * (right - left)
+        third, two = (symbol - left) / 3.0, 0.64 * (symbol - left)
+        cells = [
+            *(("SCALE", self.scale, 0, left, left + third), ("SIZE", self.size, 0, left + third, left + 2.0 * third)),
+            ("SHEET", self.sheet, 0, left + 2.0 * third, symbol),
+            *(("DRAWN BY", self.author, 1, left, left + two), ("DATE", self.date, 1, left + two, symbol)),
+            ("TITLE", self.title, 2, left, right),
+        ]
+        rules = [_line(left, y, end, y) for y, end in ((rows[1], symbol), (rows[2], right))]
+        rules += [_line(x, rows[row], x, rows[row + 1]) for _, _, row, x, _ in cells if x > left]
+        rules.append(_line(symbol, rows[0], symbol, rows[2]))
+        letters = []
+        for caption, text, row, begin, end in cells:
+            name = lettered(caption, (begin + INSET_MM, rows[row + 1] - CAPTION_MM - CAPTIONS_MM), size_mm=CAPTIONS_MM)
+            letters += [name, _written(text, begin, end, rows[row] + FEET_MM[row], BLOCK_LETTERS_MM[row])]
+        strokes = [text.strokes[k] for text in letters for k in range(len(text.strokes))]
+        outlines, circles, chains = _symbol(0.5 * (symbol + right), 0.5 * (rows[0] + rows[2]), self.angle == "first")
+        return (
+            Layer("rules", RULES, (page_strokes(rules), page_strokes([], [*outlines, *circles]))),
+            Layer("frame", FRAME, (page_strokes([], [rectangle(left, low, right, rows[3])]),)),
+            Layer("thin", THIN, (dashed(page_strokes(chains), *CHAIN_MM[:2], dot_mm=CHAIN_MM[2]),)),
+            Layer("label", PENS["label"], (page_strokes(strokes),)),
+        )
+
+    def layers_titled_if_possible(self, space: Floats) -> tuple[Layer, ...]:
+        """The same, without the title where that cannot be written there."""
+        try:
+            return self.layers(space)
+        except InputError:
+            return replace(self, title="").layers(space)
+
+
+def _line(x: float, y: float, to_x: float, to_y: float) -> Floats:
+    return np.array([(x, y), (to_x, to_y)])
+
+
+def _written(text: str, left: float, right: float, foot: float, size: float) -> Lettering:
+    """A text at the left of a cell, in letters of a size, or of a smaller one that fits."""
+    room = right - left - 2.0 * INSET_MM
+    try:
+        width = float(np.ptp(lettered(text, size_mm=size).bounds, axis=0)[0])
+    except InputError as error:
+        raise InputError(f"title block: {error.cause}") from None
+    fitting = size if width <= room else size * room / width
+    if fitting < CAPTIONS_MM:
+        raise InputError(f"title block: no room for {text!r}")
+    return lettered(text, (left + INSET_MM, foot), size_mm=fitting)
+
+
+def _symbol(x: float, y: float, first: bool) -> tuple[list[Floats], list[Floats], list[Floats]]:
+    """The outline of a frustum, its circles, and their centre lines, about a point.
+
+    One looks at the frustum from the left, where it is smaller: that view is at the right in first angle projection.
+    """
+    size = SYMBOL_MM
+    side = x - 0.75 * size if first else x + 0.75 * size
+    round_ = x + 0.75 * size if first else x - 0.75 * size
+    half = 0.5 * size
+    trapezoid = np.array([(side - half, y - 0.5 * half), (side + half, y - half), (side + half, y + half)])
+    trapezoid = np.vstack([trapezoid, (side - half, y + 0.5 * half)])
+    turn = np.linspace(0.0, 2.0 * np.pi, 64, endpoint=False)
+    circle = np.column_stack([np.cos(turn), np.sin(turn)])
+    circles = [np.array([round_, y]) + radius * circle for radius in (0.5 * half, half)]
+    beyond = half + 1.5
+    centre = [_line(middle - beyond, y, middle + beyond, y) for middle in (side, round_)]
+    return [trapezoid], circles, [*centre, _line(round_, y - beyond, round_, y + beyond)]

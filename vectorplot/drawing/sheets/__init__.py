@@ -1,1 +1,0 @@
-"""Sheets of paper with several drawings on them, their frames and title blocks."""

@@ -1,1 +1,0 @@
-"""From visible pieces to what a pen draws."""

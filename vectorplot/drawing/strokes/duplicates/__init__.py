@@ -1,1 +1,0 @@
-"""Lines that lie on each other: drawn once, and of one kind."""

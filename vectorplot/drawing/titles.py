@@ -1,0 +1,143 @@
+"""The title of a page, and the frame around it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.drawing.dashes import dashed
+from vectorplot.drawing.drawing import Layer, Pen
+from vectorplot.drawing.labels import LETTERS, Letters, label_paths
+from vectorplot.drawing.letters import DESCENT, LINES_APART, Lettering, broken_at_blanks
+from vectorplot.drawing.sheets import moved_mark
+from vectorplot.drawing.strokes import concatenated, split_long
+from vectorplot.drawing.text_along import grown, outside_boxes
+from vectorplot.errors import InputError
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import Placement
+
+SIZES_MM = (5.0, 2.5)
+"""The height of the capitals of titles: as large as fits the margin and the width of the page, between these."""
+
+PART = 0.9
+"""How much of the width of the page letters take at most: wider ones are made smaller, or set in several lines."""
+
+BESIDE = 1.5
+"""From the letters of a title to the frame beside them, in heights of capitals."""
+
+EDGE_MM = 0.5
+"""Letters of a title keep away from the edge of the page so far."""
+
+
+def with_title(
+    layers: tuple[Layer, ...],
+    placement: Placement,
+    title: str,
+    frame: bool,
+    pen: Pen,
+    longest_mm: float | None,
+    text: str = "strokes",
+) -> tuple[Layer, ...]:
+    """The layers of a drawing, and one with its title and a frame, if these are wanted.
+
+    The frame runs in the middle of the margin; the title stands in the middle of the lower margin, in several lines
+    where one is too wide, and the frame ends before it. pen: of both, the frame with its dashes; longest_mm: longer
+    strokes leave in parts; text: a word of LETTERS.
+    Errors: InputError for a character without strokes, a title that the margin has no room for, and a frame on a page
+    without a margin.
+    """
+    page = placement.page
+    if frame and not page.margin_mm > 0.0:
+        raise InputError("a frame needs a margin to run in")
+    set_ = _title(LETTERS[text], title, page.width_mm, page.margin_mm)
+    world = placement.page_from_world
+    border = label_paths([_ring(page.width_mm, page.height_mm, 0.5 * page.margin_mm)] if frame else [], 0, placement)
+    letters = label_paths([set_.strokes[k] for k in range(len(set_.strokes))], 0, placement)
+    if len(set_.boxes):
+        border = outside_boxes(border, grown(set_.boxes, BESIDE * float(np.ptp(set_.bounds, axis=0)[1])), world)
+    if pen.dash_mm is not None and any(pen.dash_mm):
+        border = dashed(border, *pen.dash_mm, world)
+    border = border if longest_mm is None else split_long(border, longest_mm, world)
+    strokes = concatenated((border, letters))
+    marks = (strokes, set_.texts) if len(set_.texts) else (strokes,)
+    return (*layers, Layer("frame", pen, marks))
+
+
+def room_for_title(title: str, width_mm: float) -> float:
+    """The margin in mm that a title needs on a page of such a width, in the smallest letters that titles have.
+
+    Degenerate: a word that is wider than the page needs what a line of its own does.
+    Errors: InputError for a character without strokes.
+    """
+    return _height(_lines(LETTERS["strokes"], title, PART * width_mm))
+
+
+def _title(letters: Letters, title: str, width: float, margin: float) -> Lettering:
+    largest, smallest = float(np.clip(0.6 * margin, SIZES_MM[1], SIZES_MM[0])), SIZES_MM[1]
+
+    def set_in(text: str, size: float) -> Lettering:
+        return letters.plain(text, (0.5 * width, 0.5 * margin), size_mm=size, align="centre", level="middle")
+
+    try:
+        lines, text = [title], set_in(title, largest)
+        size = largest * PART * width / max(_wide(text), PART * width)
+        if smallest <= size < largest:
+            text = set_in(title, size)
+        elif size < smallest:
+            lines = _lines(letters, title, PART * width)
+            text = set_in("\n".join(lines), smallest)
+    except InputError as error:
+        raise InputError(f"title: {error.cause}") from None
+    if _wide(text) > width:
+        raise InputError("the title is wider than the page")
+    if len(lines) > 1 and _height(lines) > margin:
+        raise InputError(f"the title takes {len(lines)} lines: a margin of {margin:g} mm has no room for them")
+    # Letters may reach below a narrow margin.
+    return text.moved(np.array([0.0, max(EDGE_MM - float(text.bounds[0, 1]), 0.0)]))
+
+
+def _lines(letters: Letters, title: str, width: float) -> list[str]:
+    """The title in lines as wide as that, in the smallest letters, parted at blanks."""
+    return broken_at_blanks(title, lambda longer: _wide(letters.plain(longer, size_mm=SIZES_MM[1])) <= width).split(
+        "\n"
+    )
+
+
+def _height(lines: Sequence[str]) -> float:
+    """What lines of the smallest letters take of a margin in mm, with what letters reach below them."""
+    return SIZES_MM[1] * (1.0 + (len(lines) - 1) * LINES_APART + 2.0 * DESCENT)
+
+
+def _wide(text: Lettering) -> float:
+    return float(np.ptp(text.bounds, axis=0)[0])
+
+
+def _ring(width: float, height: float, inset: float) -> Floats:
+    """(6,2) the corners of the page, drawn in, between the middle of the lower side twice: where a title cuts it."""
+    right, top, middle = width - inset, height - inset, 0.5 * width
+    return np.array([(middle, inset), (right, inset), (right, top), (inset, top), (inset, inset), (middle, inset)])
+
+
+# Sheets that are cut to their picture, its labels among it.
+
+
+def with_room(layers: tuple[Layer, ...], placement: Placement, boxes: Floats) -> tuple[tuple[Layer, ...], Placement]:
+    """The layers of a drawing on a sheet that has its margin around boxes (b,4,2) too, and their place there.
+
+    A sheet that has that already stays.
+    """
+    page = placement.page
+    corners = np.concatenate([boxes.reshape(-1, 2), np.zeros((0, 2))])
+    margin, size = page.margin_mm, np.array([page.width_mm, page.height_mm])
+    low = np.minimum(corners.min(axis=0, initial=np.inf) - margin, 0.0)
+    high = np.maximum(corners.max(axis=0, initial=-np.inf) + margin, size)
+    if (low == 0.0).all() and (high == size).all():
+        return layers, placement
+    width, height = (high - low).tolist()
+    moved = tuple(replace(layer, marks=tuple(moved_mark(mark, 1.0, -low) for mark in layer.marks)) for layer in layers)
+    matrix = placement.page_from_image.copy()
+    matrix[:2] -= low[:, None] * matrix[2]
+    return moved, replace(placement, page=Page(width, height, margin), page_from_image=matrix)

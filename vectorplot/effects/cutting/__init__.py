@@ -1,1 +1,0 @@
-"""Scenes that are cut, with the faces that show, hatched."""

@@ -1,0 +1,493 @@
+"""Polygons that lie on faces: shadows, patterns and what else is painted right after the face it lies on."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.drawing.fills import FillKind
+from vectorplot.features.mesh_lines import face_frames
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.convex_polygons import convex_faces
+from vectorplot.geometry.mesh import next_positions
+from vectorplot.geometry.polygon_cuts import clipped_by_convex
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some, with_points
+from vectorplot.geometry.records import IN_COLUMNS
+from vectorplot.geometry.regions import corners_of, polygons_of, triangles_of, unions, without_holes, without_splinters
+from vectorplot.scene.item import Item
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.visibility.painter.image_faces import image_points
+from vectorplot.visibility.projected_faces import newell
+
+
+@dataclass(frozen=True, eq=False)
+class Decals:
+    """Polygons on faces of a View, painted right after the face they lie on.
+
+    Parameters
+    ----------
+    points : (3, c) array of float
+        In the view's coordinates, on the planes of their faces.
+    offsets : (m+1,) array of int
+        Decal k has the points offsets[k] to offsets[k+1], simple, its turn that of the face.
+    face : (m,) array of int
+        The face of the view it lies on.
+    kind : (m,) array of int
+        FillKind values.
+    grade : (m,) array of int
+        How many lights it lacks (0 for decals that are no shadows).
+    light : (m,) array of int
+        Which light of the scene, -1 for several or none.
+    colour : (m,) array of int
+        Index into colours, or -1: the face's own.
+    level : (m,) array of int
+        The order on one face, smaller first, equal ones in any order.
+    colours : tuple of str
+        Names of palettes and colours.
+    lacking : (m,) array of int, optional
+        The lights that do not get there at all, bit k for light k; as far as light says where None.
+    opacity : (m,) array of float, optional
+        How much of the face they cover; all of it where None.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import effects
+    >>> from vectorplot.scene import look
+    >>> def square(side, height):
+    ...     corners = [(-side, -side, height), (side, -side, height), (side, side, height), (-side, side, height)]
+    ...     return vp.Mesh.from_polygons(corners, [(0, 1, 2, 3)])
+    >>> scene = vp.Scene((vp.Item("floor", square(4, 0)), vp.Item("roof", square(1, 1))))
+    >>> shadows = effects.shadow_decals(look(scene, vp.Camera.view("top")), [vp.Light((1, 0, 2), parallel=True)])
+    >>> shadows
+    <Decals: 1 polygons on 1 faces>
+    >>> shadows.light.tolist(), shadows.lights_lacking.tolist()
+    ([0], [1])
+    """
+
+    points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
+    offsets: Ints
+    face: Ints = field(metadata=EACH_LINE)
+    kind: Ints = field(metadata=EACH_LINE)
+    grade: Ints = field(metadata=EACH_LINE)
+    light: Ints = field(metadata=EACH_LINE)
+    colour: Ints = field(metadata=EACH_LINE)
+    level: Ints = field(metadata=EACH_LINE)
+    colours: tuple[str, ...] = ()
+    lacking: Ints | None = field(default=None, metadata=EACH_LINE)
+    opacity: Floats | None = field(default=None, metadata=EACH_LINE)
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __repr__(self) -> str:
+        return f"<Decals: {len(self)} polygons on {len(np.unique(self.face))} faces>"
+
+    def of(self, decals: Ints) -> Decals:
+        """Some of the decals, in the order asked for.
+
+        Parameters
+        ----------
+        decals : (k,) array of int
+            Their numbers.
+
+        Returns
+        -------
+        Decals
+            k polygons.
+        """
+        return some(self, decals)
+
+    def parts(self, decals: Ints, points: Floats, offsets: Ints) -> Decals:
+        """Polygons each of which is a part of one of the decals.
+
+        Parameters
+        ----------
+        decals : (k,) array of int
+            Of which decal each is a part.
+        points : (3, c) array of float
+            Their corners, in the view's coordinates.
+        offsets : (k+1,) array of int
+            Polygon i has the points offsets[i] to offsets[i+1].
+
+        Returns
+        -------
+        Decals
+            With all else as of the decals they are parts of.
+        """
+        # Not through of: each of many parts of a decal would have all its corners first.
+        anywhere = np.zeros(points.shape[1], dtype=np.intp)
+        return replace(with_points(self, anywhere, decals, offsets), points=points)
+
+    @property
+    def lights_lacking(self) -> Ints:
+        """(m,) the lights that do not get there, bit k for light k."""
+        if self.lacking is not None:
+            return self.lacking
+        return np.where(self.light >= 0, np.left_shift(1, np.maximum(self.light, 0)), 0)
+
+    @property
+    def opacities(self) -> Floats:
+        """(m,) how much of the face each covers, 0 to 1."""
+        return np.ones(len(self)) if self.opacity is None else self.opacity
+
+    @property
+    def painting_order(self) -> Ints:
+        """(m,) the decals by faces, and on each face by level, otherwise as they are."""
+        return np.lexsort((self.level, self.face))
+
+
+def no_decals() -> Decals:
+    """No decals at all."""
+    none = np.zeros(0, dtype=np.intp)
+    return Decals(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none, none, none, none, none)
+
+
+def joined_decals(*decals: Decals) -> Decals:
+    """All decals one after the other; colours of the same name become one."""
+    if not decals:
+        return no_decals()
+    colours = tuple(dict.fromkeys(name for d in decals for name in d.colours))
+    number = {name: k for k, name in enumerate(colours)}
+    renamed = [np.array([*(number[name] for name in d.colours), -1], dtype=np.intp)[d.colour] for d in decals]
+    return joined(
+        [
+            replace(d, colour=colour, colours=colours, lacking=d.lights_lacking, opacity=d.opacities)
+            for d, colour in zip(decals, renamed, strict=True)
+        ]
+    )
+
+
+# Faces as planes of their own, in which regions on them can be united and cut.
+
+
+@dataclass(frozen=True, eq=False)
+class FaceFrames:
+    """Frames of faces (n,), in any order: origin (3,n) a corner of each; along, left (3,n) unit vectors across its
+    normal, so that what turns left in its plane is wound as the face."""
+
+    origin: Floats
+    along: Floats
+    left: Floats
+
+    @classmethod
+    def of(cls, view: View, face: Ints) -> FaceFrames:
+        """The frames of faces of a view, which have an area."""
+        normal, _, first = newell(view, face)
+        normal /= np.sqrt((normal * normal).sum(axis=0))
+        axis = np.eye(3)[:, np.argmin(np.abs(normal), axis=0)]
+        along = np.cross(axis, normal, axis=0)
+        along /= np.sqrt((along * along).sum(axis=0))
+        return cls(view.points[:, first], along, np.cross(normal, along, axis=0))
+
+    def flat(self, points: Floats, owner: Ints) -> Floats:
+        """(2,c) points (3,c) of the view in the frames owner (c,)."""
+        arm = points - self.origin[:, owner]
+        return np.stack([(arm * self.along[:, owner]).sum(axis=0), (arm * self.left[:, owner]).sum(axis=0)])
+
+    def lifted(self, flat: Floats, owner: Ints) -> Floats:
+        """(3,c) points of the view, of points (2,c) of the frames owner (c,)."""
+        x, y = flat
+        return np.asarray(self.origin[:, owner] + x * self.along[:, owner] + y * self.left[:, owner])
+
+
+# Decals in convex parts: what is shaded from corner to corner has to be convex.
+
+
+def convex_decals(view: View, decals: Decals, chosen: Bools) -> Decals:
+    """The decals, those on chosen faces (f,) that are not convex cut into triangles."""
+    which = np.flatnonzero(chosen[decals.face] & (np.diff(decals.offsets) > 3))
+    if not len(which):
+        return decals
+    some = decals.of(which)
+    frames = FaceFrames.of(view, some.face)
+    owner = ragged.owner(np.diff(some.offsets))
+    flat = frames.flat(some.points, owner)
+    bent = np.flatnonzero(_bent(flat, some.offsets, view.tolerance))
+    if not len(bent):
+        return decals
+    polygons = polygons_of(flat, some.offsets)[bent]
+    parts, of = triangles_of(polygons)
+    corners, offsets = corners_of(parts)
+    of = bent[of]
+    cut = some.parts(of, frames.lifted(corners, np.repeat(of, np.diff(offsets))), offsets)
+    rest = np.ones(len(decals), dtype=np.bool_)
+    rest[which[bent]] = False
+    return joined_decals(decals.of(np.flatnonzero(rest)), cut)
+
+
+def _bent(flat: Floats, offsets: Ints, tolerance: float) -> Bools:
+    """(m,) polygons (2,c) that turn both ways."""
+    along = flat[:, next_positions(offsets, np.arange(flat.shape[1]))] - flat
+    after = along[:, next_positions(offsets, np.arange(flat.shape[1]))]
+    turn = along[0] * after[1] - along[1] * after[0]
+    slack = tolerance * (np.hypot(*along) + np.hypot(*after))
+    left, right = (np.logical_or.reduceat(way, offsets[:-1]) for way in (turn > slack, turn < -slack))
+    return np.asarray(left & right, dtype=np.bool_)
+
+
+# Patterns: coloured polygons on faces, and what shadows make of them.
+
+
+def pattern_decals(scene: Scene, view: View) -> Decals:
+    """The patterns of all items as convex polygons on the faces of the view, cut off at the borders of their faces.
+
+    Those of one face lie on each other in the order of the file: levels 0, 1, ... Patterns on faces that are not
+    present, and those wholly beside their face, are left out.
+    Errors: InputError for a pattern on a face that is not there, or has no area.
+    Degenerate: patterns without area are left out; one that crosses itself is reported by an InputWarning.
+    Source: Glaeser, section 6.5, figures 9 and 10; erratum G6-09.
+    """
+    parts = [_item_patterns(view, number, item) for number, item in enumerate(scene.items) if item.patterns]
+    return joined_decals(*(part for part in parts if len(part)))
+
+
+def _item_patterns(view: View, number: int, item: Item) -> Decals:
+    mesh, patterns = item.mesh, item.patterns
+    owner = np.array([pattern.face for pattern in patterns], dtype=np.intp)
+    offsets = ragged.offsets([len(pattern.points) for pattern in patterns])
+    flat = np.concatenate([pattern.points for pattern in patterns]).T / view.scale
+    flat, offsets, source = _convex_parts(flat, offsets, view.tolerance)
+    origin, along, left = face_frames(mesh, owner)
+    frame = np.stack([view.points_of(origin), matmul(view.axes, along.T), matmul(view.axes, left.T)])
+    faces, face_source = _faces_of(view, number, item)
+    # Every part against every face of the view that is its face, or a piece of it.
+    order = np.argsort(face_source, kind="stable")
+    first, last = (np.searchsorted(face_source[order], owner[source], side=side) for side in ("left", "right"))
+    part = ragged.owner(last - first)
+    step = ragged.place(last - first)
+    face = faces[order[first[part] + step]]
+    points, ends, which = _clipped_in_frame(view, flat, offsets, part, face, frame[:, :, source])
+    chosen = source[part[which]]
+    colours = tuple(dict.fromkeys(pattern.colour for pattern in patterns))
+    colour = np.array([colours.index(pattern.colour) for pattern in patterns], dtype=np.intp)
+    zero = np.zeros(len(which), dtype=np.intp)
+    return Decals(points, ends, face[which], zero + FillKind.PATTERN, zero, zero - 1, colour[chosen], chosen, colours)
+
+
+def _convex_parts(flat: Floats, offsets: Ints, tolerance: float) -> tuple[Floats, Ints, Ints]:
+    """Polygons (2,c) cut into convex ones, all turned counter-clockwise: points, offsets, and the polygon of each."""
+    sizes = np.diff(offsets)
+    some = np.flatnonzero(sizes >= 3)
+    position, starts = ragged.take(offsets, some)
+    raised = np.concatenate([flat[:, position], np.zeros((1, len(position)))])
+    cut = convex_faces(raised, np.arange(len(position)), starts, tolerance)
+    points = raised[:2, cut.corners]
+    after = points[:, ragged.following(cut.offsets)]
+    first = np.repeat(cut.offsets[:-1], np.diff(cut.offsets))
+    arm, beyond = points - points[:, first], after - points[:, first]
+    area = np.add.reduceat(arm[0] * beyond[1] - arm[1] * beyond[0], cut.offsets[:-1]) if len(first) else np.zeros(0)
+    full = np.flatnonzero(area)
+    position, ends = ragged.take(cut.offsets, full)
+    turned = np.repeat(area[full] < 0.0, np.diff(ends))
+    backwards = np.repeat(cut.offsets[full] + cut.offsets[full + 1] - 1, np.diff(ends)) - position
+    return points[:, np.where(turned, backwards, position)], ends, some[cut.source[full]]
+
+
+def _faces_of(view: View, number: int, item: Item) -> tuple[Ints, Ints]:
+    """The faces of the view that an item has, and the face of its mesh that each one is (a piece of)."""
+    mesh = item.mesh
+    here = np.arange(mesh.face_count) if mesh.present is None else np.flatnonzero(mesh.present)
+    position, offsets = ragged.take(mesh.offsets, here)
+    low, high = view.item_vertices[number : number + 2]
+    pieces = convex_faces(view.points[:, low:high], mesh.corners[position], offsets, view.tolerance)
+    return np.flatnonzero(view.face_item == number), here[pieces.source]
+
+
+def _clipped_in_frame(
+    view: View, flat: Floats, offsets: Ints, part: Ints, face: Ints, frame: Floats
+) -> tuple[Floats, Ints, Ints]:
+    """Parts (2,c) in the frames (3,3,n), axes first, of their faces, clipped by faces of the view: points (3,c') of the
+    view, offsets, and which pair of part and face each polygon comes from."""
+    position, starts = ragged.take(offsets, part)
+    corner, borders = ragged.take(view.offsets, face)
+    origin, along, left = (np.repeat(row, np.diff(borders), axis=1) for row in frame[:, :, part])
+    arm = view.points[:, view.corners[corner]] - origin
+    border = np.stack([(arm * along).sum(axis=0), (arm * left).sum(axis=0)])
+    cut, ends, which = clipped_by_convex(flat[:, position], starts, border, borders, tolerance=view.tolerance)
+    origin, along, left = (np.repeat(row, np.diff(ends), axis=1) for row in frame[:, :, part[which]])
+    return origin + cut[0] * along + cut[1] * left, ends, which
+
+
+def patterns_in_shadows(view: View, patterns: Decals, shadows: Decals, dark: Bools, lights: int) -> Decals:
+    """The patterns, and on them their parts in the shadow, which lack as many lights as the shadow does.
+
+    dark (f,): faces that turn away from all lights; on these all patterns are dark, and lack all of the lights.
+    Levels begin above those of the shadows: first comes a whole pattern, then its parts in shadows of grade 1, 2, ...,
+    then the next pattern.
+    Source: Glaeser, section 6.5.
+    """
+    if not len(patterns):
+        return patterns
+    grades = int(shadows.grade.max(initial=0)) + 1
+    ground = int(shadows.level.max(initial=-1)) + 1
+    whole = Decals(
+        patterns.points,
+        patterns.offsets,
+        patterns.face,
+        patterns.kind,
+        np.where(dark[patterns.face], lights, patterns.grade),
+        patterns.light,
+        patterns.colour,
+        ground + patterns.level * grades,
+        patterns.colours,
+        np.where(dark[patterns.face], (1 << lights) - 1, 0),
+    )
+    return joined_decals(whole, in_shadows(view, whole, shadows))
+
+
+def in_shadows(view: View, patterns: Decals, shadows: Decals) -> Decals:
+    """The parts of patterns that lie in shadows, in the level of their pattern plus the grade of the shadow; lacking
+    says which lights they lack. Parts of what light falls on by way of mirrors keep their light."""
+    shadow = np.flatnonzero(shadows.kind == FillKind.SHADOW)
+    shadow = shadow[np.argsort(shadows.face[shadow], kind="stable")]
+    faces = shadows.face[shadow]
+    first, last = (np.searchsorted(faces, patterns.face, side=side) for side in ("left", "right"))
+    pattern = ragged.owner(last - first)
+    if not len(pattern):
+        return no_decals()
+    step = ragged.place(last - first)
+    shade = shadow[first[pattern] + step]
+    flat = _flattened(view, patterns)[:, ragged.take(patterns.offsets, pattern)[0]]
+    borders = ragged.offsets(np.diff(patterns.offsets)[pattern])
+    position, starts = ragged.take(shadows.offsets, shade)
+    laid = np.concatenate([_flattened(view, shadows), shadows.points])[:, position]
+    cut, ends, which = clipped_by_convex(laid, starts, flat, borders, tolerance=view.tolerance)
+    pattern, shade = pattern[which], shade[which]
+    return Decals(
+        np.ascontiguousarray(cut[2:]),
+        ends,
+        patterns.face[pattern],
+        patterns.kind[pattern],
+        shadows.grade[shade],
+        np.where(patterns.kind[pattern] == FillKind.LIGHT, patterns.light[pattern], shadows.light[shade]),
+        patterns.colour[pattern],
+        patterns.level[pattern] + shadows.grade[shade],
+        patterns.colours,
+        None if shadows.lacking is None else shadows.lacking[shade],
+    )
+
+
+def _flattened(view: View, decals: Decals) -> Floats:
+    """(2,c) the two coordinates of the corners of decals in which their faces appear largest."""
+    normal, _, _ = newell(view, decals.face)
+    largest = np.repeat(np.abs(normal).argmax(axis=0), np.diff(decals.offsets))
+    corner = np.arange(decals.points.shape[1])
+    return np.stack([decals.points[(largest + 1) % 3, corner], decals.points[(largest + 2) % 3, corner]])
+
+
+# Decals on what is painted of their faces.
+
+
+@dataclass(frozen=True, eq=False)
+class Laid:
+    """Parts of decals in the image: points (3,c), as of ImageFaces; offsets (n+1,); decal (n,) which decal each part is
+    of; piece (n,) the painted polygon that it lies on, ascending, and for each the decals in the order of painting."""
+
+    points: Floats
+    offsets: Ints
+    decal: Ints
+    piece: Ints
+
+    def __len__(self) -> int:
+        return len(self.decal)
+
+
+def laid(view: View, decals: Decals, points: Floats, offsets: Ints, source: Ints) -> Laid:
+    """Decals clipped with the painted polygons that are their faces, or parts of these.
+
+    points (2 or more, c), offsets (p+1,) and source (p,): convex polygons of the image and their faces in the view, as
+    of Painted.faces; or doubles in a mirror, with mirrored decals.
+    """
+    shape, offset, which = _in_front(view, decals)
+    order = np.argsort(source, kind="stable")
+    first, last = (np.searchsorted(source[order], decals.face[which], side=side) for side in ("left", "right"))
+    pair = ragged.owner(last - first)
+    step = ragged.place(last - first)
+    piece = order[first[pair] + step]
+    corner, starts = ragged.take(offset, pair)
+    border, borders = ragged.take(offsets, piece)
+    cut, ends, kept = clipped_by_convex(
+        image_points(view, shape[:, corner]), starts, points[:2, border], borders, tolerance=view.tolerance
+    )
+    decal, piece = which[pair[kept]], piece[kept]
+    order = np.lexsort((decal, decals.level[decal], piece))
+    position, ends = ragged.take(ends, order)
+    return Laid(cut[:, position], ends, decal[order], piece[order])
+
+
+def _in_front(view: View, decals: Decals) -> tuple[Floats, Ints, Ints]:
+    """The decals cut off at the near plane: points, offsets, and which decal each one is."""
+    if view.eye is None or not len(decals):
+        return decals.points, decals.offsets, np.arange(len(decals))
+    beyond = view.depth_of(decals.points) - view.near
+    if not (beyond < 0.0).any():
+        return decals.points, decals.offsets, np.arange(len(decals))
+    cut, _ = cut_polygons(Polygons(decals.points.T, decals.offsets), beyond)
+    full = np.flatnonzero(np.diff(cut.offsets))
+    return np.ascontiguousarray(cut.points.T), np.append(cut.offsets[full], len(cut.points)), full
+
+
+# Decals that overlap, united: for what cannot be painted over, as on plotters and in transparent layers.
+
+
+def united_decals(view: View, decals: Decals) -> Decals:
+    """The decals with those of each face that are alike (kind, lights, colour, level) as one region, cut into simple
+    polygons where it has holes.
+
+    Regions move by less than a few tolerances. Degenerate: regions narrower than a few tolerances are left out.
+    """
+    if not len(decals):
+        return decals
+    frames = FaceFrames.of(view, decals.face)
+    region, leader = _regions(decals, frames, view.tolerance)
+    return _listed(decals, frames, region, leader, view.tolerance)
+
+
+def disjoint_decals(view: View, decals: Decals) -> Decals:
+    """The same, each without what decals of higher levels on its face cover."""
+    import shapely
+
+    if not len(decals):
+        return decals
+    frames = FaceFrames.of(view, decals.face)
+    region, leader = _regions(decals, frames, view.tolerance)
+    faces, face = np.unique(decals.face[leader], return_inverse=True)
+    level = decals.level[leader]
+    above: Any = np.full(len(faces), shapely.Polygon(), dtype=object)
+    for height in np.unique(level)[::-1].tolist():
+        here = np.flatnonzero(level == height)
+        own = region[here]
+        region[here] = shapely.difference(own, above[face[here]], grid_size=view.tolerance)
+        covered, of = np.unique(face[here], return_inverse=True)
+        number = np.concatenate([of, np.arange(len(covered))])
+        above[covered] = unions(np.concatenate([own, above[covered]]), number, view.tolerance)
+    return _listed(decals, frames, region, leader, view.tolerance)
+
+
+def _regions(decals: Decals, frames: FaceFrames, tolerance: float) -> tuple[Any, Ints]:
+    """The union of the decals that are alike, in the frames of their faces, and for each the first of its decals."""
+    import shapely
+
+    sizes = np.diff(decals.offsets)
+    owner = ragged.owner(sizes)
+    rings = shapely.linearrings(frames.flat(decals.points, owner).T, indices=owner)
+    columns = (decals.face, decals.kind, decals.level, decals.lights_lacking, decals.light, decals.colour)
+    _, leader, group = np.unique(
+        np.stack([*columns, decals.opacities], axis=1), axis=0, return_index=True, return_inverse=True
+    )
+    return unions(shapely.polygons(rings), group, tolerance), leader
+
+
+def _listed(decals: Decals, frames: FaceFrames, region: Any, leader: Ints, tolerance: float) -> Decals:
+    """Regions, in the frames of the decals that lead them, as decals without holes."""
+    parts, of = without_splinters(region, tolerance)
+    parts, of = without_holes(parts, leader[of])
+    flat, offsets = corners_of(parts)
+    return decals.parts(of, frames.lifted(flat, np.repeat(of, np.diff(offsets))), offsets)

@@ -1,1 +1,0 @@
-"""Polygons that lie on faces."""

@@ -1,1 +1,0 @@
-"""What is seen through refracting bodies."""

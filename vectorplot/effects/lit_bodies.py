@@ -1,0 +1,331 @@
+"""Outlines that closed bodies have in a light: of the faces that they turn to it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.effects.shadow_casters import Casters, FacePlanes, LightSystem, Receivers, turned_to_light
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.columns import cross
+from vectorplot.geometry.mesh import next_positions
+from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
+from vectorplot.geometry.regions import POLYGON, polygons_of, unions
+from vectorplot.scene.view import View
+
+LEAST_COSINE = 0.1
+"""Of the angle between the rays through a body's middle and through its corners: images of what is seen at a wider one
+are too large to be measured."""
+
+HALF = 0.5
+"""Rays meet all of the lit faces of a body once if these are as large, in the image of the light, as what is inside the
+outline, give or take this part: what they meet twice counts two times."""
+
+
+def directions(view: View, system: LightSystem, vertex: Ints) -> Floats:
+    """(3,n) vertices, seen from a light that has a place."""
+    points = view.points[:, vertex]
+    return points if system.parallel else points - system.position[:, None]
+
+
+def axes_towards(view: View, system: LightSystem, face: Ints, body: Ints, count: int) -> Floats:
+    """(3,3,k) right, up and away from the light, one behind the other, of an image of each body."""
+    if system.parallel:
+        return np.repeat(system.axes[0][:, :, None], count, axis=2)
+    first = directions(view, system, view.corners[view.offsets[face]])
+    away = np.stack([np.bincount(body, row, minlength=count) for row in first])
+    away = away / np.sqrt((away * away).sum(axis=0))
+    least = np.argmin(np.abs(away), axis=0)
+    right = cross(np.eye(3)[:, least], away)
+    right /= np.sqrt((right * right).sum(axis=0))
+    return np.stack([right, cross(away, right), away])
+
+
+def narrow(view: View, system: LightSystem, face: Ints) -> Bools:
+    """(n,) the faces of items all faces of which, among these, are seen at angles whose images are not too large."""
+    if system.parallel:
+        return np.ones(len(face), dtype=np.bool_)
+    item, body = np.unique(view.face_item[face], return_inverse=True)
+    axes = axes_towards(view, system, face, body, len(item))
+    position, offsets = ragged.take(view.offsets, face)
+    points, of = directions(view, system, view.corners[position]), np.repeat(body, np.diff(offsets))
+    wide = (axes[2][:, of] * points).sum(axis=0) < LEAST_COSINE * np.sqrt((points * points).sum(axis=0))
+    return np.asarray(np.bincount(of, wide, minlength=len(item))[body] == 0.0)
+
+
+def reach(view: View, system: LightSystem, face: Ints, body: Ints) -> Floats:
+    """(k,) the greatest distances of corners of the faces of bodies, as of Depths."""
+    position, offsets = ragged.take(view.offsets, face)
+    points = directions(view, system, view.corners[position])
+    distance = -(matmul(system.position, points)) if system.parallel else np.sqrt((points * points).sum(axis=0))
+    starts = offsets[np.flatnonzero(np.diff(body, prepend=-1))] if len(face) else offsets[:0]
+    return np.asarray(np.maximum.reduceat(distance, starts) if len(starts) else distance)
+
+
+def outlines(view: View, face: Ints, body: Ints) -> tuple[Ints, Ints, Ints]:
+    """(s,) first and last vertices of the sides of faces of bodies (n,) that are not sides of others of these, with the
+    face on their left, and of which body each is."""
+    position, offsets = ragged.take(view.offsets, face)
+    start, end = view.corners[position], view.corners[view.after(position)]
+    low, high = np.minimum(start, end), np.maximum(start, end)
+    order = np.lexsort((high, low))
+    low, high, forth = low[order], high[order], np.where(start < end, 1, -1)[order]
+    begins = np.flatnonzero((np.diff(low, prepend=-1) != 0) | (np.diff(high, prepend=-1) != 0))
+    more = np.add.reduceat(forth, begins) if len(begins) else forth
+    # A side that is there more often one way than the other is a border as often.
+    often = np.repeat(np.arange(len(begins)), np.abs(more))
+    side = begins[often]
+    turned = more[often] < 0
+    of = np.repeat(body, np.diff(offsets))[order[side]]
+    return np.where(turned, high[side], low[side]), np.where(turned, low[side], high[side]), of
+
+
+def image_of(view: View, system: LightSystem, axes: Floats, vertex: Ints, of: Ints) -> Floats:
+    """(2,n) vertices in the images of the bodies that they are of."""
+    points = directions(view, system, vertex)
+    right, up, away = (axes[:, :, of] * points).sum(axis=1)
+    flat = np.stack([right, up])
+    return flat if system.parallel else flat / away
+
+
+def hulls(points: Floats, of: Ints, count: int) -> tuple[Any, Floats, Ints]:
+    """The convex hulls of the points (2,n) of each body, and their corners (2,c) counter-clockwise, first (k+1,)."""
+    import shapely
+
+    order = np.argsort(of, kind="stable")
+    hull = shapely.convex_hull(shapely.multipoints(points.T[order], indices=of[order], out=np.full(count, None)))
+    filled = shapely.get_type_id(hull) == POLYGON
+    hull = np.where(filled, hull, shapely.Polygon())
+    corners, owner = shapely.get_coordinates(shapely.orient_polygons(hull), return_index=True)
+    # The last corner is the first one once more.
+    inner = np.diff(owner, append=-1) == 0
+    return hull, corners[inner].T, ragged.offsets(np.bincount(owner[inner], minlength=count))
+
+
+def meets_once(ends: Floats, of: Ints, hull: Any, slack: Floats) -> Bools:
+    """(k,) whether outlines with sides from ends (2,2,s), of bodies (s,), run once around every point of the hulls that
+    is not within the slack (k,) of the border."""
+    import shapely
+
+    border, area = shapely.boundary(hull), shapely.area(hull)
+    # How far inside the hull a point is, is concave along a side: at most twice as far as in its middle.
+    deep = np.zeros(len(hull))
+    for point, times in zip((*ends, ends.mean(axis=0)), (1.0, 1.0, 2.0), strict=True):
+        np.maximum.at(deep, of, times * shapely.distance(shapely.points(point.T), border[of]))
+    around = 0.5 * np.abs(np.bincount(of, _crossed(ends), minlength=len(hull)))
+    wide = area > 2.0 * slack * shapely.length(border)
+    return np.asarray(wide & (deep <= slack) & (np.abs(around - area) <= HALF * area), dtype=np.bool_)
+
+
+def covered(ends: Floats, of: Ints, count: int, tolerance: float) -> Any:
+    """(k,) the regions that outlines with sides from ends (2,2,s), of bodies (s,), run around, once or more: all that
+    the faces of the bodies cover. tolerance: in the image.
+
+    Degenerate: what is narrower than a few tolerances may be missing; a body without an outline covers nothing.
+    """
+    import shapely
+
+    order = np.argsort(of, kind="stable")
+    ends, of = ends[:, :, order], of[order]
+    sides = shapely.linestrings(ends.transpose(2, 0, 1))
+    lines = shapely.multilinestrings(sides, indices=of, out=np.full(count, None))
+    cells = shapely.polygonize(shapely.union_all(lines[:, None], axis=1, grid_size=tolerance)[:, None])
+    cell, body = shapely.get_parts(cells, return_index=True)
+    inner = shapely.get_coordinates(shapely.point_on_surface(cell)).T
+    turned = np.sign(np.bincount(of, _crossed(ends), minlength=count))
+    full = np.flatnonzero(_runs_around(inner, body, ends, of, count) * turned[body] > 0)
+    regions = np.full(count, shapely.Polygon(), dtype=np.object_)
+    filled, group = np.unique(body[full], return_inverse=True)
+    if len(filled):
+        regions[filled] = unions(cell[full], group, tolerance)
+    return regions
+
+
+def _crossed(ends: Floats) -> Floats:
+    """(s,) twice the areas of the triangles of the origin and sides (2,2,s)."""
+    (x, y), (u, v) = ends
+    return np.asarray(x * v - y * u)
+
+
+def _runs_around(points: Floats, of_point: Ints, ends: Floats, of: Ints, count: int) -> Ints:
+    """(n,) how often outlines with sides (2,2,s), of bodies (s,), ascending, run around points (2,n) of these."""
+    side, offsets = ragged.take(ragged.offsets(np.bincount(of, minlength=count)), of_point)
+    (x, y), (u, v) = ends[:, :, side]
+    a, b = np.repeat(points, np.diff(offsets), axis=1)
+    upwards, downwards = (y <= b) & (v > b), (v <= b) & (y > b)
+    left = (u - x) * (b - y) - (v - y) * (a - x)
+    owner = ragged.owner(np.diff(offsets))
+    found = np.bincount(owner, (upwards & (left > 0.0)).astype(np.float64), minlength=len(of_point))
+    found -= np.bincount(owner, (downwards & (left < 0.0)).astype(np.float64), minlength=len(of_point))
+    return found.astype(np.intp)
+
+
+# Bodies that keep light from what lies beyond them as a whole: by their outlines, not face by face.
+
+GOLDEN = (5.0**0.5 - 1.0) / 2.0
+"""Multiples of the golden section, without whole turns, never come near each other: so planes are put in order."""
+
+
+@dataclass(frozen=True, eq=False)
+class LitBodies:
+    """Closed bodies, and what a light sees of them.
+
+    A ray that meets a face turned to the light enters the body there: as often as the outline of these faces runs
+    around the ray. What lies beyond the body is dark where that is once or more. Where the outline keeps near the
+    border of its convex hull, and runs around it once, the body is convex for the light: it never shadows its own lit
+    faces, and all that lies beyond it in the cone of rays through the hull is dark.
+
+    casters: those cones, with the faces of these bodies that are lit; number (i,): which body an item is, -1 for none;
+    item (k,): the items; convex (k,): whether for the light; regions (k,): what the others cover in its image, nothing
+    where it has several; depths: how far away bodies and faces are.
+    """
+
+    view: View
+    system: LightSystem
+    casters: Casters
+    number: Ints
+    item: Ints
+    convex: Bools
+    regions: Any
+    depths: Depths
+
+    def settle(self, item: Ints, face: Ints) -> Bools:
+        """(n,) of pairs of items and faces those for which the shadow of the item is that of its cone, or none: the
+        face is one of its own, or lies beyond it."""
+        body = self.number[item]
+        result = np.zeros(len(item), dtype=np.bool_)
+        known = np.flatnonzero(body >= 0)
+        known = known[self.convex[body[known]]]
+        body, face = body[known], face[known]
+        result[known] = (self.view.face_item[face] == item[known]) | self.depths.beyond(body, face)
+        return result
+
+    def within(self, receivers: Receivers) -> Ints:
+        """(n,) the receivers all of which is in the shadow of another item that is not convex for the light."""
+        import shapely
+
+        filled = np.flatnonzero(~shapely.is_empty(self.regions))
+        if not len(filled) or not len(receivers.face):
+            return np.zeros(0, dtype=np.intp)
+        points = receivers.points if self.system.parallel else receivers.points - self.system.position[:, None]
+        x, y, away = matmul(self.system.axes[0], points)
+        flat = np.stack([x, y]) if self.system.parallel else np.stack([x, y]) / away
+        tree = shapely.STRtree(polygons_of(flat, receivers.offsets))
+        body, receiver = tree.query(self.regions[filled], predicate="contains")
+        body, face = filled[body], receivers.face[receiver]
+        others = self.view.face_item[face] != self.item[body]
+        return np.unique(receiver[others & self.depths.beyond(body, face)])
+
+
+@dataclass(frozen=True, eq=False)
+class Depths:
+    """How far away k bodies and the faces of a view are, from a light or along its rays.
+
+    far (k,): the greatest distances of lit corners; near (f,): the least ones of faces, or less; box (2,3,k): smallest
+    and largest coordinates along the world's axes; ball (4,k): middles and radii of balls around bodies; lit_side
+    (4,f): the planes of the faces, with normals to the side of the light.
+    """
+
+    view: View
+    far: Floats
+    near: Floats
+    box: Floats
+    ball: Floats
+    lit_side: Floats
+
+    def beyond(self, body: Ints, face: Ints) -> Bools:
+        """(n,) of pairs of bodies and faces those in which every ray that meets both comes to the body first: the face
+        is farther away than all of it, or the body lies on the lit side of the face."""
+        tolerance = self.view.tolerance
+        result = self.near[face] >= self.far[body] - tolerance
+        a, b, c, d = self.lit_side[:, face]
+        x, y, z, radius = self.ball[:, body]
+        result |= a * x + b * y + c * z - radius >= d - tolerance
+        normal = matmul(self.view.axes.T, self.lit_side[:3, face])
+        lowest = np.where(normal > 0.0, self.box[0][:, body], self.box[1][:, body])
+        result |= (lowest * normal).sum(axis=0) >= d - tolerance
+        return np.asarray(result, dtype=np.bool_)
+
+
+def lit_bodies(
+    view: View, planes: FacePlanes, system: LightSystem, facing: Ints, items: Bools, off: Floats
+) -> LitBodies:
+    """The bodies among items (i,) for a light.
+
+    off (i,): how far the faces of an item may be off the surface that they stand for: so far the outline may be off its
+    hull. The corners of convex bodies are on them, and so is the hull.
+    Source: Glaeser, section 6.3, figure 5 (convex bodies and their outlines).
+    """
+    _, turned = turned_to_light(view, planes, system, facing)
+    face = np.flatnonzero(turned & items[view.face_item])
+    face = face[narrow(view, system, face)]
+    item, body = np.unique(view.face_item[face], return_inverse=True)
+    axes = axes_towards(view, system, face, body, len(item))
+    far = reach(view, system, face, body)
+    start, end, of = outlines(view, face, body)
+    ends = np.stack([image_of(view, system, axes, some, of) for some in (start, end)])
+    hull, corners, first = hulls(ends.transpose(1, 0, 2).reshape(2, -1), np.tile(of, 2), len(item))
+    # In images of lamps all is smaller by its distance.
+    scale = 1.0 if system.parallel else far
+    convex = meets_once(ends, of, hull, (view.tolerance + off[item]) / scale)
+    kept = np.flatnonzero(convex)
+    position, first = ragged.take(first, kept)
+    volumes = PlaneBundles(_cones(system, axes, corners[:, position], first, kept), first)
+    own = np.flatnonzero(convex[body])
+    casters = Casters(volumes, item[kept], face[own], np.searchsorted(kept, body[own]))
+    number = np.full(len(view.item_vertices) - 1, -1, dtype=np.intp)
+    number[item] = np.arange(len(item))
+    other = np.flatnonzero(~convex[of] & ~system.windowed)
+    same = np.repeat(system.axes[0][:, :, None], len(item), axis=2)
+    sides = np.stack([image_of(view, system, same, some[other], of[other]) for some in (start, end)])
+    regions = covered(sides, of[other], len(item), view.tolerance / np.max(scale, initial=1.0))
+    box, ball = _bounds(view, item)
+    depths = Depths(view, far, _nearest(view, planes, system), box, ball, planes.planes * facing)
+    return LitBodies(view, system, casters, number, item, convex, regions, depths)
+
+
+def _cones(system: LightSystem, axes: Floats, corners: Floats, first: Ints, body: Ints) -> Floats:
+    """(4,c) the planes of rays through the sides of hulls with corners (2,c), counter-clockwise; body (k,): whose they
+    are. Of each hull those that follow each other are far apart: what is outside is soon found to be so."""
+    after = corners[:, next_positions(first, np.arange(corners.shape[1]))]
+    owner = np.repeat(np.arange(len(body)), np.diff(first))
+    place = np.arange(len(owner)) - first[owner]
+    order = np.lexsort((place * GOLDEN % 1.0, owner))
+    corners, after, of = corners[:, order], after[:, order], body[owner]
+    own = axes[:, :, of]
+    if system.parallel:
+        way = after - corners
+        normal = own[1] * way[0] - own[0] * way[1]
+        return planes_of(normal, own[0] * corners[0] + own[1] * corners[1])
+    one, two = (own[0] * some[0] + own[1] * some[1] + own[2] for some in (corners, after))
+    return planes_of(cross(one, two), np.broadcast_to(system.position[:, None], one.shape))
+
+
+def _bounds(view: View, item: Ints) -> tuple[Floats, Floats]:
+    """Boxes (2,3,k) along the world's axes and balls (4,k) around items."""
+    vertex, first = ragged.take(view.item_vertices, item)
+    points = view.points[:, vertex]
+    if not len(item):
+        return np.zeros((2, 3, 0)), np.zeros((4, 0))
+    world = matmul(view.axes.T, points)
+    box = np.stack([f.reduceat(world, first[:-1], axis=1) for f in (np.minimum, np.maximum)])
+    middle = matmul(view.axes, box.mean(axis=0))
+    way = points - np.repeat(middle, np.diff(first), axis=1)
+    radius = np.sqrt(np.maximum.reduceat((way * way).sum(axis=0), first[:-1]))
+    return box, np.concatenate([middle, radius[None]])
+
+
+def _nearest(view: View, planes: FacePlanes, system: LightSystem) -> Floats:
+    """(f,) the least distances of faces, as of Depths, or less: no point of a convex polygon is nearer than the
+    square root of what is left of the square of its nearest corner without half that of its extent."""
+    if not view.face_count:
+        return np.zeros(0)
+    points = directions(view, system, view.corners)
+    if system.parallel:
+        return np.asarray(np.minimum.reduceat(-(matmul(system.position, points)), view.offsets[:-1]))
+    square = np.minimum.reduceat((points * points).sum(axis=0), view.offsets[:-1])
+    return np.sqrt(np.maximum(square - 2.0 * planes.arm * planes.arm, 0.0))

@@ -1,1 +1,0 @@
-"""What mirrors show, and the light they throw."""

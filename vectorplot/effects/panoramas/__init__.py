@@ -1,1 +1,0 @@
-"""What is seen all round from a place, unrolled."""

@@ -1,1 +1,0 @@
-"""Scenes as charts: colours by numbers with their bar, and boxes with ticks."""

@@ -1,1 +1,0 @@
-"""Exact shadows, as polygons on faces."""

@@ -1,1 +1,0 @@
-"""Polygons seen through others."""

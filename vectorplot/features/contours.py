@@ -1,0 +1,448 @@
+"""The contour of a surface: where it turns away from the eye."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.curve import number, vector
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.features.conditions import (
+    CentralContour,
+    ImplicitSection,
+    Isophote,
+    ParallelContour,
+    PlaneSection,
+    PointIsophote,
+    StackedConditions,
+    check_cosine,
+    for_each,
+    stacked,
+)
+from vectorplot.features.curve_tracing import (
+    SurfaceCurves,
+    Tracing,
+    curves_on_each,
+    curves_on_levels,
+    curves_where_zero,
+    extent,
+    no_curves,
+    samples,
+    samples_of_each,
+    together,
+)
+from vectorplot.geometry.camera import Camera
+from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.tolerances import ROUNDING_OF_TERMS
+
+DEFAULT = Tracing()
+
+
+def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The points x of a surface with n.(x - eye) = 0, n the unit normal: seen from the eye, it turns away there.
+
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    eye : (3,) array_like of float
+        In world coordinates.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines, each point known by its parameters and in space. The side whose normal points away from the eye is on
+        the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For an eye that is not three finite numbers, a grid that is too coarse, a resolution that is not positive.
+
+    Notes
+    -----
+    What lies behind the eye is traced too. Degenerate: a flat surface whose plane contains the eye has no contour, and
+    a doubt says so. At a singular line (the apex of a double cone) the normal jumps: that is no contour.
+
+    Source: Glaeser, section 8.4, equations 25 to 27, figures 13 and 14.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.contour(surfaces.Sphere(), (4, 0, 0))
+    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 0], 0.25))  # a circle in front of the centre
+    ([True], True)
+    """
+    return contours([surface], eye, tracing=tracing)[0]
+
+
+def contours(surfaces: Sequence[Surface], eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> list[SurfaceCurves]:
+    """The contours of many surfaces for one eye, as of `contour`: those of placed surfaces traced at once."""
+    centre = vector("contour: eye", eye)
+
+    def found(stack: tuple[Surface, ...]) -> list[SurfaceCurves]:
+        return _contours(stacked(stack, CentralContour(stack[0], centre)), centre, tracing)
+
+    return for_each(surfaces, tracing.nodes, found)
+
+
+def _contours(conditions: StackedConditions[CentralContour], centre: Floats, tracing: Tracing) -> list[SurfaceCurves]:
+    points = samples_of_each(conditions)
+    # Of what has no points f has no size.
+    far = [float(np.linalg.norm(own - centre, axis=1).max(initial=0.0)) for own in points]
+    large = [float(np.abs(own).max(initial=0.0) + np.abs(centre).max()) for own in points]
+    curves = curves_on_each(conditions, far, [ROUNDING_OF_TERMS * size for size in large], tracing)
+    return [found if len(own) else no_curves() for found, own in zip(curves, points, strict=True)]
+
+
+def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The points of a surface with n.d = 0, n the unit normal: seen along the direction d, it turns away there.
+
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    direction : (3,) array_like of float
+        d, of any length, towards the eye.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines, each point known by its parameters and in space. The side whose normal points towards the eye is on
+        the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For a direction without length, a grid that is too coarse, a resolution that is not positive.
+
+    Notes
+    -----
+    Degenerate: a surface all seen edge-on (a cylinder along its axis) has no contour, and a doubt says so.
+
+    Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.parallel_contour(surfaces.Cylinder(), (1, 0, 0))
+    >>> curves.closed.tolist(), bool(np.allclose(np.abs(curves.points[:, 1]), 1.0))  # two rulings
+    ([False, False], True)
+    """
+    return parallel_contours([surface], direction, tracing=tracing)[0]
+
+
+def parallel_contours(
+    surfaces: Sequence[Surface], direction: ArrayLike, *, tracing: Tracing = DEFAULT
+) -> list[SurfaceCurves]:
+    """The contours of many surfaces for one direction, as of `parallel_contour`: those of placed surfaces traced at
+    once."""
+
+    def found(stack: tuple[Surface, ...]) -> list[SurfaceCurves]:
+        conditions = stacked(stack, ParallelContour(stack[0], direction))
+        return curves_on_each(conditions, [1.0] * len(stack), [ROUNDING_OF_TERMS] * len(stack), tracing)
+
+    return for_each(surfaces, tracing.nodes, found)
+
+
+def contour_in_view(surface: Surface, camera: Camera, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The contour of a surface as a camera sees it, by central or parallel projection."""
+    if camera.parallel:
+        return parallel_contour(surface, camera.direction, tracing=tracing)
+    return contour(surface, camera.eye, tracing=tracing)
+
+
+# Isophotes: lines of equal illumination on a surface.
+
+
+def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The curves n.l = c of a surface in parallel light, n the unit normal x_u cross x_v, l the light.
+
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    light : (3,) array_like of float
+        l, of any length, towards the light.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them. Of a surface whose normals point inwards (see Torus) take -c for what is lit from
+        outside.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with c as level; the brighter side is on the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For a light without length, cosines not within -1 and 1, a grid that is too coarse, a resolution that is not
+        positive.
+
+    Notes
+    -----
+    Degenerate: a flat part at just that angle gives no lines, and a doubt; c = 1 gives the isolated points that face
+    the light.
+
+    Source: Glaeser, section 8.4, equation 28, figure 15.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.isophotes(surfaces.Sphere(), (0, 0, 1), [0.0, 0.5])
+    >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
+    ([0.0, 0.5], True)
+    """
+    return _isophotes(Isophote(surface, light, 0.0), _levels(cosines), ROUNDING_OF_TERMS, tracing)
+
+
+def point_light_isophotes(
+    surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing: Tracing = DEFAULT
+) -> SurfaceCurves:
+    """The curves n.l = c of a surface in the light of a point, l from the surface to the light.
+
+    Parameters
+    ----------
+    surface : Surface
+        With points, partials and second partials.
+    light : (3,) array_like of float
+        Where the light stands, in world coordinates.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        As of `isophotes`.
+
+    Raises
+    ------
+    InputError
+        For a light that is not three finite numbers, cosines not within -1 and 1, a grid that is too coarse, a
+        resolution that is not positive.
+
+    Notes
+    -----
+    Degenerate: a light on the surface: the curves end there.
+
+    Source: Glaeser, section 8.4, equation 28, figure 15.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.point_light_isophotes(surfaces.Sphere(), (0, 0, 4), 0.0)  # the border of the lit part
+    >>> len(curves), bool(np.allclose(curves.points[:, 2], 0.25))
+    (1, True)
+    """
+    lamp, levels = vector("isophotes: light", light), _levels(cosines)
+    points = samples(surface)[2]
+    if not len(points):
+        return no_curves()
+    nearest = float(np.linalg.norm(points - lamp, axis=1).min()) or np.inf
+    rounding = ROUNDING_OF_TERMS * max(1.0, min(float(np.abs(points).max() + np.abs(lamp).max()) / nearest, 1e6))
+    return _isophotes(PointIsophote(surface, lamp, 0.0), levels, rounding, tracing)
+
+
+def _levels(cosines: ArrayLike) -> Floats:
+    levels = np.atleast_1d(np.asarray(cosines, dtype=np.float64))
+    if levels.ndim != 1:
+        raise InputError("isophotes: cosines must be numbers in a row")
+    for cosine in levels.tolist():
+        check_cosine(cosine)
+    return levels
+
+
+def _isophotes(condition: Isophote | PointIsophote, levels: Floats, rounding: float, tracing: Tracing) -> SurfaceCurves:
+    roundings = np.full(len(levels), rounding)
+    return together(
+        curves_on_levels(condition.surface, condition, levels, size=1.0, roundings=roundings, tracing=tracing)
+    )
+
+
+# Sections of a surface: with implicit surfaces, with families of planes, level lines.
+
+
+def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The curves of a surface on which F of an implicit surface is zero.
+
+    Parameters
+    ----------
+    surface : Surface
+        On which they are traced.
+    other : ImplicitSurface
+        F is taken wherever the surface is, inside the box of the implicit surface and outside.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with F > 0 on the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For a grid that is too coarse, a resolution that is not positive.
+
+    Warns
+    -----
+    InputWarning
+        Where the surfaces touch in a point.
+
+    Notes
+    -----
+    Degenerate: surfaces that touch in a point give an isolated point; along a line, touching; that coincide in an area,
+    a doubt.
+
+    Source: Glaeser, section 8.4, equation 29, figure 16.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> pipe, ball = surfaces.Cylinder(radius=0.6, bottom=-2, top=2), surfaces.implicit_sphere(1.0)
+    >>> curves = features.section_by_implicit(pipe, ball)
+    >>> len(curves), bool(np.allclose(np.abs(curves.points[:, 2]), 0.8))
+    (2, True)
+    """
+    points = samples(surface)[2]
+    if not len(points):
+        return no_curves()
+    long = np.linalg.norm(other.gradients(points), axis=1)
+    slope = float(np.quantile(long[np.isfinite(long)], 0.95)) if np.isfinite(long).any() else 0.0
+    size, large = extent(surface)
+
+    curves = curves_where_zero(
+        surface,
+        ImplicitSection(surface, other),
+        size=slope * size,
+        rounding=ROUNDING_OF_TERMS * slope * large,
+        tracing=tracing,
+    )
+    return _warned(curves)
+
+
+def plane_sections(
+    surface: Surface, normal: ArrayLike, offsets: ArrayLike, *, tracing: Tracing = DEFAULT
+) -> SurfaceCurves:
+    """The sections of a surface with the parallel planes n.x = d, n the unit normal.
+
+    Parameters
+    ----------
+    surface : Surface
+        On which they are traced.
+    normal : (3,) array_like of float
+        Of any length.
+    offsets : (k,) array_like of float
+        d, in world units; or one of them.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with d as level; the side the normal points to is on the left, in u and v.
+
+    Raises
+    ------
+    InputError
+        For a normal without length, offsets that are not finite numbers in a row, a grid that is too coarse, a
+        resolution that is not positive.
+
+    Warns
+    -----
+    InputWarning
+        Where a plane touches the surface in a point.
+
+    Notes
+    -----
+    Degenerate: as for `section_by_implicit`.
+
+    Source: Glaeser, section 8.4, equation 29.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> curves = features.plane_sections(surfaces.Sphere(), (1, 0, 0), [-0.5, 0.5])
+    >>> curves.levels.tolist(), bool(np.allclose(curves[0][:, 0], -0.5))
+    ([-0.5, 0.5], True)
+    """
+    levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
+    if levels.ndim != 1:
+        raise InputError("plane sections: offsets must be numbers in a row")
+    for offset in levels.tolist():
+        number("plane sections: offset", offset)
+    size, large = extent(surface)
+    roundings = ROUNDING_OF_TERMS * (large + np.abs(levels))
+    plane = PlaneSection(surface, normal, 0.0)
+    found = curves_on_levels(surface, plane, levels, size=size, roundings=roundings, tracing=tracing)
+    return together([_warned(curves) for curves in found])
+
+
+def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
+    """The curves of a surface at given heights: `plane_sections` with z up.
+
+    Parameters
+    ----------
+    surface : Surface
+        On which they are traced.
+    heights : (k,) array_like of float
+        In world units; or one of them.
+    tracing : Tracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    SurfaceCurves
+        Polylines with the height as level.
+
+    Raises
+    ------
+    InputError
+        For heights that are not finite numbers in a row, a grid that is too coarse, a resolution that is not positive.
+
+    Warns
+    -----
+    InputWarning
+        Where a plane touches the surface in a point.
+
+    Notes
+    -----
+    Degenerate: as for `section_by_implicit`.
+
+    Source: Glaeser, section 8.4, equation 29.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> hill = surfaces.graph(lambda x, y: 4.0 - x**2 - y**2, surfaces.Domain(-1, 1, -1, 1))
+    >>> curves = features.level_lines(hill, [3.5, 5.0])
+    >>> curves.levels.tolist(), curves.closed.tolist()
+    ([3.5], [True])
+    """
+    return plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
+
+
+def _warned(curves: SurfaceCurves) -> SurfaceCurves:
+    if len(curves.isolated):
+        count = len(curves.isolated)
+        where = "a single point" if count == 1 else f"{count} single points"
+        warnings.warn(f"section: the surfaces touch in {where}", InputWarning, stacklevel=3)
+    return curves

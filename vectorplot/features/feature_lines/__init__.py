@@ -1,1 +1,0 @@
-"""Lines that show a shape where nothing turns away: suggestive contours, ridges and valleys, apparent ridges."""

@@ -1,1 +1,0 @@
-"""Lines on implicit surfaces, and triangles that stand for them."""

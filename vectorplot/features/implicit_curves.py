@@ -1,0 +1,491 @@
+"""Curves on implicit surfaces: contours, isophotes, intersections, sections, level lines."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.curve import vector
+from vectorplot.errors import InputError
+from vectorplot.features.implicit_singular_lines import STRAYS, SingularEquations, onto_lines
+from vectorplot.features.implicit_surfaces import (
+    ImplicitCentralContour,
+    ImplicitIsophote,
+    ImplicitParallelContour,
+    ImplicitPointIsophote,
+    MeetsImplicit,
+    MeetsPlane,
+    SpatialCondition,
+    curve_in_space,
+    refined_chords,
+    sides_of,
+)
+from vectorplot.features.implicit_tracing import (
+    ImplicitCurves,
+    ImplicitTracing,
+    all_curves,
+    curves_in_space,
+    curves_of_lines,
+    mesh_of,
+    no_curves,
+)
+from vectorplot.geometry.budget import unresolved
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.chord_refinement import Traces, refined
+from vectorplot.geometry.outline import concat
+from vectorplot.geometry.polylines import Polylines, closed_round
+from vectorplot.geometry.vectors import normalize
+from vectorplot.geometry.winding import edge_uses
+from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.tolerances import CHORD_OF_EXTENT, LEAST_DIVISOR
+
+DEFAULT = ImplicitTracing()
+
+
+def implicit_contour(surface: ImplicitSurface, eye: ArrayLike, *, tracing: ImplicitTracing = DEFAULT) -> ImplicitCurves:
+    """The points x of an implicit surface with N.(x - eye) = 0, N the unit gradient of F.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    eye : (3,) array_like of float
+        In world coordinates.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines on the surface. Seen from where F > 0 the side that is turned away from the eye is on the left.
+
+    Raises
+    ------
+    InputError
+        For an eye that is not three finite numbers, what `polygonized` refuses, and a resolution or tolerance that is
+        not positive.
+
+    Notes
+    -----
+    What lies behind the eye is traced too. Degenerate: a flat surface whose plane contains the eye has no contour, and
+    a doubt says so. Contours run into singular points of the surface (the apex of a cone).
+
+    Source: Glaeser, section 8.4, equations 25 to 27.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_contour(surfaces.implicit_sphere(1.0), (4, 0, 0), tracing=tracing)
+    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 0], 0.25))  # a circle in front of the centre
+    ([True], True)
+    """
+    place = vector("contour: eye", eye)
+    condition = ImplicitCentralContour(surface, place)
+    return curves_in_space(surface, condition, size=condition.farthest, tracing=tracing)
+
+
+def implicit_parallel_contour(
+    surface: ImplicitSurface, direction: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The points of an implicit surface with N.d = 0, N the unit gradient of F: seen along d it turns away there.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    direction : (3,) array_like of float
+        d, of any length, towards the eye.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines on the surface. Seen from where F > 0 the side with N.d > 0 is on the left.
+
+    Raises
+    ------
+    InputError
+        For a direction without length, what `polygonized` refuses, and a resolution or tolerance that is not positive.
+
+    Notes
+    -----
+    Degenerate: as for `implicit_contour`.
+
+    Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_parallel_contour(surfaces.implicit_sphere(1.0), (0, 0, 1), tracing=tracing)
+    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 2], 0.0))
+    ([True], True)
+    """
+    return curves_in_space(surface, ImplicitParallelContour(surface, direction), size=1.0, tracing=tracing)
+
+
+def implicit_contour_in_view(
+    surface: ImplicitSurface, camera: Camera, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The contour of an implicit surface as a camera sees it, by central or parallel projection."""
+    if camera.parallel:
+        return implicit_parallel_contour(surface, camera.direction, tracing=tracing)
+    return implicit_contour(surface, camera.eye, tracing=tracing)
+
+
+def implicit_isophotes(
+    surface: ImplicitSurface, light: ArrayLike, cosines: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The curves N.l = c of an implicit surface in parallel light, N the unit gradient of F, l the light.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    light : (3,) array_like of float
+        l, of any length, towards the light.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines with c as level; seen from where F > 0 the brighter side is on the left.
+
+    Raises
+    ------
+    InputError
+        For a light without length, cosines not within -1 and 1, what `polygonized` refuses, and a resolution or
+        tolerance that is not positive.
+
+    Notes
+    -----
+    Degenerate: a flat part at just that angle gives no lines, and a doubt; c = 1 gives isolated points.
+
+    Source: Glaeser, section 8.4, equation 28.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_isophotes(surfaces.implicit_sphere(1.0), (0, 0, 1), [0.0, 0.5], tracing=tracing)
+    >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
+    ([0.0, 0.5], True)
+    """
+    return _family(surface, lambda c: (ImplicitIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
+
+
+def implicit_point_light_isophotes(
+    surface: ImplicitSurface, light: ArrayLike, cosines: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The curves N.l = c of an implicit surface in the light of a point, l from the surface to the light.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    light : (3,) array_like of float
+        Where the light stands, in world coordinates.
+    cosines : (k,) array_like of float
+        c, -1 to 1; or one of them.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        As of `implicit_isophotes`.
+
+    Raises
+    ------
+    InputError
+        For a light that is not three finite numbers, cosines not within -1 and 1, what `polygonized` refuses, and a
+        resolution or tolerance that is not positive.
+
+    Notes
+    -----
+    Degenerate: as for `implicit_isophotes`.
+
+    Source: Glaeser, section 8.4, equation 28.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> ball = surfaces.implicit_sphere(1.0)
+    >>> curves = features.implicit_point_light_isophotes(ball, (0, 0, 4), 0.5, tracing=tracing)
+    >>> curves.closed.tolist(), curves.levels.tolist()
+    ([True], [0.5])
+    """
+    return _family(surface, lambda c: (ImplicitPointIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
+
+
+def implicit_intersection(
+    surface: ImplicitSurface, other: ImplicitSurface, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The curves in which two implicit surfaces meet, within the box of the first.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        On which they are traced.
+    other : ImplicitSurface
+        Its F is taken wherever the first surface is, inside its box and outside.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        F of the other is positive on the left, seen from where F of the first is.
+
+    Raises
+    ------
+    InputError
+        For what `polygonized` refuses, and a resolution or tolerance that is not positive.
+
+    Notes
+    -----
+    Degenerate: surfaces that touch in a point give an isolated one; that coincide in an area, a doubt.
+
+    Source: Glaeser, section 8.4, equation 29.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> one, two = surfaces.implicit_sphere(1.0), surfaces.implicit_sphere(1.0, centre=(1, 0, 0))
+    >>> curves = features.implicit_intersection(one, two, tracing=features.ImplicitTracing(cells=12))
+    >>> len(curves), bool(np.allclose(curves.points[:, 0], 0.5))
+    (1, True)
+    """
+    own, _ = mesh_of(surface, tracing)
+    mesh, tracing = own.mesh, replace(tracing, mesh=own)
+    if not mesh.face_count:
+        return no_curves()
+    long = np.linalg.norm(other.gradients(mesh.vertices), axis=1)
+    slope = float(np.quantile(long[np.isfinite(long)], 0.95)) if np.isfinite(long).any() else 0.0
+    size = slope * float(np.ptp(np.asarray(surface.box), axis=0).max())
+    return curves_in_space(surface, MeetsImplicit(other), size=size or 1.0, tracing=tracing)
+
+
+def implicit_plane_sections(
+    surface: ImplicitSurface, normal: ArrayLike, offsets: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The sections of an implicit surface with the parallel planes n.x = d, n the unit normal.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    normal : (3,) array_like of float
+        Of any length.
+    offsets : (k,) array_like of float
+        d, in world units; or one of them.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines with d as level; seen from where F > 0, the side the normal points to is on the left.
+
+    Raises
+    ------
+    InputError
+        For a normal without length, offsets that are not finite, what `polygonized` refuses, and a resolution or
+        tolerance that is not positive.
+
+    Notes
+    -----
+    Degenerate: as for `implicit_intersection`.
+
+    Source: Glaeser, section 8.4, equation 29.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> ball = surfaces.implicit_sphere(1.0)
+    >>> curves = features.implicit_plane_sections(ball, (1, 0, 0), [-0.5, 0.5], tracing=tracing)
+    >>> curves.levels.tolist(), bool(np.allclose(curves[0][:, 0], -0.5))
+    ([-0.5, 0.5], True)
+    """
+    levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
+    if levels.ndim != 1 or not np.isfinite(levels).all():
+        raise InputError("plane sections: offsets must be finite numbers")
+    n = normalize(vector("plane sections: normal", normal))
+    size = float(np.ptp(np.asarray(surface.box), axis=0).max())
+    return _family(surface, lambda d: (MeetsPlane(n, d), size), levels, tracing)
+
+
+def implicit_level_lines(
+    surface: ImplicitSurface, heights: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
+) -> ImplicitCurves:
+    """The curves of an implicit surface at given heights: `implicit_plane_sections` with z up.
+
+    Parameters
+    ----------
+    surface : ImplicitSurface
+        F and its box.
+    heights : (k,) array_like of float
+        In world units; or one of them.
+    tracing : ImplicitTracing
+        How finely they are looked for and followed.
+
+    Returns
+    -------
+    ImplicitCurves
+        Polylines with the height as level.
+
+    Raises
+    ------
+    InputError
+        For heights that are not finite, what `polygonized` refuses, and a resolution or tolerance that is not positive.
+
+    Notes
+    -----
+    Degenerate: as for `implicit_intersection`.
+
+    Source: as of `implicit_plane_sections`.
+
+    Examples
+    --------
+    >>> from vectorplot import features, surfaces
+    >>> tracing = features.ImplicitTracing(cells=12)
+    >>> curves = features.implicit_level_lines(surfaces.implicit_sphere(1.0), [0.0, 0.5, 2.0], tracing=tracing)
+    >>> curves.levels.tolist()
+    [0.0, 0.5]
+    """
+    return implicit_plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
+
+
+def _family(
+    surface: ImplicitSurface,
+    condition: Callable[[float], tuple[SpatialCondition, float]],
+    levels: Floats,
+    tracing: ImplicitTracing,
+) -> ImplicitCurves:
+    """The curves of each level, on one mesh."""
+    mesh, doubts = mesh_of(surface, tracing)
+    tracing = replace(tracing, mesh=mesh)
+    families = []
+    for level in levels.tolist():
+        one, size = condition(level)
+        families.append(curves_in_space(surface, one, size=size, tracing=tracing, level=level))
+    return all_curves([no_curves(doubts), *families])
+
+
+def _cosines(cosines: ArrayLike) -> Floats:
+    levels = np.atleast_1d(np.asarray(cosines, dtype=np.float64))
+    if levels.ndim != 1 or not (np.abs(levels) <= 1.0).all():
+        raise InputError("isophotes: cosines must lie between -1 and 1")
+    return levels
+
+
+# Where implicit surfaces end: on the sides of their boxes, and at the rims of their holes.
+
+
+def implicit_borders(surface: ImplicitSurface, *, tracing: ImplicitTracing) -> ImplicitCurves:
+    """Where an implicit surface ends: its curves on the sides of its box and on planes that cut it, divided at the
+    edges of these, and the rims of its holes. The surface is on the left, seen from where F > 0.
+
+    Rims of holes, where F is not finite, are known to a cell of the lattice only, and a doubt says so.
+    """
+    own, _ = mesh_of(surface, tracing)
+    mesh = own.mesh
+    if not mesh.face_count:
+        return no_curves()
+    uses = edge_uses(mesh)
+    corner = uses.corner[uses.first[uses.count == 1]]
+    a, b = mesh.corners[corner], mesh.corners[mesh.next_corner[corner]]
+    known = sides_of(surface)
+    sides = known.on(mesh.vertices)
+    # On singular lines sheets go on in each other, with vertices of their own.
+    ends = ~(own.on_line[a] & own.on_line[b])
+    a, b = a[ends], b[ends]
+    common = sides[a] & sides[b]
+    # A border does not run on through a singular line: there others hide it, or cease to.
+    edges = np.stack([a, b], axis=1)
+    on_line = own.on_line[edges]
+    vertices = np.concatenate([mesh.vertices, mesh.vertices[edges[on_line]]])
+    edges[on_line] = len(mesh.vertices) + np.arange(np.count_nonzero(on_line))
+    a, b = edges.T
+    families = [
+        _border(surface, vertices, a, b, side, np.flatnonzero(common[:, side]), tracing)
+        for side in range(common.shape[1])
+    ]
+    rims = np.flatnonzero(~common.any(axis=1))
+    if len(rims):
+        families.append(_rims(vertices, a[rims], b[rims]))
+    return all_curves(families)
+
+
+def _border(
+    surface: ImplicitSurface, vertices: Floats, a: Ints, b: Ints, side: int, chosen: Ints, tracing: ImplicitTracing
+) -> ImplicitCurves:
+    """The borders on the two sides of the box across an axis, or on a plane that cuts, from the edges a, b (e,) that
+    are chosen."""
+    known = sides_of(surface)
+    extent = float(np.ptp(known.box, axis=0).max())
+    families = []
+    for plane in known.planes(side):
+        here = chosen[plane.holds(vertices[a[chosen]], known.nothing)]
+        branches = concat(np.stack([a[here], b[here]], axis=1))
+        if not len(branches):
+            continue
+        lines = Traces.of(vertices[branches.points], closed_round(branches))
+        curve = curve_in_space(surface, MeetsPlane(plane.normal, plane.offset), extent)
+        tolerance = CHORD_OF_EXTENT * extent if tracing.tolerance is None else tracing.tolerance
+        most = tracing.budget.points
+        finer = refined_chords(curve, lines, tolerance, tracing.picture, most)
+        points = plane.put(finer.lines.points)
+        texts = [
+            (finer.unsure.any(), f"{finer.unsure.sum()} chords of a border could not be refined"),
+            (not finer.enough.all(), unresolved("borders are off by more than the tolerance")),
+        ]
+        doubts = tuple(text for said, text in texts if said)
+        families.append(curves_of_lines(Traces(points, finer.lines.last), branches.closed, doubts=doubts))
+    return all_curves(families)
+
+
+def _rims(vertices: Floats, a: Ints, b: Ints) -> ImplicitCurves:
+    """The rims of holes, as they are in the mesh."""
+    branches = concat(np.stack([a, b], axis=1))
+    none, doubt = np.zeros((0, 3)), "the rim of a hole of an implicit surface is known to a cell only"
+    return ImplicitCurves(
+        vertices[branches.points], branches.offsets, branches.closed, np.zeros(len(branches)), none, none, (doubt,)
+    )
+
+
+# Singular lines of implicit surfaces as curves, as fine as is asked for.
+
+
+def refined_line(equations: SingularEquations, lines: Polylines, tracing: ImplicitTracing) -> ImplicitCurves:
+    """The lines on which equations hold, with points put in until chords stay within the tolerance of the tracing."""
+
+    def between(start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:
+        way = end - start
+        long = np.linalg.norm(way, axis=1)
+        across = way / np.maximum(long, LEAST_DIVISOR)[:, None]
+        return onto_lines(equations, start + part[:, None] * way, STRAYS * long, across=across)
+
+    if not len(lines):
+        return no_curves()
+    tolerance = CHORD_OF_EXTENT * equations.extent if tracing.tolerance is None else tracing.tolerance
+    start = Traces.of(lines.points, closed_round(lines))
+    finer = refined(start, between, tracing.picture or (lambda points: points), tolerance, tracing.budget.points)
+    short = () if finer.enough.all() else (unresolved("singular lines are off by more than the tolerance"),)
+    return curves_of_lines(finer.lines, lines.closed, doubts=short)

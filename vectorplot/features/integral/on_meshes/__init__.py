@@ -1,1 +1,0 @@
-"""Integral curves, straightest and shortest lines on meshes: from face to face."""

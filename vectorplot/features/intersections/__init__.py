@@ -1,1 +1,0 @@
-"""Where surfaces meet each other, meshes and themselves."""

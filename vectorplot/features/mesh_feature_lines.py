@@ -1,0 +1,403 @@
+"""How a mesh of a smooth shape bends at its vertices: fitted to the normals around each."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.features.edge_lines import apart_at_creases
+from vectorplot.features.feature_lines import (
+    Bending,
+    Detail,
+    LineField,
+    LineFunction,
+    Sight,
+    clear_segments,
+    crossings,
+    implicit_bending,
+    line_function,
+    zeros_between,
+)
+from vectorplot.features.implicit_tracing import ImplicitCurves
+from vectorplot.features.mesh_lines import (
+    FaceTriangles,
+    MeshCurves,
+    all_mesh_curves,
+    face_triangles,
+    joined_segments,
+    level_segments,
+)
+from vectorplot.geometry.algebra import linear_solution
+from vectorplot.geometry.budget import slices
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.outline import concat
+from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.surfaces.surface import ImplicitSurface
+from vectorplot.tolerances import LEAST_DIVISOR, ROUNDING_OF_POINTS, ROUNDING_OF_TERMS, SETTLED_FIT
+from vectorplot.words import LineKind
+
+STEEPEST = 0.3
+"""Normals whose cosine with that of the vertex is less are those of another side."""
+
+VERTICES_AT_ONCE = 1 << 14
+
+UNKNOWN = 7
+"""Those of a surface of third order over its tangent plane: three curvatures and four derivatives."""
+
+
+def mesh_bending(faces: FaceTriangles) -> Bending:
+    """How a mesh bends at its vertices, as of noisy_bending."""
+    return noisy_bending(faces, np.ones(len(faces.mesh.vertices)))[0]
+
+
+def noisy_bending(faces: FaceTriangles, trust: Floats) -> tuple[Bending, Floats]:
+    """How a mesh bends at its vertices, whose normals count as much as they are trusted (n,), and by how much (n,)
+    curvatures may be wrong there.
+
+    Over the tangent plane of a vertex the surface is taken for one of third order, whose slopes are those of the
+    normals at the vertices up to two edges away, by least squares; what these leave open is taken for zero.
+    Error: on a mesh of a smooth surface curvatures are off by the square of the edges, their derivatives by the edges.
+    By how much is what the fit leaves of the slopes, and what rounding may do to them, over the distance of neighbours;
+    infinite where there are no more slopes than unknowns.
+    Degenerate: not a number at vertices without faces.
+    Source: Goldfeather, Interrante (2004), section 3.
+    """
+    mesh = faces.mesh
+    normals = smooth_normals(mesh.vertices, faces.triangles)
+    first, second = _neighbours(len(mesh.vertices), faces.triangles)
+    areas = _areas(mesh.vertices, faces.triangles)
+    along = _tangents(normals)
+    aside = cross(normals, along)
+    count = len(mesh.vertices)
+    starts = np.searchsorted(first, np.arange(count + 1))
+    forms, noise = np.full((count, UNKNOWN), np.nan), np.full(count, np.inf)
+    rounding = ROUNDING_OF_POINTS * float(np.abs(mesh.bounds).max())
+    for part in slices(count, VERTICES_AT_ONCE):
+        pairs = slice(int(starts[part.start]), int(starts[part.stop]))
+        own, other = first[pairs], second[pairs]
+        forms[part], left, usual = _fitted(
+            mesh.vertices, normals, along, aside, own, other, (trust * areas)[other], part.start, part.stop - part.start
+        )
+        noise[part] = (left + rounding / usual) / usual
+    return Bending(mesh.vertices, normals, along, forms[:, :3], forms[:, 3:]), noise
+
+
+def smooth_normals(points: Floats, triangles: Ints) -> Floats:
+    """(n,3) unit normals at points (n,3) of triangles (t,3): of each triangle there weighted with the sine of its angle
+    over the product of the sides beside it, which is exact on a ball. Zero where there is none.
+
+    Source: Max (1999).
+    """
+    total = np.zeros_like(points)
+    for k in range(3):
+        own, after, before = (triangles[:, (k + step) % 3] for step in range(3))
+        out, back = points[after] - points[own], points[before] - points[own]
+        size = np.maximum(norm(out) * norm(back), LEAST_DIVISOR)
+        part = cross(out / size[:, None], back / size[:, None])
+        total += np.stack([np.bincount(own, column, len(points)) for column in part.T], axis=1)
+    long = norm(total)
+    return np.asarray(total / np.where(long > 0.0, long, np.inf)[:, None])
+
+
+def _areas(points: Floats, triangles: Ints) -> Floats:
+    """(n,) a third of the triangles at every vertex."""
+    a, b, c = (points[triangles[:, k]] for k in range(3))
+    return np.asarray(
+        np.bincount(triangles.ravel(), np.repeat(norm(cross(b - a, c - a)) / 6.0, 3), len(points)), dtype=np.float64
+    )
+
+
+def _fitted(
+    points: Floats,
+    normals: Floats,
+    along: Floats,
+    aside: Floats,
+    own: Ints,
+    other: Ints,
+    areas: Floats,
+    start: int,
+    count: int,
+) -> tuple[Floats, Floats, Floats]:
+    """(count,7) p, m, q, d, e, f, g of the vertices from start on, from the pairs of them (k,) with others, which
+    count by their areas (k,); what the fit leaves of the slopes (count,), and the usual distance (count,) of others."""
+    away, turned = points[other] - points[own], normals[other]
+    axes = along[own], aside[own], normals[own]
+    x, y = dot(away, axes[0]), dot(away, axes[1])
+    nx, ny, nz = (dot(turned, axis) for axis in axes)
+    row = own - start
+    whole = np.maximum(np.bincount(row, areas, count), LEAST_DIVISOR)
+    areas = areas / whole[row]
+    usual = np.sqrt(np.bincount(row, areas * (x * x + y * y), count))
+    size = np.maximum(usual, LEAST_DIVISOR)[row]
+    # In the usual distance of neighbours, so that all unknowns are of one size.
+    x, y = x / size, y / size
+    good = nz > STEEPEST
+    weight = np.where(good, areas / (1.0 + x * x + y * y), 0.0)
+    nz = np.where(good, nz, 1.0)
+    none = np.zeros_like(x)
+    by_x = np.stack([x, y, none, 0.5 * x * x, x * y, 0.5 * y * y, none])
+    by_y = np.stack([none, x, y, none, 0.5 * x * x, x * y, 0.5 * y * y])
+    slopes = -nx / nz, -ny / nz
+    matrix, right = np.zeros((count, UNKNOWN, UNKNOWN)), np.zeros((count, UNKNOWN, 1))
+    for i in range(UNKNOWN):
+        wanted = weight * (by_x[i] * slopes[0] + by_y[i] * slopes[1])
+        right[:, i, 0] = np.bincount(row, wanted, count)
+        for j in range(i, UNKNOWN):
+            both = weight * (by_x[i] * by_x[j] + by_y[i] * by_y[j])
+            matrix[:, i, j] = matrix[:, j, i] = np.bincount(row, both, count)
+    trace = np.maximum(np.einsum("nii->n", matrix), LEAST_DIVISOR)
+    matrix += SETTLED_FIT * trace[:, None, None] * np.eye(UNKNOWN)
+    three = np.broadcast_to(np.eye(UNKNOWN)[:, :3], (count, UNKNOWN, 3))
+    solved = linear_solution(matrix, np.concatenate([right, three], axis=2))
+    found, spread = solved[:, :, 0], np.einsum("nii->ni", solved[:, :3, 1:]).max(axis=1)
+    squares = weight * (slopes[0] ** 2 + slopes[1] ** 2)
+    left = _left_over(squares, weight, found, right[:, :, 0], spread, row)
+    distance = np.maximum(usual, LEAST_DIVISOR)
+    usual = distance[:, None]
+    # One division after the other: of a vertex without neighbours the square would be zero.
+    found /= usual
+    found[:, 3:] /= usual
+    return np.asarray(found), left, distance
+
+
+def _left_over(squares: Floats, weight: Floats, found: Floats, right: Floats, spread: Floats, row: Ints) -> Floats:
+    """(count,) how much slopes are off the fitted ones, by their weighted squares (k,), as from as many as are more
+    than the unknowns; and how much that makes of it in the curvatures, by what the inverse of the fit spreads (count,).
+    Infinite where there are no more slopes than unknowns.
+
+    Source: Kish, Survey sampling, 1965, for how many slopes of different weights are.
+    """
+    count = len(found)
+    off = np.maximum(np.bincount(row, squares, count) - (found * right).sum(axis=1), 0.0)
+    whole = np.maximum(np.bincount(row, weight, count), LEAST_DIVISOR)
+    usual = np.maximum(np.bincount(row, weight * weight, count), LEAST_DIVISOR) / whole
+    slopes = 2.0 * whole / usual
+    spare = slopes - UNKNOWN
+    known = spare > 0.0
+    size = np.sqrt(0.5 * off / whole * slopes / np.where(known, spare, 1.0))
+    # What the fit does not settle at all has no more than this to do with the directions that it settles.
+    spread = np.clip(usual * spread, 0.0, 1.0)
+    return np.where(known, size * (1.0 + np.sqrt(spread)), np.inf)
+
+
+def _neighbours(count: int, triangles: Ints) -> tuple[Ints, Ints]:
+    """Pairs (k,) of vertices that are up to two edges apart, by the first ones."""
+    from scipy.sparse import csr_array
+
+    a, b = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    one = csr_array((np.ones(2 * len(a), dtype=np.int32), (np.append(a, b), np.append(b, a))), shape=(count, count))
+    near = (one @ one + one).tocoo()
+    first, second = np.asarray(near.row, dtype=np.intp), np.asarray(near.col, dtype=np.intp)
+    kept = first != second
+    first, second = first[kept], second[kept]
+    order = np.lexsort((second, first))
+    return first[order], second[order]
+
+
+def _tangents(normals: Floats) -> Floats:
+    """(n,3) unit vectors at right angles to unit vectors (n,3)."""
+    least = np.eye(3)[np.abs(normals).argmin(axis=1)]
+    tangent = cross(normals, least)
+    return np.asarray(tangent / np.maximum(norm(tangent), LEAST_DIVISOR)[:, None])
+
+
+# Feature lines of meshes.
+
+ROUNDS = 4
+"""So many times values that have no direction are made even."""
+
+
+def mesh_feature_lines(
+    mesh: Mesh, sight: Sight, kinds: Collection[LineKind], detail: Detail
+) -> dict[LineKind, MeshCurves]:
+    """The feature lines of a mesh of each of these kinds: they run across its faces."""
+    found = {kind: all_mesh_curves([]) for kind in kinds}
+    if mesh.face_count < 2:
+        # Nothing bends. Scenes may have hundreds of such items: panes, signs, shadows.
+        return found
+    faces = face_triangles(mesh)
+    extent = float(norm(np.ptp(mesh.bounds, axis=0)))
+    if not (len(faces.triangles) and extent > 0.0):
+        return found
+    bending = mesh_bending(faces)
+    outward = enclosed(mesh)
+    for kind in kinds:
+        field = line_function(kind, sight, extent, outward)(bending)
+        if field.directions is None:
+            field = replace(field, values=_evened(field.values, faces.triangles))
+        met = crossings(mesh.vertices, faces.triangles, field)
+        a, b = mesh.vertices[met.low], mesh.vertices[met.high]
+        points = a + met.part[:, None] * (b - a)
+        lengths = norm(points[met.pairs[:, 1]] - points[met.pairs[:, 0]])
+        kept = clear_segments(met.pairs, met.strength, lengths, kind, extent, detail)
+        found[kind] = joined_segments(points, met.pairs[kept], faces.face[met.triangle[kept]], 0.0)
+    return found
+
+
+def _evened(values: Floats, triangles: Ints) -> Floats:
+    """(n,) values at vertices, each the mean of its own and those around it: what normals are wrong by makes lines
+    ragged. By the square of the edges these are other values, as fitted curvatures are."""
+    one, two = triangles.ravel(), np.roll(triangles, -1, axis=1).ravel()
+    for _ in range(ROUNDS):
+        usable = np.isfinite(values)
+        known = np.where(usable, values, 0.0)
+        total, count = (
+            np.bincount(one, own[two], len(values)) + np.bincount(two, own[one], len(values))
+            for own in (known, usable.astype(np.float64))
+        )
+        means = total / np.maximum(count, 1.0)
+        values = np.where(usable & (count > 0.0), 0.5 * (values + means), values)
+    return values
+
+
+def enclosed(mesh: Mesh) -> float | None:
+    """1 or -1 as the normals of a closed mesh point out of or into it; None of one that is open."""
+    if not mesh.is_closed:
+        return None
+    middle = mesh.bounds.mean(axis=0)
+    first = mesh.vertices[mesh.corners[mesh.offsets[:-1]]] - middle
+    return 1.0 if float((first * mesh.area_vectors).sum()) >= 0.0 else -1.0
+
+
+# The contour of a mesh that is taken for a smooth shape: it runs across faces.
+
+REACH = 0.7
+"""The faces around a contour rise above the shape by less than this part of their longest side times the sine of the
+angle by which they turn from it; on a ball, of triangles of equal sides, by 0.3 of it."""
+
+CONTOUR_ROUNDS = 2
+"""So many times points of contours are made even."""
+
+
+@dataclass(frozen=True, eq=False)
+class SmoothContours:
+    """Segments of contours: start, end (s,3) on the mesh, and aside (s,3), vectors that lead out of the shape there, at
+    right angles to the view, beyond all faces nearby."""
+
+    start: Floats
+    end: Floats
+    aside: Floats
+
+
+def smooth_contours(mesh: Mesh, sight: Sight, crease_angle_deg: float) -> SmoothContours:
+    """Where average normals, linear in every triangle, are at right angles to the view.
+
+    Normals are averaged up to the creases of the mesh, at which contours end.
+    Degenerate: none around vertices without a normal, and at the eye itself.
+    Source: Hertzmann, Zorin (2000), section 3.
+    """
+    smooth = apart_at_creases(mesh, crease_angle_deg)
+    vertices, triangles = smooth.vertices, face_triangles(smooth).triangles
+    normals = smooth_normals(vertices, triangles)
+    facing = dot(sight.ways(vertices)[0], normals)
+    facing = np.where(np.abs(facing) <= ROUNDING_OF_TERMS, 0.0, facing)
+    facing[~normals.any(axis=1)] = np.nan
+    met = level_segments(triangles, facing)
+    low, high = facing[met.low], facing[met.high]
+    part = (low / (low - high))[:, None]
+    points = vertices[met.low] + part * (vertices[met.high] - vertices[met.low])
+    far = _reach(vertices, triangles, normals)
+    out = normals[met.low] + part * (normals[met.high] - normals[met.low])
+    out *= (np.maximum(far[met.low], far[met.high]) / norm(out))[:, None]
+    for _ in range(CONTOUR_ROUNDS):
+        points = _contour_evened(points, met.pairs)
+    start, end = points[met.pairs[:, 0]], points[met.pairs[:, 1]]
+    aside = 0.5 * (out[met.pairs[:, 0]] + out[met.pairs[:, 1]])
+    whole = enclosed(mesh)
+    if whole is None:
+        outside = _outwards(vertices, triangles, facing, sight)[triangles[met.triangle]].sum(axis=1) >= 0.0
+    else:
+        outside = np.full(len(met.pairs), whole > 0.0)
+    kept = (start != end).any(axis=1)
+    return SmoothContours(start[kept], end[kept], np.where(outside[:, None], aside, -aside)[kept])
+
+
+def _contour_evened(points: Floats, pairs: Ints) -> Floats:
+    """(n,3) points of curves half the way to the middle of those beside them: edges that are crossed at nearly one
+    place are crossed in any order, and curves go to and fro there. They move inwards by the square of the edges, as far
+    as chords are."""
+    before, after = np.full(len(points), -1), np.full(len(points), -1)
+    after[pairs[:, 0]], before[pairs[:, 1]] = pairs[:, 1], pairs[:, 0]
+    inner = np.flatnonzero((before >= 0) & (after >= 0))
+    result = points.copy()
+    result[inner] = 0.5 * points[inner] + 0.25 * (points[before[inner]] + points[after[inner]])
+    return result
+
+
+def _reach(vertices: Floats, triangles: Ints, normals: Floats) -> Floats:
+    """(v,) how far faces around each vertex rise above the shape."""
+    corners = vertices[triangles]
+    flat = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    size = norm(flat)
+    flat = flat / np.where(size > 0.0, size, np.inf)[:, None]
+    longest = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
+    reach = np.zeros(len(vertices))
+    for k in range(3):
+        turned = norm(cross(flat, normals[triangles[:, k]]))
+        np.maximum.at(reach, triangles[:, k], REACH * longest * turned)
+    return reach
+
+
+def _outwards(vertices: Floats, triangles: Ints, facing: Floats, sight: Sight) -> Floats:
+    """(v,) positive where normals point out of an open shape as one sees it, negative where they point into it: it
+    turns towards the eye on that side of its contour that is nearer to the eye, and normals with it."""
+    corners, values = vertices[triangles], facing[triangles]
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    normal, way = cross(one, two), sight.ways(corners.mean(axis=1))[0]
+    rises = (values[:, 1] - values[:, 0]) * dot(cross(two, normal), way)
+    rises += (values[:, 2] - values[:, 0]) * dot(cross(normal, one), way)
+    # One triangle alone is easily wrong where the shape hardly bends along the view.
+    total = np.bincount(triangles.ravel(), np.repeat(np.nan_to_num(rises), 3), len(vertices))
+    return np.asarray(total, dtype=np.float64)
+
+
+# Feature lines of implicit surfaces.
+
+STEPS = 3
+"""Of Newton from a chord of the mesh to the surface."""
+
+
+def implicit_feature_lines(
+    surface: ImplicitSurface, mesh: Mesh, sight: Sight, kinds: Collection[LineKind], detail: Detail
+) -> dict[LineKind, ImplicitCurves]:
+    """The feature lines of an implicit surface of each of these kinds, every point exact, one for every side that they
+    cross of the triangles of a mesh, whose vertices are on the surface."""
+    extent = float(norm(np.ptp(mesh.bounds, axis=0))) if mesh.face_count else 0.0
+    found = {kind: _curves(np.zeros((0, 3)), np.zeros((0, 2), dtype=np.intp)) for kind in kinds}
+    if not extent > 0.0:
+        return found
+    triangles = mesh.corners.reshape(-1, 3)
+    bending, outward = implicit_bending(surface, mesh.vertices, extent), enclosed(mesh)
+    for kind in kinds:
+        function = line_function(kind, sight, extent, outward)
+
+        def asked(places: Floats, function: LineFunction = function) -> LineField:
+            return function(implicit_bending(surface, _onto(surface, places), extent))
+
+        met = crossings(mesh.vertices, triangles, function(bending))
+        points = zeros_between(asked, mesh.vertices[met.low], mesh.vertices[met.high], met.part)
+        points = _onto(surface, points)
+        lengths = norm(points[met.pairs[:, 1]] - points[met.pairs[:, 0]])
+        kept = clear_segments(met.pairs, met.strength, lengths, kind, extent, detail)
+        found[kind] = _curves(points, met.pairs[kept])
+    return found
+
+
+def _curves(points: Floats, pairs: Ints) -> ImplicitCurves:
+    branches = concat(pairs)
+    none = np.zeros((0, 3))
+    zeros = np.zeros(len(branches))
+    return ImplicitCurves(points[branches.points], branches.offsets, branches.closed, zeros, none, none, ())
+
+
+def _onto(surface: ImplicitSurface, points: Floats) -> Floats:
+    """(k,3) points of the surface near these."""
+    for _ in range(STEPS):
+        with np.errstate(all="ignore"):
+            slopes = surface.gradients(points)
+            step = (surface.values(points) / dot(slopes, slopes))[:, None] * slopes
+        points = points - np.where(np.isfinite(step), step, 0.0)
+    return points

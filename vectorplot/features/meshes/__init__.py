@@ -1,1 +1,0 @@
-"""Lines on polygon meshes."""

@@ -1,1 +1,0 @@
-"""Lines on terrains: water, watersheds, roads, and where labels of level lines fit."""

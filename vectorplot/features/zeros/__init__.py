@@ -1,1 +1,0 @@
-"""Zero manifolds: where a function of two parameters vanishes."""

@@ -1,1 +1,0 @@
-"""Bodies as meshes: boxes, prisms, polyhedra from lists of faces, bodies of revolution."""

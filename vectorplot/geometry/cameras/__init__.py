@@ -1,1 +1,0 @@
-"""Cameras: how a point of the world comes into the picture."""

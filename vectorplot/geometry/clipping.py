@@ -1,0 +1,512 @@
+"""Windows and boxes to clip by, and where points lie about them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import TypeVar
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.polylines import EACH_POINT
+
+LEFT, RIGHT, ABOVE, BELOW, INFRONT, BEHIND = 1, 2, 4, 8, 16, 32
+"""Region codes; a point outside in two ways has their sum. Source: Cohen and Sutherland."""
+
+Codes = NDArray[np.uint8]
+
+
+@dataclass(frozen=True)
+class Window:
+    """A rectangle of the image: the clipping region.
+
+    Parameters
+    ----------
+    min_x, max_x, min_y, max_y : float
+        Its sides, min_x < max_x and min_y < max_y.
+
+    Raises
+    ------
+    InputError
+        Where it is empty.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.Window.of_size(640, 480)
+    Window(min_x=0.0, max_x=640, min_y=0.0, max_y=480)
+    """
+
+    min_x: float
+    max_x: float
+    min_y: float
+    max_y: float
+
+    def __post_init__(self) -> None:
+        if not (self.min_x < self.max_x and self.min_y < self.max_y):
+            raise InputError("a clipping window needs min_x < max_x and min_y < max_y")
+
+    @classmethod
+    def of_size(cls, width: float, height: float) -> Window:
+        """The whole window, from (0, 0) to (width, height).
+
+        Parameters
+        ----------
+        width, height : float
+            Both positive.
+
+        Returns
+        -------
+        Window
+            With min_x and min_y 0.
+
+        Raises
+        ------
+        InputError
+            Where it is empty.
+        """
+        return cls(0.0, width, 0.0, height)
+
+    @property
+    def sides(self) -> tuple[tuple[int, int, float, float], ...]:
+        """Code, axis, limit and sign of each side: sign * (coordinate - limit) is negative outside."""
+        return (
+            (LEFT, 0, self.min_x, 1.0),
+            (RIGHT, 0, self.max_x, -1.0),
+            (ABOVE, 1, self.max_y, -1.0),
+            (BELOW, 1, self.min_y, 1.0),
+        )
+
+
+@dataclass(frozen=True)
+class Box:
+    """A clipping window with depths after T2: far and near plane.
+
+    Parameters
+    ----------
+    window : Window
+        Its sides in the image.
+    min_z : float
+        The far plane.
+    max_z : float
+        The near plane.
+
+    Raises
+    ------
+    InputError
+        Where it is empty.
+
+    Notes
+    -----
+    The initial values are z = -4 d and z = 0.8 d for an eye at the distance d.
+
+    Source: Glaeser, section 2.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> box = geometry.Box(geometry.Window(-1, 1, -1, 1))
+    >>> box.min_z, box.max_z, box.planes.shape
+    (-0.8, 4.0, (6, 4))
+    """
+
+    window: Window
+    min_z: float = -0.8
+    max_z: float = 4.0
+
+    def __post_init__(self) -> None:
+        if not self.min_z < self.max_z:
+            raise InputError("a clipping box needs min_z < max_z")
+
+    @property
+    def planes(self) -> Floats:
+        """(6, 4) far, near, left, right, above, below: homogeneous points inside have products >= 0 with all rows."""
+        w = self.window
+        return np.array(
+            [
+                [0.0, 0.0, 1.0, -self.min_z],
+                [0.0, 0.0, -1.0, self.max_z],
+                [1.0, 0.0, 0.0, -w.min_x],
+                [-1.0, 0.0, 0.0, w.max_x],
+                [0.0, -1.0, 0.0, w.max_y],
+                [0.0, 1.0, 0.0, -w.min_y],
+            ]
+        )
+
+
+def region_codes(points: ArrayLike, region: Window | Box) -> Codes:
+    """Sums of region codes of points: on which sides of a window or box they are outside.
+
+    Parameters
+    ----------
+    points : (..., 2 or more) array_like of float
+        x and y; for a box also the depth after T2.
+    region : Window or Box
+        The clipping region.
+
+    Returns
+    -------
+    (...) array of uint8
+        0 inside; 1 left, 2 right, 4 above, 8 below, of a box also 16 in front of it and 32 behind it.
+
+    Notes
+    -----
+    A point is in front of a box also where z* < -1: it lies behind the eye.
+
+    Source: Cohen and Sutherland; Glaeser, section 2.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> window = geometry.Window(0, 10, 0, 10)
+    >>> geometry.region_codes([(5, 5), (-1, 5), (12, 12)], window).tolist()
+    [0, 1, 6]
+    """
+    p = np.asarray(points, dtype=np.float64)
+    codes = np.zeros(p.shape[:-1], dtype=np.uint8)
+    window = region.window if isinstance(region, Box) else region
+    for code, axis, limit, sign in window.sides:
+        codes |= np.where(sign * (p[..., axis] - limit) < 0.0, code, 0).astype(np.uint8)
+    if isinstance(region, Box):
+        z = p[..., 2]
+        front = (z > region.max_z) | (z < -1.0)
+        codes |= np.where(front, INFRONT, np.where(z < region.min_z, BEHIND, 0)).astype(np.uint8)
+    return codes
+
+
+# Lines clipped by windows and boxes.
+
+Drawn = TypeVar("Drawn")
+
+
+@dataclass(frozen=True, eq=False)
+class ClippedLines:
+    """Segments after clipping.
+
+    Parameters
+    ----------
+    start, end : (n, k) array of float
+        Rows of segments of which nothing is left have no meaning.
+    exists : (n,) array of bool
+        Something is left.
+    clipped : (n,) array of bool
+        Something is gone.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> window = geometry.Window(0, 10, 0, 10)
+    >>> lines = geometry.clip_lines_2d([(5, 5), (20, 0)], [(6, 6), (20, 9)], window)
+    >>> lines.exists.tolist(), lines.clipped.tolist()
+    ([True, False], [False, True])
+    """
+
+    start: Floats
+    end: Floats
+    exists: Bools
+    clipped: Bools
+
+
+def clip_lines_2d(start: ArrayLike, end: ArrayLike, window: Window) -> ClippedLines:
+    """The parts of segments inside a window.
+
+    Parameters
+    ----------
+    start, end : (n, 2 or more) array_like of float
+        Further columns, such as depth, go along linearly.
+    window : Window
+        The clipping region.
+
+    Returns
+    -------
+    ClippedLines
+        New ends lie on the window's sides to the last digit, and segments that are wholly inside keep every digit.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.5 (Cohen and Sutherland); errata G2-07, G2-10.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> lines = geometry.clip_lines_2d([(-5, 5)], [(15, 5)], geometry.Window(0, 10, 0, 10))
+    >>> lines.start.tolist(), lines.end.tolist()
+    ([[0.0, 5.0]], [[10.0, 5.0]])
+    """
+    p, q = (np.array(x, dtype=np.float64) for x in (start, end))
+    clipped = (region_codes(p, window) | region_codes(q, window)) != 0
+    gone = np.zeros(len(p), dtype=np.bool_)
+    for _, axis, limit, sign in window.sides:
+        for moved, fixed in ((p, q), (q, p)):
+            out = sign * (moved[:, axis] - limit) < 0.0
+            gone |= out & (sign * (fixed[:, axis] - limit) < 0.0)
+            rows = np.flatnonzero(out & ~gone)
+            a, b = moved[rows], fixed[rows]
+            share = (limit - a[:, axis]) / (b[:, axis] - a[:, axis])
+            moved[rows] = a + share[:, None] * (b - a)
+            moved[rows, axis] = limit
+    return ClippedLines(p, q, ~gone, clipped)
+
+
+def clip_lines_3d(start: ArrayLike, end: ArrayLike, box: Box) -> ClippedLines:
+    """The parts of segments inside a box, wherever the eye is.
+
+    Parameters
+    ----------
+    start, end : (n, 4) array_like of float
+        Homogeneous, as CoordinateSystem.homogeneous gives them.
+    box : Box
+        The clipping region.
+
+    Returns
+    -------
+    ClippedLines
+        Ends (n, 3) after T2.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.5; errata G2-08 to G2-10.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> system = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> start, end = system.homogeneous([(0, 0, 0)]), system.homogeneous([(0, 0, 20)])
+    >>> lines = geometry.clip_lines_3d(start, end, geometry.Box(geometry.Window(-1, 1, -1, 1)))
+    >>> lines.start.tolist(), lines.end.round(9).tolist()
+    ([[0.0, 0.0, 0.0]], [[0.0, 0.0, 4.0]])
+    """
+    p, q = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
+    low, high, exists, clipped = _inside_part(matmul(p, box.planes.T), matmul(q, box.planes.T))
+    ends = [
+        np.where((t < 0.5)[:, None], p + t[:, None] * (q - p), q - (1.0 - t)[:, None] * (q - p)) for t in (low, high)
+    ]
+    flat = [divided(e, exists) for e in ends]
+    return ClippedLines(flat[0], flat[1], exists, clipped)
+
+
+def _inside_part(p: Floats, q: Floats) -> tuple[Floats, Floats, Bools, Bools]:
+    """From distances (n, planes) of both ends: parameters of the part inside, whether there is one, whether any is
+    cut."""
+    out_p, out_q = p < 0.0, q < 0.0
+    share = p / np.where(out_p != out_q, p - q, 1.0)
+    low = np.where(out_p & ~out_q, share, 0.0).max(axis=-1)
+    high = np.where(out_q & ~out_p, share, 1.0).min(axis=-1)
+    exists = ~(out_p & out_q).any(axis=-1) & (low <= high)
+    return low, high, np.asarray(exists), np.asarray((out_p | out_q).any(axis=-1))
+
+
+def divided(points: Floats, exists: Bools) -> Floats:
+    """(n,3) homogeneous points (n,4) in space; of those that do not exist no meaning."""
+    weight = np.where(exists & (points[:, 3] > 0.0), points[:, 3], 1.0)
+    return np.asarray(points[:, :3] / weight[:, None])
+
+
+def clip_and_draw(
+    start: ArrayLike,
+    end: ArrayLike,
+    clip: Callable[[ArrayLike, ArrayLike], ClippedLines],
+    draw: Callable[[Floats, Floats], Drawn],
+) -> Drawn:
+    """What draw makes of the segments that clip leaves: any way of clipping goes with any way of drawing.
+
+    Parameters
+    ----------
+    start, end : (n, 2 or more) array_like of float
+        The segments.
+    clip : callable
+        clip(start, end) gives ClippedLines.
+    draw : callable
+        draw(start, end) is called with the parts that exist.
+
+    Returns
+    -------
+    Any
+        What draw returns.
+
+    Notes
+    -----
+    Segments that are not clipped are drawn as they are. Source: Glaeser, section 2.5.
+
+    Examples
+    --------
+    >>> from functools import partial
+    >>> from vectorplot import geometry
+    >>> clip = partial(geometry.clip_lines_2d, window=geometry.Window(0, 10, 0, 10))
+    >>> geometry.clip_and_draw([(-5, 5), (20, 0)], [(15, 5), (20, 9)], clip, lambda start, end: (end - start).tolist())
+    [[10.0, 0.0]]
+    """
+    lines = clip(start, end)
+    return draw(lines.start[lines.exists], lines.end[lines.exists])
+
+
+# Polygons clipped by planes, windows and boxes.
+
+
+@dataclass(frozen=True, eq=False)
+class Polygons:
+    """Polygons one after the other.
+
+    Parameters
+    ----------
+    points : (c, k) array of float
+        The corners of all polygons.
+    offsets : (n+1,) array of int
+        Polygon i has the points offsets[i] to offsets[i+1].
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> polygons = geometry.Polygons.of([(0, 0), (1, 0), (0, 1)], [(2, 0), (3, 0), (3, 1), (2, 1)])
+    >>> len(polygons), polygons.offsets.tolist(), polygons[1][0].tolist()
+    (2, [0, 3, 7], [2.0, 0.0])
+    """
+
+    points: Floats = field(metadata=EACH_POINT)
+    offsets: Ints
+
+    @classmethod
+    def of(cls, *polygons: ArrayLike) -> Polygons:
+        """The polygons given as arrays of corners.
+
+        Parameters
+        ----------
+        polygons : (k, columns) array_like of float
+            One for each, all of as many columns.
+
+        Returns
+        -------
+        Polygons
+            In the same order.
+        """
+        arrays = [np.asarray(p, dtype=np.float64) for p in polygons]
+        return cls(np.concatenate(arrays), ragged.offsets([len(a) for a in arrays]))
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, index: int) -> Floats:
+        return self.points[self.offsets[index] : self.offsets[index + 1]]
+
+
+def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]:
+    """The parts of polygons where a distance, given at their corners and linear in between, is not negative.
+
+    Parameters
+    ----------
+    polygons : Polygons
+        With c corners.
+    distance : (c,) array of float
+        Of every corner.
+
+    Returns
+    -------
+    Polygons
+        As many as before; one of which fewer than three corners are left is left empty.
+    (c',) array of bool
+        Which corners are new; those have all columns interpolated linearly.
+
+    Notes
+    -----
+    Degenerate: a polygon that is not convex may keep coincident edges along the cut, which enclose no area.
+
+    Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> square = geometry.Polygons.of([(0, 0), (4, 0), (4, 4), (0, 4)])
+    >>> right, is_new = geometry.cut_polygons(square, square.points[:, 0] - 1.0)
+    >>> right[0].tolist(), is_new.tolist()
+    ([[1.0, 0.0], [4.0, 0.0], [4.0, 4.0], [1.0, 4.0]], [True, False, False, True])
+    """
+    count = len(polygons.points)
+    following = ragged.following(polygons.offsets)
+    beyond = distance[following]
+    crossing = (distance < 0.0) & (beyond > 0.0) | (distance > 0.0) & (beyond < 0.0)
+    share = np.where(crossing, distance / np.where(crossing, distance - beyond, 1.0), 0.0)
+    made = polygons.points + share[:, None] * (polygons.points[following] - polygons.points)
+    # Every corner may leave itself and, after it, a new corner on its side.
+    pairs = np.stack([polygons.points, made], axis=1).reshape(2 * count, polygons.points.shape[1])
+    kept = np.stack([distance >= 0.0, crossing], axis=1).reshape(2 * count)
+    ends = ragged.offsets(kept)[2 * polygons.offsets]
+    sizes = np.diff(ends)
+    kept &= np.repeat(np.repeat(sizes >= 3, np.diff(polygons.offsets)), 2)
+    offsets = ragged.offsets(np.where(sizes >= 3, sizes, 0))
+    is_new = np.tile(np.array([False, True]), count)
+    return Polygons(pairs[kept], offsets), is_new[kept]
+
+
+def clip_polygons_2d(polygons: Polygons, window: Window) -> Polygons:
+    """The parts of polygons inside a window.
+
+    Parameters
+    ----------
+    polygons : Polygons
+        2 or more columns; further ones, such as depth, are interpolated.
+    window : Window
+        The clipping region.
+
+    Returns
+    -------
+    Polygons
+        As many as before, some of them empty. New corners lie on the window's sides to the last digit.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.5 (Hodgman and Sutherland).
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> square = geometry.Polygons.of([(-4, -4), (4, -4), (4, 4), (-4, 4)])
+    >>> sorted(geometry.clip_polygons_2d(square, geometry.Window(0, 9, 0, 9))[0].tolist())
+    [[0.0, 0.0], [0.0, 4.0], [4.0, 0.0], [4.0, 4.0]]
+    """
+    for _, axis, limit, sign in window.sides:
+        polygons, is_new = cut_polygons(polygons, sign * (polygons.points[:, axis] - limit))
+        polygons.points[is_new, axis] = limit
+    return polygons
+
+
+def clip_polygons_3d(polygons: Polygons, box: Box) -> Polygons:
+    """The parts of polygons inside a box, wherever the eye is.
+
+    Parameters
+    ----------
+    polygons : Polygons
+        Homogeneous (4 columns), as CoordinateSystem.homogeneous gives them.
+    box : Box
+        The clipping region.
+
+    Returns
+    -------
+    Polygons
+        As many as before, some of them empty; corners (3 columns) after T2.
+
+    Notes
+    -----
+    Far and near come first, so that few corners are left for the sides.
+
+    Source: Glaeser, section 2.5; errata G2-09, G2-12.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> system = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> floor = geometry.Polygons.of(system.homogeneous([(-1, -1, 0), (1, -1, 0), (1, -1, 20), (-1, -1, 20)]))
+    >>> clipped = geometry.clip_polygons_3d(floor, geometry.Box(geometry.Window(-2, 2, -2, 2), max_z=1.0))
+    >>> clipped[0].max(axis=0).round(9).tolist()
+    [2.0, -1.0, 1.0]
+    """
+    for plane in box.planes:
+        polygons, _ = cut_polygons(polygons, matmul(polygons.points, plane))
+    points = polygons.points
+    return Polygons(divided(points, np.ones(len(points), dtype=np.bool_)), polygons.offsets)

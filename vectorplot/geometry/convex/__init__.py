@@ -1,1 +1,0 @@
-"""Convex polygons and bodies: clipped, cut, merged and told apart."""

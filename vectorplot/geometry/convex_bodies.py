@@ -1,0 +1,480 @@
+"""Prisms and bodies of revolution that are not convex, and faces, as unions of convex parts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.convex_polygons import convex_polygon_parts, flattened, plane_axes, signed_area
+from vectorplot.geometry.elementary import arctan2
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import (
+    FULL_TURN,
+    HALF_TURN,
+    checked_points,
+    has_convex_outline,
+    polyhedron,
+    prism,
+    revolution,
+    zero_distance,
+)
+from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.winding import is_closed_oriented
+from vectorplot.tolerances import ZERO_OF_EXTENT
+
+
+def convex_prism_parts(base_points: ArrayLike, vector: ArrayLike) -> list[Mesh]:
+    """Convex prisms that together fill the prism over a planar base.
+
+    Parameters
+    ----------
+    base_points : (b, 3) array_like of float
+        A planar polygon.
+    vector : (3,) array_like of float
+        Along which it is moved.
+
+    Returns
+    -------
+    list of Mesh
+        One where the base is convex.
+
+    Raises
+    ------
+    InputError
+        For what prism refuses, and a base that crosses itself.
+
+    Notes
+    -----
+    Source: Glaeser, section 3.5.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> angle = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)]
+    >>> parts = geometry.convex_prism_parts(angle, (0, 0, 1))
+    >>> round(sum(geometry.body_record(part).volume for part in parts), 9)
+    3.0
+    """
+    whole = prism(base_points, vector)
+    count = len(whole.vertices) // 2
+    base, step = whole.vertices[:count], whole.vertices[count] - whole.vertices[0]
+    normal = whole.area_vectors[-1]
+    flat, turned = flattened(base, normal)
+    parts = convex_polygon_parts(flat)
+    return [prism(base[turned[part]], step) for part in parts]
+
+
+def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float = FULL_TURN) -> list[Mesh]:
+    """Convex polyhedra that together fill a body of revolution.
+
+    Parameters
+    ----------
+    meridian : (s, 3) array_like of float
+        In a half-plane through the z-axis.
+    order : int
+        As of revolution.
+    angle_deg : float
+        As of revolution.
+
+    Returns
+    -------
+    list of Mesh
+        Where every horizontal plane meets the meridian once, slices between horizontal planes, in parts of at most half
+        a turn; else the convex parts of the profile, swept step by step.
+
+    Raises
+    ------
+    InputError
+        For what revolution refuses.
+
+    Notes
+    -----
+    Source: Glaeser, section 3.4, figure 4.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> spool = [(2, 0, 0), (1, 0, 1), (2, 0, 2)]
+    >>> [part.face_count for part in geometry.convex_revolution_parts(spool, order=6)]
+    [8, 8]
+    """
+    revolution(meridian, order, angle_deg=angle_deg)  # refuses what makes no body
+    points = checked_points(meridian, "meridian")
+    profile = np.stack([np.hypot(points[:, 0], points[:, 1]), points[:, 2]], axis=1)
+    if profile[-1, 1] < profile[0, 1]:
+        profile = profile[::-1]
+    extent = float(np.abs(profile - [0.0, profile[0, 1]]).max())
+    azimuth = points[int(np.argmax(np.hypot(points[:, 0], points[:, 1]))), :2]
+    azimuth = azimuth / norm(azimuth)
+    if (np.diff(profile[:, 1]) > ZERO_OF_EXTENT * extent).all() and (angle_deg == FULL_TURN or angle_deg <= HALF_TURN):
+        slices = [_in_space(profile[a : b + 1], azimuth) for a, b in _arches(profile)]
+        return [revolution(piece, order, angle_deg=angle_deg) for piece in slices]
+    return _sectors(profile, azimuth, order, angle_deg)
+
+
+def _in_space(profile: Floats, azimuth: Floats) -> Floats:
+    return np.column_stack([profile[:, :1] * azimuth, profile[:, 1]])
+
+
+def _arches(profile: Floats) -> Iterable[tuple[int, int]]:
+    """First and last point of the pieces of a rising profile that bulge outwards."""
+    sides = np.diff(profile, axis=0)
+    turn = sides[:-1, 0] * sides[1:, 1] - sides[:-1, 1] * sides[1:, 0]
+    zero = ZERO_OF_EXTENT * float(np.abs(sides).max()) ** 2
+    cuts = [0, *(np.flatnonzero(turn < -zero) + 1).tolist(), len(profile) - 1]
+    return pairwise(cuts)
+
+
+def _sectors(profile: Floats, azimuth: Floats, order: int, angle_deg: float) -> list[Mesh]:
+    """The convex parts of the profile, closed along the axis, between every two neighbouring meridians."""
+    closed = bool((profile[0] == profile[-1]).all())
+    outline = profile[:-1] if closed else profile
+    if not closed:
+        feet = [[[0.0, z]] if r > 0.0 else np.zeros((0, 2)) for r, z in (profile[0], profile[-1])]
+        outline = np.concatenate([feet[0], outline, feet[1]])
+    if signed_area(outline) < 0.0:
+        outline = outline[::-1]
+    steps = order if angle_deg == FULL_TURN else order - 1
+    angle = np.radians(angle_deg * np.arange(steps + 1) / steps) + arctan2(azimuth[1], azimuth[0])
+    parts = [outline[part] for part in convex_polygon_parts(outline)]
+    return [_wedge(part, a, b) for part in parts for a, b in pairwise(angle.tolist())]
+
+
+def _wedge(profile: Floats, first: float, second: float) -> Mesh:
+    """The convex polyhedron between a convex profile in two half-planes through the axis."""
+    r, z = profile[:, 0], profile[:, 1]
+    count = len(r)
+    rings = [np.column_stack([r * np.cos(a), r * np.sin(a), z]) for a in (first, second)]
+    here = np.arange(count)
+    there = np.roll(here, -1)
+    on_axis = r <= 0.0
+    twin = np.where(on_axis, here, here + count)
+    sides = np.stack([here, twin, twin[there], there], axis=1)
+    faces = [_without_repeats(side) for side in sides.tolist()]
+    faces = [face for face in faces if len(face) > 2]
+    used = np.unique(np.concatenate([here, twin]))
+    place = dict(zip(used.tolist(), range(len(used)), strict=True))
+    lists = [[place[v] for v in face] for face in [*faces, here.tolist(), twin[::-1].tolist()]]
+    return polyhedron(np.concatenate(rings)[used], lists)
+
+
+def _without_repeats(face: list[int]) -> list[int]:
+    return [v for k, v in enumerate(face) if v != face[k - 1]]
+
+
+def split_faces(mesh: Mesh, chosen: Bools) -> Mesh:
+    """The mesh with some faces cut into convex parts.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With f faces.
+    chosen : (f,) array of bool
+        The faces to be cut, which are planar.
+
+    Returns
+    -------
+    Mesh
+        With the same vertices; the other faces first, in their order.
+
+    Raises
+    ------
+    InputError
+        For a face that crosses itself.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)]
+    >>> angle = vp.Mesh.from_polygons(corners, [range(6)])
+    >>> geometry.split_faces(angle, np.array([True])).face_sizes.tolist()
+    [4, 4]
+    """
+    polygons = mesh.polygons()
+    present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
+    numbers = np.flatnonzero(~chosen).tolist()
+    faces = [polygons[k] for k in numbers]
+    for k in np.flatnonzero(chosen).tolist():
+        polygon = np.array(polygons[k])
+        flat, order = flattened(mesh.vertices[polygon], mesh.area_vectors[k])
+        parts = convex_polygon_parts(flat)
+        faces.extend(polygon[order[part]].tolist() for part in parts)
+        numbers.extend([k] * len(parts))
+    return Mesh.from_polygons(mesh.vertices, faces, present=present[numbers])
+
+
+# What a polyhedron and a convex one have in common: the polyhedron cut by one plane of the other after another.
+
+MAX_PLANES = 10_000
+"""The largest number of faces of the convex polyhedron: the other one is cut once for each."""
+
+
+def polyhedron_intersection(body: Mesh, convex: Mesh) -> Mesh:
+    """The part of a closed polyhedron that lies inside a closed convex one.
+
+    Parameters
+    ----------
+    body : Mesh
+        Closed, its faces turned outwards.
+    convex : Mesh
+        The same, and convex, with at most 10000 faces.
+
+    Returns
+    -------
+    Mesh
+        Faces of body first, in their order, then those of convex that close the cuts; a face that is not present stays
+        so.
+
+    Raises
+    ------
+    InputError
+        If a mesh is not closed with all its faces (also those not present) turned outwards, or neither is convex; for a
+        convex one of too many faces; where coordinates have no digits left to tell what lies in what.
+
+    Notes
+    -----
+    If body is convex too, so is the result, and the order of the two does not matter.
+
+    Degenerate: bodies that only touch have an empty intersection; of two faces in one plane that of body stays;
+    distances below 1e-9 of the extent are zero. A cut with holes is closed by several convex faces.
+
+    Source: Glaeser, section 3.6; errata G3-12 to G3-15.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> one, other = geometry.box((2, 2, 2)), geometry.box((2, 2, 2), placement=(1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1))
+    >>> geometry.polyhedron_intersection(one, other).bounds.tolist()
+    [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0]]
+    """
+    for mesh in (body, convex):
+        if not is_closed_oriented(mesh):
+            raise InputError("an intersection needs closed bodies whose faces all turn outwards")
+    if not has_convex_outline(convex):
+        if not has_convex_outline(body):
+            raise InputError("the intersection of two bodies that are both not convex is not supported")
+        body, convex = convex, body
+    if convex.face_count > MAX_PLANES:
+        raise InputError(f"the convex body of an intersection has more than {MAX_PLANES} faces")
+    corner = convex.vertices[convex.corners[convex.offsets[:-1]]]
+    zero = max(zero_distance(mesh.vertices) for mesh in (body, convex))
+    for normal, point, shown in zip(convex.face_normals, corner, _present(convex), strict=True):
+        if not body.face_count:
+            break
+        if normal.any():
+            body = cut_body(body, normal, point, zero, bool(shown))
+    return _compact(body)
+
+
+def cut_face(points: ArrayLike, normal: ArrayLike, constant: float) -> Floats:
+    """The part of a convex face on the inner side of a plane: corners (k,3); (0,3) if nothing but its border is left.
+
+    points (k,3) in order; the inner side is normal . p <= constant; points on the plane are kept.
+    Source: Glaeser, section 3.6; erratum G3-13.
+    """
+    corners = np.asarray(points, dtype=np.float64)
+    n = np.asarray(normal, dtype=np.float64)
+    extent = float(np.ptp(corners, axis=0).max()) if len(corners) else 0.0
+    distance = (matmul(corners, n) - constant) / float(norm(n))
+    side = _sides(distance, ZERO_OF_EXTENT * extent)
+    if not (side < 0).any() and (side != 0).any():
+        return np.zeros((0, 3))
+    after, far = np.roll(corners, -1, axis=0), np.roll(distance, -1)
+    crosses = side * np.roll(side, -1) < 0
+    t = np.divide(distance, distance - far, out=np.zeros_like(distance), where=crosses)
+    woven = np.stack([corners, corners + t[:, None] * (after - corners)], axis=1).reshape(-1, 3)
+    return np.asarray(woven[np.stack([side <= 0, crosses], axis=1).reshape(-1)])
+
+
+def _sides(distance: Floats, zero: float) -> Ints:
+    return np.where(np.abs(distance) <= zero, 0, np.sign(distance)).astype(np.intp)
+
+
+def cut_body(body: Mesh, normal: Floats, point: Floats, zero: float, shown: bool) -> Mesh:
+    """The part of a closed polyhedron behind a plane with an outer normal.
+
+    Parameters
+    ----------
+    body : Mesh
+        Closed, its faces turned outwards.
+    normal, point : (3,) array of float
+        Of the plane: a unit vector, and a point in it.
+    zero : float
+        Points up to this distance from the plane lie in it.
+    shown : bool
+        Whether the faces in the plane that close it are present.
+
+    Returns
+    -------
+    Mesh
+        Vertices that no face has any more stay.
+
+    Raises
+    ------
+    InputError
+        For a body that is not closed.
+
+    Notes
+    -----
+    Source: Glaeser, section 3.6.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot import geometry
+    >>> cube = geometry.box((2, 2, 2))
+    >>> corner = geometry.cut_body(cube, np.array((1, 1, 1)) / np.sqrt(3), np.array((1.0, 2.0, 2.0)), 1e-9, shown=True)
+    >>> corner.face_count, sorted(corner.face_sizes.tolist())
+    (7, [3, 4, 4, 4, 5, 5, 5])
+    """
+    distance = matmul(body.vertices - point, normal)
+    side = _sides(distance, zero)
+    if not (side[body.corners] > 0).any():
+        return body
+    body, corner_side = _splittable(body, side)
+    starts = body.offsets[:-1]
+    lowest, highest = np.minimum.reduceat(corner_side, starts), np.maximum.reduceat(corner_side, starts)
+    stays = (lowest < 0) | ((lowest == 0) & (highest == 0) & (matmul(body.area_vectors, normal) > 0.0))
+    vertices, crossing = _crossings(body, distance, corner_side)
+    # Every corner gives itself if it is not outside, and the crossing behind it if there is one.
+    woven = np.stack([body.corners, crossing], axis=1)
+    keep = np.stack([corner_side <= 0, crossing >= 0], axis=1) & stays[body.corner_face][:, None]
+    sizes = np.add.reduceat(keep.sum(axis=1), starts)
+    corners = woven[keep]
+    on_plane = np.concatenate([side == 0, np.ones(len(vertices) - len(side), dtype=np.bool_)])
+    sizes = sizes[sizes > 0]
+    caps = _caps(vertices, _border(corners, sizes, on_plane), normal)
+    present = np.concatenate([_present(body)[stays], np.full(len(caps), shown)])
+    all_sizes = np.concatenate([sizes, [len(cap) for cap in caps]]).astype(np.intp)
+    offsets = ragged.offsets(all_sizes)
+    return Mesh(vertices, np.concatenate([corners, *caps]), offsets, present)
+
+
+def _present(body: Mesh) -> Bools:
+    return np.ones(body.face_count, dtype=np.bool_) if body.present is None else body.present
+
+
+def _splittable(body: Mesh, side: Ints) -> tuple[Mesh, Ints]:
+    """The body, its faces cut into convex parts where they meet the plane more than twice; (c,) sides of corners."""
+    corner_side = side[body.corners]
+    starts = body.offsets[:-1]
+    meets = (corner_side == 0) | (corner_side * corner_side[body.next_corner] < 0)
+    through = (np.minimum.reduceat(corner_side, starts) < 0) & (np.maximum.reduceat(corner_side, starts) > 0)
+    many = through & (np.add.reduceat(meets.astype(np.intp), starts) > 2)
+    if not many.any():
+        return body, corner_side
+    body = split_faces(body, many)
+    return body, side[body.corners]
+
+
+def _crossings(body: Mesh, distance: Floats, corner_side: Ints) -> tuple[Floats, Ints]:
+    """All vertices and those where edges cross the plane; (c,) the vertex where a corner's edge crosses, or -1."""
+    cut = np.flatnonzero(corner_side * corner_side[body.next_corner] < 0)
+    a, b = body.corners[cut], body.corners[body.next_corner[cut]]
+    keys, where = np.unique(np.minimum(a, b) * len(body.vertices) + np.maximum(a, b), return_inverse=True)
+    low, high = np.divmod(keys, len(body.vertices))
+    t = distance[low] / (distance[low] - distance[high])
+    new = body.vertices[low] + t[:, None] * (body.vertices[high] - body.vertices[low])
+    crossing = np.full(len(body.corners), -1, dtype=np.intp)
+    crossing[cut] = len(body.vertices) + where
+    return np.concatenate([body.vertices, new]), crossing
+
+
+def _border(corners: Ints, sizes: Ints, on_plane: Bools) -> list[tuple[int, int]]:
+    """The sides of faces in the plane that have no face on their other hand, turned round."""
+    a, b = corners, corners[ragged.following(ragged.offsets(sizes))]
+    flat = on_plane[a] & on_plane[b] & (a != b)
+    a, b = a[flat], b[flat]
+    alone = ~np.isin(b * len(on_plane) + a, a * len(on_plane) + b)
+    return list(zip(b[alone].tolist(), a[alone].tolist(), strict=True))
+
+
+def _caps(vertices: Floats, border: list[tuple[int, int]], normal: Floats) -> list[Ints]:
+    """The polygons in the plane that the border bounds, counter-clockwise about the normal."""
+    if not border:
+        return []
+    x, y = plane_axes(normal)
+    flat = matmul(vertices, np.stack([x, y], axis=1))
+    loops = [np.array(loop, dtype=np.intp) for loop in _loops(border, flat)]
+    areas = [signed_area(flat[loop]) for loop in loops]
+    outer = [loop for loop, area in zip(loops, areas, strict=True) if area > 0.0]
+    holes = [loop for loop, area in zip(loops, areas, strict=True) if area < 0.0]
+    if not holes:
+        return outer
+    return _perforated(flat, outer, holes)
+
+
+def _loops(border: list[tuple[int, int]], flat: Floats) -> list[list[int]]:
+    """Closed chains of the border; where it touches itself each chain turns left as sharply as it can."""
+    after: dict[int, list[int]] = {}
+    for a, b in border:
+        after.setdefault(a, []).append(b)
+    loops = []
+    while after:
+        start = next(iter(after))
+        loop = [start]
+        here = _step(after, None, start, flat)
+        while here != start:
+            loop.append(here)
+            if here not in after:
+                raise InputError("an intersection needs closed bodies")
+            here = _step(after, loop[-2], here, flat)
+        if len(loop) > 2:
+            loops.append(loop)
+    return loops
+
+
+def _step(after: dict[int, list[int]], before: int | None, here: int, flat: Floats) -> int:
+    """The vertex that follows; its edge is used up."""
+    choices = after[here]
+    chosen = choices[0]
+    if len(choices) > 1 and before is not None:
+        u, v = flat[here] - flat[before]
+
+        def turn(choice: int) -> float:
+            p, q = flat[choice] - flat[here]
+            return float(arctan2(u * q - v * p, u * p + v * q))
+
+        chosen = max(choices, key=turn)
+    choices.remove(chosen)
+    if not choices:
+        del after[here]
+    return chosen
+
+
+def _perforated(flat: Floats, outer: list[Ints], holes: list[Ints]) -> list[Ints]:
+    """Convex parts of the polygons that have holes; the others as they are."""
+    import shapely
+
+    shapes = [shapely.Polygon(flat[loop]) for loop in outer]
+    inside: list[list[Ints]] = [[] for _ in outer]
+    for hole in holes:
+        shape = shapely.Polygon(flat[hole])
+        around = [k for k, candidate in enumerate(shapes) if candidate.covers(shape)]
+        if not around:
+            raise InputError("coordinates have no digits left to tell in which face of the intersection a hole lies")
+        inside[min(around, key=lambda k: shapes[k].area)].append(hole)
+    faces: list[Ints] = []
+    for loop, cut_out in zip(outer, inside, strict=True):
+        numbers = np.concatenate([loop, *cut_out])
+        if cut_out:
+            parts = convex_polygon_parts(flat[loop], [flat[hole] for hole in cut_out])
+            faces.extend(numbers[part] for part in parts)
+        else:
+            faces.append(loop)
+    return faces
+
+
+def _compact(body: Mesh) -> Mesh:
+    """The mesh without vertices that no face uses."""
+    used, corners = np.unique(body.corners, return_inverse=True)
+    return Mesh(body.vertices[used], corners.astype(np.intp), body.offsets, body.present)

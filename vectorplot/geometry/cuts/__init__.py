@@ -1,1 +1,0 @@
-"""Bodies that are cut: half spaces, divided meshes, the faces of sections."""

@@ -1,1 +1,0 @@
-"""What moves things in the world."""

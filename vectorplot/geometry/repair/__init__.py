@@ -1,1 +1,0 @@
-"""Meshes as they come, made sound: welded, wound alike, without what has no area."""

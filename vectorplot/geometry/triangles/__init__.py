@@ -1,1 +1,0 @@
-"""Triangles of meshes: their edges, and places in them."""

@@ -1,1 +1,0 @@
-"""Formulas in files: parsed and differentiated, never evaluated as code."""

@@ -1,1 +1,0 @@
-"""Molecules: which atoms are where, and what is drawn for them."""

@@ -1,0 +1,407 @@
+"""Scene files: the data-file language of docs/scene-language.md, read into a Scene."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from itertools import islice
+from pathlib import Path
+
+import numpy as np
+
+from vectorplot.curves.curve import is_curve
+from vectorplot.errors import InputError, printable
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.solids import IDENTITY
+from vectorplot.io.mesh_file import shown
+from vectorplot.io.named_files import DEEPEST, NamedFiles
+from vectorplot.io.scene_item import Draft, finished
+from vectorplot.io.scene_items import ItemReader
+from vectorplot.io.scene_statements import (
+    INK_WORDS,
+    begins_annotation,
+    pen_target,
+    read_annotation,
+    read_box_axes,
+    read_camera,
+    read_colouring,
+    read_cut,
+    read_depth_cue,
+    read_explosion,
+    read_exposure,
+    read_ink,
+    read_label,
+    read_light,
+    read_page,
+)
+from vectorplot.io.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
+from vectorplot.scene.annotations import label_anchors
+from vectorplot.scene.extent import check_range
+from vectorplot.scene.item import Item
+from vectorplot.scene.labels import Label
+from vectorplot.scene.light import Light
+from vectorplot.scene.pens import target_of, unknown_item
+from vectorplot.scene.scene import Scene, together
+from vectorplot.words import WIRE_STYLES, unknown
+
+MAX_FILE_BYTES = 64 << 20
+"""The largest scene file that is read."""
+
+MAX_ITEMS = 1_000_000
+"""The largest number of items in a scene file."""
+
+
+def read_scene(path: str | os.PathLike[str]) -> Scene:
+    """The scene that a file in the scene language describes.
+
+    Parameters
+    ----------
+    path : str or path
+        A text in UTF-8, of any suffix.
+
+    Returns
+    -------
+    Scene
+        With the items, lights, camera and page that the file names.
+
+    Raises
+    ------
+    InputError
+        With file, line, item and the word expected; for a file that cannot be read, is not UTF-8, is larger than 64 MiB
+        or has more than a million items.
+
+    Warns
+    -----
+    InputWarning
+        Where a colour is unknown: it is gray.
+
+    Notes
+    -----
+    `vp.read` tells this language from mesh formats by the suffix; the language stands in docs/scene-language.md.
+
+    Source: Glaeser, chapter 3 and section 6.5.
+
+    Examples
+    --------
+    >>> import os, tempfile
+    >>> from vectorplot import io
+    >>> with tempfile.TemporaryDirectory() as folder:
+    ...     path = os.path.join(folder, "die.scene")
+    ...     with open(path, "w") as file:
+    ...         _ = file.write("DIE red box solid 2 2 2")
+    ...     scene = io.read_scene(path)
+    >>> [item.name for item in scene.items]
+    ['DIE']
+    """
+    name, file = printable(str(path)), Path(path)
+    return _Reader(Words(_text(file, name), name), NamedFiles.of(file)).annotated()
+
+
+def _text(file: Path, name: str) -> str:
+    """The text in a file that messages call so. Errors as of read_scene."""
+    try:
+        if file.stat().st_size > MAX_FILE_BYTES:
+            raise InputError(f"larger than {MAX_FILE_BYTES >> 20} MiB: this is no scene file", file=name)
+        return file.read_text(encoding="utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = error.object.count(b"\n", 0, error.start) + 1
+        raise InputError("not UTF-8: this is no scene file", file=name, line=line) from None
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        raise InputError(getattr(error, "strerror", None) or "cannot be read", file=name) from None
+
+
+def parse_scene(text: str, name: str = "<text>", *, beside: str | os.PathLike[str] | None = None) -> Scene:
+    """The scene that a text in the scene language describes.
+
+    Parameters
+    ----------
+    text : str
+        Statements and items.
+    name : str
+        What messages call the text.
+    beside : str or path, optional
+        The file that the text stands for: names of files in it are relative to its folder. Where None there are none.
+
+    Returns
+    -------
+    Scene
+        With the items, lights, camera and page that the text names.
+
+    Raises
+    ------
+    InputError
+        With name, line, item and the word expected; for more than a million items.
+
+    Warns
+    -----
+    InputWarning
+        Where a colour is unknown: it is gray.
+
+    Notes
+    -----
+    Degenerate: an empty text is an empty scene.
+
+    Examples
+    --------
+    >>> from vectorplot import io
+    >>> scene = io.parse_scene("DIE red box solid 2 2 2   BALL blue surface sphere 1 translation 5 0 0")
+    >>> [(item.name, item.colour) for item in scene.items]
+    [('DIE', 'red'), ('BALL', 'blue')]
+    >>> scene.items[0].mesh.face_count
+    6
+    """
+    files = None if beside is None else NamedFiles.of(Path(beside))
+    return _Reader(Words(text, name), files).annotated()
+
+
+class _Reader(ItemReader):
+    """Reads statements and items, and gathers them; parts: the places of items that an intersection is made of."""
+
+    def __init__(self, words: Words, files: NamedFiles | None = None) -> None:
+        super().__init__(words, files)
+        self.items: list[Item] = []
+        self.depth = 1
+        self.parts: set[int] = set()
+        self.lights: list[Light] = []
+        self.labels: list[tuple[int, Label]] = []
+        self.annotations: list[Scene] = []
+        self.pens: list[tuple[int, str]] = []
+        self.cuts: list[int] = []
+        self.settings = Scene(items=())
+        self.set: set[str] = set()
+        self.lit: list[tuple[int, Draft]] = []
+
+    def annotated(self) -> Scene:
+        """The whole file: the scene, and behind its items the lines and labels of annotations."""
+        scene = together([self.scene(), *self.annotations])
+        if scene.inks is not None:
+            self.check_pens(scene)
+        return scene
+
+    def scene(self) -> Scene:
+        """All statements and items up to the end of the text."""
+        while word := self.words[self.at]:
+            if word in SCENE_WORDS or begins_annotation(self.source, self.at):
+                self.statement(word)
+            else:
+                self.item()
+        numbers = {light.name: k for k, light in reversed(list(enumerate(self.lights)))} if self.lit else {}
+        for place, draft in self.lit:
+            self.items[place] = self.lit_item(self.items[place], draft, numbers)
+        self.check_range()
+        self.check_cuts()
+        shown = [item for place, item in enumerate(self.items) if place not in self.parts] if self.parts else self.items
+        found = replace(self.settings, items=tuple(shown), lights=tuple(self.lights))
+        return self.labelled(found) if self.labels else found
+
+    def labelled(self, scene: Scene) -> Scene:
+        """The scene with its labels, which may come before the items that they name."""
+        for index, label in self.labels:
+            try:
+                label_anchors(replace(scene, labels=(label,)))
+            except InputError as error:
+                self.source.fail(index, error.cause)
+        return replace(scene, labels=tuple(label for _, label in self.labels))
+
+    def check_pens(self, scene: Scene) -> None:
+        """An InputError for pens and dashes of items that are not there; items may come behind them."""
+        names = {item.name for item in scene.items}
+        said = [index for index, target in self.pens if self.words[index - 1] != "style"]
+        if said and scene.inks is not None and scene.inks.style in WIRE_STYLES:
+            cause = f"'{self.words[said[0] - 1]}' does not go with the style {scene.inks.style}"
+            self.source.fail(said[0] - 1, f"{cause}, which shows all lines, in colours of its own")
+        for index, target in self.pens:
+            item = target_of(target)[1]
+            if item is None or item in names:
+                continue
+            # Cuts and explosions make items of their own.
+            if not any(item.startswith(f"{name} ") for name in names):
+                self.source.fail(index, unknown_item(item, tuple(names)).cause)
+
+    def check_cuts(self) -> None:
+        """An InputError for cuts of items that are not there; items may come behind them."""
+        known = [item.name for item in self.items]
+        for index, cut in zip(self.cuts, self.settings.cuts, strict=True):
+            for name in cut.items or ():
+                if name not in known:
+                    self.source.fail(index, unknown("cut: item", name, known).cause)
+
+    def check_range(self) -> None:
+        """An InputError for polyhedra, as they stand in the scene, whose coordinates leave the range of numbers."""
+        bounds = [item.mesh.bounds for item in self.items if len(item.mesh.vertices)]
+        if not bounds:
+            return
+        low, high = np.array(bounds).transpose(1, 0, 2)
+        try:
+            check_range(np.stack([low.min(axis=0), high.max(axis=0)]))
+        except InputError as error:
+            raise InputError(error.cause, file=self.source.name) from None
+
+    def statement(self, word: str) -> None:
+        """camera, light, page, background, title, label or cut, and what follows it."""
+        if word in _MANIFOLD:
+            _MANIFOLD[word](self)
+            return
+        if word in ANNOTATION_WORDS:
+            annotation, self.at = read_annotation(self.source, self.at)
+            self.annotations.append(annotation)
+            return
+        if word in self.set and word not in ("light", "label", "cut", *INK_WORDS):
+            self.fail(f"a second '{word}'")
+        self.set.add(word)
+        source, now = self.source, self.settings
+        if word == "camera":
+            camera, self.at = read_camera(source, self.at)
+            self.settings = replace(now, camera=camera)
+        elif word == "light":
+            light, self.at = read_light(source, self.at)
+            self.lights.append(light)
+        elif word == "label":
+            start = self.at
+            label, self.at = read_label(source, self.at)
+            self.labels.append((start, label))
+        elif word == "cut":
+            self.cuts.append(self.at)
+            cut, self.at = read_cut(source, self.at)
+            self.settings = replace(now, cuts=(*now.cuts, cut))
+        elif word in INK_WORDS:
+            self.pens.append((self.at + 1, pen_target(source, self.at)))
+            inks, self.at = read_ink(source, self.at, now.inks, self.files)
+            self.settings = replace(now, inks=inks)
+        elif word == "explode":
+            explosion, self.at = read_explosion(source, self.at)
+            self.settings = replace(now, explosion=explosion)
+        elif word == "page":
+            page, self.at = read_page(source, self.at)
+            self.settings = replace(now, page=page)
+        elif word == "colour_by":
+            colouring, self.at = read_colouring(source, self.at)
+            self.settings = replace(now, colouring=colouring)
+        elif word == "exposure":
+            exposure, self.at = read_exposure(source, self.at)
+            self.settings = replace(now, exposure=exposure)
+        elif word == "depth_cue":
+            cue, self.at = read_depth_cue(source, self.at)
+            self.settings = replace(now, depth_cue=cue)
+        elif word == "box_axes":
+            box, self.at = read_box_axes(source, self.at)
+            self.settings = replace(now, box=box)
+        else:
+            self.at += 1
+            if word == "title":
+                if not self.words[self.at].startswith('"'):
+                    self.fail(f"expected a string in quotes after 'title', got {source.shown(self.at)}")
+                self.settings = replace(now, title=source.string(self.at))
+                self.at += 1
+            else:
+                self.settings = replace(now, background=self.colour("background"))
+
+    def item(self) -> None:
+        """An item, made of its draft."""
+        draft = self.draft()
+        parts: tuple[Mesh, ...] = ()
+        if draft.parts is not None:
+            places = [self.places[part] for part in draft.parts]
+            for place in places:
+                if not isinstance(self.items[place].shape, Mesh):
+                    name, what = self.items[place].name, "curve" if is_curve(self.items[place].shape) else "surface"
+                    self.source.fail(draft.kind_index, f"{draft.owner}{name} is a {what}: only solids are intersected")
+            parts = tuple(self.items[place].mesh for place in places)
+            self.parts.update(places)
+        if draft.curves.lit_index:
+            self.lit.append((len(self.items), draft))
+        self.places[draft.name] = len(self.items)
+        for number in range(len(draft.places)):
+            if number and draft.curves.lit_index:
+                self.lit.append((len(self.items), draft))
+            self.items.append(finished(draft.at(number), self.source, parts))
+            if len(self.items) > MAX_ITEMS:
+                self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
+
+    def include(self) -> None:
+        """The items and lights of another file, and where they stand."""
+        start = self.at
+        if self.files is None:
+            self.fail("include: a text without a file names no files")
+        path = self.files.named(self.source, self.at + 1, "include: ")
+        files = self.files.within(self.source, start + 1, path)
+        scene = _Reader(Words(_text(path, shown(path)), shown(path)), files).scene()
+        draft = Draft(path.name, start)
+        self.at += 2
+        self.modifiers(draft)
+        self.lights += scene.lights
+        self.repeated(scene.items, draft)
+
+    def assembly(self) -> None:
+        """The items up to the word end, and where they stand together."""
+        start = self.at
+        self.at += 1
+        draft = Draft("assembly", start)
+        first, lit = len(self.items), len(self.lit)
+        while (word := self.words[self.at]) != "end":
+            if not word:
+                self.source.fail(start, "assembly: expected 'end' behind its items, got the end of the file")
+            alone = word in SCENE_WORDS and word not in ("include", "assembly")
+            if alone or begins_annotation(self.source, self.at):
+                self.fail(f"assembly: expected an item or 'end', got {self.source.shown(self.at)}")
+            if word == "assembly" and self.depth >= DEEPEST:
+                self.fail(f"assembly: more than {DEEPEST} in one another")
+            if word in _MANIFOLD:
+                self.depth += 1
+                _MANIFOLD[word](self)
+                self.depth -= 1
+            else:
+                self.item()
+        self.at += 1
+        self.modifiers(draft)
+        if len(self.lit) > lit and draft.places != [IDENTITY]:
+            self.source.fail(start, "assembly: items with 'lit_by' cannot be moved together")
+        gone = {place for place in self.parts if place >= first}
+        items = [item for place, item in enumerate(self.items) if place >= first and place not in gone]
+        if draft.places != [IDENTITY]:
+            self.parts -= gone
+            del self.items[first:]
+            for name in [name for name, place in self.places.items() if place >= first]:
+                del self.places[name]
+            self.repeated(items, draft)
+
+    def alone(self) -> None:
+        """The word end without a beginning."""
+        self.fail("'end' without 'assembly'")
+
+    def repeated(self, items: Sequence[Item], draft: Draft) -> None:
+        """Items as often and where a draft says."""
+        if len(self.items) + len(items) * len(draft.places) > MAX_ITEMS:
+            self.source.fail(draft.index, f"{draft.owner}more than {MAX_ITEMS} items")
+        for number, place in enumerate(draft.places, 1):
+            for item in items:
+                named = item if number == 1 else replace(item, name=f"{item.name} {number}")
+                matrix = np.array([*place, 0.0, 0.0, 0.0, 1.0]).reshape(4, 4)
+                self.places.setdefault(named.name, len(self.items))
+                self.items.append(named if place == IDENTITY else named.transformed(matrix))
+
+    def lit_item(self, item: Item, draft: Draft, numbers: Mapping[str, int]) -> Item:
+        """An item with isophotes of the light that its draft names, or counts from 1; lights may come after items.
+
+        numbers: of the lights from 0, by their names."""
+        at = draft.curves.lit_index
+        name, count = self.source.string(at), len(self.lights)
+        if self.words[at].isdecimal() and len(name) <= len(str(count)) and 1 <= int(name) <= count:
+            index = int(name) - 1
+        elif name in numbers:
+            index = numbers[name]
+        else:
+            known = ", ".join(filter(None, islice(numbers, 10))) or f"{count} without names"
+            self.source.fail(at, f"{draft.owner}there is no light {self.source.shown(at)} (lights: {known})")
+        return replace(item, curves=replace(item.curves, light=index))
+
+
+_MANIFOLD: dict[str, Callable[[_Reader], None]] = {
+    "include": _Reader.include,
+    "assembly": _Reader.assembly,
+    "end": _Reader.alone,
+}
+"""Statements about several items at once."""

@@ -1,1 +1,0 @@
-"""The scene language: read and written."""

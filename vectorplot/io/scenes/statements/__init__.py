@@ -1,1 +1,0 @@
-"""Statements of scene files that make items of their own."""

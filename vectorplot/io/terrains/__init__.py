@@ -1,1 +1,0 @@
-"""Files of heights: grids and scattered points."""

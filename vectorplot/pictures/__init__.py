@@ -1,0 +1,1 @@
+"""The verbs, and the stages that a picture is made in."""

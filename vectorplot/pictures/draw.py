@@ -1,0 +1,288 @@
+"""The strokes that hatch faces of a scene, on a picture of it that has its place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
+from functools import partial
+from typing import Literal
+
+from vectorplot.drawing.drawing import Drawing, Paths
+from vectorplot.drawing.pen_layers import line_list, pen_scale
+from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
+from vectorplot.geometry.budget import budget_of, threads_of
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.anything import scene_of
+from vectorplot.pictures.lines import (
+    Finish,
+    Traceable,
+    chord_error_mm,
+    fit_error_mm,
+    labels_in_place,
+    lines_in_place,
+    placed_lines,
+    traceable,
+)
+from vectorplot.pictures.options import check_line_options, check_longest, check_look, check_types
+from vectorplot.pictures.pipeline import StageReport, Walk
+from vectorplot.pictures.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
+from vectorplot.pictures.subject import Paper, beside_bar, left_of_bar, subject_of
+from vectorplot.scene.added_lines import with_usual_lines
+from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.page import Page
+from vectorplot.scene.pens import DepthCue, depth_cue_of
+from vectorplot.scene.placement import Placement, page_of
+from vectorplot.scene.view import look
+from vectorplot.visibility.projected_faces import project_faces
+from vectorplot.words import DRAWN, TEXT_WORDS, WIRES, check_word, line_kinds
+
+
+def hatched_in_place(
+    shapes: Traceable,
+    placement: Placement,
+    hatch: Hatching | Stippling | None,
+    crease_angle_deg: float,
+    tolerance_mm: float,
+    budget: float,
+) -> Paths:
+    """The strokes in what is seen of a scene's faces, as they come. hatch and all else as of draw."""
+    from vectorplot.pictures.fills import hatched
+
+    walk = shapes.walk
+    trace = partial(
+        lines_in_place,
+        view=shapes.view,
+        faces=shapes.faces,
+        placement=placement,
+        kinds=frozenset(),
+        crease_angle_deg=crease_angle_deg,
+        tolerance_mm=tolerance_mm,
+        budget=budget,
+    )
+    filled = partial(
+        hatched,
+        crease_angle_deg=crease_angle_deg,
+        tolerance_mm=tolerance_mm,
+        budget=budget_of(budget),
+        progress=walk.fraction("hatching"),
+    )
+    return walk.run("hatching", filled, shapes.scene, placement, hatch, trace)
+
+
+# The verb draw: a scene becomes strokes on a page.
+
+
+def draw(
+    scene: object,
+    camera: Camera | str | None = None,
+    *,
+    page: Page | str | None = None,
+    width: float | str | None = None,
+    fit: bool = True,
+    lines: str | Iterable[str] | None = None,
+    crease_angle_deg: float = 25.0,
+    style: Style | str | None = None,
+    hidden: Literal["none", "dashed", "solid"] | None = None,
+    pens: Pens | None = None,
+    dashes: str | Mapping[str, str] | Iterable[str] | None = None,
+    scale_pens: bool = False,
+    thin_ends: bool = False,
+    depth_cue: DepthCue | str | None = None,
+    background: str | None = None,
+    halo_mm: float = 0.0,
+    hatch: Hatching | Stippling | None = None,
+    layers: str | None = None,
+    unplotted: str | Iterable[str] = "",
+    curves: Literal["bezier", "polyline"] = "bezier",
+    tolerance_mm: float = 0.02,
+    title: str = "",
+    frame: bool = False,
+    text: Literal["strokes", "real"] = "strokes",
+    longest_mm: float | None = None,
+    budget: float = 1.0,
+    jobs: int | None = None,
+    progress: Callable[[str, float], None] | None = None,
+    explain: Callable[[StageReport], None] | None = None,
+) -> Drawing:
+    """The scene as strokes on a page, hidden lines found by geometry.
+
+    Parameters
+    ----------
+    scene : Scene, path, Item, Mesh, surface, curve, or several of these
+        What is drawn, as of `io.scene_of`.
+    camera : Camera or str, optional
+        Or the name of a main view, such as "front" or "iso"; where None that of the scene, else default_camera.
+    page : Page or str, optional
+        Or its name or size, such as "A4", "A5 landscape" or "200x150"; where None that of the scene, else A4. Of "fit"
+        the latter, cut to the picture and its margin.
+    width : float or str, optional
+        In mm, or with its unit, such as "8cm" (mm, cm, in, pt): the page is as wide, and as high as its picture is
+        then; of page it has the margin.
+    fit : bool
+        The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
+        camera's picture height.
+    lines : str or iterable of str, optional
+        Words of LineKind, or one text with commas between them, DRAWN or WIRES where None; an item's own come first.
+    crease_angle_deg : float
+        Sharper edges are creases; 0 to 180 degrees.
+    style : Style or str, optional
+        Where None what the scene says, else plain. One of plain, plotter, book, draft, blueprint, or a file that ends
+        in .toml; or a wireframe: nothing hides anything, all lines have the middle shades of their items' palettes
+        (wireframe), or go by their depth (depth-cue), on a sheet in the scene's background or the darkest gray.
+    hidden : {"none", "dashed", "solid"}, optional
+        Hidden lines are left out, dashed, or solid on a layer of their own; as the style says where None.
+    pens : str, Pen, mapping or iterable of str, optional
+        What draws lines by kind, by item and by both, before what style and scene say: WIDTH, COLOUR or WIDTH:COLOUR,
+        as in "contour=0.5:black,hidden=0.18:gray,house=red,house.crease=0.2"; widths in mm, or with their unit. What
+        no kind and no item stands before is for all lines.
+    dashes : str, mapping or iterable of str, optional
+        DASH,GAP in mm, or with their units, by kind, item and both, as in "hidden=3,1"; or none.
+    scale_pens : bool
+        Widths and dashes are those on A4, and in proportion to it on other pages.
+    thin_ends : bool
+        Lines that converge, as in the apex of a cone, stop early in turn, before their ink makes a blot.
+    depth_cue : DepthCue or str, optional
+        Strokes are thinner (width) or paler (shade) the farther away they are, in five steps or so many as stand behind
+        the word, as in "width,8" or "width,shade,3"; or none. Each step of a layer is a layer with a pen of its own.
+        Where None as the scene says.
+    background : str, optional
+        The colour of the paper, drawn on a layer that is not plotted; as the style says where None.
+    halo_mm : float
+        Lines end so many mm beside what is in front of them.
+    hatch : Hatching or Stippling, optional
+        How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
+    layers : str, optional
+        What shares a layer: kind, object or colour, or several of these with commas between them; as the style says
+        where None.
+    unplotted : str or iterable of str
+        The names of layers that plotters skip; kinds, items and colours of which the picture shows nothing may be among
+        them.
+    curves : {"bezier", "polyline"}
+        Strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or stay polylines.
+    tolerance_mm : float
+        How many mm strokes of smooth curves may be off the true curves; their points are exact but for the ends of
+        dashes, straight lines are so whatever it is.
+    title : str
+        Letters in the middle of the lower margin.
+    frame : bool
+        A rectangle in the middle of the margin, which ends before the title.
+    text : {"strokes", "real"}
+        Letters of labels and titles are strokes of the pen; or texts, set in fonts by what reads the file.
+    longest_mm : float, optional
+        Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
+    budget : float
+        How many times the usual work on smooth surfaces is allowed (see geometry.budget).
+    jobs : int, optional
+        On how many threads the stages that go over chunks work; where None, on all processors. The result is the same.
+    progress : callable, optional
+        progress(stage, fraction) is called while it works.
+    explain : callable, optional
+        explain(report) is called while it works, with a StageReport.
+
+    Returns
+    -------
+    Drawing
+        The page in mm with its layers, the names of the items, and the matrix page_from_world.
+
+    Raises
+    ------
+    InputError
+        As of `io.scene_of`.
+        For unknown words and layers, impossible cameras, and widths and angles out of range; for a tolerance or a
+        budget that is not finite and positive; for hidden lines, a halo, a hatching, a depth cue or layers other than
+        by kind in a wireframe, which has colours of its own.
+    TypeError
+        For what is nothing of that kind.
+
+    Warns
+    -----
+    InputWarning
+        Where a picture shows so little of the scene that the tolerance cannot be kept, and what the budget did not do
+        for; for implicit surfaces that have no points in their boxes.
+
+    Notes
+    -----
+    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
+    the principal ray, a fitted picture shows the camera's field of vision, on a whole page.
+
+    Source: Glaeser, sections 2.1, 4.4 and 7.2.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> tetrahedron = vp.Mesh.from_triangles(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    >>> scene = vp.Scene((vp.Item("tetrahedron", tetrahedron),))
+    >>> drawing = vp.draw(scene, vp.Camera((4, 3, 2)), page=vp.Page(100, 80), hidden="solid")
+    >>> drawing.width_mm, drawing.height_mm
+    (100, 80)
+    >>> [layer.name for layer in drawing.layers if len(layer.strokes[0])]
+    ['contour', 'hidden']
+    """
+    check_types(locals())
+    given = scene_of(scene) if lines is not None else with_usual_lines(scene_of(scene))
+    chosen, own = style_of_scene(given.inks, style)
+    asked = pen_rules(pens, dashes)
+    hidden = chosen.hidden if hidden is None else hidden
+    layers = chosen.layers if layers is None else layers
+    check_line_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
+    check_longest(longest_mm)
+    check_word("text", text, TEXT_WORDS)
+    allowed, threads = budget_of(budget), threads_of(jobs)
+    others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(asked)}
+    others["depth_cue"] = depth_cue_of(depth_cue) is not None
+    check_look(chosen.look, hidden=hidden != "none", **others)
+    kinds = line_kinds((DRAWN if chosen.look == "plain" else WIRES) if lines is None else lines)
+    sheet = page_of(page, given, width, fit)
+    paper = Paper(sheet, fit, pen_scale(sheet) if scale_pens else 1.0)
+    subject = subject_of(given, camera, paper, explain, progress, depth_cue=depth_cue)
+    seen, bar = subject.scene, subject.bar
+    sheet, strip = left_of_bar(sheet, bar)
+    rules = (*chosen.rules, *own, *asked)
+    finish = Finish(
+        look=chosen.look,
+        hidden=hidden,
+        layers=layers,
+        rules=rules if bar is None else bar.with_pens(rules),
+        background=chosen.background if background is None else background,
+        curved_mm=tolerance_mm if curves == "bezier" else None,
+        longest_mm=longest_mm,
+        title=title,
+        frame=frame,
+        unplotted=line_list(unplotted),
+        text=text,
+        thin_ends=thin_ends,
+        scale_pens=scale_pens,
+    )
+    planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look)
+    planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
+    smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in seen.items)
+    walk = Walk(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
+    view = walk.run("look", look, seen, subject.camera)
+    faces = walk.run("faces", project_faces, view)
+    shapes = traceable(walk, seen, view, faces, kinds, crease_angle_deg, allowed)
+    placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed)
+    placement = subject.around(placed.placement, view, sheet)
+    strokes = replace(placed, placement=placement).with_halo(halo_mm).strokes()
+    for stage in ("visible lines", "counted lines"):
+        walk.measured(stage, "mm", lambda: view.tolerance * placement.scale)
+    walk.measured("curves", "mm", chord_error_mm, strokes)
+    labels = None
+    if walk.calls_for("labels"):
+        beside = (subject.anchors, strokes, hidden, finish.look, text)
+        labels = walk.run("labels", labels_in_place, seen, view, faces, placement, *beside)
+        strokes = labels.interrupted(strokes, placement.page_from_world)
+    hatches = Paths.empty()
+    if walk.calls_for("hatching"):
+        hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget)
+        hatches = hatches if labels is None else labels.interrupted(hatches, placement.page_from_world)
+    found = finish.layered(walk, seen, view, strokes, hatches, hatch, placement.page)
+    letters, cue = finish.letters(found), seen.depth_cue
+    if cue is not None and finish.plain:
+        found = finish.cued(walk, found, view, cue, placement)
+    inks = finish.inked(walk, found, placement)
+    walk.measured("pen", "mm", fit_error_mm, inks)
+    if labels is not None:
+        inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
+    return beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)

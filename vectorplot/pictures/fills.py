@@ -1,0 +1,1007 @@
+"""The paper of a painted picture."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.curve import is_curve
+from vectorplot.drawing.drawing import Paths
+from vectorplot.drawing.fills import Colours, FillKind, Fills
+from vectorplot.drawing.hatching import FollowedLines, hatched_regions, place_ranks, ranks, toned_regions
+from vectorplot.drawing.painted_fills import Overlay, fills_on_page, shown_faces, stacked
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent
+from vectorplot.features.edge_splitting import Demand
+from vectorplot.features.mesh_lines import MeshCurves, face_triangles
+from vectorplot.features.mesh_streamlines import evenly_spaced_on_faces
+from vectorplot.features.streamlines import MOST_LINES as MOST_LINES_of_streamlines
+from vectorplot.features.streamlines import evenly_spaced_curves
+from vectorplot.features.surface_places import USUAL_CREASE_DEG, BentFaces, FaceSites, Sites, charts, unit
+from vectorplot.features.tangent_fields import (
+    AsymptoticDirections,
+    IsophoteDirections,
+    PrincipalDirections,
+    SteepestSlope,
+    TangentField,
+    TurnedField,
+)
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.budget import Budget, unresolved
+from vectorplot.geometry.columns import dot
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh_cuts import level_bands
+from vectorplot.geometry.polylines import closed_round
+from vectorplot.geometry.projections import Projection
+from vectorplot.geometry.vectors import cross, norm, normalize
+from vectorplot.pictures.pipeline import Walk
+from vectorplot.pictures.plan import plan_paint
+from vectorplot.scene.added_lines import curve_light
+from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import Placement, allowed_in_space
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.surface_lines import KnownCurves, Section, SurfaceLines
+from vectorplot.scene.view import View, view_of, without_twins
+from vectorplot.shading.fineness import SHORTEST_MM, FacetedScene, faceted, picture_fineness, refined, shade_error
+from vectorplot.shading.illumination import AMBIENT
+from vectorplot.shading.painted_colours import (
+    Lighting,
+    colours_of,
+    corner_shades_of,
+    opacities,
+    painted_normals,
+    smooth_faces,
+)
+from vectorplot.shading.palettes import palette as shades_of
+from vectorplot.shading.shaded_faces import Shades, at_corners, exposed_scene, plane_numbers, view_normals
+from vectorplot.surfaces.capped_bodies import capped_quadric_of
+from vectorplot.surfaces.surface import Surface, is_parametrised
+from vectorplot.tolerances import SAME_SHADE, SIDE_BY_SIDE_MM
+from vectorplot.visibility.painter.height_fields import known_orders
+from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
+from vectorplot.visibility.painter.painters_order import Painted, painters_order, side_by_side
+from vectorplot.visibility.painter.unseen import unseen_faces
+from vectorplot.visibility.polyhedra.smooth_lines import warn_of_no_lines
+from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
+
+if TYPE_CHECKING:
+    from vectorplot.effects.decals import Decals
+
+
+PAPER = "white"
+"""The colour of the paper where the scene names none."""
+
+
+def paper(scene: Scene) -> Colours:
+    """(1,3) the colour of the paper."""
+    return np.asarray(shades_of(scene.background or PAPER)[-1:])
+
+
+def background(scene: Scene, page: Page) -> tuple[Fills, ...]:
+    """A sheet of the scene's own colour, if it names one."""
+    if scene.background is None:
+        return ()
+    return (Fills.whole_page(page.width_mm, page.height_mm, paper(scene)[0]),)
+
+
+# What is painted, and how finely.
+
+OUTLINES_OFF = 3.0
+"""So many tolerances outlines of faces may be off those of the surface, or off their convex hulls: sides are compared
+with the surface in a few places only."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """What is painted: a scene without smooth surfaces, its view, its faces in the image, the polygons of the picture
+    back to front, and where the picture goes; smooth (i,): the items whose faces stand for those of smooth surfaces."""
+
+    scene: Scene
+    view: View
+    projected: ProjectedFaces
+    faces: ImageFaces
+    placement: Placement
+    smooth: Bools
+
+
+def without_unseen_facets(
+    faceted: FacetedScene, view: View, projected: ProjectedFaces, painted: Painted, budget: Budget
+) -> ImageFaces:
+    """The polygons without those of smooth surfaces that are wholly covered; all of them where the budget does not do
+    to find these."""
+    smooth = smooth_items(faceted)
+    pieces = np.bincount(painted.faces.source, minlength=view.face_count)
+    unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1, budget)
+    return painted.faces.some(np.flatnonzero(~unseen[painted.faces.source]))
+
+
+def smooth_items(faceted: FacetedScene) -> Bools:
+    """(i,) the items whose faces stand for those of a smooth surface."""
+    return np.array([normals is not None for normals in faceted.normals], dtype=np.bool_)
+
+
+def off_surfaces(seen: Seen, tolerance_mm: float) -> Floats:
+    """(i,) how far outlines of the faces of items may be off those of the surfaces that they stand for, in the view."""
+    view = seen.view
+    off = np.where(seen.smooth, OUTLINES_OFF * tolerance_mm / seen.placement.scale, 0.0)
+    if view.eye is None:
+        return off
+    nearest = np.full(len(off), view.focus)
+    item = np.searchsorted(view.item_vertices, np.arange(view.points.shape[1]), side="right") - 1
+    np.minimum.at(nearest, item, view.depth)
+    return np.asarray(off * np.maximum(nearest, view.near) / view.focus)
+
+
+def finer(seen: Seen, lighting: Lighting, most: int, error: float) -> ImageFaces:
+    """The polygons, those that are shaded so small that shades are off by no more than error, or as many as may be."""
+    faces = seen.faces
+    shortest = SHORTEST_MM / seen.placement.scale
+    points, offsets, parent = refined(
+        seen.view, lighting, faces.points, faces.offsets, faces.source, shortest, most, error
+    )
+    if len(parent) == len(faces):
+        return faces
+    return ImageFaces(points, offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
+
+
+def shades_of_faces(seen: Seen, lighting: Lighting) -> Shades:
+    """What every light gives to the corners of the polygons."""
+    faces = seen.faces
+    points = view_points(seen.view, faces.points)
+    return corner_shades_of(seen.view, lighting, points, faces.offsets, faces.source)
+
+
+# How far the colours of painted polygons are from those of the surfaces they show.
+
+MOST = 4096
+"""So many polygons are measured at most, evenly among all."""
+
+FARTHEST = 0.5
+"""What is seen over the middle of a side is no farther away than this part of it."""
+
+STEPS = 255.0
+"""Of a colour, from its darkest to its brightest shade."""
+
+
+def shade_error_steps(seen: Seen, lighting: Lighting) -> float | None:
+    """By how many of 255 steps the linear shading of polygons is off the light that the surface has where it is seen,
+    in the middles of their sides, at most; None where all polygons have one shade each.
+
+    Over triangles that are off a surface one sees other places of it than those that they were made for: how far these
+    are apart is told by the tangent planes at the corners of a triangle, and what that makes by the shades there.
+    """
+    faces = seen.faces
+    smooth = np.flatnonzero(smooth_faces(seen.view, lighting.normals)[faces.source])
+    smooth = smooth[:: 1 + len(smooth) // MOST]
+    if not len(smooth):
+        return None
+    position, offsets = ragged.take(faces.offsets, smooth)
+    points = faces.points[:, position]
+    after = ragged.following(offsets)
+    both = np.concatenate([points, 0.5 * (points + points[:, after])], axis=1)
+    ends = np.concatenate([offsets, offsets[-1] + offsets[1:]])
+    source = np.tile(faces.source[smooth], 2)
+    shade = np.atleast_2d(corner_shades_of(seen.view, lighting, view_points(seen.view, both), ends, source).total)
+    corner, middle = np.split(shade, 2, axis=-1)
+    off = np.abs(middle - 0.5 * (corner + corner[..., after])).max(axis=0)
+    return float(STEPS * max(off.max(), _moved(seen, lighting, np.unique(faces.source[smooth])).max(initial=0.0)))
+
+
+def _moved(seen: Seen, lighting: Lighting, source: Ints) -> Floats:
+    """How far shades in the middles of sides of faces (n,) of smooth surfaces are off those that are seen there,
+    because the faces are off the surfaces."""
+    view = seen.view
+    source = source[seen.smooth[view.face_item[source]]]
+    if not len(source):
+        return np.zeros(0)
+    position, offsets = ragged.take(view.offsets, source)
+    after = ragged.following(offsets)
+    points, normals = view.points[:, view.corners[position]], lighting.normals[:, position]
+    shade = np.atleast_2d(corner_shades_of(view, lighting, points, offsets, source).total)
+    side, half = points[:, after] - points, 0.5 * (normals + normals[:, after])
+    # The height of a cubic in both tangent planes over the middle of its chord.
+    height = (dot(normals[:, after], side) - dot(normals, side)) / 8.0
+    ray = np.array([0.0, 0.0, 1.0])[:, None] if view.eye is None else view.eye[:, None] - points - 0.5 * side
+    with np.errstate(divide="ignore", invalid="ignore"):
+        along = height * dot(half, half) / dot(half, ray) * dot(ray, side) / dot(side, side)
+    part = np.minimum(np.abs(np.nan_to_num(along)), FARTHEST)
+    return np.asarray(part * np.abs(shade[..., after] - shade).max(axis=0))
+
+
+# Smooth surfaces in steps of shade, cut along the lines of equal shade between them.
+
+SPACE = 3
+"""Coordinates of a point; shades come behind them."""
+
+
+PLAIN_STEPS, FINEST_BORDERS = 64, 0.2
+"""Of fewer shades than so many the borders are seen as lines: they are made finer in proportion, to such a part."""
+
+
+def border_tolerance_mm(tolerance_mm: float, shades: int) -> float:
+    """How far polygons may be off on the page so that borders between so many shades look smooth."""
+    return tolerance_mm * min(max(shades / PLAIN_STEPS, FINEST_BORDERS), 1.0)
+
+
+def stepped(seen: Seen, lighting: Lighting, shade: Floats) -> tuple[Seen, Floats, Ints]:
+    """What is seen with polygons of smooth surfaces cut where the palette goes from one shade to the next, and the
+    shades (n,) or (3,n) of the corners then: of each of these polygons one, that of its entry of the palette; and (m,)
+    the polygon that each is a part of.
+
+    shade: at the corners of the polygons as they are, linear between these. In coloured light red, green and blue have
+    steps of their own. Polygons with one shade stay as they are.
+    """
+    size = lighting.smooth_size
+    faces, shades = seen.faces, np.atleast_2d(shade)
+    smooth = np.flatnonzero(smooth_faces(seen.view, lighting.normals)[faces.source])
+    if size is None or not len(smooth):
+        return seen, shade, np.arange(len(faces))
+    position, offsets = ragged.take(faces.offsets, smooth)
+    points, corners = _welded(faces.points[:, position].T, shades[:, position].T)
+    levels, owner = (np.arange(size - 1) + 0.5) / size, smooth
+    steps: list[Floats] = []
+    for channel in range(len(shades)):
+        fans, of = ragged.fans(offsets)
+        fans = corners[fans]
+        full = _full(points[fans])
+        owner, steps = owner[of[full]], [step[of[full]] for step in steps]
+        found = level_bands(points, points[:, SPACE + channel], fans[full], levels)
+        source = found.source
+        points, corners, offsets = found.points, found.corners, found.offsets
+        owner, steps = owner[source], [*(step[source] for step in steps), found.band / size]
+    kept = np.setdiff1d(np.arange(len(faces)), smooth)
+    position, ends = ragged.take(faces.offsets, kept)
+    number = np.concatenate([kept, owner])
+    order = np.argsort(number, kind="stable")
+    every = np.concatenate([faces.points[:, position], points[corners, :SPACE].T], axis=1)
+    sizes = np.diff(offsets)
+    flat = np.concatenate([shades[:, position], np.repeat(np.array(steps), sizes, axis=1)], axis=1)
+    position, starts = ragged.take(np.concatenate([ends, ends[-1] + offsets[1:]]), order)
+    parent = number[order]
+    cut = ImageFaces(every[:, position], starts, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
+    result = flat[:, position]
+    return replace(seen, faces=cut), result[0] if shade.ndim == 1 else result, parent
+
+
+def _welded(points: Floats, shades: Floats) -> tuple[Floats, Ints]:
+    """(k,3+s) the different points among (n,3) with their shades (n,s), equal but for rounding; and the number of each:
+    so that neighbours are cut in the same points."""
+    key = np.column_stack([points, np.rint(shades / SAME_SHADE)])
+    _, first, number = np.unique(key, axis=0, return_index=True, return_inverse=True)
+    return np.column_stack([points, shades])[first], number.reshape(-1)
+
+
+def _full(corners: Floats) -> np.ndarray:
+    """(t,) triangles (t,3,k) no two corners of which are in one place."""
+    after = np.roll(corners, -1, axis=1)
+    return np.asarray((corners[..., :SPACE] != after[..., :SPACE]).any(axis=2).all(axis=1), dtype=np.bool_)
+
+
+# The polygons of a picture in their colours, with all that lies on them and is seen in them.
+
+
+def coloured(
+    walk: Walk, seen: Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float, budget: Budget
+) -> Overlay:
+    """The polygons of the picture in their colours, with all that lies on them and is seen in them; after: the polygon
+    whose steps of shade they are, -1 for what lies on such, is seen in them, or is paper."""
+    seen = replace(seen, faces=finer(seen, lighting, budget.facets, shade_error(tolerance_mm)))
+    shades = walk.run("shades", shades_of_faces, seen, lighting).total
+    walk.measured("shades", "of 255", shade_error_steps, seen, lighting)
+    seen, shades, whole = stepped(seen, lighting, shades)
+    aura = aura_mm / seen.placement.scale
+    decals, lighting = _decals(walk, seen, lighting, aura, tolerance_mm, budget)
+    laid = _laid(seen, lighting, decals)
+    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm, budget)
+    painted = walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
+    # A face comes before all that lies on it.
+    is_face = (painted.after >= 0) & (np.diff(painted.after, prepend=-1) != 0)
+    return replace(painted, after=np.where(is_face, np.append(whole, -1)[painted.after], -1))
+
+
+def _decals(
+    walk: Walk, seen: Seen, lighting: Lighting, aura: float, tolerance_mm: float, budget: Budget
+) -> tuple[tuple[Decals, ...], Lighting]:
+    """The polygons that lie on faces, in the order in which they are painted."""
+    scene, view, projected = seen.scene, seen.view, seen.projected
+    found: list[Decals] = []
+    if walk.calls_for("shadows"):
+        from vectorplot.effects.scene_decals import scene_shadows
+
+        off = off_surfaces(seen, tolerance_mm)
+        found.append(walk.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, off, budget))
+    if walk.calls_for("mirror light"):
+        from vectorplot.effects.scene_decals import scene_mirror_light
+
+        lit, doubles = walk.run("mirror light", scene_mirror_light, scene, view, projected, lighting, found[0])
+        found.append(lit)
+        lighting = replace(lighting, doubles=doubles)
+    if walk.calls_for("patterns"):
+        from vectorplot.effects.decals import joined_decals
+        from vectorplot.effects.scene_decals import scene_patterns
+
+        found.append(walk.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found[:1])))
+    if walk.calls_for("transparent shadows"):
+        from vectorplot.effects.shadows import transparent_shadows
+
+        clear = partial(transparent_shadows, projected=projected, budget=budget)
+        found.append(walk.run("transparent shadows", clear, view, scene, scene.lights, found[0] if found else None))
+    return tuple(found), lighting
+
+
+def _laid(seen: Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[Overlay, ...]:
+    """What lies on the polygons of the picture."""
+    if not decals:
+        return ()
+    from vectorplot.effects.scene_decals import decal_fills
+
+    return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placement) for some in decals)
+
+
+def _overlays(
+    walk: Walk,
+    seen: Seen,
+    lighting: Lighting,
+    decals: tuple[Decals, ...],
+    aura: float,
+    tolerance_mm: float,
+    budget: Budget,
+) -> tuple[Overlay, ...]:
+    """What polygons of the picture show, painted right after them and what lies on them.
+
+    aura: the width of soft borders of shadows in the image.
+    """
+    found = []
+    if walk.calls_for("reflections"):
+        from vectorplot.effects.mirrors import mirrors
+        from vectorplot.effects.scene_decals import double_decals, reflection_fills
+
+        shown = mirrors(seen.scene, seen.view, seen.projected)
+        borders = aura if walk.calls_for("shadows") else None
+        off = off_surfaces(seen, tolerance_mm)
+
+        def decals_of(number: int, there: Lighting, which: Bools) -> tuple[Decals, ...]:
+            return double_decals(seen.scene, seen.view, shown, number, there, which, borders, off, budget)
+
+        found.append(
+            walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placement)
+        )
+    if walk.calls_for("refraction"):
+        from vectorplot.effects.glass import glass_fills
+
+        found.append(
+            walk.run(
+                "refraction",
+                glass_fills,
+                seen.scene,
+                seen.view,
+                seen.projected,
+                lighting,
+                seen.faces,
+                seen.placement,
+                tolerance_mm,
+                decals,
+            )
+        )
+    return tuple(found)
+
+
+def _fills(
+    walk: Walk,
+    seen: Seen,
+    lighting: Lighting,
+    shades: Floats,
+    laid: tuple[Overlay, ...],
+    overlays: tuple[Overlay, ...],
+    page: Page,
+) -> Overlay:
+    """The polygons of the picture on the page, with what lies on them and what is painted between them."""
+    view, faces = seen.view, seen.faces
+    item = view.face_item[faces.source]
+    opacity = opacities(seen.scene.items)[item]
+    fills = fills_on_page(
+        view,
+        faces.points,
+        faces.offsets,
+        seen.placement,
+        colours=colours_of(view, lighting, np.repeat(faces.source, np.diff(faces.offsets)), shades),
+        opacity=opacity,
+        item=item,
+        kind=np.where(opacity < 1.0, int(FillKind.GLASS), int(FillKind.FACE)),
+    )
+    if walk.calls_for("reflections"):
+        from vectorplot.effects.mirrors import mirrors
+        from vectorplot.effects.scene_decals import silvered
+
+        panes = np.isin(faces.source, mirrors(seen.scene, view, seen.projected).face)
+        fills, laid = silvered(fills, panes, paper(seen.scene)[0], laid)
+    if walk.calls_for("refraction"):
+        from vectorplot.effects.glass import refracting_items, tinted
+
+        clear = refracting_items(seen.scene, view, seen.projected)[item]
+        fills, both = tinted(fills, clear, opacity, paper(seen.scene)[0], (*laid, *overlays))
+        laid, overlays = both[: len(laid)], both[len(laid) :]
+    with_decals = stacked([Overlay(fills, np.arange(len(fills))), *(laid if walk.calls_for("visible fills") else ())])
+    if not walk.calls_for("visible fills"):
+        from vectorplot.drawing.fill_visibility import flattened
+
+        world, plane = seen.placement.page_from_world, lighting.plane[faces.source]
+        with_decals = flattened(fills, laid, world, plane)
+    every, below = stacked([with_decals, *overlays]), background(seen.scene, page)
+    return Overlay(Fills.joined(*below, every.fills), np.concatenate([np.full(len(below), -1), every.after]))
+
+
+# Lines that flow over surfaces and meshes, evenly spaced, to hatch along.
+
+SLOPES: tuple[TangentField, TangentField] = (SteepestSlope(), TurnedField(SteepestSlope(), 0.5 * np.pi))
+
+FIELDS: dict[str, tuple[TangentField, TangentField]] = {
+    "slope": SLOPES,
+    "level": SLOPES[::-1],
+    "curvature": (PrincipalDirections(1), PrincipalDirections(2)),
+    "asymptotic": (AsymptoticDirections(1), AsymptoticDirections(2)),
+}
+"""What strokes follow, and those that cross them, by the word for it, where they do not follow the light."""
+
+ISOPHOTES = "isophotes"
+
+ON_MESHES = ("slope", "level", "curvature", "asymptotic")
+"""Those of them that meshes have."""
+
+ROUGH = 64
+"""Samples along each parameter, to find how large a surface comes out on the page."""
+
+NEARLY_ALL = 0.98
+"""Of a surface; where it comes out larger yet, lines may be wider apart."""
+
+SAMPLES = 2.5
+"""So often within the distance of neighbours one looks along a line how far they are apart on the page."""
+
+SIDES = 4.0
+"""Times the distance of neighbours that normals are long where distances are measured: the two sides of a thin shape do
+not keep each other's lines away."""
+
+FEWER = 0.999
+"""Of the most lines that curves are evenly spaced in."""
+
+
+@dataclass(frozen=True, eq=False)
+class FlowingLines:
+    """Curves that cover a shape evenly; samples (s,3) on them, line (s,): of which, apart (s,): how far in mm their
+    neighbours are on the page where they are evenly apart; ranks (s,): which of them are drawn first."""
+
+    curves: SurfaceCurves | MeshCurves
+    samples: Floats
+    line: Ints
+    apart: Floats
+    ranks: Floats
+
+
+def flows(item: Item, along: str) -> bool:
+    """Whether there are such lines on the shape of an item."""
+    if isinstance(item.shape, Mesh):
+        return along in ON_MESHES and bool(item.shape.face_count)
+    return (along in FIELDS or along == ISOPHOTES) and is_parametrised(item.shape)
+
+
+def field_of(along: str, family: int, light: Light) -> TangentField:
+    """What strokes follow, family 0, or what crosses them, 1, by the word for it; light: of isophotes."""
+    if along != ISOPHOTES:
+        return FIELDS[along][family]
+    isophotes = IsophoteDirections(light.position, light.parallel)
+    return TurnedField(isophotes, 0.5 * np.pi) if family else isophotes
+
+
+def flowing_lines(
+    item: Item,
+    along: str,
+    field: TangentField,
+    spacing_mm: float,
+    tolerance_mm: float,
+    placement: Placement,
+    crease_angle_deg: float = USUAL_CREASE_DEG,
+) -> FlowingLines:
+    """The lines of a field on an item, so close that they do for the darkest places; along: the word for it.
+
+    Warnings: where a mesh has no such lines. Errors: InputError, with the item's name, as of evenly_spaced_curves.
+    """
+    shape = item.shape
+    bent = BentFaces(shape, crease_angle_deg) if isinstance(shape, Mesh) else None
+    try:
+        if bent is not None:
+            points, area = bent.mesh.vertices, _area_of_mesh(bent, field)
+            whole = float(np.ptp(bent.mesh.bounds, axis=0).max())
+        else:
+            assert is_parametrised(shape)
+            (points, area), whole = _all_over(shape, field), extent(shape)[0]
+        largest = _largest(points, placement)
+        apart = max(spacing_mm / largest, whole / (FEWER * MOST_LINES_of_streamlines))
+        curves: SurfaceCurves | MeshCurves
+        if bent is not None:
+            curves = evenly_spaced_on_faces(bent, field, apart)
+        else:
+            assert is_parametrised(shape)
+            curves = evenly_spaced_curves(shape, field, apart, tracing=Tracing(tolerance=tolerance_mm / largest))
+    except InputError as error:
+        raise InputError(f"{item.name}: hatching along {along}: {error.cause}") from None
+    if bent is not None and not len(curves):
+        warn_of_no_lines(item.name, field, crease_angle_deg)
+    return _sampled(item, curves, area, apart, placement)
+
+
+def _area_of_mesh(bent: BentFaces, field: TangentField) -> float:
+    """How large a mesh is where a field has directions."""
+    mesh = bent.mesh
+    faces = face_triangles(mesh)
+    corners = faces.mesh.vertices[faces.triangles]
+    doubled = norm(cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]))
+    sites = FaceSites(corners.mean(axis=1), unit(mesh.face_normals)[faces.face], bent, faces.face)
+    known = np.isfinite(field.tangents(sites)[0]).all(axis=1)
+    return float(0.5 * doubled[known].sum())
+
+
+def _all_over(surface: Surface, field: TangentField) -> tuple[Floats, float]:
+    """(n,3) points all over a surface, and how large it is where a field has directions."""
+    u, v = surface.domain.grid(ROUGH, ROUGH)
+    middles = np.meshgrid(0.5 * (u[1:] + u[:-1]), 0.5 * (v[1:] + v[:-1]), indexing="ij")
+    sites = Sites(surface, *(each.ravel() for each in middles))
+    known = np.isfinite(field.tangents(sites)[0]).all(axis=1)
+    one, two, _ = sites.planes
+    cells = np.nan_to_num(norm(cross(one, two))) * known
+    size = float(cells.sum() * (u[1] - u[0]) * (v[1] - v[0]))
+    return sites.points[np.isfinite(sites.points).all(axis=1)], size
+
+
+def _largest(points: Floats, placement: Placement) -> float:
+    """How many mm a unit of the world is on the page, where it is largest on nearly all of a shape."""
+    ways = np.stack([on_page(points, axis, placement.page_from_world) for axis in np.eye(3)], axis=-1)
+    size = np.linalg.norm(ways, ord=2, axis=(-2, -1))
+    size = size[np.isfinite(size)]
+    return float(np.quantile(size, NEARLY_ALL)) if len(size) else 1.0
+
+
+def _sampled(
+    item: Item, curves: SurfaceCurves | MeshCurves, area: float, apart: float, placement: Placement
+) -> FlowingLines:
+    """Curves with samples so close that the one next to a point of a curve is on that curve."""
+    rounds = closed_round(curves)
+    points, offsets = curves.points[rounds.index], rounds.offsets
+    steps = norm(np.diff(points, axis=0, append=points[:1])) if len(points) else np.zeros(0)
+    steps[offsets[1:] - 1] = 0.0
+    count = np.maximum(np.ceil(SAMPLES * steps / apart), 1.0).astype(np.intp)
+    count[offsets[1:] - 1] = 0
+    at, share = ragged.owner(count), ragged.place(count) / count[ragged.owner(count)]
+    way = points[at + 1] - points[at]
+    samples = points[at] + share[:, None] * way
+    line = ragged.owner(np.diff(offsets))[at]
+    normals = _normals(item, curves, at)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        aside = cross(normals, way / norm(way)[:, None])
+        along, across = (on_page(samples, each, placement.page_from_world) for each in (way, aside))
+        wide = apart * np.abs(along[:, 0] * across[:, 1] - along[:, 1] * across[:, 0]) / np.linalg.norm(along, axis=1)
+    wide = np.nan_to_num(wide, nan=0.0, posinf=0.0)
+    where = np.concatenate([samples, SIDES * apart * np.nan_to_num(normals)], axis=1)
+    return FlowingLines(curves, samples, line, wide, place_ranks(where, line, steps[at] / count[at], apart, area))
+
+
+def _normals(item: Item, curves: SurfaceCurves | MeshCurves, at: Ints) -> Floats:
+    """(s,3) unit normals at points of curves that are led round, by their numbers (s,)."""
+    rounds = closed_round(curves)
+    index = rounds.index
+    if isinstance(curves, MeshCurves):
+        assert isinstance(item.shape, Mesh)
+        normals = item.shape.face_normals[np.maximum(curves.faces[index[at]], 0)]
+        return normals / norm(normals)[:, None]
+    assert is_parametrised(item.shape)
+    places = np.stack([curves.u[index[at]], curves.v[index[at]]], axis=1)
+    return Sites(item.shape, *charts(item.shape).inside(places)).normals
+
+
+def on_page(points: Floats, ways: Floats, page_from_world: Floats) -> Floats:
+    """(...,2) by how many mm points of the page move where points (...,3) move along ways (...,3)."""
+    rows = matmul(points, page_from_world[:, :3].T) + page_from_world[:, 3]
+    step = matmul(ways, page_from_world[:, :3].T)
+    depth = rows[..., 3:]
+    return np.asarray(step[..., :2] / depth - rows[..., :2] * step[..., 3:] / (depth * depth))
+
+
+# Lines of items to hatch along, so dense that they do for the darkest places: parameter lines, and lines that flow.
+
+ROUGH_LINES = 96
+"""Samples along each parameter, to find how far parameter lines are apart on the page."""
+
+FEWEST, MOST_LINES = 16, 2048
+"""Parameter lines of one family: the most are 0.1 mm apart on a sheet of A4."""
+
+MOST_SAMPLES = 1 << 20
+"""Of one surface, where the distance of neighbouring lines is known."""
+
+SHORTEST = 3.0
+"""Times their distance that strokes are long which flow, at least: shorter ones are specks."""
+
+
+def followed(item: Item, hatching: Hatching | Stippling | None) -> bool:
+    """Whether an item is hatched along lines of its own."""
+    if not isinstance(hatching, Hatching) or hatching.by == "none" or hatching.along == "page":
+        return False
+    return is_parametrised(item.shape) if hatching.along == "surface" else flows(item, hatching.along)
+
+
+def followed_lines(
+    scene: Scene,
+    how: Sequence[Hatching | Stippling | None],
+    view: View,
+    placement: Placement,
+    trace: Callable[[Scene], Paths],
+    tolerance_mm: float,
+    crease_angle_deg: float,
+) -> list[FollowedLines]:
+    """The visible lines to hatch along of each item that has such, and of each family where they cross.
+
+    how: of every item; view: of the scene; trace: the visible lines of a scene in their places, as of draw;
+    tolerance_mm, crease_angle_deg: as of draw.
+    """
+    found: list[FollowedLines] = []
+    for family in (0, 1):
+        spaced: dict[int, SpacedLines] = {}
+        items = []
+        for number, (item, one) in enumerate(zip(scene.items, how, strict=True)):
+            lines: tuple[str, ...] = ()
+            if isinstance(one, Hatching) and followed(item, one) and (family == 0 or one.cross):
+                light = curve_light(scene, view, item)
+                spaced[number] = _spaced(item, one, family, light, placement, tolerance_mm, crease_angle_deg)
+                item = replace(item, curves=spaced[number].asked)
+                lines = ("parameter", "integral")
+            items.append(replace(item, lines=lines, patterns=()))
+        if spaced:
+            paths = trace(replace(scene, items=tuple(items)))
+            found += [
+                FollowedLines(
+                    family,
+                    number,
+                    paths,
+                    own.samples,
+                    own.apart,
+                    own.line,
+                    own.ranks,
+                    _ends(scene, number),
+                    own.shortest_mm,
+                )
+                for number, own in spaced.items()
+            ]
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class SpacedLines:
+    """Lines to hatch along, as an item asks for them; samples (s,3) on them, apart, line and ranks (s,) as of
+    FollowedLines."""
+
+    asked: SurfaceLines
+    samples: Floats
+    apart: Floats
+    line: Ints
+    ranks: Floats
+    shortest_mm: float = 0.0
+
+
+def _spaced(
+    item: Item,
+    hatching: Hatching,
+    family: int,
+    light: Light,
+    placement: Placement,
+    tolerance_mm: float,
+    crease_angle_deg: float,
+) -> SpacedLines:
+    """The lines of a family on an item, so close that they do for the darkest places; light: that of isophotes."""
+    if hatching.along != "surface":
+        field = field_of(hatching.along, family, light)
+        flow = flowing_lines(
+            item, hatching.along, field, hatching.spacing_mm, tolerance_mm, placement, crease_angle_deg
+        )
+        asked = SurfaceLines(integral=(KnownCurves(flow.curves),))
+        return SpacedLines(asked, flow.samples, flow.apart, flow.line, flow.ranks, SHORTEST * hatching.spacing_mm)
+    assert is_parametrised(item.shape)
+    count = _count(item.shape, family, hatching.spacing_mm, placement)
+    samples, apart = _samples(item.shape, family, count, placement)
+    asked = SurfaceLines(columns=count) if family == 0 else SurfaceLines(rows=count)
+    return SpacedLines(asked, samples, apart, *_numbered(count, len(samples)))
+
+
+def _numbered(count: int, samples: int) -> tuple[Ints, Floats]:
+    """(s,) the line of each sample, and its rank (s,), of count + 1 lines; the last is the first where they close."""
+    line = np.repeat(np.arange(count + 1), samples // (count + 1))
+    return line, ranks(line % count, count)
+
+
+def _ends(scene: Scene, item: int) -> Floats:
+    """(3,) the unit normal of the flat ends of an item that is a capped body, zero of what is none."""
+    body = capped_quadric_of(scene.items[item].shape)
+    return np.zeros(3) if body is None else normalize(cross(body.frame[0], body.frame[1]))
+
+
+def _count(surface: Surface, family: int, spacing_mm: float, placement: Placement) -> int:
+    """How many parts lines of a family have to divide a surface into, to be no farther apart than a spacing."""
+    _, apart = _samples(surface, family, ROUGH_LINES, placement)
+    known = apart[np.isfinite(apart)]
+    widest = float(np.quantile(known, NEARLY_ALL)) if len(known) else 0.0
+    return int(np.clip(np.ceil(ROUGH_LINES * widest / spacing_mm), FEWEST, MOST_LINES))
+
+
+def _samples(surface: Surface, family: int, count: int, placement: Placement) -> tuple[Floats, Floats]:
+    """(s,3) points on lines of a family that divide a surface into so many parts, and (s,) how far on the page their
+    neighbours are; (s,) is line after line, count + 1 of them."""
+    across = min(max(count, ROUGH_LINES), MOST_SAMPLES // count)
+    sizes = (count, across) if family == 0 else (across, count)
+    u, v = np.meshgrid(*surface.domain.grid(*sizes), indexing="ij")
+    if family == 1:
+        u, v = u.T, v.T
+    points = surface.points(u, v)
+    ways = surface.partials(u, v)
+    step = surface.domain.size[family] / count
+    to, along = (on_page(points, ways[k], placement.page_from_world) for k in (family, 1 - family))
+    length = np.linalg.norm(along, axis=-1)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        apart = step * np.abs(cross(to, along)) / length
+    return points.reshape(-1, 3), np.nan_to_num(apart, nan=0.0, posinf=0.0).ravel()
+
+
+# What is said about the order of a painted picture: groups, slices, knots.
+
+MOST_NAMES = 5
+"""So many items of a knot are named."""
+
+
+def group_names(scene: Scene) -> list[str]:
+    """The groups of what is painted: lines that belong together have no order."""
+    return sorted({item.group for item in scene.items if not is_curve(item.shape)} - {""})
+
+
+def tell_groups(walk: Walk, scene: Scene, painted: Painted) -> None:
+    """Tell the listener which groups stay together, and which do not."""
+    names = group_names(scene)
+    undone = [names[k] for k in painted.undone]
+    if kept := [name for name in names if name not in undone]:
+        walk.tell("groups", f"{', '.join(kept)}: ordered as wholes, then within", len(kept))
+    if undone:
+        walk.tell("groups undone", f"{', '.join(undone)}: something else comes between", len(undone))
+
+
+def tell_slices(walk: Walk, scene: Scene, sliced: Mapping[int, Section], painted: Painted) -> None:
+    """Tell the listener which items are painted slice by slice, and which are not."""
+    for number, planes in sliced.items():
+        name = scene.items[number].name
+        if number in painted.ribbons:
+            count = painted.ribbons[number]
+            walk.tell("ribbons", f"{name}: in {len(planes.offsets) + 1} slices, ribbon by ribbon", count)
+        else:
+            walk.tell("ribbons undone", f"{name}: something else is in front of it or behind it", 0)
+
+
+def tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
+    """Say which items were cut because no order of whole faces was right."""
+    if len(painted) > painted.uncut:
+        names = _names(scene, painted.knots)
+        walk.tell("cut", f"{names}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
+
+
+def warn_of_guesses(scene: Scene, painted: Painted) -> None:
+    """An InputWarning for all items parts of which may be painted in a wrong order, and for all around which that is
+    so."""
+    _warn(scene, painted.guessed, "what pierces it, or itself, takes too many cuts, and is in order by depth alone")
+    _warn(scene, painted.crowded, "too many faces overlap; they, and what overlaps them, are in order by depth alone")
+
+
+def warn_of_single_polygons(scene: Scene, items: Ints) -> None:
+    """An InputWarning for transparent items that are blended polygon by polygon in parts."""
+    _warn(scene, items, "too much that is transparent lies on one another; polygons are blended one by one, with seams")
+
+
+def _warn(scene: Scene, items: Ints, text: str) -> None:
+    """One InputWarning about some items, if there are any."""
+    if len(items):
+        warnings.warn(f"{_names(scene, items)}: {unresolved(text)}", InputWarning, stacklevel=4)
+
+
+def _names(scene: Scene, items: Ints) -> str:
+    """The names of some items, the first MOST_NAMES of them."""
+    names = ", ".join(scene.items[number].name for number in items[:MOST_NAMES].tolist())
+    return f"{names} and {len(items) - MOST_NAMES} more" if len(items) > MOST_NAMES else names
+
+
+# The faces of a scene in the painter's order, and what is seen of them on a page.
+
+
+@dataclass(frozen=True, eq=False)
+class OrderedFaces:
+    """The faces of a scene, with triangles in place of smooth surfaces, back to front: their view and their faces in
+    the image, and the polygons that are painted."""
+
+    facets: FacetedScene
+    view: View
+    projected: ProjectedFaces
+    faces: ImageFaces
+
+
+def ordered_faces(
+    walk: Walk,
+    scene: Scene,
+    shown: Scene,
+    projection: Projection,
+    demand: Callable[[], Callable[[int], Demand]],
+    budget: Budget,
+) -> OrderedFaces:
+    """The faces of a scene back to front. shown: what of it is painted; demand: how fine triangles have to be, as of
+    faceted, which is asked for where there are any.
+
+    Warns: InputWarning for items that may be in a wrong order.
+    """
+    if walk.calls_for("facets"):
+        facets = walk.run("facets", faceted, shown, demand(), budget)
+    else:
+        facets = FacetedScene.of_meshes(shown)
+    facets = replace(facets, scene=_with_clear_items(facets.scene))
+    view = walk.run("look", view_of, facets.scene, projection)
+    projected = walk.run("faces", project_faces, view)
+    known, groups = known_orders(shown, view), _groups(scene)
+    sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
+    normals = _normals_at_corners(facets, view)
+    painted = walk.run(
+        "order",
+        painters_order,
+        view,
+        projected,
+        known=known,
+        sliced=sliced,
+        group=groups,
+        normals=normals,
+        budget=budget,
+    )
+    warn_of_guesses(scene, painted)
+    tell_slices(walk, scene, sliced, painted)
+    tell_knots(walk, scene, painted)
+    tell_groups(walk, scene, painted)
+    faces = painted.faces
+    if walk.calls_for("unseen facets"):
+        faces = walk.run("unseen facets", without_unseen_facets, facets, view, projected, painted, budget)
+    return OrderedFaces(facets, view, projected, faces)
+
+
+def seen_on_page(walk: Walk, ordered: OrderedFaces, placement: Placement, budget: Budget) -> tuple[Seen, Ints]:
+    """What is seen of faces back to front on a page, and the numbers (f,) of the planes of the view.
+
+    Warns: InputWarning for transparent items with too much on one another.
+    """
+    facets, view, projected, faces = ordered.facets, ordered.view, ordered.projected, ordered.faces
+    if walk.calls_for("transparent sheets"):
+        from vectorplot.visibility.painter.transparent_sheets import connected_parts, in_sheets
+
+        item = view.face_item[faces.source]
+        opacity = opacities(facets.scene.items)[item]
+        sheet, width = np.where(opacity < 1.0, item, -1), SIDE_BY_SIDE_MM / placement.scale
+        if walk.calls_for("refraction"):
+            from vectorplot.effects.glass import refracting_items
+
+            # What is seen in them is mixed, and opaque: nothing of them is blended.
+            sheet = np.where(refracting_items(facets.scene, view, projected)[item], -1, sheet)
+        part = connected_parts(view, faces, sheet)
+        most = budget.pairs
+        sheets = walk.run("transparent sheets", in_sheets, faces, sheet, part, opacity, width, view.tolerance, most)
+        warn_of_single_polygons(facets.scene, sheets.single)
+        faces = sheets.faces
+    plane = plane_numbers(view)
+    faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
+    shown = shown_faces(faces, placement)
+    return Seen(facets.scene, view, projected, shown, placement, smooth_items(facets)), plane
+
+
+def _normals_at_corners(facets: FacetedScene, view: View) -> Floats | None:
+    """(3,c) the normals of surfaces at the corners of the faces of a view, 0 at apexes, those of their faces for
+    polyhedra; None where no surface can touch another item."""
+    if len(facets.normals) < 2 or all(normals is None for normals in facets.normals):
+        return None
+    apex = np.zeros(view.points.shape[1], dtype=np.bool_)
+    for item, own in enumerate(facets.normals):
+        if own is not None:
+            part = slice(view.item_vertices[item], view.item_vertices[item + 1])
+            apex[part] = (own.at_vertices == 0.0).all(axis=1)
+    return np.where(apex[view.corners], 0.0, at_corners(view, view_normals(view, facets.normals, 0.0)))
+
+
+def _with_clear_items(scene: Scene) -> Scene:
+    """The scene in which light goes through whatever one can see through."""
+    clear = [item.material.is_clear for item in scene.items]
+    if not any(see and item.hides for see, item in zip(clear, scene.items, strict=True)):
+        return scene
+    items = (replace(item, occludes=item.hides and not see) for see, item in zip(clear, scene.items, strict=True))
+    return replace(scene, items=tuple(items))
+
+
+def _planes_of(scene: Scene, view: View, faces: ImageFaces, plane: Ints) -> Ints:
+    """(n,) the planes of painted polygons, -1 for those of transparent items, which stand together as sheets."""
+    clear = opacities(scene.items)[view.face_item[faces.source]] < 1.0
+    return np.where(clear, -1, plane[faces.source])
+
+
+def _groups(scene: Scene) -> Ints | None:
+    """(i,) the number of each item's group, -1 for none; None where there are no groups."""
+    names = group_names(scene)
+    number = {"": -1, **{name: k for k, name in enumerate(names)}}
+    return np.array([number.get(item.group, -1) for item in scene.items], dtype=np.intp) if names else None
+
+
+# A scene hatched: the strokes in what is seen of its faces, where a picture of it has its place on the page.
+
+GRAY = "gray"
+"""The palette that runs from black to white."""
+
+TONES = 64
+"""So many shades flat faces have: neighbours that differ by less share their strokes."""
+
+ROUGHLY = 8.0
+"""Shades on round bodies may be off by so many times as much as in paintings: by a hundredth of black."""
+
+ENDS = 3.0
+"""Strokes may end so many tolerances before outlines, or behind them: usually by less than half the width of a pen."""
+
+
+def hatched(
+    scene: Scene,
+    placement: Placement,
+    given: Hatching | Stippling | None,
+    trace: Callable[[Scene], Paths],
+    *,
+    crease_angle_deg: float,
+    tolerance_mm: float,
+    budget: Budget,
+    progress: Callable[[float], None] | None = None,
+) -> Paths:
+    """The strokes that hatch the visible faces of a scene, as they come.
+
+    placement: of a picture of the scene; given: how items without a hatching of their own are hatched; trace: the
+    visible lines of a scene in their places; crease_angle_deg
+    and tolerance_mm as of paint. What is near is no brighter than what is far away, and items that are hatched by tone
+    are gray, and without patterns. Errors and warnings as of paint.
+    """
+    how = [given if item.hatch is None else item.hatch for item in scene.items]
+    toned = replace(_toned(scene, how), background=None)
+    shown = without_twins(toned)
+    told = None if progress is None else lambda stage, fraction: progress(fraction)
+    walk = Walk(plan_paint(toned, "auto", "visible", frozenset()), None, told)
+    page, projection = placement.page, placement.projection
+
+    def demand() -> Callable[[int], Demand]:
+        allowed = allowed_in_space(toned, projection, page, placement.whole, ENDS * tolerance_mm)
+        return picture_fineness(shown, projection, bool(toned.lights), allowed, ROUGHLY * tolerance_mm)
+
+    ordered = ordered_faces(walk, toned, shown, projection, demand, budget)
+    seen, plane = seen_on_page(walk, ordered, placement, budget)
+    lit, lights = exposed_scene(seen.view, seen.scene)
+    seen = replace(seen, scene=lit)
+    # Planes have one shade each: no light varies on them.
+    normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, crease_angle_deg)
+    lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
+    fills = coloured(walk, seen, lighting, page, 0.0, ROUGHLY * tolerance_mm, budget).fills
+    regions = walk.run("visible fills", toned_regions, fills)
+    lines = followed_lines(scene, how, seen.view, placement, trace, tolerance_mm, crease_angle_deg)
+    return hatched_regions(regions, how, placement.page_from_world, lines)
+
+
+def _toned(scene: Scene, how: Sequence[Hatching | Stippling | None]) -> Scene:
+    """The scene, in gray where only the light counts."""
+    items = (
+        item if one is not None and one.by == "colour" else replace(item, colour=GRAY, patterns=())
+        for item, one in zip(scene.items, how, strict=True)
+    )
+    return replace(scene, items=tuple(items))

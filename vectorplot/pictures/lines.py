@@ -1,0 +1,707 @@
+"""The lines of smooth surfaces, and what these hide of all lines."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import TYPE_CHECKING, Literal
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.curves.curve import is_curve
+from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
+from vectorplot.drawing.drawn_lines import fitted_lines, strokes_on_page
+from vectorplot.drawing.duplicates import with_shared_kinds
+from vectorplot.drawing.finishing import inked
+from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_pen
+from vectorplot.drawing.pen_layers import layer_words, not_plotted, pen_scale, sheet_layer, sorted_layers
+from vectorplot.drawing.pens import PenRule, frame_pen, pen_of, rules_by_target, scaled_pen
+from vectorplot.errors import InputWarning
+from vectorplot.geometry.budget import Budget, budget_of, line_each
+from vectorplot.geometry.elementary import arctan2
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import segments
+from vectorplot.pictures.pipeline import Walk
+from vectorplot.pictures.plan import plan_draw
+from vectorplot.pictures.subject import room_for_labels, titled
+from vectorplot.scene.annotations import LabelAnchors, annotation_points, is_annotation, only_annotations
+from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.page import Page
+from vectorplot.scene.pens import DepthCue
+from vectorplot.scene.placement import Placement, box_corners, fitted_picture, mm_per_image
+from vectorplot.scene.scene import Scene, tell_of_empty_surface
+from vectorplot.scene.view import View, view_of
+from vectorplot.tolerances import FINEST_CHORD_OF_EXTENT
+from vectorplot.visibility.polyhedra.hidden_lines import (
+    Segments,
+    Visibility,
+    counted_parts,
+    visible_parts,
+    with_whole_lines,
+)
+from vectorplot.visibility.polyhedra.lines import (
+    Lines,
+    edge_lines,
+    frame_of,
+    in_frame,
+    intersection_lines,
+    joined_lines,
+    mesh_curve_lines,
+    pattern_lines,
+    with_kinds_of_cuts,
+)
+from vectorplot.visibility.polyhedra.occluders import solid_items
+from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
+from vectorplot.words import LineKind, check_colour
+
+if TYPE_CHECKING:
+    from vectorplot.drawing.labels import SceneLabels
+    from vectorplot.visibility.quadrics.closed_forms import ClosedForms, Seen
+    from vectorplot.visibility.smooth.meetings import SmoothSheet
+    from vectorplot.visibility.smooth.traced import TracedScene
+
+
+OF_F = "f is what is 0 on the contours, sections or other lines of the surface that are looked for"
+"""What doubts about curves f = 0 are of, for those who asked for a picture."""
+
+
+def smooth_sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | None) -> tuple[SmoothSheet, ...]:
+    """The smooth surfaces of the scene that are not drawn in closed form, if it has any."""
+    if not walk.calls_for("curves"):
+        return ()
+    from vectorplot.visibility.smooth.traced import scene_sheets
+
+    sheets = scene_sheets(scene, view, frozenset() if forms is None else forms.items)
+    for sheet in sheets:
+        if not len(sheet.corners):
+            tell_of_empty_surface(scene.items[sheet.item], stacklevel=4)
+    return sheets
+
+
+def lines_and_chords(
+    walk: Walk,
+    scene: Scene,
+    view: View,
+    sheets: tuple[SmoothSheet, ...],
+    forms: ClosedForms | None,
+    kinds: frozenset[LineKind],
+    lines: Lines,
+    tolerance: float,
+    budget: Budget,
+) -> Lines:
+    """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends, if they hide;
+    those of balls as they are seen among these."""
+    if not walk.calls_for("curves"):
+        return lines
+    from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords, whole_lines_and_chords
+
+    if tolerance < FINEST_CHORD_OF_EXTENT:
+        text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"
+        warnings.warn(text, InputWarning, stacklevel=3)
+    tolerance = max(tolerance, FINEST_CHORD_OF_EXTENT)
+    done = walk.fraction("curves")
+    traced = walk.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
+    if not sheets or not walk.calls_for("smooth surfaces"):
+        _say(traced.doubts)
+        return with_kinds_of_cuts(scene, view, whole_lines_and_chords(traced, lines), kinds)
+    done = walk.fraction("smooth surfaces")
+    cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
+    _say([*traced.doubts, *((scene.items[item].name, text) for item, text in unsure)])
+    cut = replace(cut, behind=np.where(cut.kind == LineKind.CENTRE, 0, cut.behind))
+    cut = with_kinds_of_cuts(scene, view, cut, kinds)
+    return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
+
+
+def _say(doubts: Iterable[tuple[str, str]]) -> None:
+    """An InputWarning for each item, or items, of which something is in doubt, given by name."""
+    told = ((name, f"{text} ({OF_F})" if text.startswith("f ") else text) for name, text in doubts)
+    for line in line_each(told):
+        warnings.warn(line, InputWarning, stacklevel=4)
+
+
+def _all_curves(
+    scene: Scene,
+    view: View,
+    sheets: tuple[SmoothSheet, ...],
+    forms: ClosedForms | None,
+    kinds: frozenset[LineKind],
+    tolerance: float,
+    budget: Budget,
+    done: Callable[[float], None],
+) -> TracedScene:
+    """The curves of sheets, the arcs of what is drawn in closed form, and the curves in which the latter meet that are
+    no arcs."""
+    from vectorplot.visibility.smooth.traced import traced_scene, tracing_of
+
+    traced = traced_scene(scene, view, sheets, kinds, tolerance, budget, done)
+    if forms is None:
+        return traced
+    from vectorplot.visibility.quadrics.conic_arcs import conic_curves
+
+    traced = traced.joined(conic_curves(view, forms.arcs, forms.behind, tolerance))
+    if not len(forms.traced) and not len(forms.in_faces):
+        return traced
+    from vectorplot.visibility.quadrics.traced_meetings import traced_meetings
+
+    met, doubts = traced_meetings(scene, view, forms, kinds, tracing_of(view, tolerance, budget))
+    return replace(traced.joined(met), doubts=(*traced.doubts, *doubts))
+
+
+# What pens hatch with: layers of hatching strokes.
+
+NAME = "hatch"
+"""What layers of hatching are called, together with what tells them apart."""
+
+
+def hatch_layers(
+    strokes: Paths, hatching: Sequence[Hatching | Stippling | None], colours: Sequence[str] | None = None
+) -> tuple[Layer, ...]:
+    """A layer for every width of pen that hatches items, and every colour; the first one may be empty.
+
+    strokes of hatchings only; hatching: of every item; colours: of every item, black where None.
+    """
+    if not len(strokes):
+        return ()
+    widths = [0.0 if one is None else one.width_mm for one in hatching]
+    inks = [BLACK] * len(widths) if colours is None else [ink(colour) for colour in colours]
+    words = [""] * len(widths) if colours is None else [f" {colour}" for colour in colours]
+    used = set(strokes.item.tolist())
+    pens = list(dict.fromkeys(pen for k, pen in enumerate(zip(words, widths, inks, strict=True)) if k in used))
+    several = len({width for _, width, _ in pens}) > 1
+    number = {pen: k for k, pen in enumerate(pens)}
+    of_item = np.array([number.get(pen, 0) for pen in zip(words, widths, inks, strict=True)], dtype=np.intp)
+    named = [(f"{NAME}{word}{f' {w:g}' if several else ''}", Pen(w, colour), True) for word, w, colour in pens]
+    return layers_of(strokes, of_item[strokes.item], named)
+
+
+# From strokes to a drawing: their pens and layers, the paper, and what stands around the picture.
+
+PAPER = "white"
+"""What strokes fade to where nobody names the colour of the paper."""
+
+
+@dataclass(frozen=True)
+class Finish:
+    """What draw is told of pens and paper, by its keywords; look: plain, or that of a wireframe; rules: of pens, the
+    last one that fits counts; curved_mm: how far fitted curves may be off strokes, None for polylines.
+
+    Errors: InputError for a colour of the paper that is none.
+    """
+
+    look: Literal["plain", "wireframe", "depth-cue"]
+    hidden: str
+    layers: str
+    rules: tuple[PenRule, ...]
+    background: str | None
+    curved_mm: float | None
+    longest_mm: float | None
+    title: str
+    frame: bool
+    unplotted: tuple[str, ...]
+    text: str = "strokes"
+    thin_ends: bool = False
+    scale_pens: bool = False
+
+    def __post_init__(self) -> None:
+        if self.background is not None:
+            check_colour(self.background, "background: ")
+
+    @property
+    def plain(self) -> bool:
+        """Whether hidden lines are hidden, and pens have the colours that rules give them."""
+        return self.look == "plain"
+
+    def layered(
+        self,
+        walk: Walk,
+        scene: Scene,
+        view: View,
+        strokes: Paths,
+        hatches: Paths,
+        hatch: Hatching | Stippling | None,
+        page: Page,
+    ) -> tuple[Layer, ...]:
+        """Strokes of a scene, and those that hatch its faces, in layers with their pens; hatch: as of draw."""
+        if self.look == "plain":
+            found = walk.run("layers", _line_layers, scene, strokes, hatches, hatch, self.layers, self.rules)
+        else:
+            from vectorplot.effects.wireframe import wire_layers
+
+            scene = scene if self.background is None else replace(scene, background=self.background)
+            found = walk.run("layers", wire_layers, scene, view, strokes, page, self.look)
+        if not self.scale_pens:
+            return found
+        return tuple(replace(layer, pen=scaled_pen(layer.pen, pen_scale(page))) for layer in found)
+
+    def cued(
+        self, walk: Walk, layers: tuple[Layer, ...], view: View, cue: DepthCue, placement: Placement
+    ) -> tuple[Layer, ...]:
+        """The layers with their strokes by depth."""
+        from vectorplot.effects.depth_cues import depth_cued
+        from vectorplot.shading.palettes import palette
+
+        paper = palette(self.background or PAPER)[-1].tolist()
+        return walk.run("depth cue", depth_cued, layers, view, cue, paper, placement.page_from_world)
+
+    def inked(self, walk: Walk, layers: tuple[Layer, ...], placement: Placement) -> tuple[Layer, ...]:
+        """The layers with strokes that are joined, fitted with curves, and in the order of a pen."""
+        world = placement.page_from_world
+        return walk.run("pen", inked, layers, self.hidden, world, self.curved_mm, self.longest_mm, self.thin_ends)
+
+    def letters(self, layers: Sequence[Layer]) -> Pen:
+        """The pen of letters on a drawing with such layers."""
+        return pen_of(rules_by_target(self._pen_rules), letter_pen(layers), int(LineKind.LABEL), False, "")
+
+    def labelled(
+        self, layers: tuple[Layer, ...], placement: Placement, labels: SceneLabels, letters: Pen, sheet: Page
+    ) -> tuple[tuple[Layer, ...], Placement]:
+        """The layers with labels on top, and their place; a sheet that is cut to size has room for them."""
+        by_kind = self.layers == "kind" and self.plain
+        layers = labels.on_top(layers, by_kind, self.longest_mm, placement.page_from_world, letters)
+        return room_for_labels(layers, placement, labels, sheet)
+
+    def drawing(self, layers: tuple[Layer, ...], placement: Placement, scene: Scene, letters: Pen) -> Drawing:
+        """The drawing: layers with a title and a frame, on their paper. letters: the pen of labels."""
+        page = placement.page
+        names = tuple(item.name for item in scene.items)
+        border = frame_pen(self._pen_rules, replace(FRAME_PEN, colour=letters.colour))
+        layers = titled(layers, placement, self.title, self.frame, border, self.longest_mm, self.text)
+        if self.background is not None and self.plain:
+            layers = (sheet_layer(self.background, page), *layers)
+        layers = not_plotted(layers, self.unplotted, (*names, *(item.colour for item in scene.items)))
+        return Drawing(page.width_mm, page.height_mm, layers, names, scene.title, placement.page_from_world)
+
+    @property
+    def _pen_rules(self) -> tuple[PenRule, ...]:
+        return self.rules if self.plain else ()
+
+
+def _line_layers(
+    scene: Scene,
+    strokes: Paths,
+    hatches: Paths,
+    hatch: Hatching | Stippling | None,
+    layers: str,
+    rules: Sequence[PenRule],
+) -> tuple[Layer, ...]:
+    """The layers of lines, and those of strokes that hatch faces."""
+    how = [hatch if item.hatch is None else item.hatch for item in scene.items]
+    names, colours = [item.name for item in scene.items], [item.colour for item in scene.items]
+    behind = hatch_layers(hatches, how, colours if "colour" in layer_words(layers) else None)
+    return sorted_layers(strokes, names, colours, layers, rules, behind)
+
+
+# The labels of a scene on a picture of it.
+
+
+def labels_in_place(
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces,
+    placement: Placement,
+    anchors: LabelAnchors,
+    strokes: Paths,
+    hidden: str = "none",
+    style: str = "plain",
+    text: str = "strokes",
+    *,
+    mm: float = 1.0,
+) -> SceneLabels:
+    """The labels of a scene where a picture of it has its place on the page, and the numbers of its level lines.
+
+    anchors: what they name in the scene as it was given; strokes: of the picture; hidden, style, text: as of draw; mm:
+    how long a millimetre is in units of the page.
+    """
+    from vectorplot.drawing.labels import labels_on_page, level_numbers, seen_labels, with_letters
+
+    seen = seen_labels(scene, view, faces, placement, anchors, style != "plain", mm)
+    named = labels_on_page(seen, placement, strokes, hidden, text, mm)
+    return with_letters(named, level_numbers(scene, strokes, text, mm), placement, mm)
+
+
+# How far the strokes of a drawing are from the curves they show, measured on the page.
+
+
+def chord_error_mm(strokes: Paths) -> float | None:
+    """How far the chords of smooth strokes are from their curves, at most: in their middles, from the cubics that leave
+    and arrive in the directions that the curves were traced with; None without such strokes.
+
+    Error: of the fourth power of a chord's length, where what is measured is of the second.
+    Source: Farin, Curves and Surfaces for CAGD, section 6.5 (cubic Hermite interpolation).
+    """
+    ends = segments(strokes)[np.repeat(strokes.smooth, np.diff(strokes.offsets) - ~strokes.closed)]
+    chord = strokes.points[ends[:, 1]] - strokes.points[ends[:, 0]]
+    length = np.hypot(*chord.T)
+    leaving, arriving = strokes.directions[ends[:, 0], 1], strokes.directions[ends[:, 1], 0]
+    along = arctan2(chord[:, 1], chord[:, 0])
+    off = length / 8.0 * np.abs(np.sin(leaving - along) - np.sin(arriving - along))
+    # Over a cusp the directions are those of two branches.
+    turns = np.minimum(np.cos(leaving - along), np.cos(arriving - along))
+    off = off[np.isfinite(off) & (turns > 0.0)]
+    return float(off.max()) if len(off) else None
+
+
+def fit_error_mm(layers: Iterable[Layer]) -> float | None:
+    """How far fitted curves pass the points they were fitted to, at most, all of which lie on the true curves; None
+    without fitted curves."""
+    marks = (mark for layer in layers for mark in layer.marks if isinstance(mark, CurvedStrokes))
+    found = [mark.beziers.error[np.diff(mark.beziers.offsets) > 0] for mark in marks]
+    fitted = np.concatenate([np.zeros(0), *found])
+    return float(fitted.max()) if len(fitted) else None
+
+
+# Spheres, ellipsoids and capped bodies among what is drawn: their lines, and what they hide, in closed form.
+
+
+def balls(walk: Walk, scene: Scene, view: View, kinds: frozenset[LineKind]) -> ClosedForms | None:
+    """The spheres and ellipsoids of the scene, if it has any, and their lines as they are seen among them."""
+    if not walk.calls_for("balls"):
+        return None
+    from vectorplot.visibility.quadrics.closed_forms import closed_forms
+
+    hidden_too = not walk.calls_for("visible lines")
+    return walk.run("balls", closed_forms, scene, view, kinds, _seen_among_balls(walk, "balls", view), hidden_too)
+
+
+def _seen_among_balls(walk: Walk, stage: str, view: View) -> Seen:
+    """What becomes of the arcs on balls: all of them, the visible parts, or all parts counted."""
+    from vectorplot.visibility.quadrics import hidden_arcs
+
+    if walk.calls_for("all lines"):
+        return lambda bodies, arcs, sides: hidden_arcs.whole_arcs(arcs)
+    done = walk.fraction(stage)
+    if walk.calls_for("visible lines"):
+        return partial(hidden_arcs.visible_arcs, progress=done)
+    return partial(hidden_arcs.counted_arcs, items=len(view.occludes), progress=done)
+
+
+def behind_balls(walk: Walk, view: View, forms: ClosedForms | None, lines: Lines) -> Lines:
+    """The lines cut where spheres and ellipsoids begin or end to hide them, if there are any."""
+    if forms is None or not walk.calls_for("behind balls"):
+        return lines
+    from vectorplot.visibility.quadrics.closed_forms import lines_behind
+
+    seen = _seen_among_balls(walk, "behind balls", view)
+    over = lines.kind == LineKind.CENTRE
+    cut = walk.run("behind balls", lines_behind, view, forms, lines.some(~over), seen)
+    return joined_lines((cut, lines.some(over))) if over.any() else cut
+
+
+# Which parts of lines are seen.
+
+
+def seen_parts(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
+    """The visible parts of lines, all their parts counted, or whole lines, as the plan has it."""
+    if walk.calls_for("all lines"):
+        from vectorplot.effects.wireframe import all_lines
+
+        return walk.run("all lines", all_lines, lines)
+    over = lines.kind == LineKind.CENTRE
+    if over.any():
+        rest = seen_parts(walk, view, faces, solid, lines.some(~over))
+        return with_whole_lines(rest, over)
+    segments = Segments(lines.start + lines.aside, lines.end + lines.aside)
+    if walk.calls_for("visible lines"):
+        return walk.run("visible lines", visible_parts, view, faces, solid, segments, walk.fraction("visible lines"))
+    seen = walk.run("counted lines", counted_parts, view, faces, solid, segments, walk.fraction("counted lines"))
+    return replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])
+
+
+# The lines of polyhedra.
+
+
+def straight_lines(
+    walk: Walk,
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces,
+    solid: Bools,
+    kinds: frozenset[LineKind],
+    crease_angle_deg: float,
+    budget: Budget,
+) -> Lines:
+    """The lines of polyhedra."""
+    found = []
+    backs = ~solid if walk.calls_for("visible lines") else np.ones(len(solid), dtype=np.bool_)
+    if walk.calls_for("edges"):
+        found.append(walk.run("edges", edge_lines, scene, view, faces, kinds, crease_angle_deg, backs))
+    if walk.calls_for("intersections"):
+        found.append(walk.run("intersections", intersection_lines, scene, view, faces, kinds, solid, backs))
+    if walk.calls_for("patterns"):
+        found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
+    if walk.calls_for("lines on meshes"):
+        done = walk.fraction("lines on meshes")
+        how = (kinds, crease_angle_deg, budget, done)
+        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, *how))
+    return with_kinds_of_cuts(scene, view, with_shared_kinds(view, joined_lines(found)), kinds)
+
+
+# What the lines of a scene are traced on, as a view shows it.
+
+
+@dataclass(frozen=True, eq=False)
+class Traceable:
+    """A scene in a view, for lines of some kinds: the faces of its polyhedra, which of its items are solid (i,), its
+    balls, if it has any, its other smooth surfaces; and the lines of its polyhedra, which no tolerance changes."""
+
+    walk: Walk
+    scene: Scene
+    view: View
+    kinds: frozenset[LineKind]
+    faces: ProjectedFaces
+    solid: Bools
+    straight: Lines
+    balls: ClosedForms | None
+    sheets: tuple[SmoothSheet, ...]
+
+    @property
+    def reached(self) -> Floats:
+        """(3,n) points in whose box all of it is."""
+        balls = () if self.balls is None else (self.balls.reached,)
+        return np.concatenate([self.view.points, *balls, *(sheet.vertices.T for sheet in self.sheets)], axis=1)
+
+    def lines(self, tolerance: float, budget: Budget) -> Lines:
+        """All lines, curves as chords within a tolerance in the unit box."""
+        smooth = (self.sheets, self.balls, self.kinds, self.straight)
+        return lines_and_chords(self.walk, self.scene, self.view, *smooth, tolerance, budget)
+
+    def framed(self, lines: Lines, place: Placement | None) -> Lines:
+        """What of lines is before the eye and, where the picture has its place, inside of it; cut where balls begin to
+        hide them."""
+        inside = self.walk.run("frame", in_frame, self.view, lines, place)
+        return behind_balls(self.walk, self.view, self.balls, inside)
+
+    def seen(self, lines: Lines) -> Visibility:
+        """Which parts of framed lines are seen."""
+        return seen_parts(self.walk, self.view, self.faces, self.solid, lines)
+
+
+def traceable(
+    walk: Walk,
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces,
+    kinds: frozenset[LineKind],
+    crease_angle_deg: float,
+    budget: Budget,
+) -> Traceable:
+    """What lines of these kinds are traced on. view: of the scene; faces: of that; budget: of shortest ways."""
+    solid = solid_items(view, faces)
+    straight = straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg, budget)
+    round_bodies = balls(walk, scene, view, kinds)
+    sheets = smooth_sheets(walk, scene, view, round_bodies)
+    return Traceable(walk, scene, view, kinds, faces, solid, straight, round_bodies, sheets)
+
+
+# The lines of a scene where its picture has found its place on the page.
+
+LARGER = 1.25
+"""Curves are traced anew where they come out so many times larger on the page than they were taken for."""
+
+
+@dataclass(frozen=True, eq=False)
+class PlacedLines:
+    """Lines before the eye, what is seen of them, and where that stands on the page."""
+
+    shapes: Traceable
+    lines: Lines
+    seen: Visibility
+    placement: Placement
+
+    def with_halo(self, halo_mm: float) -> PlacedLines:
+        """The same, lines ending so far beside what is in front of them where the plan has it."""
+        walk = self.shapes.walk
+        if not walk.calls_for("halo"):
+            return self
+        from vectorplot.effects.halos import halo
+
+        width = halo_mm / self.placement.scale
+        return replace(self, seen=walk.run("halo", halo, self.shapes.view, self.lines, self.seen, width))
+
+    def strokes(self) -> Paths:
+        """The seen parts as strokes on the page, as they come."""
+        shapes = self.shapes
+        return shapes.walk.run("strokes", strokes_on_page, shapes.view, self.lines, self.seen, self.placement)
+
+
+def placed_lines(shapes: Traceable, sheet: Page, fit: bool, tolerance_mm: float, budget: Budget) -> PlacedLines:
+    """The lines of a scene, and their place on a sheet that they fill; without fit that of the field of vision."""
+    walk, view, reached = shapes.walk, shapes.view, shapes.reached
+    scale = mm_per_image(view, reached, sheet, fit)
+    while True:
+        # Chords take one half of the tolerance, Béziers through their ends the other.
+        tolerance = 0.5 * tolerance_mm / scale
+        every = shapes.lines(tolerance, budget)
+        bounded = frame_of(view, every, sheet, fit)
+        framed = shapes.framed(every, bounded)
+        seen = shapes.seen(framed)
+        placement = bounded or fitted_lines(view, framed, seen, sheet)
+        if bounded is None and not len(seen) and walk.calls_for("hatching"):
+            # Without lines the picture is that of the faces.
+            placement = fitted_picture(view, sheet, view.image_of(reached))
+        if (
+            every is shapes.straight
+            or not len(seen)
+            or placement.scale <= LARGER * scale
+            or tolerance < FINEST_CHORD_OF_EXTENT
+        ):
+            return PlacedLines(shapes, framed, seen, placement)
+        # Little of the scene is drawn, and that larger than thought.
+        scale = placement.scale
+
+
+# The visible lines of a scene on a picture that has its place already, for paintings, pixels and panoramas.
+
+
+def with_smooth_surfaces(scene: Scene, view: View, faces: ProjectedFaces | None) -> tuple[View, ProjectedFaces]:
+    """The view of a scene, and its faces in the image, in the projection of a view of it that has triangles in place of
+    smooth surfaces: the same where there are none. faces: of that view, where they are known."""
+    if not all(isinstance(item.shape, Mesh) for item in scene.items):
+        view, faces = view_of(scene, view), None
+    view = replace(view, occludes=np.array([item.hides for item in scene.items], dtype=np.bool_))
+    return view, project_faces(view) if faces is None else faces
+
+
+def places_beside_faces(
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces | None,
+    page: Page,
+    fit: bool,
+    kinds: frozenset[LineKind],
+    tolerance_mm: float,
+    budget: float,
+) -> Floats:
+    """(n,3) places in the world that a picture of faces has to fit besides these: those of annotations, and of what is
+    seen of the other curves of a scene where lines of some kinds are drawn on top.
+
+    view: of the scene, surfaces as triangles; faces: its faces in the image, where they are known; page, fit: of the
+    picture; tolerance_mm: as of draw. Curves that reach too far to be fitted are there as a whole.
+    """
+    notes = annotation_points(scene)
+    curves = [is_curve(item.shape) and not is_annotation(item) for item in scene.items]
+    if not fit or not kinds or not any(curves):
+        return notes
+    items = (item if one else replace(item, lines=()) for item, one in zip(scene.items, curves, strict=True))
+    alone = replace(scene, items=tuple(items))
+    view, faces = with_smooth_surfaces(alone, view, faces)
+    scale = mm_per_image(view, view.points_of(np.concatenate([scene.vertices, box_corners(scene.bounds)])), page, fit)
+    allowed = budget_of(budget)
+    with warnings.catch_warnings():
+        # They are told when the lines are drawn.
+        warnings.simplefilter("ignore", InputWarning)
+        shapes = traceable(
+            Walk(plan_draw(alone, kinds, "none", 0.0), None, None), alone, view, faces, kinds, 180.0, allowed
+        )
+        every = shapes.lines(0.5 * tolerance_mm / scale, allowed)
+    if view.reaches_too_far(every.start, every.end):
+        return np.concatenate([notes, view.world_of(np.concatenate([every.start, every.end], axis=1))])
+    framed = shapes.framed(every, None)
+    seen = shapes.seen(framed)
+    ends = np.concatenate(framed.ends(view, seen.segment, seen.low, seen.high), axis=1)
+    return np.concatenate([notes, view.world_of(ends)])
+
+
+def lines_in_place(
+    scene: Scene,
+    view: View,
+    faces: ProjectedFaces,
+    placement: Placement,
+    kinds: frozenset[LineKind],
+    *,
+    crease_angle_deg: float,
+    tolerance_mm: float,
+    budget: float,
+    progress: Callable[[float], None] | None = None,
+) -> Paths:
+    """The visible parts of the lines of a scene, as they come, where a picture of it already has its place on the page.
+
+    view: of the scene, in the projection of the picture; progress(fraction) is called while it works. All else as of
+    draw.
+    """
+    told = None if progress is None else lambda stage, fraction: progress(fraction)
+    walk = Walk(plan_draw(scene, kinds, "none", 0.0), None, told)
+    allowed = budget_of(budget)
+    shapes = traceable(walk, scene, view, faces, kinds, crease_angle_deg, allowed)
+    every = shapes.lines(0.5 * tolerance_mm / placement.scale, allowed)
+    # Lines may reach too far where what the picture was fitted to does not.
+    cut = not placement.whole or view.reaches_too_far(every.start, every.end)
+    framed = shapes.framed(every, placement if cut else None)
+    return PlacedLines(shapes, framed, shapes.seen(framed), placement).strokes()
+
+
+# The exact visible lines of a scene, and its labels, in their places on a picture of its faces.
+
+PEN = Pen()
+"""What draws lines among fills."""
+
+OUTLINES = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
+"""What labels keep off where no lines are drawn."""
+
+
+@dataclass(frozen=True, eq=False)
+class Ruler:
+    """How the lines of a scene come to be on a picture of its faces. view: of the latter, surfaces as triangles; faces:
+    its faces in the image, where they are known; all else as of draw, in the units of the placement's page."""
+
+    scene: Scene
+    view: View
+    faces: ProjectedFaces | None
+    placement: Placement
+    crease_angle_deg: float
+    tolerance_mm: float
+    budget: float
+
+    def found(self, kinds: frozenset[LineKind], progress: Callable[[float], None]) -> Paths:
+        """The visible lines, as they come; of no kinds those of annotations."""
+        return self._found(self.scene if kinds else only_annotations(self.scene), kinds, progress)
+
+    def labels(
+        self, anchors: LabelAnchors, strokes: Paths | None, text: str = "strokes", mm: float = 1.0
+    ) -> SceneLabels:
+        """The labels of the scene, apart from strokes, or where there are none from its contours; text: a word of
+        LETTERS; mm: how long a millimetre is in units of the page."""
+        strokes = self._found(self.scene, OUTLINES, None) if strokes is None else strokes
+        return labels_in_place(self.scene, *self._view, self.placement, anchors, strokes, text=text, mm=mm)
+
+    def layers(
+        self, layers: Sequence[Layer], walk: Walk, cue: DepthCue | None, paper: Sequence[int]
+    ) -> tuple[Layer, ...]:
+        """Layers of visible lines as a pen draws them, by depth too where there is a cue; paper: its colour."""
+        world = self.placement.page_from_world
+        return inked(self.cued(layers, walk, cue, paper), "none", world, self.tolerance_mm)
+
+    def cued(
+        self, layers: Sequence[Layer], walk: Walk, cue: DepthCue | None, paper: Sequence[int]
+    ) -> tuple[Layer, ...]:
+        """Layers of lines, their strokes by depth where there is a cue."""
+        if cue is None or not walk.calls_for("depth cue"):
+            return tuple(layers)
+        from vectorplot.effects.depth_cues import depth_cued
+
+        return walk.run("depth cue", depth_cued, tuple(layers), self.view, cue, paper, self.placement.page_from_world)
+
+    def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
+        """The visible lines as polylines. scene: this one, whatever patterns it has."""
+        found = self._found(scene, kinds, None)
+        (layer,) = inked((Layer("", PEN, (found,)),), "none", self.placement.page_from_world)
+        return layer.strokes[0]
+
+    def _found(self, scene: Scene, kinds: frozenset[LineKind], progress: Callable[[float], None] | None) -> Paths:
+        return lines_in_place(
+            scene,
+            *self._view,
+            self.placement,
+            kinds,
+            crease_angle_deg=self.crease_angle_deg,
+            tolerance_mm=self.tolerance_mm,
+            budget=self.budget,
+            progress=progress,
+        )
+
+    @cached_property
+    def _view(self) -> tuple[View, ProjectedFaces]:
+        return with_smooth_surfaces(self.scene, self.view, self.faces)

@@ -1,0 +1,340 @@
+"""Blank polygons with the visible lines on them: hidden lines by erasing."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import replace
+from typing import Literal
+
+import numpy as np
+
+from vectorplot.drawing.drawing import Drawing, Layer, Paths
+from vectorplot.drawing.fills import Colours, FillKind, Fills
+from vectorplot.drawing.layers import letter_pen
+from vectorplot.drawing.painted_fills import fills_on_page, placement_of_faces
+from vectorplot.drawing.pen_layers import overlaid_pens
+from vectorplot.drawing.pens import Pens, Style, check_targets
+from vectorplot.errors import InputError
+from vectorplot.features.edge_splitting import Demand, Within
+from vectorplot.geometry.budget import budget_of, threads_of
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.projections import projection_of
+from vectorplot.io.anything import scene_of
+from vectorplot.pictures.facet_errors import outline_error
+from vectorplot.pictures.fills import Seen, border_tolerance_mm, coloured, ordered_faces, paper, seen_on_page
+from vectorplot.pictures.fills import background as background_of
+from vectorplot.pictures.lines import PEN, Ruler, places_beside_faces
+from vectorplot.pictures.options import check_types
+from vectorplot.pictures.pipeline import StageReport, Walk
+from vectorplot.pictures.plan import accuracy_of_paint, plan_paint, with_accuracy
+from vectorplot.pictures.subject import Paper, beside_bar, left_of_bar, room_for_labels, subject_of, titled
+from vectorplot.scene.added_lines import with_usual_lines
+from vectorplot.scene.light import Exposure, Light
+from vectorplot.scene.page import Page
+from vectorplot.scene.pens import DepthCue, depth_cue_of
+from vectorplot.scene.placement import FittedPage, allowed_in_space, page_of
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import without_twins
+from vectorplot.shading.fineness import picture_fineness
+from vectorplot.shading.painted_colours import Lighting, painted_normals
+from vectorplot.shading.palettes import PALETTE_SIZE, shaded_colours
+from vectorplot.shading.shaded_faces import exposed_scene, item_colours
+from vectorplot.tolerances import LEAST_TOLERANCE_MM
+from vectorplot.words import LINE_WORDS, TEXT_WORDS, LineKind, check_word, line_kinds
+
+
+def erased(walk: Walk, seen: Seen, scene: Scene, ruler: Ruler, kinds: frozenset[LineKind], size: int) -> Fills:
+    """Blank polygons, and the lines of the scene on them."""
+    from vectorplot.drawing.painted_fills import erased_fills, line_fills
+
+    view, faces = seen.view, seen.faces
+    blank = fills_on_page(
+        view,
+        faces.points,
+        faces.offsets,
+        seen.placement,
+        colours=np.repeat(paper(scene), faces.points.shape[1], axis=0),
+        opacity=np.ones(len(faces)),
+        item=view.face_item[faces.source],
+        kind=np.full(len(faces), int(FillKind.BACKGROUND)),
+    )
+    drawn = walk.run("outlines", _coloured_strokes, scene, ruler, kinds, size)
+    lines = Fills.joined(*(line_fills(strokes, ink) for strokes, ink in drawn))
+    return walk.run("erasing", erased_fills, blank, lines, PEN.width_mm)
+
+
+def _coloured_strokes(scene: Scene, ruler: Ruler, kinds: frozenset[LineKind], size: int) -> list[tuple[Paths, Colours]]:
+    """The visible lines of a scene, and their inks (m,3): the middle shades of the palettes of items, and of those of
+    patterns."""
+    from vectorplot.drawing.strokes import chosen
+    from vectorplot.shading.illumination import MIDDLE
+
+    strokes = ruler.strokes(scene, kinds)
+    plain = chosen(strokes, strokes.kind != LineKind.PATTERN)
+    found = [(plain, item_colours(scene.items, plain.item, np.full(len(plain), MIDDLE), size))]
+    colours = dict.fromkeys(pattern.colour for item in scene.items for pattern in item.patterns)
+    for colour in colours if (strokes.kind == LineKind.PATTERN).any() else ():
+        items = (replace(i, patterns=tuple(p for p in i.patterns if p.colour == colour)) for i in scene.items)
+        strokes = ruler.strokes(replace(scene, items=tuple(items)), kinds)
+        own = chosen(strokes, strokes.kind == LineKind.PATTERN)
+        found.append((own, shaded_colours((colour,), np.zeros_like(own.item), np.full(len(own), MIDDLE), size)))
+    return found
+
+
+# The verb paint: a scene becomes filled polygons on a page, painted back to front.
+
+
+def paint(
+    scene: object,
+    camera: Camera | str | None = None,
+    *,
+    page: Page | str | None = None,
+    width: float | str | None = None,
+    fit: bool = True,
+    lights: Sequence[Light] | None = None,
+    exposure: Exposure | None = None,
+    shadows: Literal["auto", "none"] = "auto",
+    aura_mm: float = 0.0,
+    palette: int = PALETTE_SIZE,
+    smooth: bool = True,
+    fills: Literal["painted", "visible", "erasing"] = "painted",
+    lines: str | Iterable[str] = (),
+    crease_angle_deg: float = 25.0,
+    style: Style | str | None = None,
+    pens: Pens | None = None,
+    dashes: str | Mapping[str, str] | Iterable[str] | None = None,
+    depth_cue: DepthCue | str | None = None,
+    background: str | None = None,
+    tolerance_mm: float = 0.02,
+    title: str = "",
+    frame: bool = False,
+    text: Literal["strokes", "real"] = "strokes",
+    budget: float = 1.0,
+    jobs: int | None = None,
+    progress: Callable[[str, float], None] | None = None,
+    explain: Callable[[StageReport], None] | None = None,
+) -> Drawing:
+    """The scene as filled polygons on a page, each painted over those behind it.
+
+    Parameters
+    ----------
+    scene : Scene, path, Item, Mesh, surface, curve, or several of these
+        What is painted, as of `io.scene_of`.
+    camera : Camera or str, optional
+        As of draw.
+    page : Page or str, optional
+        As of draw.
+    width : float or str, optional
+        As of draw.
+    fit : bool
+        The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
+        camera's picture height.
+    lights : sequence of Light, optional
+        In place of those of the scene.
+    exposure : float or {"fitted"}, optional
+        What the intensities of all lights are taken times; fitted: so that the brightest face that is seen is as bright
+        as lights can make it, wherever shadows fall. Where None, that of the scene.
+    shadows : {"auto", "none"}
+        Whether lights cast any.
+    aura_mm : float
+        The width of their soft borders in mm.
+    palette : int
+        How many shades every colour has; 2 to 256.
+    smooth : bool
+        Smooth surfaces, meshes that look round and planes on which the light varies are shaded from corner to corner;
+        otherwise every plane has one shade.
+    fills : {"painted", "visible", "erasing"}
+        Polygons painted one over the other, or only what is seen of each, for pens, which cannot paint over things,
+        with transparent ones as sparse lines; or blank, with the visible lines on them: hidden lines by erasing.
+    lines : str or iterable of str
+        Words of LineKind, or one text with commas between them, drawn on top with exact hidden lines, or on blank
+        polygons (none: all kinds).
+    crease_angle_deg : float
+        Sharper edges are creases, and meshes look round where faces meet at less; 0 to 180 degrees.
+    style : Style or str, optional
+        As of draw, without wireframes: its pens, dashes and paper.
+    pens : str, Pen, mapping or iterable of str, optional
+        As of draw, for lines on top.
+    dashes : str, mapping or iterable of str, optional
+        As of draw, for the same lines.
+    depth_cue : DepthCue or str, optional
+        As of draw, for lines on top; with blank polygons, whose lines have the shades of items, only none.
+    background : str, optional
+        The colour of the paper, in place of that of the scene.
+    tolerance_mm : float
+        How many mm the sides of polygons may be off smooth surfaces and refracted lines; shades along their sides may
+        be off by two steps of 255 at 0.02 mm, and in proportion by one to eight.
+    title : str
+        Letters in the middle of the lower margin.
+    frame : bool
+        A rectangle in the middle of the margin, which ends before the title.
+    text : {"strokes", "real"}
+        As of draw.
+    budget : float
+        As of draw, for lines and triangles.
+    jobs : int, optional
+        As of draw.
+    progress : callable, optional
+        progress(stage, fraction) is called while it works.
+    explain : callable, optional
+        explain(report) is called while it works, with a StageReport.
+
+    Returns
+    -------
+    Drawing
+        The page in mm: a layer of fills, and where lines are asked for those of the lines on top.
+
+    Raises
+    ------
+    TypeError
+        For what is nothing of that kind.
+    InputError
+        As of `io.scene_of`.
+        For unknown words and colours, impossible cameras, and widths and counts out of range; for a tolerance or a
+        budget that is not finite and positive.
+
+    Warns
+    -----
+    InputWarning
+        For what the budget did not do; for implicit surfaces that have no points in their boxes.
+
+    Notes
+    -----
+    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
+    the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
+    upper left, which casts no shadows.
+
+    Source: Glaeser, chapters 4.5, 5 and 6.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)]
+    >>> tetrahedron = vp.Mesh.from_triangles(corners, [(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
+    >>> scene = vp.Scene((vp.Item("tetrahedron", tetrahedron, "blue"),))
+    >>> drawing = vp.paint(scene, lights=[vp.Light((3, -1, 4))], lines="contour")
+    >>> [layer.name for layer in drawing.layers]
+    ['fills', 'visible', 'contour']
+    """
+    check_types(locals())
+    _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
+    check_word("text", text, TEXT_WORDS)
+    if fills == "erasing" and depth_cue_of(depth_cue) is not None:
+        raise InputError("depth_cue does not go with fills that are erasing, whose lines have the shades of items")
+    budget_of(budget)
+    threads = threads_of(jobs)
+    given, kinds = scene_of(scene), line_kinds(lines)
+    if fills == "erasing" and not kinds:
+        given = with_usual_lines(given)
+    chosen = overlaid_pens(given.inks, style, pens, dashes)
+    if fills == "erasing" and (style is not None or pens is not None or dashes is not None):
+        raise InputError("style, pens and dashes do not go with fills that are erasing, whose lines are those of items")
+    sheet = page_of(page, given, width, fit)
+    subject = subject_of(
+        given,
+        camera,
+        Paper(sheet, fit),
+        explain,
+        progress,
+        lights=lights,
+        exposure=exposure,
+        background=chosen.background if background is None else background,
+        depth_cue=depth_cue,
+    )
+    scene, bar = subject.scene, subject.bar
+    names = tuple(item.name for item in scene.items)
+    over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
+    check_targets(over.rules, names)
+    sheet, strip = left_of_bar(sheet, bar)
+    stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
+    walk = Walk(stages, explain, progress, threads)
+    projection = projection_of(subject.camera, scene.bounds)
+    # Lines belong to each item, polygons to what is seen.
+    shown = scene if kinds or fills == "erasing" else without_twins(scene)
+
+    steps = palette if fills == "visible" else None
+    fine_mm = tolerance_mm if steps is None else border_tolerance_mm(tolerance_mm, steps)
+
+    def demand() -> Callable[[int], Demand]:
+        allowed = allowed_in_space(scene, projection, sheet, fit, fine_mm)
+        # Where each triangle has one shade they have to be so small that nobody sees it.
+        if not smooth or fills == "erasing":
+            return lambda _: Within(allowed)
+        casts = shadows != "none" and bool(scene.lights)
+        return picture_fineness(shown, projection, casts, allowed, fine_mm)
+
+    ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
+    drawn = kinds or line_kinds(LINE_WORDS if fills == "erasing" else ())
+    beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
+    placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, beside)
+    if fit:
+        placement = subject.around(placement, ordered.view, sheet)
+    walk.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
+    seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
+    view, true = seen.view, ordered.facets.normals
+    page, world = placement.page, placement.page_from_world
+    lit, here = exposed_scene(view, seen.scene)
+    seen = replace(seen, scene=lit)
+    normals = np.full((3, len(view.corners)), np.nan)
+    if smooth and fills == "painted":
+        normals = painted_normals(view, scene.items, here, true, plane, crease_angle_deg)
+    elif smooth and fills == "visible":
+        # Pens have no gradients: smooth surfaces have steps, meshes and planes one shade for each of their faces.
+        normals = painted_normals(view, scene.items, (), true, plane, 0.0)
+    lighting = Lighting(scene.items, here, normals, plane, palette, smooth_size=steps)
+    ruler = Ruler(scene, view, seen.projected, seen.placement, crease_angle_deg, tolerance_mm, budget)
+    if walk.calls_for("erasing"):
+        polygons = erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
+    else:
+        painted = coloured(walk, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
+        polygons = painted.fills
+    for stage in ("order", "shadows"):
+        walk.measured(stage, "mm", lambda: view.tolerance * placement.scale)
+    if walk.calls_for("visible fills"):
+        from vectorplot.drawing.fill_visibility import visible_shades
+
+        curved = np.array([normals is not None for normals in ordered.facets.normals], dtype=np.bool_) & smooth
+        polygons = walk.run("visible fills", visible_shades, painted, curved, world)
+    if walk.calls_for("screen door"):
+        from vectorplot.effects.windows import screened
+
+        polygons = walk.run("screen door", screened, polygons, PEN.width_mm, world)
+    layers: tuple[Layer, ...] = (Layer("fills", PEN, (polygons,)),)
+    found = walk.run("lines", ruler.found, kinds, walk.fraction("lines")) if walk.calls_for("lines") else None
+    labels = None
+    if walk.calls_for("labels"):
+        labels = walk.run("labels", ruler.labels, subject.anchors, found, text)
+        found = found and labels.interrupted(found, world)
+        from vectorplot.drawing.fill_visibility import cut_out
+
+        blanks = labels.blanks(paper(scene))
+        polygons = cut_out(polygons, blanks, world) if fills == "visible" else Fills.joined(polygons, blanks)
+        layers = (replace(layers[0], marks=(polygons,)),)
+    if found is not None:
+        lines_ = over.layers(found, names)
+        layers += ruler.layers(lines_, walk, scene.depth_cue, paper(scene)[0].tolist())
+    letters = over.letters(letter_pen(layers))
+    if labels is not None:
+        layers = labels.on_top(layers, False, None, world, letters)
+        layers, placement = room_for_labels(layers, placement, labels, sheet)
+        if isinstance(sheet, FittedPage):
+            page, world = placement.page, placement.page_from_world
+            layers = (replace(layers[0], marks=(*background_of(scene, page), *layers[0].marks)), *layers[1:])
+    layers = titled(layers, placement, title, frame, over.border(letters), text=text)
+    drawing = Drawing(page.width_mm, page.height_mm, layers, names, scene.title, world)
+    return beside_bar(drawing, bar, strip, scene.background)
+
+
+def _check_options(
+    shadows: str, aura_mm: float, palette: int, fills: str, crease_angle_deg: float, tolerance_mm: float
+) -> None:
+    check_word("shadows", shadows, ("auto", "none"))
+    check_word("fills", fills, ("painted", "visible", "erasing"))
+    if not 0.0 <= aura_mm < np.inf:
+        raise InputError(f"an aura of {aura_mm:g} mm: expected a width that is finite and not negative")
+    if not (2 <= palette <= 256 and float(palette).is_integer()):
+        raise InputError(f"a palette of {palette} shades: expected 2 to 256")
+    if not 0.0 <= crease_angle_deg <= 180.0:
+        raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
+    if not LEAST_TOLERANCE_MM <= tolerance_mm < np.inf:
+        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected {LEAST_TOLERANCE_MM:g} or more")

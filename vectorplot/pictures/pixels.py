@@ -1,0 +1,266 @@
+"""Lines and blank places over a picture of pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.backends.raster import painted
+from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.finishing import long_strokes
+from vectorplot.errors import InputError
+from vectorplot.geometry.projections import CoordinateSystem
+from vectorplot.geometry.vectors import cross
+from vectorplot.pictures.pipeline import Walk
+from vectorplot.scene.light import Light
+from vectorplot.scene.page import MM_PER_INCH
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View
+from vectorplot.shading.image import Bytes, averaged
+from vectorplot.shading.lighting import Blocked, Lighting, lighting_of
+from vectorplot.shading.scene_pixels import Picture, opaque_buffer, shaded, with_glass, with_mirrors
+from vectorplot.shading.screen import LARGEST_RASTER_PIXELS, LARGEST_SIDE_PIXELS, SceneTriangles, raster_size
+from vectorplot.shading.shadow_maps import MapSettings
+from vectorplot.shading.shadow_rays import exact_shadows
+from vectorplot.tolerances import LARGEST_VIEW
+from vectorplot.words import check_word
+
+if TYPE_CHECKING:
+    from vectorplot.effects.scales import ColourBar
+    from vectorplot.shading.seen_region import SeenRegion
+
+
+def with_blanks(pixels: Bytes, blanks: Fills) -> Bytes:
+    """The picture with polygons over it."""
+    return with_layers(pixels, (Layer("blank", Pen(), (blanks,)),))
+
+
+def with_lines(pixels: Bytes, found: Paths, pen: Pen) -> Bytes:
+    """The picture with lines of a pen, its width in pixels, over it."""
+    return with_layers(pixels, (Layer("", pen, (long_strokes(found),)),))
+
+
+def with_layers(pixels: Bytes, layers: tuple[Layer, ...]) -> Bytes:
+    """The picture with layers over it."""
+    rows, columns = pixels.shape[:2]
+    return painted(pixels, Drawing(float(columns), float(rows), layers))
+
+
+# Pixels of a picture, made in bands.
+
+BAND_PIXELS = 1 << 22
+"""So many pixels are in memory at a time."""
+
+
+def pixels_in_bands(walk: Walk, picture: Picture, samples: int) -> Bytes:
+    """(rows, columns, 3) the finer picture, made in bands."""
+    result = np.zeros((picture.rows, picture.columns, 3), dtype=np.uint8)
+    step = max(1, BAND_PIXELS // (picture.columns * samples)) * samples
+    tops = range(0, picture.rows, step)
+    for number, top in enumerate(tops):
+        bottom = min(top + step, picture.rows)
+        band = walk.repetition(("depth", "shading", "mirrors", "transparency"), number, len(tops))
+        buffer = band.run("depth", opaque_buffer, picture, top, bottom)
+        colours = band.run("shading", shaded, picture, buffer)
+        if band.calls_for("mirrors"):
+            colours = band.run("mirrors", with_mirrors, picture, buffer, colours)
+        if band.calls_for("transparency"):
+            colours = band.run("transparency", with_glass, picture, buffer, colours)
+        result[top:bottom] = np.rint(colours)
+    return result
+
+
+# Pictures of pixels whose colours stand for numbers: beside them is the bar that explains these.
+
+PIXELS_PER_MM = 96.0 / MM_PER_INCH
+"""How large a millimetre of letters is, as on screens."""
+
+BAR_SAMPLES = 4
+"""Along each side of a pixel of a colour bar."""
+
+
+def pixels_left_of_bar(size: tuple[int, int], bar: ColourBar | None) -> tuple[int, int]:
+    """Columns and rows that a colour bar leaves of a picture."""
+    if bar is None:
+        return size
+    from vectorplot.effects.scales import strip_mm
+
+    return max(1, size[0] - round(strip_mm(size[0] / PIXELS_PER_MM) * PIXELS_PER_MM)), size[1]
+
+
+def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int], paper: Floats) -> Bytes:
+    """The pixels of a picture with those of a colour bar to the right of them, on paper (3,); where there is none
+    they stay."""
+    if bar is None:
+        return pixels
+    from vectorplot.backends.raster import painted
+    from vectorplot.drawing.drawing import Drawing
+    from vectorplot.effects.scales import with_colour_bar
+
+    rows, columns = pixels.shape[:2]
+    width, height = columns / PIXELS_PER_MM, rows / PIXELS_PER_MM
+    drawing = with_colour_bar(Drawing(width, height, ()), bar, size[0] / PIXELS_PER_MM - width)
+    blank = np.broadcast_to(np.rint(paper).astype(np.uint8), (BAR_SAMPLES * rows, BAR_SAMPLES * size[0], 3))
+    beside = averaged(painted(blank, drawing)[:, BAR_SAMPLES * columns :], BAR_SAMPLES)
+    return np.concatenate([pixels, np.rint(beside).astype(np.uint8)], axis=1)
+
+
+# What options of render may be.
+
+MOST_SAMPLES = 8
+"""Along each side of a pixel."""
+
+SAMPLES = 2
+"""Along each side of a pixel, unless told otherwise."""
+
+
+FEWEST_TEXELS, MOST_TEXELS = 256, 4096
+"""Along the side of a shadow map, unless told otherwise."""
+
+
+def usual_samples(size: tuple[int, int]) -> int:
+    """Along each side of a pixel where nobody says how many."""
+    fine = (size[0] * SAMPLES, size[1] * SAMPLES)
+    return SAMPLES if max(fine) <= LARGEST_SIDE_PIXELS and fine[0] * fine[1] <= LARGEST_RASTER_PIXELS else 1
+
+
+def usual_shadow_size(size: tuple[int, int]) -> int:
+    """Texels along the side of a shadow map where nobody says how many: the power of two no less than the longer
+    side of the picture, 256 to 4096."""
+    needed = 1 << (int(max(size)) - 1).bit_length()
+    return min(max(needed, FEWEST_TEXELS), MOST_TEXELS)
+
+
+def check_render_options(
+    size: tuple[int, int], shadows: str, transparency: str, samples: int, crease_angle_deg: float
+) -> None:
+    """InputError for unknown words, and for numbers out of range."""
+    check_word("transparency", transparency, ("blended", "sparse"))
+    check_word("shadows", shadows, ("auto", "none", "buffer", "trapezoid", "exact"))
+    if not 1 <= samples <= MOST_SAMPLES:
+        raise InputError(f"{samples} samples: expected 1 to {MOST_SAMPLES}")
+    if not 0.0 <= crease_angle_deg <= 180.0:
+        raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
+    raster_size(*size)
+    raster_size(size[0] * samples, size[1] * samples)
+
+
+def check_whole(**counts: int) -> None:
+    """InputError for counts, by their names, that are no whole numbers."""
+    for name, count in counts.items():
+        if not float(count).is_integer():
+            raise InputError(f"{name} {count:g}: expected a whole number")
+
+
+def check_lights(lights: Sequence[Light]) -> None:
+    """InputError for lights without a direction, or too far away."""
+    for number, light in enumerate(lights):
+        name = f"light {light.name or number}"
+        # NaN is not smaller.
+        if not all(abs(coordinate) < LARGEST_VIEW for coordinate in light.position):
+            raise InputError(f"{name}: a place or direction of {light.position} is out of range")
+        if light.parallel and not any(light.position):
+            raise InputError(f"{name}: its rays have no direction")
+
+
+# Light on a scene, and what keeps it off: shadow buffers, and exact shadows.
+
+
+@dataclass(frozen=True, eq=False)
+class ShadowMaps:
+    """How shadows of some triangles are found: by which way, with what maps, tapered for what is seen (None: not).
+    sides (i,): of items that are closed, as of outer_sides."""
+
+    triangles: SceneTriangles
+    lights: tuple[Light, ...]
+    shadows: str
+    settings: MapSettings
+    region: SeenRegion | None
+    sides: Ints
+
+    def of_items(self, casts: Bools) -> tuple[Blocked, ...]:
+        """For every light what it does not reach as items (i,) stand before it."""
+        triangles = self.triangles
+        shown = casts[triangles.item]
+        if self.shadows == "exact":
+            from vectorplot.shading.shadow_rays import exact_shadows
+
+            number = np.where(shown, np.cumsum(shown) - 1, -1)
+            return exact_shadows(self.lights, triangles.points, triangles.corners[shown], number)
+        from vectorplot.shading.shadow_maps import shadow_buffers
+
+        side, corners = self.sides[triangles.item[shown]], triangles.corners[shown]
+        settings = self.settings
+        if settings.casting == "away":
+            # Which way a face turns is known of closed bodies only.
+            settings = settings if (side != 0).all() else replace(settings, casting="all")
+            corners = np.where((side < 0)[:, None], corners[:, ::-1], corners)
+        return shadow_buffers(self.lights, triangles.points, corners, settings, self.region)
+
+    def of_clear_items(self, scene: Scene) -> tuple[tuple[str, float, tuple[Blocked, ...]], ...]:
+        """The same for what light comes through: colours and opacities, and what is dimmed by things that have them."""
+        groups: dict[tuple[str, float], Bools] = {}
+        for number, item in enumerate(scene.items):
+            if item.dims_light:
+                same = (item.colour, item.material.opacity)
+                groups.setdefault(same, np.zeros(len(scene.items), dtype=np.bool_))[number] = True
+        return tuple((colour, opacity, self.of_items(casts)) for (colour, opacity), casts in groups.items())
+
+
+def scene_lighting(walk: Walk, scene: Scene, view: View, maps: ShadowMaps) -> Lighting:
+    """The lights and their shadows, as far as the plan has any."""
+    blocked: tuple[Blocked, ...] = ()
+    clear: tuple[tuple[str, float, tuple[Blocked, ...]], ...] = ()
+    if walk.calls_for("shadows"):
+        casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)
+        blocked = walk.run("shadows", maps.of_items, casts)
+    if walk.calls_for("transparent shadows"):
+        clear = walk.run("transparent shadows", maps.of_clear_items, scene)
+    return lighting_of(view, scene.items, maps.lights, blocked, clear)
+
+
+def tapered_for(
+    triangles: SceneTriangles, system: CoordinateSystem, size: tuple[int, int], shadows: str
+) -> SeenRegion | None:
+    """What is seen, for shadow maps that are tapered for it; None for others."""
+    if shadows != "trapezoid":
+        return None
+    from vectorplot.shading.seen_region import region_in_picture
+
+    return region_in_picture(system, *size, triangles.points, triangles.corners)
+
+
+# How many places shadow maps say a wrong thing of, measured against exact shadows.
+
+PLACES = 1024
+"""So many places are asked about."""
+
+
+def wrong_shadows(scene: Scene, triangles: SceneTriangles, lighting: Lighting) -> float | None:
+    """Of how many of 100 places, spread over the triangles of a scene by their area, maps say wrongly whether a light
+    reaches them; None for a scene without area."""
+    corners, points = triangles.corners, triangles.points
+    a, b, c = (points[corners[:, k]] for k in range(3))
+    area = np.linalg.norm(cross(b - a, c - a), axis=1)
+    whole = np.cumsum(area)
+    if not len(whole) or not whole[-1] > 0.0:
+        return None
+    random = np.random.default_rng(0)
+    which = np.searchsorted(whole, whole[-1] * (np.arange(PLACES) + 0.5) / PLACES)
+    s, t = random.random((2, PLACES, 1))
+    s, t = np.where(s + t > 1.0, 1.0 - s, s), np.where(s + t > 1.0, 1.0 - t, t)
+    places = a[which] + s * (b - a)[which] + t * (c - a)[which]
+    normals = cross(b - a, c - a)[which] / area[which, None]
+    casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)[triangles.item]
+    number = np.where(casts, np.cumsum(casts) - 1, -1)
+    true = exact_shadows(lighting.lights, points, corners[casts], number)
+    wrong = [
+        (says(places, normals, which) != is_so(places, normals, which)).mean()
+        for says, is_so in zip(lighting.blocked, true, strict=True)
+    ]
+    return 100.0 * float(np.mean(wrong))

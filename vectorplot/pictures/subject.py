@@ -1,0 +1,190 @@
+"""What a picture is of: the scene as it is seen, the camera, and what the scene was before it was cut."""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+from vectorplot.arrays import Floats
+from vectorplot.drawing.drawing import Drawing, Layer, Pen
+from vectorplot.drawing.layers import FRAME_PEN
+from vectorplot.errors import InputWarning
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.projections import projection_of
+from vectorplot.io.anything import scene_of
+from vectorplot.pictures.pipeline import StageReport, Walk
+from vectorplot.pictures.plan import plan_cuts
+from vectorplot.scene.annotations import LabelAnchors, label_anchors
+from vectorplot.scene.exploded import shown_apart
+from vectorplot.scene.light import Exposure, Light
+from vectorplot.scene.page import Page
+from vectorplot.scene.pens import DepthCue, depth_cue_of
+from vectorplot.scene.placement import FittedPage, Placement, allowed_in_space, camera_of
+from vectorplot.scene.scene import Scene, tell_what_is_cut_off
+from vectorplot.scene.view import View, without_seams
+
+if TYPE_CHECKING:
+    from vectorplot.drawing.labels import SceneLabels
+    from vectorplot.effects.scales import ColourBar, Scaled
+
+
+@dataclass(frozen=True)
+class Paper:
+    """What a picture goes on: a page, whether it fills that, and how large a mm of its pens is there."""
+
+    page: Page
+    fit: bool
+    mm: float = 1.0
+
+    def seen_from(self, camera: Camera) -> Callable[[Scene], Callable[[Floats], Floats]]:
+        """How long a mm of pens is at points in space, for a scene of which a camera makes the picture."""
+        return lambda scene: allowed_in_space(scene, projection_of(camera, scene.bounds), self.page, self.fit, self.mm)
+
+
+@dataclass(frozen=True, eq=False)
+class Subject:
+    """What is seen of a scene, without seams, and from where; what labels name in the scene as it was given; and the
+    chart that its colouring and its box make of it, if it has one of these."""
+
+    scene: Scene
+    camera: Camera
+    anchors: LabelAnchors
+    chart: Scaled | None
+
+    @property
+    def bar(self) -> ColourBar | None:
+        """What explains the colours, where numbers give them."""
+        return None if self.chart is None else self.chart.bar
+
+    def around(self, placement: Placement, view: View, page: Page, border: float = 0.0, mm: float = 1.0) -> Placement:
+        """The place of a picture that fills a page, with room for the numbers of a box, if there is one; border, mm: as
+        of Scaled.around."""
+        return placement if self.chart is None else self.chart.around(placement, view, page, border, mm)
+
+
+def subject_of(
+    scene: object,
+    camera: Camera | str | None,
+    paper: Paper,
+    explain: Callable[[StageReport], None] | None,
+    progress: Callable[[str, float], None] | None,
+    *,
+    lights: Sequence[Light] | None = None,
+    exposure: Exposure | None = None,
+    background: str | None = None,
+    depth_cue: DepthCue | str | None = None,
+) -> Subject:
+    """What a picture of anything that has a shape is of. paper: what it goes on; lights, exposure, background,
+    depth_cue: in place of those of the scene.
+
+    Errors: as of scene_of, camera_of and scaled.
+    """
+    given = shown_apart(scene_of(scene))
+    chart = _chart_of(given, camera, paper)
+    given, camera = (given, camera) if chart is None else (chart.scene, chart.camera)
+    given = given if background is None else replace(given, background=background)
+    given = given if exposure is None else replace(given, exposure=exposure)
+    given = given if depth_cue is None else replace(given, depth_cue=depth_cue_of(depth_cue))
+    seamless = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
+    tell_what_is_cut_off(seamless)
+    anchors, seen_from = label_anchors(given), camera_of(camera, seamless)
+    return Subject(_seen_part(seamless, seen_from, paper, explain, progress), seen_from, anchors, chart)
+
+
+def _chart_of(scene: Scene, camera: Camera | str | None, paper: Paper) -> Scaled | None:
+    """The scene with what its colouring and its box ask for, if it has one."""
+    if scene.colouring is None and scene.box is None:
+        return None
+    from vectorplot.effects.scales import scaled
+
+    return scaled(scene, camera, paper.seen_from(camera_of(camera, scene)))
+
+
+def _seen_part(
+    scene: Scene,
+    camera: Camera,
+    paper: Paper,
+    explain: Callable[[StageReport], None] | None,
+    progress: Callable[[str, float], None] | None,
+) -> Scene:
+    """What cuts, and the camera's near and far plane, leave of a scene."""
+    walk = Walk(plan_cuts(scene, camera), explain, progress)
+    if walk.calls_for("cuts"):
+        from vectorplot.effects.cuts import cut_scene
+
+        scene = walk.run("cuts", cut_scene, scene, camera, paper.seen_from(camera))
+    if walk.calls_for("near and far"):
+        from vectorplot.effects.cuts import between_planes
+
+        scene = walk.run("near and far", between_planes, scene, camera)
+    return scene
+
+
+# What stands around a picture on its page: a title, a frame, and a bar where colours stand for numbers.
+
+MOST_NAMES = 3
+"""So many labels are named in a warning."""
+
+
+def left_of_bar(sheet: Page, bar: ColourBar | None) -> tuple[Page, float]:
+    """The part of a sheet that a colour bar leaves, and the width of the strip that it takes."""
+    if bar is None:
+        return sheet, 0.0
+    from vectorplot.effects.scales import narrower
+
+    rest = narrower(sheet)
+    return rest, sheet.width_mm - rest.width_mm
+
+
+def beside_bar(
+    drawing: Drawing, bar: ColourBar | None, strip: float, paper: str | None, longest_mm: float | None = None
+) -> Drawing:
+    """The drawing with a colour bar in a strip (mm) beside it; paper: the colour of that, where it has one."""
+    if bar is None:
+        return drawing
+    from vectorplot.effects.scales import with_colour_bar
+    from vectorplot.shading.palettes import palette
+
+    shade = None if paper is None else "#{:02x}{:02x}{:02x}".format(*palette(paper)[-1].tolist())
+    return with_colour_bar(drawing, bar, strip, shade, longest_mm)
+
+
+def titled(
+    layers: tuple[Layer, ...],
+    placement: Placement,
+    title: str,
+    frame: bool,
+    pen: Pen = FRAME_PEN,
+    longest_mm: float | None = None,
+    text: str = "strokes",
+) -> tuple[Layer, ...]:
+    """The layers of a drawing, and one with a title and a frame where these are wanted; pen, text: of its letters."""
+    if not title and not frame:
+        return layers
+    from vectorplot.drawing.titles import with_title
+
+    return with_title(layers, placement, title, frame, pen, longest_mm, text)
+
+
+def room_for_labels(
+    layers: tuple[Layer, ...], placement: Placement, labels: SceneLabels, sheet: Page
+) -> tuple[tuple[Layer, ...], Placement]:
+    """The layers of a drawing, and their place, on a sheet that, where it is cut to size, has room for labels too; on
+    another one an InputWarning for those that leave it."""
+    if not isinstance(sheet, FittedPage):
+        tell_what_leaves_page(labels)
+        return layers, placement
+    from vectorplot.drawing.titles import with_room
+
+    return with_room(layers, placement, labels.every_box)
+
+
+def tell_what_leaves_page(labels: SceneLabels) -> None:
+    """An InputWarning that names the labels whose letters leave the page, if there are any."""
+    names = labels.off_page
+    if names:
+        more = f" and {len(names) - MOST_NAMES} more" if len(names) > MOST_NAMES else ""
+        said = ", ".join(f"label {name}" for name in names[:MOST_NAMES])
+        warnings.warn(f"{said}{more}: letters leave the page", InputWarning, stacklevel=4)

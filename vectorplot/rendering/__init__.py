@@ -1,1 +1,0 @@
-"""The stages of the verb render: its shadows, its pixels, and the lines and letters over them."""

@@ -1,0 +1,587 @@
+"""Arrows and axes: curves in space, hidden like any others, and labels at them."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.curves.curve import Curve, is_curve, vector
+from vectorplot.curves.families import Circle, Line
+from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.elementary import arctan2
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import cross, norm, normalize
+from vectorplot.scene.item import Item
+from vectorplot.scene.labels import USUAL_SIZE_MM, Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
+from vectorplot.scene.scene import Scene
+
+OWN_LINES = ("label", "centre")
+"""What annotations are drawn as."""
+
+PLACES = 17
+"""On each annotation, which say how far it reaches."""
+
+MOST_TICKS = 1000
+"""On one axis."""
+
+
+def arrow(start: ArrayLike, end: ArrayLike, text: str = "", *, name: str = "", size_mm: float = USUAL_SIZE_MM) -> Scene:
+    """A straight arrow in space, with a text at its tip.
+
+    Parameters
+    ----------
+    start, end : (3,) array_like of float
+        In the world; the tip is at the end.
+    text : str
+        What it is called.
+    name : str
+        Of the item; arrow and the text where none is given.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin line, hidden like any other curve, and a label with an arrowhead, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For an arrow without length.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.surfaces import Sphere
+    >>> drawing = vp.draw([Sphere(1.0), vp.arrow((0, 0, 1), (0, 0, 2), "n")])
+    >>> drawing.items
+    ('sphere', 'arrow n')
+    """
+    item = thin_line(name or f"arrow {text}".strip(), Line.through(start, end))
+    return Scene((item,), labels=(Label(text, OnCurve(item.name), item.name, size_mm, mark="arrow"),))
+
+
+def axes(
+    length: float | Sequence[float] = 1.0,
+    *,
+    origin: ArrayLike = (0.0, 0.0, 0.0),
+    names: Sequence[str] = ("x", "y", "z"),
+    ticks: float | None = None,
+    size_mm: float = USUAL_SIZE_MM,
+) -> Scene:
+    """Three coordinate axes with their names, and numbers at ticks.
+
+    Parameters
+    ----------
+    length : float or three of them
+        Of the axes from the origin, in world units.
+    origin : (3,) array_like of float
+        Where they begin.
+    names : three str
+        At their tips.
+    ticks : float, optional
+        The step between ticks; without one there are none.
+    size_mm : float
+        Of the names; numbers have two thirds of it.
+
+    Returns
+    -------
+    Scene
+        Thin lines, hidden like any other curves, and their labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For lengths and a step that are not positive, and more than a thousand ticks.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> [label.text for label in vp.axes(2.5, ticks=1).labels]
+    ['x', '1', '2', 'y', '1', '2', 'z', '1', '2']
+    """
+    base = vector("axes: origin", origin)
+    lengths = [float(one) for one in (length if isinstance(length, Sequence) else [length] * 3)]
+    if len(lengths) != 3 or len(names) != 3 or not all(0.0 < one < np.inf for one in lengths):
+        raise InputError("axes: expected one positive length or three, and three names")
+    if ticks is not None and not (ticks > 0.0 and max(lengths) <= MOST_TICKS * ticks):
+        raise InputError(f"axes: ticks every {ticks:g}: expected a positive step, and at most {MOST_TICKS} of them")
+    items, labels = [], []
+    for way, one, text in zip(np.eye(3), lengths, names, strict=True):
+        item = thin_line(f"axis {text}", Line.through(base, base + one * way))
+        items.append(item)
+        labels.append(Label(text, OnCurve(item.name), item.name, size_mm, mark="arrow"))
+        steps = np.arange(1, int(one / ticks) + 1) if ticks else np.zeros(0)
+        # The last tick would lie under the arrowhead.
+        for at in (steps * (ticks or 0.0)).tolist():
+            if at < 0.95 * one:
+                place = OnCurve(item.name, at / one)
+                labels.append(Label(f"{at:g}", place, f"{item.name} {at:g}", size_mm * 2.0 / 3.0, mark="tick"))
+    return Scene(tuple(items), labels=tuple(labels))
+
+
+def is_annotation(item: Item) -> bool:
+    """Whether an item is a line of an axis, a dimension, a leader or a centre line: pictures show it as they show
+    labels, whatever other lines they have."""
+    return is_curve(item.shape) and item.lines is not None and len(item.lines) == 1 and item.lines[0] in OWN_LINES
+
+
+def only_annotations(scene: Scene) -> Scene:
+    """The scene, of which only annotations have lines."""
+    items = (item if is_annotation(item) else replace(item, lines=()) for item in scene.items)
+    return replace(scene, items=tuple(items))
+
+
+def annotation_points(scene: Scene) -> Floats:
+    """(n,3) places on the annotations of a scene, their ends among them."""
+    shapes = [item.shape for item in scene.items if is_annotation(item)]
+    found = [shape.points(np.linspace(shape.start, shape.end, PLACES)) for shape in shapes if is_curve(shape)]
+    return np.concatenate([np.zeros((0, 3)), *found])
+
+
+def leader_tips(scene: Scene) -> dict[str, Floats]:
+    """(3,) what each leader of a scene points at, by the name of its item: the start of a line that has its only
+    arrowhead there."""
+    marks = [one.at for one in scene.labels if one.mark == "arrow" and isinstance(one.at, OnCurve)]
+    heads = Counter(at.item for at in marks)
+    curves = {item.name: item.shape for item in scene.items if is_annotation(item) and is_curve(item.shape)}
+    names = [at.item for at in marks if at.part == 0.0 and heads[at.item] == 1]
+    return {name: curves[name].points(np.array(curves[name].start)) for name in names if name in curves}
+
+
+def thin_line(name: str, curve: Curve, group: str = "") -> Item:
+    """A curve that is drawn as leaders are; group: of the lines that belong together."""
+    return Item(name, curve, "black", lines=("label",), group=group or name)
+
+
+# Dimensions, angles, radii, leaders and centre lines: curves in space, and labels at them.
+#
+# Source: ISO 128-22 (leaders), ISO 128-24 (centre lines), ISO 129-1 (dimensions).
+
+BEYOND, SHORT = 0.15, 0.05
+"""How far extension lines go on beyond the dimension line, and how far from the thing they begin, as parts of the way
+between, where nothing is said."""
+
+CROSS = 0.2
+"""Centre marks reach so far beyond the circle, in radii, where nothing is said."""
+
+
+def dimension(
+    start: ArrayLike,
+    end: ArrayLike,
+    offset: ArrayLike,
+    text: str | None = None,
+    *,
+    size_mm: float = USUAL_SIZE_MM,
+    gap: float | None = None,
+    beyond: float | None = None,
+) -> Scene:
+    """A dimension line beside two points, with extension lines, arrowheads and its measure.
+
+    Parameters
+    ----------
+    start, end : (3,) array_like of float
+        Between which points is measured.
+    offset : (3,) array_like of float
+        From these points to the dimension line.
+    text : str, optional
+        What it says: the distance of the points where nothing is given.
+    size_mm : float
+        Of the letters.
+    gap, beyond : float, optional
+        How far from the points extension lines begin, and how far beyond the dimension line they end, in world units;
+        where None 0.05 and 0.15 times the offset.
+
+    Returns
+    -------
+    Scene
+        Thin lines, hidden like any other curves, and their labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place, and an offset without length; for a gap that is negative or reaches the dimension line,
+        and a length beyond that is negative.
+
+    Notes
+    -----
+    The look is that of ISO 129-1: arrowheads of 20 degrees, the measure above the line.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.dimension((0, 0, 0), (3, 4, 0), (0, 0, -1)).labels[-1].text
+    '5'
+    """
+    one, other, off = (vector("dimension: a point", point) for point in (start, end, offset))
+    long = float(norm(other - one))
+    if not long > 0.0 or not np.any(off):
+        raise InputError("dimension: two different points and an offset are needed")
+    reach = float(norm(off))
+    before = SHORT if gap is None else gap / reach
+    behind = BEYOND if beyond is None else beyond / reach
+    if not (0.0 <= before < 1.0 and 0.0 <= behind < np.inf):
+        raise InputError("dimension: expected a gap before the dimension line, and a length of 0 or more beyond it")
+    said = f"{long:g}" if text is None else text
+    lines = [
+        Line.through(one + before * off, one + (1.0 + behind) * off),
+        Line.through(other + before * off, other + (1.0 + behind) * off),
+        Line.through(one + off, other + off),
+    ]
+    names = [f"extension {said} 1", f"extension {said} 2", f"dimension {said}"]
+    group = f"dimension {said} {_place(one)} {_place(other)} {_place(off)}"
+    items = tuple(thin_line(name, line, group) for name, line in zip(names, lines, strict=True))
+    return Scene(items, labels=_measured(items[2].name, said, size_mm))
+
+
+def angle(
+    vertex: ArrayLike,
+    one: ArrayLike,
+    other: ArrayLike,
+    radius: float,
+    text: str | None = None,
+    *,
+    size_mm: float = USUAL_SIZE_MM,
+) -> Scene:
+    """The arc of an angle, with arrowheads and its measure.
+
+    Parameters
+    ----------
+    vertex : (3,) array_like of float
+        Of the angle.
+    one, other : (3,) array_like of float
+        Points on its sides.
+    radius : float
+        Of the arc, in world units.
+    text : str, optional
+        What it says: the angle in degrees where nothing is given.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin arc, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For sides in one line, and a radius that is not positive.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.angle((0, 0, 0), (1, 0, 0), (1, 1, 0), radius=0.5).labels[-1].text
+    '45°'
+    """
+    middle = vector("angle: vertex", vertex)
+    first, second = (normalize(vector("angle: a point", point) - middle) for point in (one, other))
+    axis = cross(first, second)
+    sine, cosine = float(norm(axis)), float(matmul(first, second))
+    if not sine > 0.0 or not 0.0 < radius < np.inf:
+        raise InputError("angle: two sides that are not in one line, and a positive radius are needed")
+    begins = _angle_on(Circle(middle, radius, axis), middle, first)
+    arc = Circle(middle, radius, axis, begins, begins + float(arctan2(sine, cosine)))
+    said = f"{np.degrees(arctan2(sine, cosine)):.4g}°" if text is None else text
+    item = thin_line(f"angle {said}", arc)
+    # Letters along an arc that is hardly larger than they are would fall over each other.
+    label = Label(said, OnCurve(item.name, 0.5), item.name, size_mm)
+    return Scene((item,), labels=(*_heads(item.name, size_mm), label))
+
+
+def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+    """The dimension of a radius: a line from the centre to a point of the circle, with an arrowhead there.
+
+    Parameters
+    ----------
+    centre, point : (3,) array_like of float
+        In the world.
+    text : str, optional
+        What it says: R and the radius where nothing is given.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin line, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.radius((0, 0, 0), (3, 4, 0)).labels[-1].text
+    'R5'
+    """
+    middle, outer = vector("radius: centre", centre), vector("radius: a point", point)
+    said = f"R{_distance('radius', middle, outer):g}" if text is None else text
+    item = thin_line(f"radius {said}", Line.through(middle, outer))
+    head = Label("", OnCurve(item.name), f"{item.name} end", size_mm, mark="arrow")
+    return Scene((item,), labels=(head, Label(said, Along(item.name), item.name, size_mm, "above")))
+
+
+def diameter(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+    """The dimension of a diameter: a line across a circle through its centre, with arrowheads.
+
+    Parameters
+    ----------
+    centre : (3,) array_like of float
+        In the world.
+    point : (3,) array_like of float
+        One of its ends, on the circle.
+    text : str, optional
+        What it says: ø and the diameter where nothing is given.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin line, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.diameter((0, 0, 0), (3, 4, 0)).labels[-1].text
+    'ø10'
+    """
+    middle, outer = vector("diameter: centre", centre), vector("diameter: a point", point)
+    said = f"ø{2.0 * _distance('diameter', middle, outer):g}" if text is None else text
+    item = thin_line(f"diameter {said}", Line.through(2.0 * middle - outer, outer))
+    return Scene((item,), labels=_measured(item.name, said, size_mm))
+
+
+def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+    """A line from a text to what it is about, with an arrowhead there.
+
+    Parameters
+    ----------
+    point : (3,) array_like of float
+        What it is about, in the world.
+    elbow : (3,) array_like of float
+        Where the text is.
+    text : str
+        What it says.
+    size_mm : float
+        Of the letters.
+
+    Returns
+    -------
+    Scene
+        A thin line, hidden like any other curve, and its labels, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> [label.mark for label in vp.leader((0, 0, 1), (2, 0, 2), "4 x ø6").labels]
+    ['arrow', 'none']
+    """
+    tip, end = vector("leader: a point", point), vector("leader: elbow", elbow)
+    _distance("leader", tip, end)
+    item = thin_line(f"leader {text}".strip(), Line.through(tip, end))
+    head = Label("", OnCurve(item.name, 0.0), f"{item.name} end", size_mm, mark="arrow")
+    return Scene((item,), labels=(head, Label(text, OnCurve(item.name), item.name, size_mm)))
+
+
+def centre_line(start: ArrayLike, end: ArrayLike, *, name: str = "centre line") -> Scene:
+    """The axis of something round, as a line of dashes and dots which nothing hides.
+
+    Parameters
+    ----------
+    start, end : (3,) array_like of float
+        In the world; a little outside of what is round.
+    name : str
+        Of the item.
+
+    Returns
+    -------
+    Scene
+        The line, to be drawn together with others.
+
+    Raises
+    ------
+    InputError
+        For points in one place.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.centre_line((0, 0, -1), (0, 0, 5)).items[0].lines
+    ('centre',)
+    """
+    ends = [vector("centre_line: a point", point) for point in (start, end)]
+    _distance("centre_line", *ends)
+    return Scene((Item(name, Line.through(*ends), "black", lines=("centre",), group=f"{name} {_place(ends[0])}"),))
+
+
+def centre_mark(
+    centre: ArrayLike, radius: float, axis: ArrayLike = (0.0, 0.0, 1.0), *, beyond: float | None = None
+) -> Scene:
+    """The centre lines of a circle: two that cross in its centre at right angles, and reach a little beyond it.
+
+    Parameters
+    ----------
+    centre : (3,) array_like of float
+        In the world.
+    radius : float
+        Of the circle.
+    axis : (3,) array_like of float
+        At right angles to the circle.
+    beyond : float, optional
+        How far the lines go on beyond the circle, in world units; where None 0.2 times the radius.
+
+    Returns
+    -------
+    Scene
+        Lines of dashes and dots, which nothing hides, to be drawn together with others; of circles about a coordinate
+        axis they are parallel to the others.
+
+    Raises
+    ------
+    InputError
+        For a radius that is not positive, a length beyond that is negative, and an axis without length.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.centre_mark((0, 0, 0), 5.0).bounds[1].tolist()
+    [6.0, 6.0, 0.0]
+    """
+    middle, along = vector("centre_mark: centre", centre), vector("centre_mark: axis", axis)
+    if not 0.0 < radius < np.inf or not np.any(along):
+        raise InputError("centre_mark: a positive radius and an axis are needed")
+    reach = radius + (CROSS * radius if beyond is None else beyond)
+    if not radius <= reach < np.inf:
+        raise InputError("centre_mark: expected a length of 0 or more beyond the circle")
+    along = normalize(along)
+    # The coordinate axis that is farthest from it: for circles about one of these, one of the others.
+    first = normalize(cross(along, np.eye(3)[int(np.argmin(np.abs(along)))]))
+    both = [centre_line(middle - way, middle + way) for way in reach * np.array([first, cross(along, first)])]
+    group = f"centre mark {_place(middle)} {_place(along)} {radius:g}"
+    marks = zip(("centre mark", "centre mark 2"), both, strict=True)
+    return Scene(tuple(Item(name, one.items[0].shape, "black", lines=("centre",), group=group) for name, one in marks))
+
+
+def _measured(name: str, said: str, size_mm: float) -> tuple[Label, ...]:
+    """Arrowheads at both ends of a curve, and a text along it."""
+    return (*_heads(name, size_mm), Label(said, Along(name), name, size_mm, "above"))
+
+
+def _heads(name: str, size_mm: float) -> tuple[Label, ...]:
+    """Arrowheads at both ends of a curve."""
+    ends = enumerate((0.0, 1.0))
+    return tuple(Label("", OnCurve(name, part), f"{name} end {k}", size_mm, mark="arrow") for k, part in ends)
+
+
+def _distance(what: str, one: Floats, other: Floats) -> float:
+    """Between two points. Errors: InputError where they are one."""
+    long = float(norm(other - one))
+    if not long > 0.0:
+        raise InputError(f"{what}: two different points are needed")
+    return long
+
+
+def _place(point: Floats) -> str:
+    """A point in words, which tell lines that belong together from others."""
+    return ",".join(f"{x:.17g}" for x in point.tolist())
+
+
+def _angle_on(circle: Circle, middle: Floats, way: Floats) -> float:
+    """The parameter of a circle in a direction from its middle."""
+    right, left = (circle.points(np.array(at)) - middle for at in (0.0, 0.5 * np.pi))
+    return float(arctan2(matmul(way, left), matmul(way, right)))
+
+
+# Where the things are that labels of a scene name.
+
+CHORDS = 256
+"""Letters along a curve follow so many chords of it."""
+
+
+@dataclass(frozen=True, eq=False)
+class LabelAnchors:
+    """Labels and what they name: points (l,3) in the world, NaN for those on the page; courses: the points (k,3) of the
+    curve, for those on or along one."""
+
+    labels: tuple[Label, ...]
+    points: Floats
+    courses: tuple[Floats | None, ...]
+
+    def __len__(self) -> int:
+        return len(self.labels)
+
+
+def label_anchors(scene: Scene) -> LabelAnchors:
+    """What the labels of a scene name.
+
+    Errors: InputError, with the label's name, for an item or a vertex that the scene does not have, and for one that is
+    no curve or no polyhedron.
+    """
+    items = {item.name: item for item in reversed(scene.items)}
+    courses = tuple(
+        _course(label, label.at, items) if isinstance(label.at, (Along, OnCurve)) else None for label in scene.labels
+    )
+    found = zip(scene.labels, courses, strict=True)
+    points = [_point(label, items) if course is None else _part(label, course) for label, course in found]
+    return LabelAnchors(scene.labels, np.array(points, dtype=np.float64).reshape(-1, 3), courses)
+
+
+def _point(label: Label, items: dict[str, Item]) -> Floats:
+    at = label.at
+    if isinstance(at, OnPage):
+        return np.full(3, np.nan)
+    if isinstance(at, BesidePoint):
+        return np.array(at.point, dtype=np.float64)
+    if isinstance(at, tuple):
+        return np.array(at, dtype=np.float64)
+    assert isinstance(at, AtVertex)
+    shape = _item(label, at.item, items).shape
+    if not isinstance(shape, Mesh):
+        raise InputError(f"label {label.name}: {at.item} has no vertices: it is no polyhedron")
+    if not 0 <= at.vertex < len(shape.vertices):
+        raise InputError(f"label {label.name}: {at.item} has {len(shape.vertices)} vertices, not {at.vertex + 1}")
+    return np.asarray(shape.vertices[at.vertex])
+
+
+def _course(label: Label, at: Along | OnCurve, items: dict[str, Item]) -> Floats:
+    shape = _item(label, at.item, items).shape
+    if not is_curve(shape):
+        raise InputError(f"label {label.name}: {at.item} is no curve")
+    points = shape.points(np.linspace(shape.start, shape.end, CHORDS + 1))
+    return np.asarray(points[np.isfinite(points).all(axis=1)])
+
+
+def _part(label: Label, course: Floats) -> Floats:
+    """The point of a course at the part of its length that a label is at."""
+    assert isinstance(label.at, (Along, OnCurve))
+    passed = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(course, axis=0), axis=1))])
+    if not len(course) or not passed[-1] > 0.0:
+        raise InputError(f"label {label.name}: {label.at.item} has no length")
+    at = label.at.part * passed[-1]
+    return np.array([np.interp(at, passed, column) for column in course.T])
+
+
+def _item(label: Label, name: str, items: dict[str, Item]) -> Item:
+    if name not in items:
+        raise InputError(f"label {label.name}: there is no item {name!r}")
+    return items[name]

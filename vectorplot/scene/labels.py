@@ -1,0 +1,280 @@
+"""Names of places in a picture."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.scene.page import MM_PER_POINT
+from vectorplot.words import check_word
+
+TYPE_SIZE = 0.7
+"""The height of capitals as a part of the size of type, which is given in points."""
+
+USUAL_SIZE_MM = 3.5
+"""The height of capitals where nothing is said."""
+
+PLACES = (
+    *("auto", "centre", "above_right", "right", "above", "above_left", "left", "below_right", "below"),
+    "below_left",
+)
+"""Where a label may stand beside what it names; auto: where the fewest lines are."""
+
+HIDDEN = ("none", "dashed", "solid")
+"""What may become of lines and labels that are hidden."""
+
+MARKS = ("none", "dot", "cross", "arrow", "tick")
+"""What may be drawn at the point that a label names; the last two at points of curves, whose direction they need."""
+
+
+@dataclass(frozen=True)
+class AtVertex:
+    """The place of a vertex of a polyhedron.
+
+    Parameters
+    ----------
+    item : str
+        The name of the item.
+    vertex : int
+        Its number from 0, as in Mesh.vertices; in scene files they count from 1.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Label("A", vp.AtVertex("pyramid", 0)).text
+    'A'
+    """
+
+    item: str
+    vertex: int
+
+
+@dataclass(frozen=True)
+class Along:
+    """The course of a curve in space.
+
+    Parameters
+    ----------
+    item : str
+        The name of the item that is the curve.
+    part : float
+        At what part of its length in space the label is, 0 to 1.
+
+    Raises
+    ------
+    InputError
+        For other parts.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Along("helix").part
+    0.5
+    """
+
+    item: str
+    part: float = 0.5
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.part <= 1.0:
+            raise InputError(f"along {self.item}: a part of {self.part:g}: expected 0 to 1")
+
+
+@dataclass(frozen=True)
+class OnCurve:
+    """The place of a point of a curve in space.
+
+    Parameters
+    ----------
+    item : str
+        The name of the item that is the curve.
+    part : float
+        At what part of its length in space the point is, 0 to 1: its end where nothing is said.
+
+    Raises
+    ------
+    InputError
+        For other parts.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Label("x", vp.OnCurve("axis"), mark="arrow").at
+    OnCurve(item='axis', part=1.0)
+    """
+
+    item: str
+    part: float = 1.0
+
+    def __post_init__(self) -> None:
+        if not 0.0 <= self.part <= 1.0:
+            raise InputError(f"on {self.item}: a part of {self.part:g}: expected 0 to 1")
+
+
+@dataclass(frozen=True)
+class OnPage:
+    """A point of the page.
+
+    Parameters
+    ----------
+    x_mm, y_mm : float
+        From its lower left corner, y upwards.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Label("Figure 1", vp.OnPage(105, 15), place="centre").at
+    OnPage(x_mm=105, y_mm=15)
+    """
+
+    x_mm: float
+    y_mm: float
+
+
+@dataclass(frozen=True)
+class BesidePoint:
+    """Room for letters on the page, beside a point of the world: a rectangle between corners low_mm and high_mm, which
+    are counted from the image of the point. What has room there no more, since others stand in it, is left out where
+    it is_dispensable."""
+
+    point: tuple[float, float, float]
+    low_mm: tuple[float, float]
+    high_mm: tuple[float, float]
+    is_dispensable: bool = True
+
+    @property
+    def middle_mm(self) -> tuple[float, float]:
+        """The middle of the room, from the image of the point."""
+        (left, bottom), (right, top) = self.low_mm, self.high_mm
+        return 0.5 * (left + right), 0.5 * (bottom + top)
+
+
+@dataclass(frozen=True)
+class Label:
+    """A name in a picture.
+
+    Parameters
+    ----------
+    text : str
+        What it says; a line feed begins a new line.
+    at : (float, float, float), AtVertex, OnCurve, Along or OnPage
+        What it names: a point of the world, a vertex, a point of a curve, a curve, along which its letters run, or a
+        point of the page.
+    name : str
+        What messages call it; its text where none is given.
+    size_mm : float
+        The height of capitals.
+    place : str
+        Where it stands beside that point: right, above_right, above, above_left, left, below_left, below, below_right,
+        or centre, on it; auto: where the fewest lines are, with a leader if that is some way off. Along a curve above,
+        below or centre, where auto means centre: on the curve, which is interrupted.
+    hidden : {"none", "dashed", "solid"}, optional
+        What becomes of it where something hides what it names: it is left out; where dashed its letters are thin, and
+        end hidden lines alone; or it is as it is. What becomes of hidden lines where nothing is said.
+    mark : {"none", "dot", "cross", "arrow", "tick"}
+        What is drawn at the point: at a point of a curve also an arrowhead that points on, at its beginning out of it,
+        or a tick across it.
+
+    Raises
+    ------
+    InputError
+        For unknown words, a size that is not finite and positive, points that are not finite.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> apex = vp.Label("S", (0, 0, 4), place="above")
+    >>> apex.name, apex.size_mm
+    ('S', 3.5)
+    """
+
+    text: str
+    at: tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage | BesidePoint
+    name: str = ""
+    size_mm: float = USUAL_SIZE_MM
+    place: str = "auto"
+    hidden: str | None = None
+    mark: str = "none"
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.text, str):
+            raise InputError(f"a label: expected a text, got {self.text!r}")
+        if not self.name:
+            object.__setattr__(self, "name", self.text)
+        owner = f"label {self.name}: "
+        if not (isinstance(self.size_mm, (int, float)) and 0.0 < self.size_mm < math.inf):
+            raise InputError(f"{owner}a size of {self.size_mm!r} mm: expected a number that is finite and positive")
+        check_word(f"{owner}place", self.place, PLACES)
+        check_word(f"{owner}mark", self.mark, MARKS)
+        if self.hidden is not None:
+            check_word(f"{owner}hidden", self.hidden, HIDDEN)
+        if isinstance(self.at, Along) and self.place not in ("auto", "centre", "above", "below"):
+            raise InputError(f"{owner}along a curve a label is above, below or centre, not {self.place}")
+        if self.mark in ("arrow", "tick") and not isinstance(self.at, OnCurve):
+            raise InputError(f"{owner}a mark {self.mark} needs a point on a curve, which has a direction")
+        if isinstance(self.at, (AtVertex, OnCurve, Along, BesidePoint)):
+            return
+        if not isinstance(self.at, OnPage):
+            object.__setattr__(self, "at", tuple(self.at))
+        point = (self.at.x_mm, self.at.y_mm) if isinstance(self.at, OnPage) else self.at
+        if len(point) != (2 if isinstance(self.at, OnPage) else 3) or not all(map(math.isfinite, point)):
+            raise InputError(f"{owner}expected finite coordinates of a point, got {point}")
+
+    def transformed(self, matrix: ArrayLike) -> Label:
+        """The label where a matrix takes the point that it names.
+
+        Parameters
+        ----------
+        matrix : (4, 4) array_like of float
+            Acts on columns (x, y, z, 1).
+
+        Returns
+        -------
+        Label
+            What names a vertex, a curve or a place of the page stays as it is.
+
+        Raises
+        ------
+        InputError
+            Where the point is finite no more.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> vp.Label("P", (1, 0, 0)).transformed([(2, 0, 0, 0), (0, 2, 0, 0), (0, 0, 2, 5), (0, 0, 0, 1)]).at
+        (2.0, 0.0, 5.0)
+        """
+        if not isinstance(self.at, tuple):
+            return self
+        x, y, z = (matmul(np.asarray(matrix, dtype=np.float64)[:3], (*self.at, 1.0))).tolist()
+        return replace(self, at=(x, y, z))
+
+
+def renamed(label: Label, names: Mapping[str, str]) -> Label:
+    """The label where items have other names."""
+    if isinstance(label.at, (AtVertex, OnCurve, Along)) and label.at.item in names:
+        return replace(label, at=replace(label.at, item=names[label.at.item]))
+    return label
+
+
+def capital_height(size: str) -> float:
+    """The height of capitals in mm that a size means: in mm, such as 3.5 or 3.5mm; or the size of type in points, such
+    as 10pt, of which capitals are 0.7 high.
+
+    Errors: InputError for what is no size, or not positive.
+    """
+    text = size.strip()
+    unit = TYPE_SIZE * MM_PER_POINT if text.endswith("pt") else 1.0
+    try:
+        height = unit * float(text.removesuffix("pt").removesuffix("mm"))
+    except ValueError:
+        raise InputError(f"a size of {size!r}: expected a number of mm, or of points such as 10pt") from None
+    if not 0.0 < height < math.inf:
+        raise InputError(f"a size of {size!r}: expected a positive, finite length")
+    return height

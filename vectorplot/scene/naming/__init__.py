@@ -1,1 +1,0 @@
-"""Names of places in a picture, and where these places are."""

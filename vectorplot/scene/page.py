@@ -1,0 +1,179 @@
+"""Sheets of paper, in mm."""
+
+from __future__ import annotations
+
+import math
+import re
+from dataclasses import dataclass
+from numbers import Real
+
+import numpy as np
+
+from vectorplot.errors import InputError
+
+
+@dataclass(frozen=True)
+class Page:
+    """The sheet of paper, in mm.
+
+    Parameters
+    ----------
+    width_mm, height_mm : float
+        The sides; A4 where nothing is said.
+    margin_mm : float
+        What stays empty along every side.
+
+    Raises
+    ------
+    InputError
+        For sides that are not finite and positive, a margin that is not finite or negative, and one that leaves nothing
+        of the page.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> vp.Page().landscape
+    Page(width_mm=297.0, height_mm=210.0, margin_mm=10.0)
+    """
+
+    width_mm: float = 210.0
+    height_mm: float = 297.0
+    margin_mm: float = 10.0
+
+    def __post_init__(self) -> None:
+        sizes = (self.width_mm, self.height_mm, self.margin_mm)
+        if not all(isinstance(size, Real) for size in sizes):
+            shown = ", ".join(repr(size) for size in sizes[:2])
+            raise InputError(f"page {shown}: expected width and height in mm; verbs take a name too, as page='A4'")
+        if not all(np.isfinite(sizes)) or min(self.width_mm, self.height_mm) <= 0.0 or self.margin_mm < 0.0:
+            raise InputError(f"page {self.width_mm:g}x{self.height_mm:g} mm, margin {self.margin_mm:g} mm: not a page")
+        if 2.0 * self.margin_mm >= min(self.width_mm, self.height_mm):
+            raise InputError(f"a margin of {self.margin_mm:g} mm leaves nothing of the page")
+
+    @property
+    def room(self) -> tuple[float, float]:
+        """Width and height in mm of what is inside the margin."""
+        return self.width_mm - 2.0 * self.margin_mm, self.height_mm - 2.0 * self.margin_mm
+
+    def around(self, width_mm: float, height_mm: float) -> Page:
+        """The sheet that a picture of some size comes on: this one, however small the picture.
+
+        Parameters
+        ----------
+        width_mm, height_mm : float
+            The sides of the picture, without the margin around it.
+
+        Returns
+        -------
+        Page
+            The sheet; pages that fit their pictures are cut to them.
+
+        Raises
+        ------
+        InputError
+            Where the sheet is to be cut, for sides that are not finite.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> vp.Page(100, 80).around(20, 30)
+        Page(width_mm=100, height_mm=80, margin_mm=10.0)
+        """
+        return self
+
+    @property
+    def portrait(self) -> Page:
+        """The same sheet standing on its shorter side."""
+        long, short = max(self.width_mm, self.height_mm), min(self.width_mm, self.height_mm)
+        return Page(short, long, self.margin_mm)
+
+    @property
+    def landscape(self) -> Page:
+        """The same sheet lying on its longer side."""
+        long, short = max(self.width_mm, self.height_mm), min(self.width_mm, self.height_mm)
+        return Page(long, short, self.margin_mm)
+
+
+# Named sheets of paper, and lengths on them.
+
+SHEETS = {
+    "a0": (841.0, 1189.0),
+    "a1": (594.0, 841.0),
+    "a2": (420.0, 594.0),
+    "a3": (297.0, 420.0),
+    "a4": (210.0, 297.0),
+    "a5": (148.0, 210.0),
+    "a6": (105.0, 148.0),
+    "letter": (215.9, 279.4),
+    "legal": (215.9, 355.6),
+    "tabloid": (279.4, 431.8),
+    "ledger": (431.8, 279.4),
+    "executive": (184.15, 266.7),
+}
+"""Width and height in mm of the sheets that have a name."""
+
+FIT = "fit"
+"""The word for a page as large as its picture."""
+
+MM_PER_INCH = 25.4
+"""By definition."""
+
+MM_PER_POINT = MM_PER_INCH / 72.0
+"""Of big points, in which type and PostScript are measured."""
+
+MM_PER = {"mm": 1.0, "pt": MM_PER_POINT, "cm": 10.0, "in": MM_PER_INCH}
+"""The units that lengths on paper may have; mm where there is none."""
+
+LENGTH = re.compile(r"\s*([0-9.]+(?:e[-+]?[0-9]+)?)\s*([a-z]*)\s*", re.IGNORECASE)
+"""A number, and perhaps a unit."""
+
+
+def length_mm(text: str) -> float:
+    """The length on paper, in mm, of a number and its unit, such as 8cm; InputError for what is none, for zero, and for
+    what is not finite."""
+    found = LENGTH.fullmatch(text)
+    try:
+        size = float(found[1]) * MM_PER[found[2].lower() or "mm"] if found else math.nan
+    except (KeyError, ValueError):
+        size = math.nan
+    if not 0.0 < size < math.inf:
+        raise InputError(f"{text.strip()!r} is no length: expected a positive number, and perhaps {', '.join(MM_PER)}")
+    return size
+
+
+def sheet_size(text: str) -> tuple[float, float]:
+    """Width and height in mm of a named sheet or of WIDTHxHEIGHT.
+
+    Parameters
+    ----------
+    text : str
+        a0 to a6, letter, legal, tabloid, ledger, executive, in capitals or not, or two numbers such as 100x80 or
+        100x80mm.
+
+    Returns
+    -------
+    (float, float)
+        In mm, both finite and positive.
+
+    Raises
+    ------
+    InputError
+        For anything else.
+
+    Examples
+    --------
+    >>> from vectorplot import scene
+    >>> scene.sheet_size("A4"), scene.sheet_size("100x80")
+    ((210.0, 297.0), (100.0, 80.0))
+    """
+    word = text.strip().lower()
+    if word in SHEETS:
+        return SHEETS[word]
+    sides = re.fullmatch(r"([^x]+)x([^x]+?)(?:mm)?", word)
+    try:
+        width, height = (float(side) for side in sides.groups()) if sides else (math.nan, math.nan)
+    except ValueError:
+        width = height = math.nan
+    if not (0.0 < width < math.inf and 0.0 < height < math.inf):
+        raise InputError(f"page {text!r}: expected WIDTHxHEIGHT in mm or one of {', '.join(SHEETS)}")
+    return width, height

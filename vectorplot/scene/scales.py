@@ -1,0 +1,210 @@
+"""What a picture shows besides its scene to be read as a chart: colours that are numbers, a box with ticks."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.errors import InputError
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh_cuts import nothing_beside
+from vectorplot.geometry.triangles import PlacedTriangles
+
+MOST_STEPS = 100
+"""Of colours."""
+
+
+@dataclass(frozen=True)
+class Colouring:
+    """The colours of all bodies by a number at every point, and the bar beside the picture that says which is which.
+
+    Parameters
+    ----------
+    by : str or callable
+        x, y, z (or height), slope, curvature, the name of a field of items, or a formula in x, y and z, such as "x*y";
+        or by(points), which gives (n,) numbers for points (n, 3).
+    colour_map : str
+        viridis, heat, diverging, land or gray, or the name of one of matplotlib, if that is installed.
+    steps : int
+        How many colours, 2 to 100.
+    label : str, optional
+        Above the bar: what by says where None.
+
+    Raises
+    ------
+    InputError
+        For counts out of range.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import box
+    >>> from vectorplot.scene import Colouring
+    >>> block = vp.Scene((vp.Item("block", box((3, 2, 1))),), colouring=Colouring("z", steps=12))
+    >>> vp.paint(block, page="A5").width_mm
+    148.0
+    """
+
+    by: str | Callable[[Floats], Floats]
+    colour_map: str = "viridis"
+    steps: int = 24
+    label: str | None = None
+
+    def __post_init__(self) -> None:
+        if not (2 <= self.steps <= MOST_STEPS and float(self.steps).is_integer()):
+            raise InputError(f"a colouring of {self.steps} steps: expected 2 to {MOST_STEPS}")
+
+    @property
+    def title(self) -> str:
+        """What stands above the bar."""
+        if self.label is not None:
+            return self.label
+        return self.by if isinstance(self.by, str) else ""
+
+
+@dataclass(frozen=True)
+class BoxAxes:
+    """A box around the scene: grids on its three far sides, numbers and names along its outer edges.
+
+    Parameters
+    ----------
+    names : three str
+        Of the axes.
+    size_mm : float
+        Height of the capitals of the names; numbers have three quarters of it.
+
+    Raises
+    ------
+    InputError
+        For a size that is not positive, and names that are not three.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import BoxAxes
+    >>> from vectorplot.surfaces import Sphere
+    >>> drawing = vp.draw(vp.Scene((vp.Item("ball", Sphere()),), box=BoxAxes(("a", "b", "c"))))
+    >>> "box" in drawing.items[1]
+    True
+    """
+
+    names: tuple[str, str, str] = ("x", "y", "z")
+    size_mm: float = 3.5
+
+    def __post_init__(self) -> None:
+        if len(self.names) != 3 or not all(isinstance(name, str) for name in self.names):
+            raise InputError("box: expected three names")
+        if not 0.0 < self.size_mm < float("inf"):
+            raise InputError(f"box: a size of {self.size_mm:g} mm: expected a number that is finite and positive")
+
+
+# Numbers that a file has at the vertices and on the faces of a mesh.
+
+AXES = ("x", "y", "z")
+
+
+@dataclass(frozen=True, eq=False)
+class Fields:
+    """Numbers at the vertices and on the faces of a mesh, by their names.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        As the file has it; what is drawn may be mended, cut and divided since.
+    at_vertices : mapping of str to (v,) array of float
+        A number for every vertex, linear in the triangles between them; NaN: none.
+    on_faces : mapping of str to (f,) array of float
+        A number for every face; NaN: none.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import Fields
+    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (4, 0, 0), (0, 4, 0)], [(0, 1, 2)])
+    >>> heat = Fields(triangle, {"heat": np.array([0.0, 8.0, 0.0])})
+    >>> heat.names, heat.at("heat", np.array([(0.0, 0.0, 0.0), (1.0, 1.0, 0.0)])).tolist()
+    (('heat',), [0.0, 2.0])
+    """
+
+    mesh: Mesh
+    at_vertices: Mapping[str, Floats]
+    on_faces: Mapping[str, Floats] = field(default_factory=dict)
+
+    @classmethod
+    def of(cls, mesh: Mesh, at_vertices: Mapping[str, Any], on_faces: Mapping[str, Any]) -> Fields | None:
+        """The fields of arrays by their names; None where there are none.
+
+        Arrays (n, k) of vectors become NAME, their lengths, and NAME.x, NAME.y and NAME.z, or NAME.1 and so on. What is
+        not of numbers, or not as many as there are vertices or faces, is passed over; what is infinite is NaN.
+        """
+        found = [_numbers(given, n) for given, n in ((at_vertices, len(mesh.vertices)), (on_faces, mesh.face_count))]
+        return cls(mesh, *found) if any(found) else None
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of all of them, those at vertices first."""
+        return tuple(dict.fromkeys([*self.at_vertices, *self.on_faces]))
+
+    def is_on_faces(self, name: str) -> bool:
+        """Whether the field of this name has a number for every face; one at vertices goes before."""
+        return name not in self.at_vertices
+
+    def at(self, name: str, points: Floats) -> Floats:
+        """The numbers of a field at points of the mesh.
+
+        Parameters
+        ----------
+        name : str
+            One of the names.
+        points : (n, 3) array of float
+            On the mesh, nearly.
+
+        Returns
+        -------
+        (n,) array of float
+            NaN where there is none. Points off the mesh have that of a triangle above or below them, along the axis in
+            which the mesh is thinnest; NaN where there is none of these.
+        """
+        values = self.on_faces[name] if self.is_on_faces(name) else self.at_vertices[name]
+        result = np.full(len(points), np.nan)
+        left = np.arange(len(points))
+        if not self.is_on_faces(name) and len(self.mesh.vertices):
+            from scipy.spatial import cKDTree
+
+            far, nearest = cKDTree(self.mesh.vertices).query(points)
+            same = far <= nothing_beside(self.mesh.vertices)
+            result[same] = values[nearest[same]]
+            left = np.flatnonzero(~same)
+        place, corners, weights, face = PlacedTriangles(self.mesh).places(points[left])
+        if self.is_on_faces(name):
+            result[left[place]] = values[face]
+        else:
+            # A corner without a number that weighs nothing does not matter.
+            result[left[place]] = np.where(weights > 0.0, weights * values[corners], 0.0).sum(axis=1)
+        return result
+
+    def transformed(self, matrix: ArrayLike) -> Fields:
+        """The fields on the mesh under a 4x4 matrix acting on columns: the same numbers."""
+        return replace(self, mesh=self.mesh.transformed(matrix))
+
+
+def _numbers(given: Mapping[str, Any], count: int) -> dict[str, Floats]:
+    found: dict[str, Floats] = {}
+    for name, array in given.items():
+        values = np.asarray(array)
+        if values.dtype.kind not in "fiub" or values.ndim not in (1, 2) or len(values) != count:
+            continue
+        values = np.where(np.isfinite(values), values, np.nan).astype(np.float64)
+        if values.ndim == 1 or values.shape[1] == 1:
+            found[str(name)] = values.reshape(-1)
+            continue
+        found[str(name)] = np.linalg.norm(values, axis=1)
+        parts = AXES if values.shape[1] == len(AXES) else [str(k + 1) for k in range(values.shape[1])]
+        found |= {f"{name}.{part}": values[:, k] for k, part in enumerate(parts)}
+    return found

@@ -1,0 +1,651 @@
+"""Scenes without smooth surfaces: triangles so small that pictures show no corners, with true normals at theirs."""
+
+from __future__ import annotations
+
+import warnings
+from collections import Counter
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from itertools import chain
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.curves.curve import is_curve
+from vectorplot.errors import InputWarning
+from vectorplot.features.edge_splitting import (
+    INSIDE,
+    JUMP,
+    LOOKS,
+    NONE,
+    Allowed,
+    AllSidesAlike,
+    Demand,
+    Edges,
+    off_chords,
+    surface_numbers,
+    turning,
+)
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.budget import USUAL, Budget, unresolved
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.projections import Projection
+from vectorplot.geometry.vectors import norm
+from vectorplot.scene.extent import smooth_bounds
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.placement import box_corners
+from vectorplot.scene.scene import Scene, tell_of_empty_surface
+from vectorplot.scene.view import View, fingerprint, view_of
+from vectorplot.shading.illumination import finish_of, homogeneous_light, towards
+from vectorplot.shading.painted_colours import Lighting, corner_shades_of, smooth_faces
+from vectorplot.shading.shaded_faces import TrueNormals, point_shades, unit, view_eye, view_lights
+from vectorplot.surfaces.surface import is_implicit, is_parametrised
+from vectorplot.tolerances import LEAST_DIVISOR, MET_OF_EXTENT, ROUNDING
+from vectorplot.visibility.painter.image_faces import view_points
+from vectorplot.visibility.painter.unseen import body_sides
+from vectorplot.visibility.projected_faces import newell
+
+if TYPE_CHECKING:
+    from vectorplot.features.facets import Facets
+
+
+@dataclass(frozen=True, eq=False)
+class FacetedScene:
+    """A scene without smooth surfaces; the triangles in their place are no plane mirrors. normals: for every item those
+    of its surface; None where its faces are those of a polyhedron."""
+
+    scene: Scene
+    normals: tuple[TrueNormals | None, ...]
+
+    @classmethod
+    def of_meshes(cls, scene: Scene) -> FacetedScene:
+        """A scene that has no smooth surfaces."""
+        return cls(scene, tuple(_normals_of(item) for item in scene.items))
+
+
+def faceted(scene: Scene, demand: Callable[[int], Demand], budget: Budget = USUAL) -> FacetedScene:
+    """The scene with meshes in place of smooth surfaces. demand: how fine the triangles of an item have to be, by its
+    number; budget: how many there may be. An InputWarning names the items for which it did not do.
+
+    Errors: as of features.facets. Degenerate: a curve has no faces.
+    Source: Glaeser, section 8.4 (polygonised surfaces and their normals).
+    """
+    smooth = [number for number, item in enumerate(scene.items) if _is_smooth(item)]
+    found: dict[int, Facets] = {}
+    if smooth:
+        # Of polyhedra nothing is asked that takes surfaces to be loaded.
+        from vectorplot.features.facets import facets_of_all
+
+        shapes = [scene.items[number].shape for number in smooth]
+        made_of = facets_of_all(shapes, lambda k: demand(smooth[k]), budget.facets)
+        found = dict(zip(smooth, made_of, strict=True))
+    made = [_faceted_item(item, found.get(number)) for number, item in enumerate(scene.items)]
+    return FacetedScene(replace(scene, items=tuple(item for item, _ in made)), tuple(normals for _, normals in made))
+
+
+def without_curved_mirror(item: Item) -> Item:
+    """The item, but shiny if it is a mirror that is curved: it shows something else at every point, and its triangles
+    are no mirrors."""
+    if not item.material.is_mirror or not _is_smooth(item):
+        return item
+    return replace(item, material=replace(item.material, word="shiny"))
+
+
+def _is_smooth(item: Item) -> bool:
+    return is_parametrised(item.shape) or is_implicit(item.shape)
+
+
+def _faceted_item(item: Item, found: Facets | None) -> tuple[Item, TrueNormals | None]:
+    if found is None:
+        return replace(item, shape=item.mesh), _normals_of(item)
+    if not found.complete:
+        text = unresolved("the surface is shown by triangles that are coarser than the tolerance")
+        warnings.warn(f"{item.name}: {text}", InputWarning, stacklevel=5)
+    if not found.mesh.face_count:
+        tell_of_empty_surface(item, stacklevel=6)
+    normals = TrueNormals(np.nan_to_num(found.normals), found.sharp)
+    return replace(without_curved_mirror(item), shape=found.mesh), normals
+
+
+def _normals_of(item: Item) -> TrueNormals | None:
+    """The normals at the vertices of a mesh: those of the surface that it is a part of, if it is one of one."""
+    known, points = item.normals, item.mesh.vertices
+    if known is None or not len(points):
+        return None
+    place, corners, weights, _ = known.triangles.places(points)
+    normals, on_edge = np.zeros(points.shape), np.ones(len(points), dtype=np.bool_)
+    normals[place] = unit(np.einsum("kc,kcx->kx", weights, known.at_vertices[corners]))
+    on_edge[place] = ((weights > 0.0) & known.on_edge[corners]).any(axis=1)
+    return TrueNormals(normals, on_edge)
+
+
+# Shaded polygons cut so small that shading between their corners shows what the light does.
+
+SHADE_ERROR, USUAL_MM = 2.0 / 255.0, 0.02
+"""By how much of a palette shades along sides may be off, where polygons may be off by so many mm."""
+
+SHADE_LIMITS = (0.5, 4.0)
+"""By how many times as much shades may be off at least, and at most."""
+
+SHORTEST_MM = 1.0
+"""Sides of shaded polygons on the page that are no longer are not cut any more."""
+
+DEEPEST = 8
+"""So many times sides are halved at most."""
+
+BETWEEN = np.array([0.25, 0.5, 0.75]).reshape(-1, 1, 1)
+"""Where on their sides shades of triangles are compared."""
+
+PARTS = {
+    1: ((0, 3, 2), (3, 1, 2)),
+    2: ((3, 1, 4), (0, 3, 4), (0, 4, 2)),
+    3: ((0, 3, 5), (3, 1, 4), (5, 4, 2), (3, 4, 5)),
+}
+"""The corners of the parts of a triangle with 1, 2 or 3 halved sides, the first ones: of its own and of the middles of
+its sides."""
+
+
+def shade_error(tolerance_mm: float) -> float:
+    """By how much of a palette shades along sides may be off in a picture whose polygons may be off by so many mm: in
+    proportion, from half of SHADE_ERROR to four times as much."""
+    low, high = SHADE_LIMITS
+    return SHADE_ERROR * min(max(tolerance_mm / USUAL_MM, low), high)
+
+
+def refined(
+    view: View,
+    lighting: Lighting,
+    points: Floats,
+    offsets: Ints,
+    source: Ints,
+    shortest: float,
+    most: int,
+    error: float = SHADE_ERROR,
+) -> tuple[Floats, Ints, Ints]:
+    """Convex polygons with triangles in place of those on which linear shading would be off by more than error: points
+    (3,c) of the image, offsets (m+1,), and parent (m,), ascending, the polygon that each is a part of.
+
+    points, offsets (n+1,) and source (n,) as of ImageFaces; sides in the image that are shorter than shortest are not
+    cut any more. Polygons with one shade stay as they are. Where there would be more than most polygons the longest
+    sides are cut, and no others.
+    """
+    smooth = np.flatnonzero(smooth_faces(view, lighting.normals)[source])
+    position, ends = ragged.take(offsets, smooth)
+    fans, of = ragged.fans(ends)
+    triangles, parent = points[:, position[fans]].transpose(1, 2, 0), smooth[of]
+    bad = _longest(_badly_shaded(view, lighting, triangles, source[parent], shortest, error), most - len(source))
+    cut = np.zeros(len(source), dtype=np.bool_)
+    cut[parent[bad.any(axis=1)]] = True
+    if not cut.any():
+        return points, offsets, np.arange(len(source))
+    inside = cut[parent]
+    triangles, parent, bad = triangles[inside], parent[inside], bad[inside]
+    done, done_parent = [], []
+    count = len(source) + len(triangles)
+    for turn in range(DEEPEST + 1):
+        going = bad.any(axis=1) & (turn < DEEPEST)
+        done.append(triangles[~going])
+        done_parent.append(parent[~going])
+        if not going.any():
+            break
+        triangles, whole = _halved(triangles[going], bad[going])
+        parent = parent[going][whole]
+        count += int(bad[going].sum())
+        bad = _longest(_badly_shaded(view, lighting, triangles, source[parent], shortest, error), most - count)
+    made, of_made = np.concatenate(done), np.concatenate(done_parent)
+    kept = np.flatnonzero(~cut)
+    position, ends = ragged.take(offsets, kept)
+    every = np.concatenate([points[:, position], made.reshape(-1, 3).T], axis=1)
+    starts = np.concatenate([ends, ends[-1] + 3 * np.arange(1, len(made) + 1)])
+    number = np.concatenate([kept, of_made])
+    order = np.argsort(number, kind="stable")
+    position, starts = ragged.take(starts, order)
+    return every[:, position], starts, number[order]
+
+
+def _badly_shaded(
+    view: View, lighting: Lighting, triangles: Floats, source: Ints, shortest: float, error: float
+) -> Floats:
+    """(t,3) the lengths of the sides of triangles (t,3,3) of the image, by the corners at which they begin, on which
+    the shade is off that between their ends by more than error; 0 for the others, and for those that are no longer than
+    shortest."""
+    after = triangles[:, [1, 2, 0]]
+    length = np.hypot(*(after - triangles)[..., :2].transpose(2, 0, 1))
+    length = np.where(length > shortest, length, 0.0)
+    some = np.flatnonzero(length.any(axis=1))
+    if not len(some):
+        return length
+    one, two = triangles[some], after[some]
+    within = (one[:, None] * (1.0 - BETWEEN) + two[:, None] * BETWEEN).reshape(len(some), -1, 3)
+    both = np.concatenate([one, within], axis=1)
+    flat, count = view_points(view, np.ascontiguousarray(both.reshape(-1, 3).T)), both.shape[1]
+    offsets = np.arange(0, count * len(some) + 1, count)
+    shade = np.atleast_2d(corner_shades_of(view, lighting, flat, offsets, source[some]).total)
+    shade = shade.reshape(-1, len(some), 1 + len(BETWEEN), 3)
+    ends, share = shade[:, :, :1], BETWEEN[..., 0]
+    off = np.abs(shade[:, :, 1:] - (1.0 - share) * ends - share * ends[..., [1, 2, 0]]).max(axis=(0, 2))
+    length[some] = np.where(off > error, length[some], 0.0)
+    return length
+
+
+def _longest(length: Floats, count: int) -> Bools:
+    """(t,3) which of some sides are the longest ones, no more than count and none of length 0: both triangles at a side
+    are told the same."""
+    found = length > 0.0
+    if int(found.sum()) <= count:
+        return np.asarray(found)
+    if count <= 0:
+        return np.zeros(length.shape, dtype=np.bool_)
+    limit = np.partition(length.ravel(), -count - 1)[-count - 1]
+    return np.asarray(length > limit * (1.0 + ROUNDING))
+
+
+def _halved(triangles: Floats, sides: Bools) -> tuple[Floats, Ints]:
+    """What triangles (t,3,3) are cut into where some of their sides (t,3) are halved, one or more of each, and which
+    one each part is of: neighbours, which halve a common side both, still meet along all of their sides."""
+    count = sides.sum(axis=1)
+    # Turned so that one halved side comes first, and of two the second one second.
+    turn = np.where(count == 2, (sides.argmin(axis=1) + 1) % 3, sides.argmax(axis=1))
+    order = (turn[:, None] + np.arange(3)) % 3
+    corners = np.take_along_axis(triangles, order[..., None], axis=1)
+    nodes = np.concatenate([corners, (corners + corners[:, [1, 2, 0]]) / 2.0], axis=1)
+    found, owner = [], []
+    for number, parts in PARTS.items():
+        own = np.flatnonzero(count == number)
+        found.append(nodes[own][:, np.array(parts)].reshape(-1, 3, 3))
+        owner.append(np.repeat(own, len(parts)))
+    return np.concatenate(found), np.concatenate(owner)
+
+
+# Where the surfaces of other items are near: points of them, so close together that nothing of them is missed.
+
+CLOSENESS = 1.0 / 80.0
+"""Points are no farther apart than this part of the diagonal of the box in which they are looked for."""
+
+COARSENESS = 1.0 / 512.0
+"""The triangles that points lie on are no farther off a surface than this part of the diagonal of its box."""
+
+MOST_COARSE = 1 << 14
+"""Surfaces that take more triangles than these are taken to be everywhere in their boxes."""
+
+ROUNDS = 48
+"""Triangles are halved so many times at most: to a sixteen millionth of their sides."""
+
+SAMPLES_BETWEEN = 2.0 / 3.0
+"""No point of a triangle is farther from its middle than this part of its longest side."""
+
+
+@dataclass(frozen=True)
+class Coarse(AllSidesAlike):
+    """Triangles that are no farther than a distance from their surface, each of one or several, whatever is seen of
+    them, as features.edge_splitting.Demand."""
+
+    distances: tuple[float, ...]
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal for what can be asked at once: all of them."""
+        return None
+
+    @classmethod
+    def joined(cls, asked: Sequence[Coarse]) -> Coarse:
+        """All of these distances, of surfaces one after the other."""
+        return cls(tuple(chain(*(some.distances for some in asked))))
+
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+        distance = np.array(self.distances)[surface_numbers(edges.start.places)]
+        return np.asarray(off_chords(edges) / (INSIDE * distance))
+
+
+@dataclass(frozen=True, eq=False)
+class Nearby:
+    """What there is of an item in a box (2,3): points (p,3), none of its own being farther than gap from all of them;
+    none, and an infinite gap, where it may be everywhere."""
+
+    box: Floats
+    points: Floats
+    gap: float
+
+    @cached_property
+    def _tree(self) -> Any:
+        from scipy.spatial import cKDTree
+
+        # It is asked for few points beside its own: a tree that is soon made does.
+        return cKDTree(self.points, balanced_tree=False, compact_nodes=False)
+
+    def distances(self, points: Floats, most: Floats) -> Floats:
+        """(...,) how far points (..., 3) are from the item at least, up to most (...); most of all beside the box."""
+        inside = np.asarray(((points >= self.box[0]) & (points <= self.box[1])).all(axis=-1), dtype=np.bool_)
+        found = most.copy()
+        if not np.isfinite(self.gap):
+            found[inside] = 0.0
+        elif len(self.points) and inside.any():
+            far = float(most[inside].max()) + self.gap
+            distance, _ = self._tree.query(points[inside], distance_upper_bound=far)
+            found[inside] = np.clip(distance - self.gap, 0.0, most[inside])
+        return found
+
+
+def triangles_of_items(items: Sequence[Item], boxes: Sequence[Floats]) -> list[tuple[Floats, float]]:
+    """Of each of some items with these boxes (2,3) triangles (t,3,3) that are near all that there is of it, and how
+    near; an infinite distance where they are not. Those of curves are sides, with one corner twice."""
+    extents = [float(norm(box[1] - box[0])) for box in boxes]
+    smooth = [k for k, item in enumerate(items) if is_parametrised(item.shape) or is_implicit(item.shape)]
+    found: dict[int, Facets] = {}
+    if smooth:
+        from vectorplot.features.facets import facets_of_all
+
+        demands = [Coarse((COARSENESS * extents[k],)) for k in smooth]
+        made = facets_of_all([items[k].shape for k in smooth], demands.__getitem__, MOST_COARSE)
+        found = dict(zip(smooth, made, strict=True))
+    return [_triangles(item, extents[k], found.get(k)) for k, item in enumerate(items)]
+
+
+def _triangles(item: Item, extent: float, found: Facets | None) -> tuple[Floats, float]:
+    """As triangles_of_items, of an item with a box of this diagonal, and with these facets if it is smooth."""
+    if is_curve(item.shape):
+        with np.errstate(invalid="ignore", over="ignore"):
+            points = item.shape.points(np.linspace(item.shape.start, item.shape.end, 1 << 12))
+        sides = np.stack((points[:-1], points[1:], points[1:]), axis=1)
+        return sides[np.isfinite(sides).all(axis=(1, 2))], COARSENESS * extent
+    mesh, off = item.mesh, 0.0
+    if found is not None:
+        mesh, off = found.mesh, COARSENESS * extent if found.complete else np.inf
+    corners, _ = ragged.fans(mesh.offsets)
+    return mesh.vertices[mesh.corners[corners]], off
+
+
+def nearby(triangles: Floats, off: float, box: Floats) -> Nearby:
+    """What an item has in a box (2,3), by triangles (t,3,3) that are no farther off than a distance."""
+    extent = float(norm(box[1] - box[0]))
+    # Closer than the triangles are to the item no points need be, however small the box.
+    longest = max(CLOSENESS * extent, off)
+    # Corners, coordinates, triangles: sums along short axes take several times as long.
+    done, left = [np.zeros((3, 0))], np.ascontiguousarray(np.moveaxis(triangles, 0, 2))
+    low, high = box[0, :, None] - off - longest, box[1, :, None] + off + longest
+    for _ in range(ROUNDS):
+        inside = ((np.minimum.reduce(left) <= high) & (np.maximum.reduce(left) >= low)).all(axis=0)
+        # take moves columns several times as fast as an index between brackets does.
+        left = left.take(np.flatnonzero(inside), axis=2)
+        way = np.roll(left, -1, axis=0) - left
+        sides = np.sqrt(way[:, 0] ** 2 + way[:, 1] ** 2 + way[:, 2] ** 2)
+        small = np.maximum.reduce(sides) <= longest
+        done.append((left[0] + left[1] + left[2])[:, small] / 3.0)
+        large = np.flatnonzero(~small)
+        if not len(large):
+            break
+        one, two, three = sides.take(large, axis=1)
+        first, second = (one >= two) & (one >= three), two >= three
+        corners = left.take(large, axis=2)
+        # By the longest side, the first one of several.
+        a, b, c = (
+            np.where(first, corners[k], np.where(second, corners[(k + 1) % 3], corners[(k + 2) % 3])) for k in range(3)
+        )
+        middle = (a + b) / 2.0
+        left = np.concatenate((np.stack((a, middle, c)), np.stack((middle, b, c))), axis=2)
+    else:
+        off = np.inf
+    return Nearby(box, np.ascontiguousarray(np.concatenate(done, axis=1).T), off + SAMPLES_BETWEEN * longest)
+
+
+# How fine the triangles of smooth surfaces have to be, so that a picture shows none of them.
+
+DEEP, DEEP_IN_LIGHT = 40.0, 3.0
+"""By how many times the tolerance triangles may be off the surface where that can be seen from the eye only, along the
+sight rays: apart from outlines, borders and other items; fewer where borders of shadows show it."""
+
+DEEPEST_MM, LEAST_DEEP = 1.0, 5.0
+"""They are never farther off than this on the page, or so many tolerances: coarse nets take many cuts at outlines."""
+
+TURN = np.radians(40.0)
+"""By so much normals may turn along a side at most, however little light there is to show it."""
+
+AROUND = 0.5
+"""No point of a triangle is farther from the middles of its sides than this part of the longest one."""
+
+SHARE = 0.4
+"""Triangles of two items may both be off their surfaces by this part of the distance between these, and are apart."""
+
+SHORTEST = 4.0
+"""Sides that are no longer than so many times the tolerance are fine enough."""
+
+
+@dataclass(frozen=True, eq=False)
+class PictureFineness:
+    """What a picture asks of the triangles of one item, or of several of one finish, whose numbers here are those of
+    the surfaces that places are on, as features.edge_splitting.Demand.
+
+    Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance;
+    shades along sides within shade_error, a part of their palette. Surfaces fold over where sight rays and light rays
+    touch them: there outlines and the borders of dark sides begin. Chords are compared with the surface in a few places
+    only: outlines may be off by up to 1.4 tolerances.
+
+    view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
+    they throw shadows; deep (s,): by how many times the tolerance triangles may be off elsewhere; others: what the
+    other items have in the box of each item.
+    """
+
+    view: View
+    items: tuple[Item, ...]
+    lights: tuple[Light, ...]
+    casts: bool
+    deep: Floats
+    others: tuple[tuple[Nearby, ...], ...]
+    allowed: Allowed
+    shade_error: float
+
+    @property
+    def alike(self) -> Hashable:
+        """Equal for what can be asked at once."""
+        return finish_of(self.items[0].material)
+
+    @classmethod
+    def joined(cls, asked: Sequence[PictureFineness]) -> PictureFineness:
+        """What the same picture asks of all of these items."""
+        items, others = (tuple(chain(*some)) for some in ([a.items for a in asked], [a.others for a in asked]))
+        return replace(asked[0], items=items, deep=np.concatenate([a.deep for a in asked]), others=others)
+
+    @property
+    def outlines(self) -> int:
+        """The folds of the eye, and of lights that throw shadows."""
+        return 1 + (len(self.lights) if self.casts else 0)
+
+    def folds(self, points: Floats, normals: Floats) -> Floats:
+        """(s,n) cosines between normals and rays to the eye and to the lights."""
+        places, ways = self._in_view(points, normals)
+        sources = [view_eye(self.view), *(homogeneous_light(light) for light in self.lights)]
+        return np.stack([np.einsum("ij,ij->i", ways, towards(places, source)) for source in sources])
+
+    def excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+        allowed = self.allowed(edges.at.points)
+        seen = (edges.fold != NONE) & (edges.fold < self.outlines)
+        deep = np.where(seen, allowed, self._apart_from_others(edges, allowed, self._deep(edges) * allowed))
+        far = off_chords(edges) / (INSIDE * deep)
+        found = np.maximum(far, self._unlike_surface(edges))
+        return np.where(self._long(edges, allowed), found, 0.0)
+
+    def too_coarse(self, edges: Edges) -> Floats:
+        """(k,n) as Demand. Other items are far to seek: they are looked for where that tells, as far as it does."""
+        allowed = self.allowed(edges.at.points)
+        seen = (edges.fold != NONE) & (edges.fold < self.outlines)
+        long, off, unlike = self._long(edges, allowed), off_chords(edges), self._unlike_surface(edges)
+        needed = off / (INSIDE * np.maximum(unlike, 1.0))
+        unsure = np.flatnonzero((long & ~seen & (needed > allowed)).any(axis=0))
+        deep, least = allowed.copy(), allowed[:, unsure]
+        # Twice as far as would do: rounding must not make a side too coarse.
+        some = edges.some(unsure)
+        most = np.clip(2.0 * needed[:, unsure].max(axis=0, initial=0.0), least, self._deep(some) * least)
+        apart = self._apart_from_others(some, least, most)
+        deep[:, unsure] = np.where(seen[:, unsure], least, apart)
+        return np.where(long, np.maximum(off / (INSIDE * deep), unlike), 0.0)
+
+    def _unlike_surface(self, edges: Edges) -> Floats:
+        """(k,n) by how many times shades and normals differ too much from those of the surface."""
+        return np.asarray(np.maximum(self._shade_errors(edges) / self.shade_error, turning(edges) / TURN))
+
+    def border_excess(self, edges: Edges) -> Floats:
+        """(k,n) as Demand."""
+        allowed = self.allowed(edges.at.points)
+        return np.where(self._long(edges, allowed), off_chords(edges) / (INSIDE * allowed), 0.0)
+
+    def _deep(self, edges: Edges) -> Floats:
+        """(n,) those of the items of sides."""
+        return np.asarray(self.deep[surface_numbers(edges.start.places)])
+
+    def _long(self, edges: Edges, allowed: Floats) -> Bools:
+        length = norm(edges.end.points - edges.start.points)
+        return np.asarray(length > SHORTEST * allowed, dtype=np.bool_)
+
+    def _apart_from_others(self, edges: Edges, least: Floats, most: Floats) -> Floats:
+        """(k,n) how far triangles may be off, least to most, so that they neither meet other items nor change places
+        with them where the surfaces do not."""
+        middle = len(LOOKS) // 2
+        around = AROUND * np.linalg.norm(edges.end.points - edges.start.points, axis=-1)
+        far = most[middle] / SHARE + around
+        of = surface_numbers(edges.start.places)
+        for number in np.unique(of).tolist():
+            own = np.flatnonzero(of == number)
+            points = edges.at.points[middle][own]
+            for other in self.others[number]:
+                far[own] = other.distances(points, far[own])
+        return np.asarray(np.clip(SHARE * (far - around), least, most))
+
+    def _shade_errors(self, edges: Edges) -> Floats:
+        """(k,n) how far shades are from those between the shades of the ends of a side."""
+        nodes = np.concatenate((edges.start.points[None], edges.at.points, edges.end.points[None]))
+        # An end on a sharp edge has the normal of the other side of it.
+        ends = [
+            np.where(_jumps(one.normals, beside)[:, None], beside, one.normals)[None]
+            for one, beside in ((edges.start, edges.at.normals[0]), (edges.end, edges.at.normals[len(LOOKS) - 1]))
+        ]
+        normals = np.concatenate((ends[0], edges.at.normals, ends[1]))
+        # A side is seen from one side, that of its middle.
+        places, ways = self._in_view(nodes[2], normals[2])
+        away = np.einsum("ij,ij->i", ways, towards(places, view_eye(self.view))) < 0.0
+        normals = np.where(away[:, None], -normals, normals)
+        places, ways = self._in_view(nodes.reshape(-1, 3), normals.reshape(-1, 3))
+        item = np.tile(surface_numbers(edges.start.places), len(nodes))
+        found = point_shades(self.view, self.items, self.lights, places, np.nan_to_num(ways), item).total
+        shade = found.reshape(-1, *nodes.shape[:2])
+        between = (1.0 - edges.t) * shade[:, :1] + edges.t * shade[:, -1:]
+        return np.asarray(np.abs(shade[:, 1:-1] - between).max(axis=0))
+
+    def _in_view(self, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
+        return self.view.points_of(points).T, matmul(normals, self.view.axes.T)
+
+
+def _jumps(one: Floats, other: Floats) -> Bools:
+    """(n,) whether unit normals (n,3) differ by more than those of a smooth surface."""
+    return np.asarray((one * other).sum(axis=-1) < np.cos(JUMP))
+
+
+def picture_fineness(
+    scene: Scene, projection: Projection, casts: bool, allowed: Allowed, tolerance_mm: float
+) -> Callable[[int], PictureFineness]:
+    """What a picture of the scene asks of the triangles of its items, by their numbers. casts: whether its lights throw
+    shadows; allowed: how far triangles may be off outlines, so that it is tolerance_mm on the page."""
+    reached = Mesh(box_corners(scene.bounds), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
+    view = view_of(Scene((Item("box", reached),)), projection)
+    lights = view_lights(view, scene.lights)
+    most = max(DEEPEST_MM / tolerance_mm, LEAST_DEEP)
+    boxes = [_box(item) for item in scene.items]
+    elsewhere = _seen_elsewhere(scene, view, boxes, casts)
+    first = _first_in_place(scene, boxes)
+
+    smooth = [k for k, item in enumerate(scene.items) if is_parametrised(item.shape) or is_implicit(item.shape)]
+    meeting = {number: _meeting(boxes, first, number) for number in smooth}
+
+    @cache
+    def triangles() -> dict[int, tuple[Floats, float]]:
+        asked = sorted({other for those in meeting.values() for other, _ in those})
+        found = triangles_of_items([scene.items[k] for k in asked], [boxes[k] for k in asked])
+        return dict(zip(asked, found, strict=True))
+
+    def demand(number: int) -> PictureFineness:
+        near = tuple(nearby(*triangles()[other], box) for other, box in meeting[number])
+        item = without_curved_mirror(scene.items[number])
+        # Light goes through what is transparent: shadows fall on patterns only.
+        dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))
+        deep = 1.0 if elsewhere[number] else min(DEEP_IN_LIGHT if dark else DEEP, most)
+        error = shade_error(tolerance_mm)
+        return PictureFineness(view, (item,), lights, casts, np.array([deep]), (near,), allowed, error)
+
+    return demand
+
+
+def _seen_elsewhere(scene: Scene, view: View, boxes: list[Floats], casts: bool) -> Bools:
+    """(i,) the items that may be seen in a mirror or through glass, or hit by the light of a mirror, by their boxes.
+
+    What a convex mirror shows is on the side of one of its faces on which the eye is, and its double stands over the
+    face in the image; several mirrors, hollow ones and glass may show anything.
+    """
+    shines = [item for item in scene.items if item.material.is_mirror and isinstance(item.shape, Mesh)]
+    if len(shines) > 1 or any(item.material.refraction != 1.0 for item in scene.items):
+        return np.ones(len(boxes), dtype=np.bool_)
+    found = np.zeros(len(boxes), dtype=np.bool_)
+    if not shines or not len(shines[0].mesh.vertices):
+        return found
+    mirror = view_of(Scene((shines[0],)), view)
+    area, _, first = newell(mirror, np.arange(mirror.face_count))
+    normals = area / np.maximum(np.sqrt((area * area).sum(axis=0)), LEAST_DIVISOR)
+    level = (normals * mirror.points[:, first]).sum(axis=0)
+    eye = view_eye(view)
+    before = matmul(normals.T, eye[:3]) - eye[3] * level
+    (side,) = body_sides(mirror)
+    faces = np.flatnonzero(np.abs(before) > view.tolerance if side == 0 else side * before > view.tolerance)
+    normals, level = normals * np.sign(before), level * np.sign(before)
+    if (matmul(normals[:, faces].T, mirror.points) > level[faces, None] + MET_OF_EXTENT).any():
+        return np.ones(len(boxes), dtype=np.bool_)
+    corners = view.points_of(np.concatenate([box_corners(box) for box in boxes if len(box)])).reshape(3, -1, 8)
+    there = np.flatnonzero([len(box) > 0 for box in boxes])
+    for face in faces.tolist():
+        height = (normals[:, face, None, None] * corners).sum(axis=0) - level[face]
+        reaches = height.max(axis=1) > 0.0
+        if not casts:
+            doubles = corners - 2.0 * height * normals[:, face, None, None]
+            ahead = view.depth_of(doubles.reshape(3, -1)).reshape(-1, 8) > view.near
+            image = view.image_of(doubles.reshape(3, -1)).reshape(2, -1, 8)
+            window = mirror.image[:, mirror.corners[mirror.offsets[face] : mirror.offsets[face + 1]]]
+            over = (image.min(axis=2) <= window.max(axis=1)[:, None]) & (
+                image.max(axis=2) >= window.min(axis=1)[:, None]
+            )
+            reaches &= over.all(axis=0) | ~ahead.all(axis=1)
+        found[there[reaches]] = True
+    return found
+
+
+def _first_in_place(scene: Scene, boxes: list[Floats]) -> list[int]:
+    """For every item the first one of the same shape in the same place, with boxes (2,3) of all."""
+    places = [box.tobytes() for box in boxes]
+    often = Counter(places)
+    first: dict[Hashable, int] = {}
+    pairs = enumerate(zip(places, scene.items, strict=True))
+    keys = ((number, (place, fingerprint(item.shape) if often[place] > 1 else None)) for number, (place, item) in pairs)
+    return [first.setdefault(key, number) for number, key in keys]
+
+
+def _meeting(boxes: list[Floats], first: list[int], number: int) -> list[tuple[int, Floats]]:
+    """The other ones of boxes (2,3) that meet one of them, of several in one place the first, and what both have in
+    common; boxes (0,3) without a point meet none."""
+    if not len(boxes[number]):
+        return []
+    others = {one: k for k, one in enumerate(first) if k != number and len(boxes[k])}
+    which = sorted(others.values())
+    low, high = np.moveaxis(np.array([boxes[k] for k in which]).reshape(-1, 2, 3), 1, 0)
+    low, high = np.maximum(low, boxes[number][0]), np.minimum(high, boxes[number][1])
+    meets = np.flatnonzero((low <= high).all(axis=1))
+    return [(which[k], np.stack((low[k], high[k]))) for k in meets]
+
+
+def _box(item: Item) -> Floats:
+    """(2,3) smallest and largest coordinates; (0,3) of an item without any."""
+    if not isinstance(item.shape, Mesh):
+        return smooth_bounds(item.shape)
+    points = item.shape.vertices
+    return np.array((points.min(axis=0), points.max(axis=0))) if len(points) else points

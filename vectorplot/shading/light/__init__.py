@@ -1,1 +1,0 @@
-"""How light falls on faces, and which colours that makes."""

@@ -1,1 +1,0 @@
-"""From triangles to pixels."""

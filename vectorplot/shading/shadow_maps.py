@@ -1,0 +1,962 @@
+"""Matrices that carry a trapezoid, or any convex quadrilateral, onto the square from -1 to 1.
+
+Three ways to the same map: step by step with as few operations as can be (Ressler), as a product of eight simple
+matrices (Martin and Tan), and for any quadrilateral (Heckbert). Corners are (4, 2), counter-clockwise.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import cached_property, partial
+from typing import Any, Literal
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.algebra import determinant, inverse_matrix, linear_solution, matmul
+from vectorplot.geometry.budget import mapped, slices
+from vectorplot.geometry.elementary import power
+from vectorplot.geometry.projections import CoordinateSystem
+from vectorplot.geometry.vectors import norm
+from vectorplot.scene.light import Light
+from vectorplot.shading.depth import DepthCode, depth_codes
+from vectorplot.shading.screen import HalfSpace, front_facing, screen_triangles
+from vectorplot.shading.seen_region import SeenRegion
+from vectorplot.shading.trapezoids import (
+    Axis,
+    adapted_size,
+    focus_area,
+    focus_distance,
+    line_of_sight,
+    searched_line,
+    taper_of_focus,
+    tapered_map,
+)
+from vectorplot.tolerances import INFINITE, LEAST_DIVISOR, MAP_BIAS, NEAR_OF_DISTANCE, PARALLEL_SINE, ZERO_OF_EXTENT
+from vectorplot.words import check_word
+
+LARGEST_SHIFT = 1e4
+"""Sides that meet farther away than this, in widths, run parallel: the map is affine."""
+
+HALF_TURN = np.diag([-1.0, -1.0, 1.0])
+
+
+@dataclass(frozen=True, eq=False)
+class SquareMap:
+    """The map of a trapezoid onto the square from -1 to 1.
+
+    Parameters
+    ----------
+    matrix : (3, 3) array of float
+        First corner to (-1, -1), second to (1, -1), third to (1, 1), fourth to (-1, 1).
+    shift : float
+        d, how far the meeting point of the sides was moved.
+    stretch : float
+        u; both infinite for the affine map of a near-rectangle.
+
+    Notes
+    -----
+    Source: Ressler, sections 4 and 5.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import square_map
+    >>> found = square_map([(-2, 0), (2, 0), (2, 4), (-2, 4)])
+    >>> (found.matrix @ (2, 4, 1)).tolist(), found.shift
+    ([1.0, 1.0, 1.0], inf)
+    """
+
+    matrix: Floats
+    shift: float
+    stretch: float
+
+
+def square_map(corners: ArrayLike) -> SquareMap:
+    """The map of a trapezoid whose first and second corner are the ends of its top line onto the square from -1 to 1.
+
+    Parameters
+    ----------
+    corners : (4, 2) array_like of float
+        Counter-clockwise, as bounding_trapezoid gives them.
+
+    Returns
+    -------
+    SquareMap
+        Its matrix (3, 3) brings the corners to (-1, -1), (1, -1), (1, 1) and (-1, 1).
+
+    Raises
+    ------
+    InputError
+        For corners that are not finite, or without area.
+
+    Notes
+    -----
+    A trapezoid whose base is the shorter one is turned by half a turn before and after.
+
+    Degenerate: for parallel sides the affine map of the rectangle between first and third corner.
+
+    Source: Ressler, sections 4 and 5, equations 20 to 42; errata N-03, N-05, N-06.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import square_map
+    >>> corners = np.array([(-1, 0), (1, 0), (3, 4), (-3, 4)])
+    >>> images = np.column_stack([corners, np.ones(4)]) @ square_map(corners).matrix.T
+    >>> (images[:, :2] / images[:, 2:]).round(6).tolist()
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+    """
+    p = _checked(corners)
+    if _length(p[1] - p[0]) > _length(p[3] - p[2]):
+        turned = square_map_of_wide_base(p[[2, 3, 0, 1]])
+        return SquareMap(matmul(HALF_TURN, turned.matrix), turned.shift, turned.stretch)
+    return square_map_of_wide_base(p)
+
+
+def square_map_of_wide_base(p: Floats) -> SquareMap:
+    """The map of a trapezoid (4, 2) whose base is not shorter than its top line."""
+    y_a, x_a = (p[1] - p[0]) / _length(p[1] - p[0]) * (1.0, -1.0)
+    m = np.eye(3)
+    # Equation 23: first corner to the origin, top line along x.
+    m[0] = y_a, -x_a, x_a * p[0, 1] - y_a * p[0, 0]
+    m[1] = x_a, y_a, -(x_a * p[0, 0] + y_a * p[0, 1])
+    x_c3, y_c3 = matmul(m[:2, :2], p[3]) + m[:2, 2]
+    m[0] -= x_c3 / y_c3 * m[1]  # 27: the left side upright
+    x_d1, x_d2 = matmul(m[0, :2], p[1]) + m[0, 2], matmul(m[0, :2], p[2]) + m[0, 2]
+    widening = x_d2 - x_d1
+    if not abs(y_c3) < LARGEST_SHIFT * widening:
+        return SquareMap(_affine(m, x_d2, y_c3), np.inf, np.inf)
+    d = x_d1 * y_c3 / widening
+    m[1, 2] += d  # 30: the meeting point of the sides into the origin
+    s_x, s_y = 2.0 / x_d2, 1.0 / (y_c3 + d)
+    u = 2.0 * s_y * d / (1.0 - s_y * d)
+    m[2] = s_y * m[1]  # 38: perspective, scaling and shift in one
+    m[1] = (u + 1.0) * m[2] - (0.0, 0.0, u)
+    m[0] = s_x * m[0] - m[2]
+    return SquareMap(m, float(d), float(u))
+
+
+def _affine(m: Floats, width: float, height: float) -> Floats:
+    """Equations 41 and 42."""
+    result = np.eye(3)
+    result[0] = 2.0 / width * m[0] - (0.0, 0.0, 1.0)
+    result[1] = 2.0 / height * m[1] - (0.0, 0.0, 1.0)
+    return result
+
+
+def recipe_factors(corners: ArrayLike) -> tuple[Floats, ...]:
+    """The eight matrices (4, 4) T1, R, T2, H, S1, N, T3, S2, in the order in which they act, for a trapezoid whose
+    first two corners are the ends of its base and whose third and fourth are those of its top line.
+
+    Their product maps the corners to (-1, -1), (1, -1), (1, 1), (-1, 1) in x and y; z is what z / w is.
+    Errors: InputError for parallel sides. Source: Martin and Tan, recipe, steps 1 to 8; errata R-01, R-02, R-03.
+    """
+    t = _checked(corners)
+    points = np.column_stack([t, np.ones(4), np.ones(4)])
+    meeting = np.array([*_meeting_point(t), 1.0, 1.0])
+    factors: list[Floats] = []
+    total = np.eye(4)
+
+    def act(matrix: Floats) -> None:
+        nonlocal total
+        factors.append(matrix)
+        total = matmul(matrix, total)
+
+    act(_moved(-(t[2] + t[3]) / 2.0))
+    x_u, y_u = (t[2] - t[3]) / _length(t[2] - t[3])
+    act(_planar([[x_u, y_u], [y_u, -x_u]]))
+    act(_moved(-(matmul(total, meeting))[:2]))
+    middle = matmul(total, points[2] + points[3]) / 2.0
+    act(_planar([[1.0, -middle[0] / middle[1]], [0.0, 1.0]]))
+    corner = matmul(total, points[2])
+    act(_planar([[1.0 / corner[0], 0.0], [0.0, 1.0 / corner[1]]]))
+    perspective = np.eye(4)
+    perspective[1, 3], perspective[3] = 1.0, (0.0, 1.0, 0.0, 0.0)
+    act(perspective)
+    base, top = matmul(total, points[0]), matmul(total, points[2])
+    act(_moved(np.array([0.0, -(base[1] / base[3] + top[1] / top[3]) / 2.0])))
+    base = matmul(total, points[0])
+    act(_planar([[1.0, 0.0], [0.0, -base[3] / base[1]]]))
+    return tuple(factors)
+
+
+def recipe_matrix(corners: ArrayLike) -> Floats:
+    """The map of a trapezoid onto the square from -1 to 1 as the product of eight simple matrices.
+
+    Parameters
+    ----------
+    corners : (4, 2) array_like of float
+        First the ends of its base, then those of its top line.
+
+    Returns
+    -------
+    (4, 4) array of float
+        Brings the corners to (-1, -1), (1, -1), (1, 1) and (-1, 1) in x and y; z is what z / w is.
+
+    Raises
+    ------
+    InputError
+        For corners that are not finite, or without area, and for parallel sides.
+
+    Notes
+    -----
+    Source: Martin and Tan, recipe, steps 1 to 8; errata R-01, R-02, R-03.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import recipe_matrix
+    >>> corners = np.array([(-3, 0), (3, 0), (1, 4), (-1, 4)])
+    >>> images = np.column_stack([corners, np.zeros(4), np.ones(4)]) @ recipe_matrix(corners).T
+    >>> (images[:, :2] / images[:, 3:]).round(6).tolist()
+    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+    """
+    total = np.eye(4)
+    for factor in recipe_factors(corners):
+        total = matmul(factor, total)
+    return total
+
+
+def recipe_map(corners: ArrayLike) -> Floats:
+    """(3, 3) the same map as recipe_matrix, up to a factor, for x, y and w alone: one row after the other.
+
+    Errors: InputError for parallel sides. Source: Martin and Tan, recipe, optimised code; errata R-03, R-04.
+    """
+    t = _checked(corners)
+    h = np.column_stack([t, np.ones(4)])
+    a, b = (t[2] - t[3]) / 2.0
+    meeting = _meeting_point(t)
+    m = np.array([[a, b, 0.0], [b, -a, 0.0], [0.0, 0.0, 1.0]])
+    m[:2, 2] = matmul(-m[:2, :2], meeting)
+    (x2, y2), (x3, y3) = matmul(m[:2], h[2]), matmul(m[:2], h[3])
+    m[0] -= m[1] * (x2 + x3) / (y2 + y3)
+    m[:2] /= (matmul(m[:2], h[2]))[:, None]
+    m[2] = m[1]
+    m[1, 2] += 1.0
+    base, top = matmul(m, h[0]), matmul(m, h[2])
+    m[1] -= m[2] * (base[1] / base[2] + top[1] / top[2]) / 2.0
+    base = matmul(m, h[0])
+    m[1] *= -base[2] / base[1]
+    return m
+
+
+def quadrilateral_map(corners: ArrayLike) -> Floats:
+    """(3, 3) the map of any convex quadrilateral: its corners, one after the other, to (-1, -1), (1, -1), (1, 1) and
+    (-1, 1). Errors: InputError for three corners on a line.
+
+    Source: Heckbert, Fundamentals of texture mapping and image warping, section 2.2.3.
+    """
+    p = _checked(corners)
+    s = p[0] - p[1] + p[2] - p[3]
+    u, v = p[1] - p[2], p[3] - p[2]
+    turn = u[0] * v[1] - u[1] * v[0]
+    if not abs(turn) > PARALLEL_SINE * _length(u) * _length(v):
+        raise InputError("a quadrilateral with three corners on a line has no map onto a square")
+    g, h = (s[0] * v[1] - s[1] * v[0]) / turn, (u[0] * s[1] - u[1] * s[0]) / turn
+    unit = np.eye(3)
+    unit[:2, 0], unit[:2, 1], unit[:2, 2] = p[1] - p[0] + g * p[1], p[3] - p[0] + h * p[3], p[0]
+    unit[2, :2] = g, h
+    square = np.array([[2.0, 0.0, -1.0], [0.0, 2.0, -1.0], [0.0, 0.0, 1.0]])
+    return np.asarray(matmul(square, inverse_matrix(unit)))
+
+
+def four_by_four(matrix: ArrayLike) -> Floats:
+    """(4, 4) a map (3, 3) of x, y and w that leaves z alone."""
+    m = np.asarray(matrix, dtype=np.float64)
+    result = np.eye(4)
+    result[np.ix_([0, 1, 3], [0, 1, 3])] = m
+    return result
+
+
+def column_major(matrix: ArrayLike) -> Floats:
+    """(16,) a matrix (3, 3) as four_by_four, column after column, as OpenGL takes it.
+
+    Source: Martin and Tan, recipe."""
+    return np.asarray(four_by_four(matrix).T.ravel())
+
+
+def depth_row(nearest: float, farthest: float) -> Floats:
+    """(4,) the row for z that carries eye coordinates z = -nearest to -1 and z = -farthest to 1, before the division.
+
+    Errors: InputError unless nearest < farthest. Source: Ressler, equation 15; erratum N-07.
+    """
+    if not nearest < farthest:
+        raise InputError(f"depths from {nearest:g} to {farthest:g} are no range")
+    size = nearest - farthest
+    return np.array([0.0, 0.0, 2.0 / size, (nearest + farthest) / size])
+
+
+def _checked(corners: ArrayLike) -> Floats:
+    p = np.asarray(corners, dtype=np.float64)
+    if p.shape != (4, 2) or not np.isfinite(p).all():
+        raise InputError("a quadrilateral needs four corners with two finite coordinates each")
+    diagonals = p[2] - p[0], p[3] - p[1]
+    turn = diagonals[0][0] * diagonals[1][1] - diagonals[0][1] * diagonals[1][0]
+    if not abs(turn) > PARALLEL_SINE * _length(diagonals[0]) * _length(diagonals[1]):
+        raise InputError("a quadrilateral without area has no map onto a square")
+    return p
+
+
+def _meeting_point(t: Floats) -> Floats:
+    """(2,) where the sides meet. Errors: InputError where they run parallel."""
+    one, two = t[3] - t[0], t[2] - t[1]
+    turn = one[0] * two[1] - one[1] * two[0]
+    if not abs(turn) > PARALLEL_SINE * _length(one) * _length(two):
+        raise InputError("a trapezoid with parallel sides is a rectangle: its map is affine")
+    arm = t[1] - t[0]
+    return np.asarray(t[0] + (arm[0] * two[1] - arm[1] * two[0]) / turn * one)
+
+
+def _length(arm: Floats) -> float:
+    return float(np.hypot(arm[0], arm[1]))
+
+
+def _moved(by: Floats) -> Floats:
+    result = np.eye(4)
+    result[:2, 3] = by
+    return result
+
+
+def _planar(rows: ArrayLike) -> Floats:
+    result = np.eye(4)
+    result[:2, :2] = rows
+    return result
+
+
+# What a lamp sees: a depth buffer in its own system, and which points lie behind what is in it.
+#
+# What the lamp does not see lies in the shadow. Depths are those after T2 in the lamp's system, larger = closer to the
+# lamp, for every kind of map: where the map is tapered they are kept in the lamp's own space too, texel by texel, so
+# that one bias fits all of it. Sources: Glaeser, section 8.6; Martin and Tan, TSM recipe, polygon offset.
+
+STEEPEST = 0.5
+"""Casters are cut where the map's weight is half of that at its top line: nearer its pole depths lose their digits."""
+
+SLOPE_BIAS = 1.0
+"""Depth by which a plane rises from one texel to the next, so many times: it does not hide itself."""
+
+BITS = (8, 16, 32)
+"""Sizes of a stored depth."""
+
+MARGIN = 1.0
+"""Texels left free around what a map shows."""
+
+POINTS_AT_ONCE = 1 << 17
+"""So many points are looked up at a time: what fits into the cache."""
+
+
+@dataclass(frozen=True, eq=False)
+class ShadowMap:
+    """The depths that a lamp sees.
+
+    Parameters
+    ----------
+    system : CoordinateSystem
+        The lamp's.
+    texel_from_light : (3, 3) array of float
+        From (x, y, 1) of its image plane to column, row and weight.
+    code : (rows, columns) array of uint8, uint16 or uint32
+        0 where the lamp sees nothing.
+    depth_code : DepthCode
+        What the codes mean.
+    biased : bool
+        Whether depths are compared with a margin, against faces that shade themselves.
+
+    Notes
+    -----
+    Source: Glaeser, section 8.6; Martin and Tan, recipe, polygon offset.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
+    >>> (found,) = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=8, bits=16).maps
+    >>> (found.code > 0).sum(axis=1).tolist()
+    [0, 6, 6, 6, 6, 6, 6, 0]
+    """
+
+    system: CoordinateSystem
+    texel_from_light: Floats
+    code: NDArray[np.unsignedinteger[Any]]
+    depth_code: DepthCode
+    biased: bool = True
+
+    @cached_property
+    def light_from_texel(self) -> Floats:
+        """(3, 3) the inverse of texel_from_light."""
+        return np.asarray(inverse_matrix(self.texel_from_light))
+
+    @property
+    def depth(self) -> Floats:
+        """(rows, columns) depths in the lamp's system, -inf where it sees nothing."""
+        return self.depths(self.code)
+
+    def depths(self, code: NDArray[np.unsignedinteger[Any]]) -> Floats:
+        """Depths in the lamp's system of codes of this map.
+
+        Parameters
+        ----------
+        code : (...) array of uint8, uint16 or uint32
+            As the map holds them.
+
+        Returns
+        -------
+        (...) array of float
+            -inf where the lamp sees nothing.
+        """
+        return np.asarray(np.where(code > 0, self.depth_code.depth(code), -np.inf))
+
+
+def light_plane(system: CoordinateSystem, points: ArrayLike) -> Floats:
+    """(n, 2) images of world points (n, 3) in a lamp's image plane. Errors: InputError for points behind the lamp."""
+    h = system.homogeneous(points)
+    if not (h[:, 3] > 0.0).all():
+        raise InputError("a point on or behind the neutral plane of the lamp has no image")
+    return np.asarray(h[:, :2] / h[:, 3:])
+
+
+def standard_frame(images: Floats) -> Floats:
+    """(3, 3) the map of the rectangle about images (n, 2) onto the square from -1 to 1.
+
+    Degenerate: a rectangle without width or height gets a billionth of the other.
+    """
+    low, high = images.min(axis=0), images.max(axis=0)
+    size = max(float((high - low).max()), ZERO_OF_EXTENT * float(np.abs(images).max())) or 1.0
+    half = np.maximum((high - low) / 2.0, ZERO_OF_EXTENT * size)
+    frame = np.diag([1.0 / half[0], 1.0 / half[1], 1.0])
+    frame[:2, 2] = -(low + high) / 2.0 / half
+    return frame
+
+
+def region_axis(system: CoordinateSystem, region: SeenRegion) -> tuple[Axis, float, Floats]:
+    """The line of sight in the lamp's plane, the distance of the focus behind the top line, and the region's images."""
+    images = light_plane(system, region.points)
+    near, far, focus = light_plane(system, np.stack([region.near, region.far, region.focus]))
+    axis = line_of_sight(images, near, far)
+    return axis, focus_distance(axis, focus), images
+
+
+def trapezoid_frame(system: CoordinateSystem, region: SeenRegion, line: float) -> Floats:
+    """(3, 3) the map of the trapezoid around what the eye sees onto the square from -1 to 1; line: the focus line.
+
+    Source: Ressler, Notes on implementation of trapezoidal shadow maps.
+    """
+    axis, focus, images = region_axis(system, region)
+    return tapered_map(images, axis, taper_of_focus(axis, focus, line))
+
+
+def in_texels(frame: Floats, columns: int, rows: int) -> Floats:
+    """(3, 3) a map onto the square from -1 to 1 as one onto texels, with a free margin; centres are the integers."""
+    half = np.array([columns, rows]) / 2.0 - MARGIN
+    if not (half > 0.0).all():
+        raise InputError(f"a shadow map of {columns} x {rows} texels shows nothing")
+    texels = np.diag([half[0], -half[1], 1.0])
+    texels[:2, 2] = (columns - 1) / 2.0, (rows - 1) / 2.0
+    return np.asarray(matmul(texels, frame))
+
+
+def shadow_map(
+    system: CoordinateSystem,
+    frame: Floats,
+    points: ArrayLike,
+    corners: Ints,
+    columns: int,
+    rows: int,
+    *,
+    bits: int = 32,
+    near: float = NEAR_OF_DISTANCE,
+    biased: bool = True,
+) -> ShadowMap:
+    """The map of triangles (t, 3) of world points (n, 3).
+
+    frame (3, 3): what part of the lamp's image plane it shows, as a map onto the square from -1 to 1, of weight 1 on
+    the line where it shows most; bits: 8, 16 or 32 for a depth; near: the smallest weight in the lamp's system.
+    Errors: InputError for other bits and impossible sizes. Degenerate: without triangles nothing is in the shadow.
+    Source: Glaeser, section 8.6; Martin and Tan, recipe.
+    """
+    if bits not in BITS:
+        raise InputError(f"depths of {bits} bits: expected {', '.join(map(str, BITS))}")
+    matrix = in_texels(frame, columns, rows)
+    inverse = np.asarray(inverse_matrix(matrix), dtype=np.float64)
+    texels = matmul(system.homogeneous(points), four_by_four(matrix).T)
+    weight = np.array([inverse[2, 0], inverse[2, 1], 0.0, inverse[2, 2]])
+    steep = np.array([0.0, 0.0, 0.0, 1.0]) - STEEPEST * weight
+    sides = [HalfSpace((*weight.tolist(),), near), HalfSpace((*steep.tolist(),))]
+    flat = screen_triangles(texels, corners, near=STEEPEST * near / 2.0, sides=sides)
+    codes, fine = depth_codes(flat, columns, rows)
+    seen = codes > 0
+    depth = _own_depth(inverse, seen, fine.depth(codes[seen]))
+    code = np.zeros((rows, columns), dtype=f"uint{bits}")
+    depth_code = _code(depth, bits)
+    code[seen] = depth_code.code(depth)
+    return ShadowMap(system, matrix, code, depth_code, biased)
+
+
+def vertices_with_own_depth(system: CoordinateSystem, texel_from_light: Floats, points: ArrayLike) -> Floats:
+    """(n, 4) homogeneous points in texels whose depth, after division, is that of the lamp's own space.
+
+    Right at the vertices (n, 3) only: within a triangle such depths are not interpolated linearly, and bend. Good for
+    meshes much finer than the map; shadow_map corrects every texel instead.
+    Errors: InputError for points behind the lamp.
+    Source: Martin and Tan, recipe, polygon offset without fragment programs.
+    """
+    h = system.homogeneous(points)
+    if not (h[:, 3] > 0.0).all():
+        raise InputError("a point on or behind the neutral plane of the lamp has no image")
+    texels = matmul(h, four_by_four(texel_from_light).T)
+    texels[:, 2] = h[:, 2] / h[:, 3] * texels[:, 3]
+    return np.asarray(texels)
+
+
+def _own_depth(inverse: Floats, seen: Bools, depth: ArrayLike) -> Floats:
+    """(k,) the lamp's own depths at the texels that see something, from those of the tapered map."""
+    if not inverse[2, :2].any():
+        return np.asarray(np.asarray(depth) / inverse[2, 2])
+    row, column = np.divmod(np.flatnonzero(seen), seen.shape[1])
+    return np.asarray(np.asarray(depth) / (inverse[2, 0] * column + inverse[2, 1] * row + inverse[2, 2]))
+
+
+def _code(depth: Floats, bits: int) -> DepthCode:
+    low, high = (float(depth.min()), float(depth.max())) if len(depth) else (0.0, 0.0)
+    if bits == 16:
+        return DepthCode.ushort(low, high)
+    return DepthCode(low, high, 1.0, 254.0 if bits == 8 else float(2**32 - 8))
+
+
+def blocked(found: ShadowMap, points: ArrayLike, normals: ArrayLike) -> Bools:
+    """(n,) which world points (n, 3) lie in the shadow; normals (n, 3): of the faces they lie on, of any length.
+
+    Points outside the map or behind the lamp lie in no shadow of this map.
+    Error: about a texel along the borders of shadows; what rises less above a face than the bias casts none on it.
+    Source: Glaeser, section 8.6.
+    """
+    p, n = (np.asarray(x, dtype=np.float64).reshape(-1, 3) for x in (points, normals))
+    result = np.zeros(len(p), dtype=np.bool_)
+    parts = slices(len(p), POINTS_AT_ONCE)
+    for part, behind in zip(parts, mapped(lambda part: _behind(found, p[part], n[part]), parts), strict=True):
+        result[part] = behind
+    return result
+
+
+def _behind(found: ShadowMap, points: Floats, normals: Floats) -> Bools:
+    result = np.zeros(len(points), dtype=np.bool_)
+    rows, columns = found.code.shape
+    m, inverse = found.texel_from_light, found.light_from_texel
+    h = found.system.homogeneous(points)
+    # What the map does not show is left out, step by step: of the six maps around a lamp one shows each point.
+    inside = np.flatnonzero(h[:, 3] > 0.0)
+    x, y, z = (h[inside, axis] / h[inside, 3] for axis in range(3))
+    weight = m[2, 0] * x + m[2, 1] * y + m[2, 2]
+    inside, x, y, z, weight = _chosen(weight > STEEPEST, inside, x, y, z, weight)
+    column = (m[0, 0] * x + m[0, 1] * y + m[0, 2]) / weight
+    row = (m[1, 0] * x + m[1, 1] * y + m[1, 2]) / weight
+    shown = (column > -0.5) & (column < columns - 0.5) & (row > -0.5) & (row < rows - 0.5)
+    inside, x, y, z, weight, column, row = _chosen(shown, inside, x, y, z, weight, column, row)
+    stored = found.depths(found.code[np.rint(row).astype(np.intp), np.rint(column).astype(np.intp)])
+    if found.biased:
+        # How the depth rises in the lamp's plane, and how far that plane reaches from one texel to the next.
+        by_x, by_y = slopes(found.system, points[inside], normals[inside])
+        by_column = np.abs(by_x * (inverse[0, 0] - x * inverse[2, 0]) + by_y * (inverse[1, 0] - y * inverse[2, 0]))
+        by_row = np.abs(by_x * (inverse[0, 1] - x * inverse[2, 1]) + by_y * (inverse[1, 1] - y * inverse[2, 1]))
+        bias = SLOPE_BIAS * weight * np.maximum(by_column, by_row) + _constant_bias(found, z)
+    else:
+        bias = np.full(len(z), found.depth_code.step)
+    result[inside] = z < stored - bias
+    return result
+
+
+def _chosen(which: Bools, *columns: NDArray[Any]) -> tuple[NDArray[Any], ...]:
+    """The values of columns (n,) where which (n,) is true."""
+    return tuple(column[which] for column in columns)
+
+
+def _constant_bias(found: ShadowMap, depth: Floats) -> Floats:
+    """(n,) a step of the code, and the same length of space at all depths (n,); never less than the rounding of what
+    the map shows: a lamp that sees one plane only has no depth."""
+    code, d = found.depth_code, found.system.distance
+    rows, columns = found.code.shape
+    texel = found.light_from_texel / found.light_from_texel[2, 2]
+    wide = float(np.hypot(texel[0, 0], texel[1, 0])) * columns + float(np.hypot(texel[0, 1], texel[1, 1])) * rows
+    if d == INFINITE:
+        rounding = ZERO_OF_EXTENT * (wide + np.abs(depth))
+        return np.asarray(MAP_BIAS * (code.maximum - code.minimum) + code.step + rounding)
+    rounding = ZERO_OF_EXTENT * (wide / d + 1.0 + np.abs(depth))
+    nearest, farthest = d / (1.0 + code.maximum), d / (1.0 + code.minimum)
+    return np.asarray(MAP_BIAS * (farthest - nearest) / d * (1.0 + depth) ** 2 + code.step + rounding)
+
+
+def slopes(system: CoordinateSystem, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
+    """How the depth after T2 of planes through world points (n, 3) with normals (n, 3) grows along x and y of a lamp's
+    image plane, each (n,). Degenerate: a plane through the lamp rises without end: a very large number."""
+    n = matmul(normals, system.rotation)
+    if system.distance == INFINITE:
+        facing = n[:, 2]
+    else:
+        facing = n[:, 2] * system.distance - np.einsum("ij,ij->i", n, system.rotated(points))
+    tiny = LEAST_DIVISOR
+    facing = np.where(np.abs(facing) > tiny, facing, tiny)
+    with np.errstate(over="ignore"):
+        return np.asarray(-n[:, 0] / facing), np.asarray(-n[:, 1] / facing)
+
+
+def texels_per_unit(found: ShadowMap, points: ArrayLike) -> Floats:
+    """How many texels there are on a unit of area of the lamp's image plane.
+
+    Parameters
+    ----------
+    found : ShadowMap
+        The map.
+    points : (n, 3) array_like of float
+        In the world.
+
+    Returns
+    -------
+    (n,) array of float
+        Where the points have their images.
+
+    Raises
+    ------
+    InputError
+        For points on or behind the neutral plane of the lamp.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
+    >>> (found,) = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=8).maps
+    >>> shading.texels_per_unit(found, [(0, 0, 0)]).round(6).tolist()
+    [9.0]
+    """
+    p = light_plane(found.system, points)
+    m = found.texel_from_light
+    weight = matmul(p, m[2, :2]) + m[2, 2]
+    return np.asarray(np.abs(determinant(m)) / power(np.abs(weight), 3))
+
+
+# How the shadow maps of a picture are made.
+
+
+@dataclass(frozen=True)
+class MapSettings:
+    """How shadow maps are made.
+
+    Parameters
+    ----------
+    size : int
+        Texels along the side of a map, were it a square.
+    bits : int
+        Of a depth: 8, 16 or 32.
+    casting : {"all", "away"}
+        Which faces the map is made of, all or those that turn away from the light.
+    wanted_focus : float, optional
+        The part of the texels that what is in focus should get of a trapezoidal map; None: as it comes.
+
+    Raises
+    ------
+    InputError
+        For other words, and for a part that is not between 0 and 1.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import MapSettings
+    >>> MapSettings(size=2048, casting="away")
+    MapSettings(size=2048, bits=32, casting='away', wanted_focus=None)
+    """
+
+    size: int = 1024
+    bits: int = 32
+    casting: Literal["all", "away"] = "all"
+    wanted_focus: float | None = None
+
+    def __post_init__(self) -> None:
+        check_word("shadow casters", self.casting, ("all", "away"))
+        if self.wanted_focus is not None and not 0.0 < self.wanted_focus < 1.0:
+            raise InputError(f"a shadow focus of {self.wanted_focus:g}: expected a part of the map, between 0 and 1")
+
+
+# Shadow buffers: for every light of a scene the maps of what it sees.
+#
+# Source: Glaeser, section 8.6; for the tapered maps Ressler, and Martin and Tan.
+
+Frame = Literal["standard", "box", "trapezoid"]
+
+Blocks = Callable[[Floats, Floats, Ints], Bools]
+
+WIDEST_COSINE = 0.5
+"""A lamp that sees a corner of the scene more than 60 degrees off its middle needs six maps."""
+
+LONGEST = 4.0
+"""A map is no longer than so many times its width."""
+
+MOST_TEXELS = 1 << 28
+"""The shadow maps of all lights have no more texels together: a gigabyte of 32-bit depths."""
+
+SIDES = np.concatenate([np.eye(3), -np.eye(3)])
+"""The directions of the six maps of a lamp in the scene."""
+
+
+@dataclass(frozen=True, eq=False)
+class ShadowBuffer:
+    """The maps of one light: a single one, or six around a lamp within the scene.
+
+    Parameters
+    ----------
+    maps : tuple of ShadowMap
+        Empty where nothing casts shadows.
+
+    Notes
+    -----
+    Source: Glaeser, section 8.6.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
+    >>> buffer = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=64)
+    >>> buffer.blocks(points=[(0, 0, 0), (3, 3, 0)], normals=[(0, 0, 1), (0, 0, 1)]).tolist()
+    [True, False]
+    """
+
+    maps: tuple[ShadowMap, ...]
+
+    def blocks(self, points: ArrayLike, normals: ArrayLike) -> Bools:
+        """Whether something stands between the light and points of the world.
+
+        Parameters
+        ----------
+        points : (n, 3) array_like of float
+            In the world.
+        normals : (n, 3) array_like of float
+            Of the faces they lie on, of any length.
+
+        Returns
+        -------
+        (n,) array of bool
+            False for points outside the maps and behind the lamp.
+
+        Notes
+        -----
+        Error: about a texel along the borders of shadows; what rises less above a face than the bias casts none on it.
+
+        Source: Glaeser, section 8.6.
+        """
+        p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+        found = np.zeros(len(p), dtype=np.bool_)
+        for one in self.maps:
+            found |= blocked(one, p, normals)
+        return found
+
+
+def shadow_buffer(
+    light: Light,
+    points: ArrayLike,
+    corners: Ints,
+    *,
+    size: int = 1024,
+    rows: int | None = None,
+    bits: int = 32,
+    frame: Frame = "standard",
+    region: SeenRegion | None = None,
+    casting: Literal["all", "away"] = "all",
+    wanted_focus: float | None = None,
+) -> ShadowBuffer:
+    """The shadow buffer of a light for triangles in the world.
+
+    Parameters
+    ----------
+    light : Light
+        A lamp, or parallel rays.
+    points : (n, 3) array_like of float
+        In the world.
+    corners : (t, 3) array of int
+        Into points.
+    size : int
+        The map has as many texels as a square of this side, and is as wide against its height as what it shows; with
+        rows, the number of columns.
+    rows : int, optional
+        The number of rows.
+    bits : int
+        Of a depth: 8, 16 or 32.
+    frame : {"standard", "box", "trapezoid"}
+        The map shows the whole scene, the box about what is seen, or the trapezoid around it, of which most is what is
+        near the eye.
+    region : SeenRegion, optional
+        What the camera sees, for box and trapezoid.
+    casting : {"all", "away"}
+        All faces, or, where all bodies are closed, only those that turn away from the light: then depths need no
+        margin.
+    wanted_focus : float, optional
+        A trapezoidal map grows until what is in focus gets such a part of as many texels as size says, to four times
+        the size at most.
+
+    Returns
+    -------
+    ShadowBuffer
+        With one map; for a lamp within the scene six maps of half the size, whole ones.
+
+    Raises
+    ------
+    InputError
+        For impossible sizes, bits, frames and casting, for a tapered map without a region.
+
+    Notes
+    -----
+    Degenerate: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard;
+    without points there is no map.
+
+    Source: Glaeser, section 8.6; Martin and Tan, recipe.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import vectorplot as vp
+    >>> from vectorplot import shading
+    >>> square = [(-1, -1), (1, -1), (1, 1), (-1, 1)]
+    >>> points = [(x, y, 2) for x, y in square] + [(4 * x, 4 * y, 0) for x, y in square]
+    >>> corners = np.array([(0, 1, 2), (0, 2, 3), (4, 5, 6), (4, 6, 7)])
+    >>> buffer = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), points, corners, size=64)
+    >>> len(buffer.maps), buffer.maps[0].code.shape
+    (1, (64, 64))
+    """
+    if casting not in ("all", "away"):
+        raise InputError(f"casting {casting!r}: expected all or away")
+    if frame not in ("standard", "box", "trapezoid"):
+        raise InputError(f"frame {frame!r}: expected standard, box or trapezoid")
+    if frame != "standard" and region is None:
+        raise InputError(f"a shadow map of the frame {frame} needs the region that is seen")
+    p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    if not len(p):
+        return ShadowBuffer(())
+    biased = casting == "all"
+    if not biased:
+        corners = corners[~front_facing(p, corners, (*light.position, 0.0 if light.parallel else 1.0))]
+    if is_inside(light, p):
+        half = max(size // 2, 4), max((rows or size) // 2, 4)
+        maps = (_side_map(light, way, p, corners, half, bits, biased) for way in SIDES)
+        return ShadowBuffer(tuple(maps))
+    system = aimed_system(light, p)
+    matrix = _frame(system, p, frame, region)
+    if wanted_focus is not None and region is not None and len(region.points):
+        size = adapted_size(size, _focus_share(system, matrix, region), wanted_focus, int(LONGEST) * size)
+    columns, rows = shape_of(matrix, size) if rows is None else (size, rows)
+    return ShadowBuffer((shadow_map(system, matrix, p, corners, columns, rows, bits=bits, biased=biased),))
+
+
+def _focus_share(system: CoordinateSystem, frame: Floats, region: SeenRegion) -> float:
+    """What part of a map what is in focus fills; none of it where some is behind the lamp."""
+    if not (system.homogeneous(region.focus_points)[:, 3] > 0.0).all():
+        return 0.0
+    return focus_area(frame, light_plane(system, region.focus_points))
+
+
+def shape_of(frame: Floats, size: int) -> tuple[int, int]:
+    """Columns and rows of a map of about size x size texels that are square in the middle of what it shows.
+
+    frame (3, 3): as of shadow_map. No side is longer than four times the other.
+    Source: Martin and Tan, recipe, tips (textures that are no squares).
+    """
+    ends = np.array([[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0], np.ones(4)])
+    there = linear_solution(frame, ends)
+    left, right, low, high = (there[:2] / there[2]).T
+    wide, long = float(norm(right - left)), float(norm(high - low))
+    stretch = np.sqrt(min(max(wide / long, 1.0 / LONGEST), LONGEST)) if long > 0.0 else 1.0
+    return round(size * stretch), round(size / stretch)
+
+
+def shadow_buffers(
+    lights: Sequence[Light], points: Floats, corners: Ints, maps: MapSettings, region: SeenRegion | None
+) -> tuple[Blocks, ...]:
+    """For every light the function of places (m, 3), normals of their faces (m, 3), and triangles (m,), which it does
+    not need, that tells which of them it does not reach; with a region maps are trapezoids around it.
+
+    Degenerate: maps of more texels together than MOST_TEXELS are made smaller, all alike, and an InputWarning says so.
+    """
+    frame: Frame = "standard" if region is None else "trapezoid"
+    size = _affordable_size(lights, points, maps)
+
+    def blocks(buffer: ShadowBuffer, places: Floats, normals: Floats, triangle: Ints) -> Bools:
+        return buffer.blocks(places, normals)
+
+    made = (
+        shadow_buffer(
+            one,
+            points,
+            corners,
+            size=size,
+            bits=maps.bits,
+            frame=frame,
+            region=region,
+            casting=maps.casting,
+            wanted_focus=maps.wanted_focus,
+        )
+        for one in lights
+    )
+    return tuple(partial(blocks, buffer) for buffer in made)
+
+
+def _affordable_size(lights: Sequence[Light], points: Floats, maps: MapSettings) -> int:
+    """The size of maps, or the largest one of which the maps of all lights have room, grown for their focus too."""
+    size, growth = maps.size, 1.0 if maps.wanted_focus is None else LONGEST**2
+    squares = growth * sum(len(SIDES) / 4.0 if len(points) and is_inside(light, points) else 1.0 for light in lights)
+    # A size that one map alone cannot have is refused where maps are made.
+    if squares * size * size <= MOST_TEXELS or size * size > MOST_TEXELS:
+        return size
+    smaller = int(np.sqrt(MOST_TEXELS / squares))
+    cause = f"the shadow maps of {len(lights)} lights are {smaller} texels wide, not {size}: there is no room for more"
+    warnings.warn(cause, InputWarning, stacklevel=2)
+    return smaller
+
+
+def aimed_system(light: Light, points: Floats) -> CoordinateSystem:
+    """The coordinate system of a light that looks at the middle of the points (n, 3)."""
+    middle = (points.min(axis=0) + points.max(axis=0)) / 2.0
+    if light.parallel:
+        return CoordinateSystem.of_parallel_light(light.position, middle)
+    return CoordinateSystem.of_light(light.position, middle)
+
+
+def is_inside(light: Light, points: Floats) -> bool:
+    """Whether a lamp stands in the box about points (n, 3), or so close to it that one map would be too wide."""
+    if light.parallel:
+        return False
+    low, high = points.min(axis=0), points.max(axis=0)
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low) + low
+    place = np.asarray(light.position, dtype=np.float64)
+    arm, middle = corners - place, (low + high) / 2.0 - place
+    cosine = matmul(arm, middle)
+    return bool((cosine <= WIDEST_COSINE * np.linalg.norm(arm, axis=1) * norm(middle)).any())
+
+
+def _side_map(
+    light: Light, way: Floats, points: Floats, corners: Ints, size: tuple[int, int], bits: int, biased: bool
+) -> ShadowMap:
+    """The map of a quarter turn about one direction from a lamp."""
+    place = np.asarray(light.position, dtype=np.float64)
+    reach = float(np.abs(points - place).max()) or 1.0
+    system = CoordinateSystem.of_light(place, place + reach * way)
+    return shadow_map(
+        system, np.diag([1.0 / reach, 1.0 / reach, 1.0]), points, corners, *size, bits=bits, biased=biased
+    )
+
+
+def _frame(system: CoordinateSystem, points: Floats, frame: Frame, region: SeenRegion | None) -> Floats:
+    if frame == "standard" or region is None or not len(region.points):
+        return standard_frame(light_plane(system, points))
+    if frame == "box":
+        return standard_frame(light_plane(system, region.points))
+    centres = np.stack([region.near, region.far, region.focus])
+    if not (system.homogeneous(centres)[:, 3] > 0.0).all():
+        return standard_frame(light_plane(system, points))
+    axis, focus, images = region_axis(system, region)
+    line = searched_line(images, axis, focus, light_plane(system, region.focus_points))
+    return trapezoid_frame(system, region, line)

@@ -1,1 +1,0 @@
-"""Shadow buffers and shadow maps."""

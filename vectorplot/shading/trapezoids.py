@@ -1,0 +1,422 @@
+"""The trapezoid around what an eye sees, as a lamp sees it: most of a shadow map then shows what is near the eye.
+
+All happens in the lamp's image plane (its post-perspective plane): points (n, 2) are those of the view frustum there, N
+and F the images of the centres of its near and its far plane. The top line of the trapezoid is the one near the eye.
+Sources: Ressler, Notes on implementation of trapezoidal shadow maps, sections 2 and 3; Martin and Tan, TSM recipe.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Floats
+from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.tolerances import ZERO_OF_EXTENT
+
+FOCUS_LINE = 0.8
+"""Part of the map, from the top line on, that shows what is nearer than the focus."""
+
+LARGEST_ETA = 1000.0
+"""In lengths of the trapezoid: where its sides meet farther away than this, it is a rectangle."""
+
+LARGEST_TAPER = 1e4
+"""How many times wider than the top line the base may be."""
+
+SEARCH_STEP = 0.05
+"""The search for the best focus line goes down by so much of the map at a time."""
+
+
+@dataclass(frozen=True, eq=False)
+class Axis:
+    """The line of sight in the lamp's image plane.
+
+    Parameters
+    ----------
+    origin : (2,) array of float
+        N, the image of the centre of the near plane.
+    direction : (2,) array of float
+        Unit vector to F, that of the far plane.
+    top, base : float
+        Distances from N, along the direction, of the two parallel lines of the trapezoid.
+
+    Notes
+    -----
+    Source: Ressler, equations 1 to 4.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import line_of_sight
+    >>> axis = line_of_sight([(-1, 0), (1, 0), (3, 4), (-3, 4)], near=(0, 0), far=(0, 4))
+    >>> axis.direction.tolist(), axis.top, axis.base, axis.length
+    ([0.0, 1.0], 0.0, 4.0, 4.0)
+    """
+
+    origin: Floats
+    direction: Floats
+    top: float
+    base: float
+
+    @property
+    def length(self) -> float:
+        """From the top line to the base."""
+        return self.base - self.top
+
+    @property
+    def left(self) -> Floats:
+        """(2,) unit vector to the left of the direction."""
+        return np.array([-self.direction[1], self.direction[0]])
+
+    def along(self, points: ArrayLike) -> Floats:
+        """Distances of points from N, measured along the direction.
+
+        Parameters
+        ----------
+        points : (..., 2) array_like of float
+            In the lamp's image plane.
+
+        Returns
+        -------
+        (...) array of float
+            Positive towards F.
+        """
+        return np.asarray(matmul(np.asarray(points, dtype=np.float64) - self.origin, self.direction))
+
+    def across(self, points: ArrayLike) -> Floats:
+        """Distances of points from the line of sight.
+
+        Parameters
+        ----------
+        points : (..., 2) array_like of float
+            In the lamp's image plane.
+
+        Returns
+        -------
+        (...) array of float
+            Positive on the left.
+        """
+        return np.asarray(matmul(np.asarray(points, dtype=np.float64) - self.origin, self.left))
+
+
+def line_of_sight(points: ArrayLike, near: ArrayLike, far: ArrayLike) -> Axis:
+    """The axis between the images of the centres of the near and the far plane, with its top and base lines.
+
+    Parameters
+    ----------
+    points : (n, 2) array_like of float
+        Images of the frustum; inner ones change nothing.
+    near, far : (2,) array_like of float
+        Images of the centres of its planes.
+
+    Returns
+    -------
+    Axis
+        Its top and base line touch the points.
+
+    Raises
+    ------
+    InputError
+        Without points, and for what is not finite.
+
+    Notes
+    -----
+    Degenerate: where both centres have one image, as the lamp shines along the line of sight, the axis is x.
+
+    Source: Ressler, equations 1 to 4.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import line_of_sight
+    >>> axis = line_of_sight([(0, -2), (0, 2), (8, 3), (9, 0)], near=(1, 0), far=(8, 0))
+    >>> axis.top, axis.base
+    (-1.0, 8.0)
+    """
+    p, n, f = (np.asarray(x, dtype=np.float64) for x in (points, near, far))
+    if p.ndim != 2 or p.shape[1] != 2 or not len(p) or not all(np.isfinite(x).all() for x in (p, n, f)):
+        raise InputError("a trapezoid needs at least one point, and finite coordinates")
+    arm = f - n
+    extent = float(np.ptp(p, axis=0).max())
+    size = float(np.hypot(*arm))
+    direction = arm / size if size > ZERO_OF_EXTENT * extent else np.array([1.0, 0.0])
+    t = matmul(p - n, direction)
+    return Axis(n, direction, float(t.min()), float(t.max()))
+
+
+def focus_distance(axis: Axis, points: ArrayLike) -> float:
+    """How far behind the top line the focus lies: of the centre of its far plane alone, or, the authors' way, of the
+    corners (n, 2) of what is in focus, the farthest of which counts.
+
+    Source: Ressler, equation 5.
+    """
+    p = np.asarray(points, dtype=np.float64).reshape(-1, 2)
+    return float(np.max(axis.along(p))) - axis.top
+
+
+def eta_of_focus(length: float, focus: float, line: float = FOCUS_LINE) -> float:
+    """How far before the top line the sides meet, so that what lies at the distance focus behind it comes onto the
+    focus line of the map.
+
+    Infinite where the focus lies at that line already, or behind it: then the map is a rectangle.
+    Errors: InputError unless focus, length and line are positive and the line lies within the map.
+    Source: Ressler, section 2; formula of Martin and Tan as derived in erratum N-02.
+    """
+    if not (0.0 < focus < np.inf and 0.0 < length < np.inf and 0.0 < line < 1.0):
+        raise InputError(f"a focus at {focus:g} of {length:g}, on the line {line:g}, is out of range")
+    gap = line * length - focus
+    return (1.0 - line) * length * focus / gap if gap > 0.0 else np.inf
+
+
+def side_directions(points: ArrayLike, axis: Axis, eta: float) -> tuple[Floats, Floats]:
+    """Unit vectors (2,) from the meeting point of the sides, eta before the top line, to the leftmost and to the
+    rightmost of points (n, 2), found by their sines. Source: Ressler, equations 6 to 10."""
+    q = axis.origin + (axis.top - eta) * axis.direction
+    arm = np.asarray(points, dtype=np.float64) - q
+    unit = arm / np.hypot(*arm.T)[:, None]
+    sine = matmul(unit, axis.left)
+    return unit[sine.argmax()], unit[sine.argmin()]
+
+
+def trapezoid(points: ArrayLike, axis: Axis, eta: float) -> Floats:
+    """The trapezoid around points in the lamp's image plane whose sides meet so far before its top line.
+
+    Parameters
+    ----------
+    points : (n, 2) array_like of float
+        Images of what the eye sees.
+    axis : Axis
+        The line of sight, with the top and the base line.
+    eta : float
+        How far before the top line the sides meet, along the axis.
+
+    Returns
+    -------
+    (4, 2) array of float
+        The corners: top left, top right, base right, base left, counter-clockwise.
+
+    Raises
+    ------
+    InputError
+        For an eta that is not positive and finite.
+
+    Notes
+    -----
+    Source: Ressler, equations 11 to 14.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import line_of_sight, trapezoid
+    >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
+    >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
+    >>> bool(np.allclose(trapezoid(frustum, axis, eta=2.0), frustum))
+    True
+    """
+    if not 0.0 < eta < np.inf:
+        raise InputError(f"the sides of a trapezoid cannot meet {eta:g} before its top line")
+    left, right = side_directions(points, axis, eta)
+    q = axis.origin + (axis.top - eta) * axis.direction
+    far = eta + axis.length
+    reach = [(eta, left), (eta, right), (far, right), (far, left)]
+    return np.stack([q + t / (matmul(u, axis.direction)) * u for t, u in reach])
+
+
+def widths(points: ArrayLike, axis: Axis) -> tuple[float, float]:
+    """How far points (n, 2) lie to the left and, negative, to the right of the line of sight at most.
+
+    Source: Ressler, equations 16 and 17; erratum N-01.
+    """
+    d = axis.across(points)
+    return float(d.max()), float(d.min())
+
+
+def rectangle(points: ArrayLike, axis: Axis) -> Floats:
+    """(4, 2) the corners of the rectangle along the axis, in the order of trapezoid.
+
+    Source: Ressler, equations 16 to 19; erratum N-01.
+    """
+    left, right = widths(points, axis)
+    places = [(axis.top, left), (axis.top, right), (axis.base, right), (axis.base, left)]
+    return np.stack([axis.origin + t * axis.direction + d * axis.left for t, d in places])
+
+
+def bounding_trapezoid(points: ArrayLike, axis: Axis, focus: float, line: float = FOCUS_LINE) -> Floats:
+    """The trapezoid around points in the lamp's image plane of which most of the map shows what is near the eye.
+
+    Parameters
+    ----------
+    points : (n, 2) array_like of float
+        Images of what the eye sees.
+    axis : Axis
+        The line of sight, with the top and the base line.
+    focus : float
+        How far behind the top line the focus lies.
+    line : float
+        The part of the map, from the top line on, that shows what is nearer than the focus.
+
+    Returns
+    -------
+    (4, 2) array of float
+        The corners: top left, top right, base right, base left, counter-clockwise.
+
+    Raises
+    ------
+    InputError
+        Unless the focus is positive and the line lies within the map.
+
+    Notes
+    -----
+    Degenerate: where its sides all but run parallel (duelling frusta), the rectangle.
+
+    Source: Ressler, section 3.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.shading import bounding_trapezoid, line_of_sight
+    >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
+    >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
+    >>> bool(np.allclose(bounding_trapezoid(frustum, axis, focus=16 / 7), frustum))
+    True
+    >>> rectangle = [(-3, 0), (3, 0), (3, 4), (-3, 4)]
+    >>> bool(np.allclose(bounding_trapezoid(frustum, axis, focus=3.2), rectangle))
+    True
+    """
+    eta = eta_of_focus(axis.length, focus, line)
+    return rectangle(points, axis) if eta > LARGEST_ETA * axis.length else trapezoid(points, axis, eta)
+
+
+def taper_of_focus(axis: Axis, focus: float, line: float = FOCUS_LINE) -> float:
+    """The length of the trapezoid against eta: 0 for a rectangle, and no pole in between.
+
+    It fades to 0 as the centre of the near plane moves from the top line to the middle of the frustum: so the map goes
+    over to the rectangle without a jump when eye and lamp begin to look at each other.
+    Degenerate: a focus on or before the top line takes the largest taper; a frustum without length has none.
+    Source: after Ressler, section 2, and erratum N-02.
+    """
+    if not axis.length > 0.0:
+        return 0.0
+    share = min(max(focus / axis.length, 0.0), 1.0)
+    fading = min(max(0.0, 1.0 + 2.0 * axis.top / axis.length), 1.0)
+    steep = (line - share) / ((1.0 - line) * share) if share > 0.0 else LARGEST_TAPER
+    return fading * min(max(steep, 0.0), LARGEST_TAPER)
+
+
+def tapered_map(points: ArrayLike, axis: Axis, taper: float) -> Floats:
+    """(3, 3) the projective map of the trapezoid around points (n, 2) onto the square from -1 to 1: top line to y = -1.
+
+    With tau = 0 on the top line and 1 on the base, its last row is 1 + taper tau. Up to a factor it is the matrix of
+    the trapezoid's corners; and it has neither pole nor branch where the trapezoid becomes a rectangle.
+    Degenerate: points on a line get a square of a billionth of their extent across, a single point one of size 1.
+    Source: after Ressler, sections 4 and 5.
+    """
+    p = np.asarray(points, dtype=np.float64)
+    extent = float(np.ptp(p, axis=0).max())
+    length = max(axis.length, ZERO_OF_EXTENT * extent) or 1.0
+    plane = np.zeros((3, 3))
+    # tau, distance from the line of sight, and one.
+    plane[0, :2], plane[0, 2] = (
+        axis.direction / length,
+        -(matmul(axis.origin, axis.direction) + axis.top) / length,
+    )
+    plane[1, :2], plane[1, 2] = -axis.left, matmul(axis.origin, axis.left)
+    plane[2, 2] = 1.0
+    weight = plane[2] + taper * plane[0]
+    tau, across = (matmul(p, row[:2]) + row[2] for row in plane[:2])
+    spread = across / (1.0 + taper * np.clip(tau, 0.0, 1.0))
+    low, high = float(spread.min()), float(spread.max())
+    half = max((high - low) / 2.0, ZERO_OF_EXTENT * extent) or 0.5
+    right = (plane[1] - (low + high) / 2.0 * weight) / half
+    upward = 2.0 * (1.0 + taper) * plane[0] - weight
+    return np.stack([right, upward, weight])
+
+
+def projective_images(matrix: Floats, points: ArrayLike) -> Floats:
+    """(..., 2) points (..., 2) after a projective map (3, 3)."""
+    p = np.asarray(points, dtype=np.float64)
+    h = matmul(p, matrix[:, :2].T) + matrix[:, 2]
+    return np.asarray(h[..., :2] / h[..., 2:])
+
+
+def focus_area(matrix: Floats, focus_points: ArrayLike) -> float:
+    """The area that the convex hull of points (n, 2) has in the map, as part of it. Degenerate: 0 on a line."""
+    p = projective_images(matrix, focus_points)
+    hull = convex_hull(p)
+    after = np.roll(hull, -1, axis=0)
+    return float((hull[:, 0] * after[:, 1] - hull[:, 1] * after[:, 0]).sum()) / 8.0
+
+
+def convex_hull(points: Floats) -> Floats:
+    """(h, 2) the corners of the convex hull of a few points (n, 2), counter-clockwise (for frusta, not for meshes)."""
+    order = points[np.lexsort((points[:, 1], points[:, 0]))].tolist()
+    chains: list[list[list[float]]] = []
+    for run in (order, order[::-1]):
+        chain: list[list[float]] = []
+        for x, y in run:
+            while len(chain) > 1 and _turn(chain[-2], chain[-1], x, y) <= 0.0:
+                chain.pop()
+            chain.append([x, y])
+        chains.append(chain[:-1])
+    return np.array(chains[0] + chains[1] or order[:1])
+
+
+def _turn(a: list[float], b: list[float], x: float, y: float) -> float:
+    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
+
+
+def searched_line(points: ArrayLike, axis: Axis, focus: float, focus_points: ArrayLike) -> float:
+    """The focus line that gives the focus region the largest area in the map, searched from 80 % downwards in steps of
+    5 %, until the area falls. Source: Martin and Tan, recipe, tips."""
+    best = FOCUS_LINE
+    largest = focus_area(tapered_map(points, axis, taper_of_focus(axis, focus, best)), focus_points)
+    for number in range(1, round(FOCUS_LINE / SEARCH_STEP)):
+        line = FOCUS_LINE - number * SEARCH_STEP
+        area = focus_area(tapered_map(points, axis, taper_of_focus(axis, focus, line)), focus_points)
+        if area <= largest:
+            break
+        best, largest = line, area
+    return best
+
+
+def adapted_size(size: int, share: float, wanted: float, largest: int) -> int:
+    """The side of a map that is larger where what is in focus has too small a part of it.
+
+    Parameters
+    ----------
+    size : int
+        The side of the map in texels, 1 or more.
+    share : float
+        The part of the map that is in focus, not negative.
+    wanted : float
+        The part of a map of side ``size`` whose texels it should get, more than 0, up to 1.
+    largest : int
+        The largest side.
+
+    Returns
+    -------
+    int
+        Never smaller than size nor larger than largest, and without jumps.
+
+    Raises
+    ------
+    InputError
+        For numbers out of range.
+
+    Notes
+    -----
+    Source: Martin and Tan, recipe, tips (texture size that follows the focus area).
+
+    Examples
+    --------
+    >>> from vectorplot import shading
+    >>> shading.adapted_size(1000, share=0.2, wanted=0.8, largest=4000)
+    2000
+    >>> shading.adapted_size(1000, share=0.9, wanted=0.8, largest=4000)
+    1000
+    """
+    if not (0.0 <= share and 0.0 < wanted <= 1.0 and 1 <= size <= largest):
+        raise InputError(f"a map of {size} texels for a share of {share:g} of {wanted:g} is out of range")
+    grown = size * np.sqrt(wanted / share) if share > 0.0 else largest
+    return int(min(max(round(grown), size), largest))

@@ -1,1 +1,0 @@
-"""The families of surfaces that have names."""

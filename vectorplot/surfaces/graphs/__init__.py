@@ -1,1 +1,0 @@
-"""Graphs of functions, the regions they stand above, and heights on grids."""

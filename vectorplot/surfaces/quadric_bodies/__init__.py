@@ -1,1 +1,0 @@
-"""Placed surfaces that are known to be balls or capped quadrics: convex bodies in closed form."""

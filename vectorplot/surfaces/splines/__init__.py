@@ -1,1 +1,0 @@
-"""Surfaces of polynomial pieces, through grids of points or drawn by them."""

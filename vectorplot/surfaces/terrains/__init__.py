@@ -1,1 +1,0 @@
-"""Terrains: heights on regular grids, with holes, and what is made of them."""

@@ -1,1 +1,0 @@
-"""Parts of surfaces: over smaller ranges of their parameters, and what planes leave of them."""

@@ -1,0 +1,1174 @@
+"""Triangles for the rays: polygons cut by their ears, on their own and as plainly as possible."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.convex_polygons import convex_faces
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import cross, dot, norm
+from vectorplot.scene.scene import Scene
+from vectorplot.surfaces.implicit import CutImplicit
+from vectorplot.surfaces.stacked import unit_normals
+from vectorplot.surfaces.surface import (
+    Domain,
+    ImplicitSurface,
+    Surface,
+    hessians,
+    is_hole,
+    is_implicit,
+    is_parametrised,
+)
+from vectorplot.surfaces.trimmed import smooth_parts
+from vectorplot.tolerances import (
+    FIRST_DAMPING,
+    FOOT_NO_BETTER,
+    FOOT_OF_EXTENT,
+    FOOT_REACHED,
+    FOOT_SETTLED,
+    GAUSS_OF_EXTENT,
+    IN_TRIANGLE,
+    LEAST_DAMPING,
+    LEAST_DIVISOR,
+    NET_ERROR,
+    NO_AREA,
+    ON_BORDER_OF_DOMAIN,
+    ON_CONTOUR_SINE,
+    ON_SURFACE,
+    OWN_HIT,
+    PARALLEL_SINE,
+    REACH_OF_CLEARANCE,
+    ROUNDING_OF_DOMAIN,
+    SAME_HIT,
+    ZERO_OF_EXTENT,
+)
+
+
+def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
+    """Triangles (t,3) of vertex indices that cover the faces that are there, and (t,) the face each belongs to.
+
+    Degenerate: a convex face without area gives triangles without area; ears without area are left out. A face that is
+    not planar is the triangles that convex_faces makes of it: nothing but that convention says which surface
+    it is.
+    """
+    present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
+    convex, bent = faces_are_convex(mesh), faces_are_bent(mesh)
+    fans, face = ragged.fans(mesh.offsets)
+    wanted = (present & convex & ~bent)[face]
+    triangles, faces = mesh.corners[fans[wanted]], face[wanted]
+    ears = [(ear_clipping(mesh, face), face) for face in np.flatnonzero(present & ~convex & ~bent).tolist()]
+    more = [with_area(mesh, np.asarray(cut, dtype=np.intp).reshape(-1, 3)) for cut, _ in ears]
+    owner = [np.full(len(cut), face, dtype=np.intp) for cut, (_, face) in zip(more, ears, strict=True)]
+    cut, source = bent_triangles(mesh, np.flatnonzero(present & bent))
+    return np.concatenate([triangles, *more, cut]), np.concatenate([faces, *owner, source])
+
+
+def faces_are_bent(mesh: Mesh) -> Bools:
+    """(f,) whether a face has a corner off its mean plane through its first corner."""
+    if not mesh.face_count:
+        return np.zeros(0, dtype=np.bool_)
+    arm = mesh.vertices[mesh.corners] - mesh.vertices[mesh.corners[mesh.offsets[:-1]]][mesh.corner_face]
+    height = np.abs(np.einsum("ij,ij->i", arm, mesh.face_normals[mesh.corner_face]))
+    limit = ZERO_OF_EXTENT * float((mesh.bounds[1] - mesh.bounds[0]).max())
+    return np.asarray(np.maximum.reduceat(height, mesh.offsets[:-1]) > limit)
+
+
+def bent_triangles(mesh: Mesh, faces: Ints) -> tuple[Ints, Ints]:
+    """Triangles of faces that are not planar, and their faces."""
+    if not len(faces):
+        return np.zeros((0, 3), dtype=np.intp), faces
+    corners = mesh.corners[np.isin(mesh.corner_face, faces)]
+    offsets = ragged.offsets(mesh.face_sizes[faces])
+    cut = convex_faces(np.ascontiguousarray(mesh.vertices.T), corners, offsets, 0.0)
+    return cut.corners.reshape(-1, 3), faces[cut.source]
+
+
+def faces_are_convex(mesh: Mesh) -> Bools:
+    """(f,) whether a face turns left at every corner."""
+    here = mesh.vertices[mesh.corners]
+    leaving = here[mesh.next_corner] - here
+    arriving = np.empty_like(leaving)
+    arriving[mesh.next_corner] = leaving
+    turn = np.cross(arriving, leaving)
+    scale = norm(arriving) * norm(leaving)
+    left = np.einsum("ij,ij->i", turn, mesh.face_normals[mesh.corner_face]) >= -PARALLEL_SINE * scale
+    return np.asarray(np.bincount(mesh.corner_face[~left], minlength=mesh.face_count) == 0)
+
+
+def ear_clipping(mesh: Mesh, face: int) -> list[list[int]]:
+    """Triangles of one simple polygon of any form, as vertex indices."""
+    ring = mesh.corners[mesh.offsets[face] : mesh.offsets[face + 1]].tolist()
+    normal = mesh.face_normals[face]
+    axis = int(np.argmax(np.abs(normal)))
+    keep = [(axis + 1) % 3, (axis + 2) % 3]
+    plane = mesh.vertices[ring][:, keep] - mesh.vertices[ring[0]][keep]
+    if normal[axis] < 0.0:
+        plane = plane[:, ::-1]
+    left = list(range(len(ring)))
+    triangles = []
+    while len(left) > 3:
+        k = next_ear(plane, left)
+        corners = [left[k - 1], left[k], left[(k + 1) % len(left)]]
+        triangles.append([ring[corner] for corner in corners])
+        del left[k]
+    triangles.append([ring[corner] for corner in left])
+    return triangles
+
+
+def with_area(mesh: Mesh, triangles: Ints) -> Ints:
+    """Those of some triangles that have an area."""
+    corners = mesh.vertices[triangles]
+    sides = np.roll(corners, -1, axis=1) - corners
+    twice = norm(np.cross(sides[:, 0], sides[:, 1]))
+    kept = np.asarray(twice > 2.0 * NO_AREA * (sides**2).sum(axis=2).max(axis=1, initial=0.0))
+    return np.asarray(triangles[kept], dtype=np.intp)
+
+
+def next_ear(plane: Floats, left: list[int]) -> int:
+    """Position of a corner that can be cut off: a straight one, else one whose triangle holds no other corner."""
+    here = plane[left]
+    before, after = np.roll(here, 1, axis=0), np.roll(here, -1, axis=0)
+    turns = area(before, here, after)
+    scale = norm(here - before) * norm(after - here)
+    straight = np.flatnonzero(np.abs(turns) <= PARALLEL_SINE * scale)
+    if len(straight):
+        return int(straight[0])
+    for k in np.flatnonzero(turns > 0.0).tolist():
+        a, b, c = before[k], here[k], after[k]
+        inside = (area(a, b, here) >= 0.0) & (area(b, c, here) >= 0.0) & (area(c, a, here) >= 0.0)
+        corner = (here == a).all(axis=1) | (here == b).all(axis=1) | (here == c).all(axis=1)
+        if not (inside & ~corner).any():
+            return int(k)
+    return int(np.argmax(turns))
+
+
+def area(a: Floats, b: Floats, c: Floats) -> Floats:
+    """Twice the signed area of triangles in the plane, positive when counter-clockwise."""
+    u, v = b - a, c - a
+    return np.asarray(u[..., 0] * v[..., 1] - u[..., 1] * v[..., 0])
+
+
+# Sight rays from points to the eye, against every triangle of the scene.
+#
+# Slow and plain, and independent of the engine it checks. Trees and grids are replaced by two rounds of bounding
+# spheres.
+
+CHUNK = 1 << 18
+CLUSTER = 16
+
+
+@dataclass(frozen=True)
+class Rays:
+    """Sight rays: origin (n,3), unit direction to the eye (n,3), length (n,); whether the eye is at their end."""
+
+    origin: Floats
+    direction: Floats
+    length: Floats
+    ends_in_eye: bool
+
+
+@dataclass(frozen=True)
+class Solids:
+    """Simplexes (m,k,3), triangles or edges, of items (m,), in clusters of neighbours with bounding spheres."""
+
+    corners: Floats
+    item: Ints
+
+    def __len__(self) -> int:
+        return len(self.item)
+
+    @cached_property
+    def centre(self) -> Floats:
+        """(m,3) their middles."""
+        return middles(self.corners)
+
+    @cached_property
+    def radius(self) -> Floats:
+        """(m,) the distances of their farthest corners from these."""
+        reach = np.zeros(len(self))
+        for corner in np.moveaxis(self.corners, 1, 0):
+            np.maximum(reach, norm(corner - self.centre), out=reach)
+        return reach
+
+
+def middles(corners: Floats) -> Floats:
+    """(m,3) the means of the corners (m,k,3) of each simplex."""
+    total = corners[:, 0].copy()
+    for k in range(1, corners.shape[1]):
+        total += corners[:, k]
+    return np.asarray(total / corners.shape[1])
+
+
+def sight_rays(camera: Camera, points: Floats, middle: Floats, size: float) -> Rays:
+    """The rays from the points to the eye in coordinates in which the scene fits into the unit cube about 0."""
+    origin = (points - middle) / size
+    # Beyond this every ray has left the scene, whose corners lie within 0.87 of its middle.
+    out = norm(origin) + 1.0
+    if camera.parallel:
+        direction = np.subtract(camera.eye, camera.target) / camera.distance
+        return Rays(origin, np.broadcast_to(direction, origin.shape), out, False)
+    arm = (np.asarray(camera.eye) - points) / size
+    length = norm(arm)
+    unit = arm / np.where(length > 0.0, length, 1.0)[:, None]
+    return Rays(origin, unit, np.minimum(length, out), True)
+
+
+def occluders(scene: Scene, middle: Floats, size: float, items: Sequence[int] | None) -> tuple[Solids, Solids]:
+    """The triangles and the edges of the faces that can hide something, in unit coordinates, near ones together."""
+    wanted = range(len(scene.items)) if items is None else items
+    owners = [index for index in wanted if scene.items[index].hides]
+    triangles, edges = [np.zeros((0, 3, 3))], [np.zeros((0, 2, 3))]
+    for index in owners:
+        mesh = scene.items[index].mesh
+        vertices = (mesh.vertices - middle) / size
+        triangles.append(vertices[triangulated(mesh)[0]])
+        edges.append(vertices[edges_of_faces(mesh)])
+    which = np.array(owners, dtype=np.intp)
+    return (
+        near_together(np.concatenate(triangles), np.repeat(which, [len(part) for part in triangles[1:]])),
+        near_together(np.concatenate(edges), np.repeat(which, [len(part) for part in edges[1:]])),
+    )
+
+
+def edges_of_faces(mesh: Mesh) -> Ints:
+    """(e,2) vertices of the edges of the faces that are there, each edge once."""
+    pairs = np.sort(np.stack([mesh.corners, mesh.corners[mesh.next_corner]], axis=1), axis=1)
+    if mesh.present is not None:
+        pairs = pairs[mesh.present[mesh.corner_face]]
+    many = max(len(mesh.vertices), 1)
+    key = np.unique(pairs[:, 0] * many + pairs[:, 1])
+    return np.stack(np.divmod(key, many), axis=1)
+
+
+def near_together(corners: Floats, item: Ints) -> Solids:
+    """The simplexes in the order of a space-filling curve through their middles."""
+    cell = np.clip(((middles(corners) + 0.5) * 1024.0), 0.0, 1023.0).astype(np.int64)
+    code = np.zeros(len(item), dtype=np.int64)
+    for bit in range(10):
+        for axis in range(3):
+            code |= ((cell[:, axis] >> bit) & 1) << (3 * bit + axis)
+    order = np.argsort(code, kind="stable")
+    return Solids(corners[order], item[order])
+
+
+def near_pairs(rays: Rays, solids: Solids) -> Iterator[tuple[Ints, Ints]]:
+    """Pairs (ray, simplex) in portions; every pair that is no further apart than REACH_OF_CLEARANCE is among them."""
+    centre, radius = solids.centre, solids.radius
+    starts = np.arange(0, len(solids), CLUSTER)
+    if len(starts) == 0:
+        return
+    sizes = np.diff(np.append(starts, len(solids)))
+    low = np.minimum.reduceat(centre - radius[:, None], starts, axis=0)
+    high = np.maximum.reduceat(centre + radius[:, None], starts, axis=0)
+    cluster_centre, cluster_radius = (low + high) / 2.0, norm(high - low) / 2.0
+    step = max(1, CHUNK // len(starts))
+    for begin in range(0, len(rays.length), step):
+        ray, cluster = np.nonzero(near_each(rays, slice(begin, begin + step), cluster_centre, cluster_radius))
+        ray += begin
+        for part in range(0, len(ray), CHUNK // CLUSTER):
+            some = slice(part, part + CHUNK // CLUSTER)
+            count = sizes[cluster[some]]
+            inner = ragged.place(count)
+            simplex = np.repeat(starts[cluster[some]], count) + inner
+            of_ray = np.repeat(ray[some], count)
+            kept = near(rays, of_ray, centre.take(simplex, axis=0), radius.take(simplex))
+            yield of_ray[kept], simplex[kept]
+
+
+def near(rays: Rays, ray: Ints, centre: Floats, radius: Floats) -> Ints:
+    """Indices of the pairs whose ray comes nearer to the sphere than REACH_OF_CLEARANCE."""
+    # Rows are taken in half the time in which they are indexed.
+    arm = centre - rays.origin.take(ray, axis=0)
+    along = dot(arm, rays.direction.take(ray, axis=0))
+    foot = np.clip(along, 0.0, rays.length.take(ray))
+    square = dot(arm, arm) - foot * (2.0 * along - foot)
+    return np.flatnonzero(square <= (radius + 2.0 * REACH_OF_CLEARANCE) ** 2)
+
+
+def near_each(rays: Rays, some: slice, centre: Floats, radius: Floats) -> Bools:
+    """(r,m) whether each of some rays comes nearer to each sphere than REACH_OF_CLEARANCE."""
+    origin, direction = rays.origin[some], rays.direction[some]
+    # Products of matrices instead of differences: within the unit cube, rounding is far below the reach.
+    along = matmul(direction, centre.T) - dot(direction, origin)[:, None]
+    square = dot(centre, centre) - 2.0 * (matmul(origin, centre.T)) + dot(origin, origin)[:, None]
+    foot = np.clip(along, 0.0, rays.length[some, None])
+    return np.asarray(square - foot * (2.0 * along - foot) <= (radius + 2.0 * REACH_OF_CLEARANCE) ** 2)
+
+
+def near_any(rays: Rays, centre: Floats, radius: Floats) -> Bools:
+    """(m,) whether some ray comes nearer to a sphere than REACH_OF_CLEARANCE."""
+    found = np.zeros(len(radius), dtype=np.bool_)
+    step = max(1, CHUNK // max(len(radius), 1))
+    for begin in range(0, len(rays.length), step):
+        found |= near_each(rays, slice(begin, begin + step), centre, radius).any(axis=0)
+    return found
+
+
+def hits(rays: Rays, triangles: Solids, item_count: int) -> tuple[Ints, Floats]:
+    """How many items each ray meets, and the distance from its point to the nearest triangle on its line."""
+    clearance = np.full(len(rays.length), REACH_OF_CLEARANCE)
+    met = [np.zeros(0, dtype=np.int64)]
+    for ray, index in near_pairs(rays, triangles):
+        a, b, c = (triangles.corners[:, k].take(index, axis=0) for k in range(3))
+        origin, direction, length = (part.take(ray, axis=0) for part in (rays.origin, rays.direction, rays.length))
+        along = meeting(origin, direction, a, b, c)
+        on_line = np.isfinite(along)
+        ray, index, along, length = ray[on_line], index[on_line], along[on_line], length[on_line]
+        distance = distance_to_triangle(origin[on_line], a[on_line], b[on_line], c[on_line])
+        free = distance > ZERO_OF_EXTENT
+        np.minimum.at(clearance, ray[free], distance[free])
+        if rays.ends_in_eye:
+            np.minimum.at(clearance, ray[free], np.abs(length - along)[free])
+        hit = free & (along > 0.0) & (along < length)
+        met.append(ray[hit].astype(np.int64) * item_count + triangles.item[index[hit]])
+    once = np.unique(np.concatenate(met))
+    return np.bincount(once // max(item_count, 1), minlength=len(rays.length)), clearance
+
+
+def meeting(origin: Floats, direction: Floats, a: Floats, b: Floats, c: Floats) -> Floats:
+    """Signed distances along the lines to the closed triangles; NaN where they do not meet or are parallel."""
+    u, v = b - a, c - a
+    normal = cross(u, v)
+    length = norm(normal)
+    slope = np.einsum("ij,ij->i", normal, direction)
+    crossing = np.abs(slope) > PARALLEL_SINE * length
+    safe = np.where(crossing, slope, 1.0)
+    arm = origin - a
+    along = -np.einsum("ij,ij->i", normal, arm) / safe
+    turned = cross(direction, arm)
+    # Barycentric coordinates of the meeting point, from the volumes that the line spans with the edges.
+    second = np.einsum("ij,ij->i", v, turned) / safe
+    third = -np.einsum("ij,ij->i", u, turned) / safe
+    inside = (second >= -IN_TRIANGLE) & (third >= -IN_TRIANGLE) & (second + third <= 1.0 + IN_TRIANGLE)
+    return np.where(crossing & inside, along, np.nan)
+
+
+def distance_to_triangle(point: Floats, a: Floats, b: Floats, c: Floats) -> Floats:
+    """Distances of points from triangles, pair by pair."""
+    normal = cross(b - a, c - a)
+    length = norm(normal)
+    height = np.einsum("ij,ij->i", normal, point - a) / np.where(length > 0.0, length, 1.0)
+    above = np.ones(len(point), dtype=np.bool_)
+    for start, end in ((a, b), (b, c), (c, a)):
+        above &= np.einsum("ij,ij->i", cross(end - start, point - start), normal) >= 0.0
+    border = np.minimum(distance_to_segment(point, a, b), distance_to_segment(point, b, c))
+    border = np.minimum(border, distance_to_segment(point, c, a))
+    return np.where(above & (length > 0.0), np.abs(height), border)
+
+
+def distance_to_segment(point: Floats, a: Floats, b: Floats) -> Floats:
+    """Distances of points from segments, pair by pair."""
+    edge, arm = b - a, point - a
+    square = np.einsum("ij,ij->i", edge, edge)
+    share = np.clip(np.einsum("ij,ij->i", arm, edge) / np.where(square > 0.0, square, 1.0), 0.0, 1.0)
+    return np.asarray(norm(arm - share[:, None] * edge))
+
+
+def edge_distances(rays: Rays, edges: Solids, own: Floats | None = None, off: Floats | None = None) -> Floats:
+    """(n,) distance from each ray to the nearest edge that its point does not touch, at most REACH_OF_CLEARANCE.
+
+    own (n,): edges no further from the point than this do not count either; None: those that touch it. off (m,): how
+    far edges may be off; the distances are less by that, but no less than 0. None: they are exact.
+    """
+    touching = np.full(len(rays.length), ZERO_OF_EXTENT) if own is None else own
+    nearer = np.zeros(len(edges)) if off is None else off
+    # Edges beyond the reach are not looked at; they may be nearer than that.
+    clearance = np.full(len(rays.length), REACH_OF_CLEARANCE - nearer.max(initial=0.0))
+    for ray, index in near_pairs(rays, edges):
+        start, end = edges.corners[index, 0], edges.corners[index, 1]
+        free = distance_to_segment(rays.origin[ray], start, end) > touching[ray]
+        ray, index, start, end = ray[free], index[free], start[free], end[free]
+        origin = rays.origin[ray]
+        tip = origin + rays.direction[ray] * rays.length[ray][:, None]
+        np.minimum.at(clearance, ray, distance_of_segments(origin, tip, start, end) - nearer[index])
+    return np.asarray(np.maximum(clearance, 0.0))
+
+
+def distance_of_segments(a: Floats, b: Floats, c: Floats, d: Floats) -> Floats:
+    """Distances of the segments ab from the segments cd, pair by pair."""
+    u, v, w = b - a, d - c, c - a
+    normal = cross(u, v)
+    square = np.einsum("ij,ij->i", normal, normal)
+    bound = np.einsum("ij,ij->i", u, u) * np.einsum("ij,ij->i", v, v)
+    askew = square > PARALLEL_SINE**2 * bound
+    safe = np.where(askew, square, 1.0)
+    s = np.einsum("ij,ij->i", cross(w, v), normal) / safe
+    t = np.einsum("ij,ij->i", cross(w, u), normal) / safe
+    crossing = askew & (s >= 0.0) & (s <= 1.0) & (t >= 0.0) & (t <= 1.0)
+    inner = np.abs(np.einsum("ij,ij->i", w, normal)) / np.sqrt(safe)
+    ends = np.minimum(distance_to_segment(a, c, d), distance_to_segment(b, c, d))
+    ends = np.minimum(ends, np.minimum(distance_to_segment(c, a, b), distance_to_segment(d, a, b)))
+    return np.where(crossing, inner, ends)
+
+
+# The nearest points of a parametrised surface, found from a grid of its parameters.
+
+CELLS = (48, 256)
+"""Columns and rows of the grids that starts are taken from; the finer one for points the coarser left far away."""
+
+STARTS = 8
+AROUND = 16
+STEPS = 60
+NEAREST_CHUNK = 1 << 16
+
+
+class Feet(NamedTuple):
+    """Places on a surface near each of some points: u, v and distance (n,k), for k starts each, and the extent of the
+    surface. Several starts may lead to one place; a point on two sheets has places on both."""
+
+    u: Floats
+    v: Floats
+    distance: Floats
+    extent: float
+
+    def rows(self, index: Ints) -> Feet:
+        """Those of some points."""
+        return Feet(self.u[index], self.v[index], self.distance[index], self.extent)
+
+    def first(self, count: int) -> Feet:
+        """The nearest ones of each point."""
+        order = np.argsort(np.where(np.isnan(self.distance), np.inf, self.distance), axis=1, kind="stable")[:, :count]
+        u, v, distance = (np.take_along_axis(a, order, axis=1) for a in self[:3])
+        return Feet(u, v, distance, self.extent)
+
+
+def nearest_places(surface: Surface, points: Floats, near: Floats | float = 0.0) -> Feet:
+    """The places of a surface where the distance from points (n,3) is smallest, as far as a grid of starts finds them.
+
+    near (n,): how far points may be from the surface. Points that stay further away, and further than FOOT_OF_EXTENT of
+    the extent, are tried again from a finer grid.
+    Error: parameters of points on the surface are good to rounding; of points at a distance d to about 1e-8 d.
+    Degenerate: holes are never a place; at a pole one of its parameters is arbitrary.
+    Errors: InputError for a surface that is nowhere finite.
+    """
+    feet = _from_grid(surface, points, CELLS[0])
+    for again in (_from_finer_grid, _from_around):
+        enough = np.maximum(near, FOOT_OF_EXTENT * feet.extent)
+        left = np.flatnonzero(feet.distance.min(axis=1, initial=np.inf) > enough)
+        if len(left):
+            new = again(surface, points[left], feet.rows(left))
+            better = new.distance.min(axis=1) < feet.distance[left].min(axis=1)
+            for old, found in zip(feet[:3], new[:3], strict=True):
+                old[left[better]] = found[better]
+    return feet
+
+
+def _from_finer_grid(surface: Surface, points: Floats, before: Feet) -> Feet:
+    """The places reached from a finer grid, as many as before."""
+    return _from_grid(surface, points, CELLS[1]).first(before.u.shape[1])
+
+
+def _from_around(surface: Surface, points: Floats, before: Feet) -> Feet:
+    """The places reached from those that share one parameter with the best place so far.
+
+    Near an apex all starts may have run into it with a wrong parameter, which then no longer moves them.
+    """
+    best = before.first(1)
+    share = np.arange(AROUND) / AROUND
+    still = np.zeros(AROUND)
+    turn = np.stack([np.concatenate([share, still]), np.concatenate([still, share])], axis=1)
+    domain = surface.domain
+    low, size = np.array([domain.u_start, domain.v_start]), np.array(domain.size)
+    at = np.stack([best.u, best.v], axis=-1)
+    starts = (low + np.mod(at - low + turn * size, size)).reshape(-1, 2)
+    target = np.repeat(points, len(turn), axis=0)
+    with np.errstate(invalid="ignore"):
+        found = _descended(surface, target, starts[:, 0], starts[:, 1], before.extent)
+    u, v, distance = found.reshape(3, len(points), len(turn))
+    return Feet(u, v, distance, before.extent).first(before.u.shape[1])
+
+
+def _from_grid(surface: Surface, points: Floats, cells: int) -> Feet:
+    """The places reached from the nearest points of a grid."""
+    from scipy.spatial import cKDTree
+
+    u, v = (a.ravel() for a in np.meshgrid(*surface.domain.grid(cells, cells), indexing="ij"))
+    grid = surface.points(u, v)
+    there = ~is_hole(grid)
+    if not there.any():
+        raise InputError("the surface is nowhere finite")
+    u, v, grid = u[there], v[there], grid[there]
+    count = min(STARTS, len(grid))
+    # For so few questions a tree that is not balanced is good enough.
+    tree = cKDTree(grid, balanced_tree=False, compact_nodes=False)
+    _, start = tree.query(points, k=np.arange(1, count + 1))
+    extent = float(norm(np.ptp(grid, axis=0)))
+    target = np.repeat(points, count, axis=0)
+    found = [np.zeros((3, 0))]
+    for first in range(0, len(target), NEAREST_CHUNK):
+        part = slice(first, first + NEAREST_CHUNK)
+        index = start.ravel()[part]
+        found.append(_descended(surface, target[part], u[index], v[index], extent))
+    u, v, distance = np.concatenate(found, axis=1).reshape(3, len(points), count)
+    return Feet(u, v, distance, extent)
+
+
+def _descended(surface: Surface, target: Floats, u: Floats, v: Floats, extent: float) -> Floats:
+    """(3,n) parameters u, v at which the distance from targets is locally smallest, and that distance.
+
+    Source: Levenberg and Marquardt's damped Gauss-Newton steps, in parameters counted in sizes of the domain.
+    """
+    at = np.stack([u, v], axis=1)
+    arm = surface.points(u, v) - target
+    square = (arm * arm).sum(axis=1)
+    square = np.where(np.isnan(square), np.inf, square)
+    damping = np.full(len(at), FIRST_DAMPING)
+    active = np.flatnonzero(square < np.inf)
+    for _ in range(STEPS):
+        step = _step(surface, at[active], arm[active], damping[active], GAUSS_OF_EXTENT * extent)
+        trial = inside(surface.domain, at[active] + step)
+        new = surface.points(trial[:, 0], trial[:, 1]) - target[active]
+        new_square = (new * new).sum(axis=1)
+        better = new_square < square[active]
+        won = active[better]
+        at[won], arm[won], square[won] = trial[better], new[better], new_square[better]
+        damping[active] = np.clip(damping[active] * np.where(better, 0.05, 20.0), LEAST_DAMPING, 1e12)
+        size = np.abs(step / np.array(surface.domain.size)).max(axis=1)
+        # A step that no longer helps is rounding, unless a smaller one might.
+        done = (
+            (size < FOOT_SETTLED)
+            | (~better & (size < FOOT_NO_BETTER))
+            | (square[active] < (FOOT_REACHED * extent) ** 2)
+        )
+        active = active[~done]
+        if not len(active):
+            break
+    return np.stack([at[:, 0], at[:, 1], np.sqrt(square)])
+
+
+def _step(surface: Surface, at: Floats, arm: Floats, damping: Floats, far: float) -> Floats:
+    """(n,2) changes of the parameters; none outwards at a border."""
+    domain = surface.domain
+    slopes = [by * size for by, size in zip(surface.partials(at[:, 0], at[:, 1]), domain.size, strict=True)]
+    limits = ((domain.u_start, domain.u_end, domain.closed_u), (domain.v_start, domain.v_end, domain.closed_v))
+    for axis, (low, high, closed) in enumerate(limits):
+        downhill = -(slopes[axis] * arm).sum(axis=1)
+        stuck = ((at[:, axis] <= low) & (downhill < 0.0)) | ((at[:, axis] >= high) & (downhill > 0.0))
+        slopes[axis] = np.where((stuck & (not closed))[:, None] | is_hole(slopes[axis])[:, None], 0.0, slopes[axis])
+    p, q = slopes
+    e, f, g = _curved((p * p).sum(axis=1), (p * q).sum(axis=1), (q * q).sum(axis=1), surface, at, arm, far)
+    a, b = (p * arm).sum(axis=1), (q * arm).sum(axis=1)
+    # Relative to the larger slope, so that the direction in which a pole does not move stands still.
+    extra = damping * np.maximum(np.maximum(e, g), LEAST_DIVISOR)
+    e, g = e + extra, g + extra
+    below = e * g - f * f
+    below = np.where(below > 0.0, below, np.inf)
+    scaled = np.stack([(f * b - g * a) / below, (f * a - e * b) / below], axis=1)
+    return np.asarray(np.clip(scaled, -0.25, 0.25) * np.array(domain.size))
+
+
+def _curved(
+    e: Floats, f: Floats, g: Floats, surface: Surface, at: Floats, arm: Floats, far: float
+) -> tuple[Floats, Floats, Floats]:
+    """The matrix of Newton's method instead, where points are further than far away and it is positive definite."""
+    index = np.flatnonzero((norm(arm) > far) & (e > 0.0) & (g > 0.0))
+    if len(index):
+        width, height = surface.domain.size
+        factors = (width * width, width * height, height * height)
+        second = surface.second_partials(at[index, 0], at[index, 1])
+        bends = [(by * arm[index]).sum(axis=1) * size for by, size in zip(second, factors, strict=True)]
+        new = [old[index] + bend for old, bend in zip((e, f, g), bends, strict=True)]
+        definite = (new[0] > 0.0) & (new[0] * new[2] > new[1] * new[1])
+        for old, found in zip((e, f, g), new, strict=True):
+            old[index[definite]] = found[definite]
+    return e, f, g
+
+
+def inside(domain: Domain, parameters: Floats) -> Floats:
+    """(n,2) parameters brought into the domain: wrapped where it closes, else to the border."""
+    low = np.array([domain.u_start, domain.v_start])
+    size = np.array(domain.size)
+    wrapped = low + np.mod(parameters - low, size)
+    return np.where([domain.closed_u, domain.closed_v], wrapped, np.clip(parameters, low, low + size))
+
+
+# Which points a parametrised surface hides, by rays against a fine net of triangles, every hit refined on the surface.
+#
+# The net only decides which sheets a ray meets. That is right wherever the ray keeps clear of the images of contour and
+# borders by more than the net's error, and the clearance says whether it does. Where no ray comes by there is no net.
+
+MOST_CELLS = 120_000
+FIRST_CELLS = 64
+BLOCK = 8
+"""So many cells of the net along each parameter are kept or left out together."""
+
+STEEP = 0.1
+"""Sine of an angle with the tangent plane above which a ray does not meet the surface next to its contour."""
+
+RAY_AROUND = 5e-3
+"""Contour and borders on which a point lies are its own up to this distance, as a part of the extent."""
+
+NEWTON_STEPS = 8
+
+
+class Hiding(NamedTuple):
+    """hidden (n,): whether an item hides each point; clearance (n,): how sure that is, see visible_by_rays; touched
+    (n,): whether the ray touches the surface in the point, which is one of its contour."""
+
+    hidden: Bools
+    clearance: Floats
+    touched: Bools
+
+
+class RayFeet(NamedTuple):
+    """How points lie on a surface, (n,) each: on_contour, on_border; unsure: so near its contour that neither."""
+
+    on_surface: Bools
+    on_contour: Bools
+    on_border: Bools
+    unsure: Bools
+
+
+@dataclass(frozen=True, eq=False)
+class Net:
+    """A surface in unit coordinates, (x - middle) / size, on a grid of parameters u (n,), v (m,): those of its cells
+    that are named by the indices column (c,) and row (c,) of their first corners; None: all."""
+
+    surface: Surface
+    middle: Floats
+    size: float
+    u: Floats
+    v: Floats
+    column: Ints | None = None
+    row: Ints | None = None
+
+    def at(self, u: Floats, v: Floats) -> Floats:
+        """(..., 3) points."""
+        return np.asarray((self.surface.points(u, v) - self.middle) / self.size)
+
+    @cached_property
+    def parameters(self) -> Floats:
+        """(p,2) u and v of the grid's points that are corners of cells."""
+        column, row = np.divmod(self._grid_points, len(self.v))
+        return np.stack([self.u[column], self.v[row]], axis=1)
+
+    @cached_property
+    def points(self) -> Floats:
+        """(p,3) grid points; NaN in holes."""
+        return self.at(*self.parameters.T)
+
+    @cached_property
+    def triangles(self) -> Ints:
+        """(t,3) indices of grid points, cell after cell; none with a corner in a hole."""
+        found = self._cells[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3)
+        hole = is_hole(self.points)
+        return np.asarray(found[~hole[found].any(axis=1)] if hole.any() else found)
+
+    @cached_property
+    def errors(self) -> Floats:
+        """(p,) how far the surface is from the middles of the diagonals of the cells around a grid point, at most."""
+        a, _, c, _ = self._cells.T
+        middles = self.at(*(0.5 * (self.parameters[a] + self.parameters[c])).T)
+        off = norm(middles - 0.5 * (self.points[a] + self.points[c]))
+        worst = np.zeros(len(self.points))
+        for corner in self._cells.T:
+            np.maximum.at(worst, corner, np.where(np.isfinite(off), off, 0.0))
+        return worst
+
+    @cached_property
+    def longest(self) -> float:
+        """The longest diagonal."""
+        a, _, c, _ = self._cells.T
+        long = norm(self.points[a] - self.points[c])
+        return float(long[np.isfinite(long)].max(initial=0.0))
+
+    def borders(self) -> tuple[Floats, Floats]:
+        """(b,2,3) segments of the borders of domain and holes, none at poles and where the domain closes; and (b,) how
+        far they may be off."""
+        domain = self.surface.domain
+        column, row = self._first_corners
+        a, b, c, d = self._cells.T
+        sides = [] if domain.closed_u else [(a, d, column == 0), (b, c, column == len(self.u) - 2)]
+        sides += [] if domain.closed_v else [(a, b, row == 0), (d, c, row == len(self.v) - 2)]
+        ends = [np.zeros((0, 2), dtype=np.intp), *(np.stack([p, q], axis=1)[last] for p, q, last in sides)]
+        hole = is_hole(self.points)
+        mixed = hole[self._cells].any(axis=1)
+        ends += [np.stack(pair, axis=1)[mixed] for pair in ((a, b), (b, c), (c, d), (d, a), (a, c), (b, d))]
+        segments, errors = self.points[np.concatenate(ends)], self.errors[np.concatenate(ends)].max(axis=1, initial=0.0)
+        long = norm(segments[:, 1] - segments[:, 0]) > ZERO_OF_EXTENT
+        return segments[long], errors[long]
+
+    def contour(self, eye: Floats | None, direction: Floats) -> tuple[Floats, Floats]:
+        """(s,2,3) segments of the contour as seen from the eye, or along a direction towards it; and (s,) how far they
+        may be off."""
+        normals = unit_normals(self.surface, *self.parameters.T)
+        sight = np.broadcast_to(direction, normals.shape) if eye is None else eye - self.points
+        value = dot(normals, sight)
+        corners, at = self.triangles, value[self.triangles]
+        unknown = np.isnan(at[:, 0] + at[:, 1] + at[:, 2])
+        every = self.points[corners[unknown]][:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2, 3)
+        errors = np.repeat(self.errors[corners[unknown]].max(axis=1, initial=0.0), 3)
+        corners, at = corners[~unknown], at[~unknown]
+        first, second, third = (at > 0.0).T
+        mixed = (first != second) | (second != third)
+        corners, at = corners[mixed], at[mixed]
+        sign = at > 0.0
+        lone = np.where(sign.sum(axis=1) == 1, sign.argmax(axis=1), (~sign).argmax(axis=1))
+        row, found = np.arange(len(lone)), []
+        for step in (1, 2):
+            other = (lone + step) % 3
+            f, g = at[row, lone], at[row, other]
+            share = (f / (f - g))[:, None]
+            p, q = self.points[corners[row, lone]], self.points[corners[row, other]]
+            found.append(p + share * (q - p))
+        errors = np.concatenate([self.errors[corners].max(axis=1, initial=0.0), errors])
+        return np.concatenate([np.stack(found, axis=1).reshape(-1, 2, 3), every]), errors
+
+    @cached_property
+    def _first_corners(self) -> tuple[Ints, Ints]:
+        """The columns and rows (c,) of the cells."""
+        if self.column is not None and self.row is not None:
+            return self.column, self.row
+        column, row = np.divmod(np.arange((len(self.u) - 1) * (len(self.v) - 1)), len(self.v) - 1)
+        return column, row
+
+    @cached_property
+    def _corners(self) -> Ints:
+        """(c,4) the corners of the cells, counted on the whole grid."""
+        column, row = self._first_corners
+        first, m = column * len(self.v) + row, len(self.v)
+        return np.stack([first, first + m, first + m + 1, first + 1], axis=1)
+
+    @cached_property
+    def _grid_points(self) -> Ints:
+        """(p,) which points of the whole grid are corners of cells."""
+        used = np.zeros(len(self.u) * len(self.v), dtype=np.bool_)
+        used[self._corners] = True
+        return np.flatnonzero(used)
+
+    @cached_property
+    def _cells(self) -> Ints:
+        """(c,4) indices of points."""
+        place = np.zeros(len(self.u) * len(self.v), dtype=np.intp)
+        place[self._grid_points] = np.arange(len(self._grid_points))
+        return np.asarray(place[self._corners])
+
+
+def fine_net(surface: Surface, middle: Floats, size: float, rays: Rays) -> Net:
+    """The net of a surface that is as near to it as MOST_CELLS allow, finer where it bends more, around the rays."""
+    first = Net(surface, middle, size, *surface.domain.grid(FIRST_CELLS, FIRST_CELLS))
+    p = first.points.reshape(FIRST_CELLS + 1, FIRST_CELLS + 1, 3)
+    bends = [
+        norm(p[:-2] + p[2:] - 2.0 * p[1:-1]),
+        norm(p[:, :-2] + p[:, 2:] - 2.0 * p[:, 1:-1]),
+    ]
+    twist = norm(p[1:, 1:] - p[1:, :-1] - p[:-1, 1:] + p[:-1, :-1])
+    needs = []
+    for axis, bend in enumerate(bends):
+        # Of each row of cells the worst one; diagonals are bent by the twist too.
+        sag = np.nanmax(bend, axis=1 - axis, initial=0.0)
+        sag = np.maximum(np.append(sag, 0.0), np.append(0.0, sag)) + np.nanmax(twist, axis=1 - axis, initial=0.0)
+        needs.append(np.clip(np.sqrt(sag / 8.0 / NET_ERROR), 1.0, MOST_CELLS / FIRST_CELLS**2))
+    share = min(1.0, float(np.sqrt(MOST_CELLS / (needs[0].sum() * needs[1].sum()))))
+    whole = Net(surface, middle, size, _spread(first.u, share * needs[0]), _spread(first.v, share * needs[1]))
+    column, row = _cells_around(whole, rays)
+    return replace(whole, column=column, row=row)
+
+
+def _cells_around(net: Net, rays: Rays) -> tuple[Ints, Ints]:
+    """The columns and rows of the cells in blocks that a ray comes near to."""
+    starts, sizes, samples = zip(*(_blocks(t) for t in (net.u, net.v)), strict=True)
+    p = net.at(*(a.ravel() for a in np.meshgrid(*samples, indexing="ij"))).reshape(*map(len, samples), 3)
+    # Of each block the corners, the middles of the sides and the middle: nine points.
+    nine = np.stack([p[i : p.shape[0] - 2 + i : 2, j : p.shape[1] - 2 + j : 2] for i in range(3) for j in range(3)])
+    nine = nine.reshape(9, -1, 3)
+    centre = nine.mean(axis=0)
+    lines = [(0, 1, 2), (3, 4, 5), (6, 7, 8), (0, 3, 6), (1, 4, 7), (2, 5, 8), (0, 4, 8), (2, 4, 6)]
+    # What a block may stick out of its nine points, many times over.
+    bend = np.max([norm(nine[a] + nine[c] - 2.0 * nine[b]) for a, b, c in lines], axis=0)
+    radius = norm(nine - centre).max(axis=0) + bend
+    kept = near_any(rays, np.nan_to_num(centre), np.where(np.isnan(radius), np.inf, radius))
+    first, second = np.divmod(np.flatnonzero(kept), len(starts[1]))
+    across, along = sizes[0][first], sizes[1][second]
+    inner = ragged.place(across * along)
+    block = np.repeat(np.arange(len(first)), across * along)
+    column, row = np.divmod(inner, along[block])
+    return starts[0][first[block]] + column, starts[1][second[block]] + row
+
+
+def _blocks(t: Floats) -> tuple[Ints, Ints, Floats]:
+    """The first cells (b,) and numbers of cells (b,) of the blocks along one parameter t (n,), and the parameters
+    (2b+1,) of their ends and middles."""
+    starts = np.arange(0, len(t) - 1, BLOCK)
+    ends = np.append(starts, len(t) - 1)
+    at = np.empty(2 * len(starts) + 1)
+    at[::2], at[1::2] = t[ends], 0.5 * (t[ends[:-1]] + t[ends[1:]])
+    return starts, np.diff(ends), at
+
+
+def _spread(t: Floats, density: Floats) -> Floats:
+    """Parameters from t[0] to t[-1] (n + 1,), of which about so many (n,) lie between each and the next."""
+    reach = np.concatenate([[0.0], np.cumsum(density)])
+    return np.interp(np.linspace(0.0, reach[-1], max(int(reach[-1]), FIRST_CELLS // 2) + 1), reach, t)
+
+
+def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floats, size: float) -> Hiding:
+    """Which points a parametrised surface hides; eye (3,) in unit coordinates, None for parallel rays."""
+    net = fine_net(surface, middle, size, rays)
+    feet = feet_on(net, rays)
+    hidden, clearance = _hits(net, rays, feet)
+    direction = rays.direction[0] if len(rays.direction) else np.array([0.0, 0.0, 1.0])
+    for (segments, errors), own in ((net.contour(eye, direction), feet.on_contour), (net.borders(), feet.on_border)):
+        edges = near_together(segments, np.arange(len(segments)))
+        touching = np.where(own, max(RAY_AROUND, 0.5 * net.longest), ZERO_OF_EXTENT)
+        clearance = np.minimum(clearance, edge_distances(rays, edges, touching, 2.0 * errors[edges.item]))
+    return Hiding(hidden, np.where(feet.unsure, 0.0, clearance), feet.on_contour)
+
+
+def _hits(net: Net, rays: Rays, feet: RayFeet) -> tuple[Bools, Floats]:
+    """Whether each ray meets the surface, and the distance from its point to the nearest sheet on its line."""
+    hidden, clearance = np.zeros(len(rays.length), dtype=np.bool_), np.full(len(rays.length), REACH_OF_CLEARANCE)
+    corners = net.triangles
+    # The cells come block by block, so their triangles lie near together.
+    solids = Solids(net.points[corners], np.arange(len(corners)))
+    # A ray that touches the surface meets the net, which is a little beside it, well away from its point.
+    own = np.where(feet.on_contour, RAY_AROUND, np.where(feet.on_surface, OWN_HIT, ZERO_OF_EXTENT))
+    for ray, index in near_pairs(rays, solids):
+        a, b, c = (solids.corners[index, k] for k in range(3))
+        along = meeting(rays.origin[ray], rays.direction[ray], a, b, c)
+        met = np.isfinite(along)
+        ray, along, triangle = ray[met], along[met], corners[solids.item[index[met]]]
+        start = net.parameters[triangle].mean(axis=1)
+        along, there, lost, steep = _refined(net, rays, ray, along, start)
+        clearance[ray[lost & (np.abs(along) > own[ray])]] = 0.0
+        ray, along, steep = ray[there], along[there], steep[there]
+        # Beside a cuspidal edge or a self-intersection another sheet may be that near.
+        other = (~feet.on_contour[ray] | steep) & (np.abs(along) > SAME_HIT) & (np.abs(along) <= own[ray])
+        clearance[ray[other]] = 0.0
+        free = np.abs(along) > own[ray]
+        np.minimum.at(clearance, ray[free], np.abs(along[free]))
+        if rays.ends_in_eye:
+            np.minimum.at(clearance, ray[free], np.abs(rays.length[ray] - along)[free])
+        hidden[ray[free & (along > 0.0) & (along < rays.length[ray])]] = True
+    return hidden, clearance
+
+
+def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> tuple[Floats, Bools, Bools, Bools]:
+    """Where rays meet the surface near places where they meet the net, whether that is within the domain, whether
+    Newton's method found no such place, as next to the contour: then it is left where the net has it; and whether they
+    pass through the surface there rather than along it."""
+    origin, direction = rays.origin[ray], rays.direction[ray]
+    at, t = start.copy(), along.copy()
+    for _ in range(NEWTON_STEPS):
+        by_u, by_v = (by / net.size for by in net.surface.partials(at[:, 0], at[:, 1]))
+        normal = cross(by_u, by_v)
+        rest = origin + t[:, None] * direction - net.at(at[:, 0], at[:, 1])
+        slope, square = (normal * direction).sum(axis=1), (normal * normal).sum(axis=1)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            forward = -(normal * rest).sum(axis=1) / slope
+            rest = rest + forward[:, None] * direction
+            step = np.stack([(cross(rest, by_v) * normal).sum(axis=1), (cross(by_u, rest) * normal).sum(axis=1)], 1)
+            at, t = at + step / square[:, None], t + forward
+    rest = origin + t[:, None] * direction - net.at(at[:, 0], at[:, 1])
+    good = (norm(rest) < ZERO_OF_EXTENT) & (np.abs(t - along) < max(8.0 * net.longest, OWN_HIT))
+    domain = net.surface.domain
+    limits = ((domain.u_start, domain.u_end, domain.closed_u), (domain.v_start, domain.v_end, domain.closed_v))
+    within = np.ones(len(t), dtype=np.bool_)
+    for axis, (low, high, closed) in enumerate(limits):
+        rounding = ROUNDING_OF_DOMAIN * (high - low)
+        within &= closed | ((at[:, axis] >= low - rounding) & (at[:, axis] <= high + rounding))
+    steep = good & (np.abs(slope) > STEEP * np.sqrt(square))
+    return np.where(good, t, along), within | ~good, ~good, steep
+
+
+def feet_on(net: Net, rays: Rays) -> RayFeet:
+    """How the rays' points lie on the surface."""
+    from scipy.spatial import cKDTree
+
+    on_surface, on_contour, on_border, unsure = (np.zeros(len(rays.length), dtype=np.bool_) for _ in range(4))
+    there = ~is_hole(net.points)
+    if not there.any():
+        return RayFeet(on_surface, on_contour, on_border, unsure)
+    tree = cKDTree(net.points[there], balanced_tree=False, compact_nodes=False)
+    distance, _ = tree.query(rays.origin)
+    near = np.flatnonzero(distance <= 2.0 * net.longest + ZERO_OF_EXTENT)
+    if not len(near):
+        return RayFeet(on_surface, on_contour, on_border, unsure)
+    places = nearest_places(net.surface, rays.origin[near] * net.size + net.middle)
+    row, column = np.nonzero(places.distance <= ON_SURFACE * net.size)
+    ray, u, v = near[row], places.u[row, column], places.v[row, column]
+    slope, bend = bending(net, u, v, rays.direction[ray])
+    touching = np.abs(slope) < ON_CONTOUR_SINE
+    # The second hit of a ray that leaves a curved sheet, and for a ray that touches it the third.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        second = np.abs(2.0 * slope / bend)
+    vague = np.where(touching, ~_bends_alike(net, u, v, rays.direction[ray], bend), ~(second > 4.0 * OWN_HIT))
+    on_surface[ray], on_contour[ray[touching]], unsure[ray[vague]] = True, True, True
+    domain = net.surface.domain
+    for x, low, high, closed in (
+        (u, domain.u_start, domain.u_end, domain.closed_u),
+        (v, domain.v_start, domain.v_end, domain.closed_v),
+    ):
+        at_end = (np.minimum(x - low, high - x) <= ON_BORDER_OF_DOMAIN * (high - low)) & (not closed)
+        on_border[ray[at_end]] = True
+    return RayFeet(on_surface, on_contour, on_border, unsure)
+
+
+def bending(net: Net, u: Floats, v: Floats, direction: Floats) -> tuple[Floats, Floats]:
+    """Sine (n,) of the angle between directions and tangent planes, and second form (n,) of the directions' tangential
+    parts, in unit coordinates; NaN at poles."""
+    by_u, by_v = (by / net.size for by in net.surface.partials(u, v))
+    normal = cross(by_u, by_v)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        square = (normal * normal).sum(axis=1)
+        unit = normal / np.sqrt(square)[:, None]
+        a = (cross(direction, by_v) * normal).sum(axis=1) / square
+        b = (cross(by_u, direction) * normal).sum(axis=1) / square
+    uu, uv, vv = ((by / net.size * unit).sum(axis=1) for by in net.surface.second_partials(u, v))
+    return (unit * direction).sum(axis=1), a * a * uu + 2.0 * a * b * uv + b * b * vv
+
+
+def _bends_alike(net: Net, u: Floats, v: Floats, direction: Floats, bend: Floats) -> Bools:
+    """Whether the surface bends to the same side along the sight ray all around a place: no cusp of the contour."""
+    by_u, by_v = (by / net.size for by in net.surface.partials(u, v))
+    e, f, g = ((p * q).sum(axis=1) for p, q in ((by_u, by_u), (by_u, by_v), (by_v, by_v)))
+    radius = 4.0 * max(RAY_AROUND, 0.5 * net.longest)
+    alike = np.isfinite(bend)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        height = np.sqrt(g - f * f / e)
+        for angle in np.arange(8) * np.pi / 4.0:
+            down = radius * np.sin(angle) / height
+            across = (radius * np.cos(angle) - down * f / np.sqrt(e)) / np.sqrt(e)
+            at = inside(net.surface.domain, np.nan_to_num(np.stack([u + across, v + down], axis=1)))
+            alike &= bending(net, at[:, 0], at[:, 1], direction)[1] * bend > 0.0
+    return np.asarray(alike, dtype=np.bool_)
+
+
+# Which points an implicit surface hides, by walking along the sight rays in small steps.
+
+WALK_STEPS = 1500
+"""Steps across the whole scene."""
+
+BISECTIONS = 50
+POINTS_AT_ONCE = 1 << 19
+
+
+def implicit_hides(surface: ImplicitSurface, rays: Rays, middle: Floats, size: float) -> Hiding:
+    """Which points an implicit surface hides within its box."""
+    hidden, touched = np.zeros((2, len(rays.length)), dtype=np.bool_)
+    clearance = np.full(len(rays.length), REACH_OF_CLEARANCE)
+    portion = max(1, POINTS_AT_ONCE // WALK_STEPS)
+    for first in range(0, len(rays.length), portion):
+        part = slice(first, first + portion)
+        some = Rays(rays.origin[part], rays.direction[part], rays.length[part], rays.ends_in_eye)
+        hidden[part], clearance[part], touched[part] = _walk(_Field(surface, middle, size), some)
+    return Hiding(hidden, clearance, touched)
+
+
+class _Field:
+    """The function of a surface in unit coordinates."""
+
+    def __init__(self, surface: ImplicitSurface, middle: Floats, size: float) -> None:
+        self.surface, self.middle, self.size = surface, middle, size
+        self.box = (np.asarray(surface.box) - middle) / size
+
+    def values(self, points: Floats) -> Floats:
+        return self.surface.values(points * self.size + self.middle)
+
+    def gradients(self, points: Floats) -> Floats:
+        return np.asarray(self.surface.gradients(points * self.size + self.middle) * self.size)
+
+    def bends(self, points: Floats, direction: Floats) -> Floats:
+        """Second derivative along directions, over the length of the gradient."""
+        matrix = hessians(self.surface, points * self.size + self.middle) * self.size**2
+        with np.errstate(divide="ignore", invalid="ignore"):
+            return np.asarray(
+                np.einsum("...i,...ij,...j->...", direction, matrix, direction) / norm(self.gradients(points))
+            )
+
+    def outside(self, points: Floats) -> Floats:
+        """How far points are outside the box, or cut away; negative: how far inside."""
+        outside = np.maximum(self.box[0] - points, points - self.box[1]).max(axis=-1)
+        if isinstance(self.surface, CutImplicit):
+            outside = np.maximum(outside, self.surface.beyond(points * self.size + self.middle) / self.size)
+        return np.asarray(outside)
+
+
+def _walk(field: _Field, rays: Rays) -> Hiding:
+    """Whether each ray meets the surface, and how near it comes to changing that."""
+    # A little way behind the points too: a sheet there is one that nearly hides.
+    t = np.linspace(-8.0 * RAY_AROUND, 2.0, WALK_STEPS + 1)
+    # No step may end in the point itself, where the sign of F is rounding.
+    t = t + (0.5 - (-t[0] / (t[1] - t[0])) % 1.0) * (t[1] - t[0])
+    at = rays.origin[:, None] + t[:, None] * rays.direction[:, None]
+    inside = field.outside(at) < 2.0 * REACH_OF_CLEARANCE
+    row, column = np.nonzero(inside)
+    value, slope = (np.full(at.shape[:2], np.nan) for _ in range(2))
+    there = at[row, column]
+    value[row, column] = field.values(there)
+    slope[row, column] = (field.gradients(there) * rays.direction[row]).sum(axis=-1)
+    on_surface, on_contour, unsure = _feet(field, rays)
+    hidden, clearance = np.zeros(len(at), dtype=np.bool_), np.full(len(at), REACH_OF_CLEARANCE)
+    own = np.where(on_surface, OWN_HIT, ZERO_OF_EXTENT)
+    ray, along = _roots(field, rays, t, value)
+    box = field.outside(rays.origin[ray] + along[:, None] * rays.direction[ray])
+    free = np.abs(along) > own[ray]
+    np.minimum.at(clearance, ray[free], np.minimum(np.abs(along), np.abs(box))[free])
+    if rays.ends_in_eye:
+        np.minimum.at(clearance, ray[free], np.abs(rays.length[ray] - along)[free])
+    hidden[ray[free & (along > 0.0) & (along < rays.length[ray]) & (box <= 0.0)]] = True
+    near = _extremes(field, rays, t, slope, on_contour)
+    broken = inside & np.isnan(value)
+    lost = (broken[:, 1:] & np.isfinite(value[:, :-1])) | (broken[:, :-1] & np.isfinite(value[:, 1:]))
+    return Hiding(hidden, np.where(unsure | lost.any(axis=1), 0.0, np.minimum(clearance, near)), on_contour)
+
+
+def _roots(field: _Field, rays: Rays, t: Floats, value: Floats) -> tuple[Ints, Floats]:
+    """Rays, and distances along them, at which F changes its sign."""
+    ray, step = np.nonzero(value[:, :-1] * value[:, 1:] < 0.0)
+    return ray, _zeros(lambda points: field.values(points), rays, ray, t[step], t[step + 1], value[ray, step])
+
+
+def _zeros(
+    function: Callable[[Floats], Floats], rays: Rays, ray: Ints, low: Floats, high: Floats, start: Floats
+) -> Floats:
+    """Distances along rays between low and high, at which a function of the point has the value start, where it
+    changes its sign."""
+    for _ in range(BISECTIONS):
+        middle = 0.5 * (low + high)
+        same = function(rays.origin[ray] + middle[:, None] * rays.direction[ray]) * start > 0.0
+        low, high = np.where(same, middle, low), np.where(same, high, middle)
+    return 0.5 * (low + high)
+
+
+def _extremes(field: _Field, rays: Rays, t: Floats, slope: Floats, on_contour: Bools) -> Floats:
+    """(n,) how near rays come to touching the surface, to first order; where contour points touch it does not count."""
+    near = np.full(len(slope), REACH_OF_CLEARANCE)
+    ray, step = np.nonzero(slope[:, :-1] * slope[:, 1:] <= 0.0)
+    direction = rays.direction[ray]
+
+    def slopes(points: Floats) -> Floats:
+        return np.asarray((field.gradients(points) * direction).sum(axis=-1))
+
+    along = _zeros(slopes, rays, ray, t[step], t[step + 1], slope[ray, step])
+    at = rays.origin[ray] + along[:, None] * direction
+    with np.errstate(divide="ignore", invalid="ignore"):
+        away = np.abs(field.values(at)) / norm(field.gradients(at))
+    counts = (along > -OWN_HIT) & (along < rays.length[ray] + OWN_HIT) & (field.outside(at) < REACH_OF_CLEARANCE)
+    counts &= ~on_contour[ray] | (np.abs(along) > RAY_AROUND)
+    np.minimum.at(near, ray[counts], np.nan_to_num(away, nan=0.0, posinf=REACH_OF_CLEARANCE)[counts])
+    return near
+
+
+def _feet(field: _Field, rays: Rays) -> tuple[Bools, Bools, Bools]:
+    """Whether points lie on the surface, on its contour, or so near that neither is sure."""
+    gradient = field.gradients(rays.origin)
+    steep = norm(gradient)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        on_surface = np.abs(field.values(rays.origin)) / steep <= ON_SURFACE
+        sine = (gradient * rays.direction).sum(axis=-1) / steep
+    bend = field.bends(rays.origin, rays.direction)
+    on_contour = on_surface & (np.abs(sine) < ON_CONTOUR_SINE)
+    alike = np.isfinite(bend)
+    for away in (-4.0 * RAY_AROUND, -2.0 * RAY_AROUND, 2.0 * RAY_AROUND, 4.0 * RAY_AROUND):
+        alike &= field.bends(rays.origin + away * rays.direction, rays.direction) * bend > 0.0
+    with np.errstate(divide="ignore", invalid="ignore"):
+        apart = np.abs(2.0 * sine / bend) > 4.0 * OWN_HIT
+    return on_surface, on_contour, on_surface & np.where(on_contour, ~alike, ~apart)
+
+
+# What hides a point, found by looking: a ray from the point to the eye.
+
+
+class Sight(NamedTuple):
+    """What rays find between points and the eye.
+
+    Parameters
+    ----------
+    hidden_by : (n,) array of int
+        How many items hide each point.
+    clearance : (n,) array of float
+        How sure that is, see visible_by_rays.
+    on_contour : (n,) array of bool
+        Whether the point is one of the contour of a smooth surface, and judged as such.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, testing
+    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
+    >>> sight = testing.visible_by_rays(cube, vp.Camera.view("top"), [(1, 1, 2), (1, 1, 0)])
+    >>> sight.hidden_by.tolist(), sight.on_contour.any().item()
+    ([0, 1], False)
+    """
+
+    hidden_by: Ints
+    clearance: Floats
+    on_contour: Bools
+
+
+def visible_by_rays(scene: Scene, camera: Camera, points: ArrayLike, *, items: Sequence[int] | None = None) -> Sight:
+    """How many items hide each of some points from the camera's eye, by brute force.
+
+    Parameters
+    ----------
+    scene : Scene
+        What may hide the points.
+    camera : Camera
+        Where the eye is.
+    points : (n, 3) array_like of float
+        In the world.
+    items : sequence of int, optional
+        The indices of those that may hide; all where None.
+
+    Returns
+    -------
+    Sight
+        How many items hide each point, 0 where it is visible; and how sure that is.
+
+    Notes
+    -----
+    An item counts once, however often it is met; a face or sheet that touches the point does not hide it, and neither
+    does one that is seen edge-on. Items that do not occlude and faces that are not present hide nothing.
+
+    clearance is the distance, as a part of the scene's largest side and at most 0.001, from the ray to the nearest edge
+    of a face that the point does not touch, or from the point to a face on its ray that it does not touch; for smooth
+    surfaces contour and borders stand for the edges, less the error of looking, so that 0 means: not known. Compare
+    only where it is larger than the accuracy asked for: nearer, the answer turns on rounding. A point of a contour must
+    lie on it to about a millionth of the extent; another curve that passes a contour changes there, and has no answer.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, testing
+    >>> slab, plank = geometry.box((4, 4, 1)), geometry.box((1, 4, 4))
+    >>> scene = vp.Scene((vp.Item("slab", slab), vp.Item("plank", plank)))
+    >>> sight = testing.visible_by_rays(scene, vp.Camera.view("top"), [(0.5, 2, 1), (2, 2, 1)])
+    >>> sight.hidden_by.tolist(), bool((sight.clearance > 1e-6).all())
+    ([1, 0], True)
+    """
+    targets = np.asarray(points, dtype=np.float64).reshape(-1, 3)
+    bounds = scene.bounds
+    middle, size = bounds.mean(axis=0), float((bounds[1] - bounds[0]).max()) or 1.0
+    rays = sight_rays(camera, targets, middle, size)
+    triangles, edges = occluders(scene, middle, size, items)
+    hidden, clearance = hits(rays, triangles, len(scene.items))
+    clearance = np.minimum(clearance, edge_distances(rays, edges))
+    on_contour = np.zeros(len(targets), dtype=np.bool_)
+    eye = None if camera.parallel else (np.asarray(camera.eye) - middle) / size
+    for index in range(len(scene.items)) if items is None else items:
+        item = scene.items[index]
+        if not item.hides or not len(targets):
+            continue
+        if is_parametrised(item.shape):
+            parts = [surface_hides(part.surface, eye, rays, middle, size) for part in smooth_parts(item.shape)]
+            hides, distances, touches = (np.stack(column) for column in zip(*parts, strict=True))
+            found = Hiding(np.any(hides, axis=0), distances.min(axis=0), np.any(touches, axis=0))
+        elif is_implicit(item.shape):
+            found = implicit_hides(item.shape, rays, middle, size)
+        else:
+            continue
+        hidden, clearance = hidden + found.hidden, np.minimum(clearance, found.clearance)
+        on_contour |= found.touched
+    return Sight(hidden, clearance, on_contour)

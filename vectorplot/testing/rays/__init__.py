@@ -1,1 +1,0 @@
-"""The oracle: what rays from the eye meet."""

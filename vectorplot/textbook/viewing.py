@@ -1,0 +1,689 @@
+"""Frames in space: bases of vectors, and the matrices from and to the world."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from vectorplot.arrays import Bools, Floats
+from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.clipping import Box
+from vectorplot.geometry.elementary import tan
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.projections import CoordinateSystem, depth_of
+from vectorplot.geometry.vectors import length, normalize
+from vectorplot.tolerances import INFINITE, PARALLEL_SINE
+
+
+def basis_of(vector: ArrayLike, other: ArrayLike | None = None) -> Floats:
+    """An orthonormal right-handed frame of rows u, v, w with w along a vector.
+
+    Parameters
+    ----------
+    vector : (3,) array_like of float
+        Of any length but zero.
+    other : (3,) array_like of float, optional
+        Any vector that is not collinear; u is normal to both. Where None, the axis that encloses the largest angle.
+
+    Returns
+    -------
+    (3, 3) array of float
+        Its rows are unit vectors.
+
+    Raises
+    ------
+    InputError
+        For vectors without length, or collinear ones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.textbook import basis_of
+    >>> frame = basis_of((1, 2, 2))
+    >>> np.allclose(frame @ frame.T, np.eye(3)), np.allclose(frame[2], (1 / 3, 2 / 3, 2 / 3))
+    (True, True)
+    """
+    w = normalize(vector)
+    t = np.eye(3)[np.argmin(np.abs(w))] if other is None else normalize(other)
+    u = np.cross(t, w)
+    if length(u) <= PARALLEL_SINE:
+        raise InputError("two vectors along one line span no frame")
+    u = normalize(u)
+    return np.array([u, np.cross(w, u), w])
+
+
+def basis_of_gaze(gaze: ArrayLike, up: ArrayLike) -> Floats:
+    """The frame of rows u right, v up, w against the gaze.
+
+    Parameters
+    ----------
+    gaze : (3,) array_like of float
+        The direction one looks in.
+    up : (3,) array_like of float
+        What is upwards in the picture, not along the gaze.
+
+    Returns
+    -------
+    (3, 3) array of float
+        Its rows are unit vectors.
+
+    Raises
+    ------
+    InputError
+        For vectors without length, or collinear ones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.textbook import basis_of_gaze
+    >>> np.allclose(basis_of_gaze(gaze=(0, 5, 0), up=(0, 0, 1)), [(1, 0, 0), (0, 0, 1), (0, -1, 0)])
+    True
+    """
+    return basis_of(-np.asarray(gaze, dtype=np.float64), up)
+
+
+def world_from_frame(origin: ArrayLike, basis: ArrayLike) -> Floats:
+    """The matrix from coordinates in a frame to the world's: its columns are the basis vectors and the origin.
+
+    Parameters
+    ----------
+    origin : (k,) array_like of float
+        Of the frame, in the world.
+    basis : (k, k) array_like of float
+        Rows u, v (and w).
+
+    Returns
+    -------
+    (k+1, k+1) array of float
+        Acts on homogeneous columns.
+
+    Notes
+    -----
+    Source: lecture; erratum V-01.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import transformed, world_from_frame
+    >>> matrix = world_from_frame((5, 0), [(0, 1), (-1, 0)])
+    >>> transformed(matrix, (2, 0)).tolist()
+    [5.0, 2.0]
+    """
+    e, rows = np.asarray(origin, dtype=np.float64), np.asarray(basis, dtype=np.float64)
+    matrix = np.eye(len(e) + 1)
+    matrix[:-1, :-1], matrix[:-1, -1] = rows.T, e
+    return matrix
+
+
+def frame_from_world(origin: ArrayLike, basis: ArrayLike) -> Floats:
+    """The matrix from the world's coordinates to those in an orthonormal frame.
+
+    Parameters
+    ----------
+    origin : (k,) array_like of float
+        Of the frame, in the world.
+    basis : (k, k) array_like of float
+        Rows u, v (and w).
+
+    Returns
+    -------
+    (k+1, k+1) array of float
+        Acts on homogeneous columns.
+
+    Notes
+    -----
+    Source: lecture; erratum V-02.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import frame_from_world, transformed
+    >>> matrix = frame_from_world((5, 0), [(0, 1), (-1, 0)])
+    >>> transformed(matrix, (5, 2)).tolist()
+    [2.0, 0.0]
+    """
+    e, rows = np.asarray(origin, dtype=np.float64), np.asarray(basis, dtype=np.float64)
+    matrix = np.eye(len(e) + 1)
+    matrix[:-1, :-1], matrix[:-1, -1] = rows, matmul(-rows, e)
+    return matrix
+
+
+# Points changed from one coordinate system into another. Source: Glaeser, section 2.4.
+
+
+def changed_coordinates(points: ArrayLike, source: CoordinateSystem, target: CoordinateSystem) -> Floats:
+    """Points of one system in another, such as from the screen to a lamp.
+
+    Parameters
+    ----------
+    points : (..., 3) array_like of float
+        In the first system.
+    source, target : CoordinateSystem
+        From which and into which they are brought.
+
+    Returns
+    -------
+    (..., 3) array of float
+        In the second system.
+
+    Raises
+    ------
+    InputError
+        For points that lie on or behind a neutral plane.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.4.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry
+    >>> from vectorplot.textbook import changed_coordinates
+    >>> eye = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> changed_coordinates([(2, 4, 5)], eye, geometry.CoordinateSystem.world()).tolist()
+    [[1.0, 2.0, 5.0]]
+    """
+    return target.from_world(source.to_world(points))
+
+
+def with_target_as_origin(target: ArrayLike, *pools: ArrayLike) -> tuple[Floats, ...]:
+    """Pools of points, centres of projection among them, moved so that the target is the origin.
+
+    Parameters
+    ----------
+    target : (3,) array_like of float
+        In the world.
+    pools : (..., 3) array_like of float
+        As many as there are.
+
+    Returns
+    -------
+    tuple of (..., 3) array of float
+        As many.
+
+    Notes
+    -----
+    Source: Glaeser, section 2.4.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import with_target_as_origin
+    >>> vertices, eye = with_target_as_origin((1, 1, 0), [(1, 1, 1), (2, 1, 0)], (1, -9, 0))
+    >>> vertices.tolist(), eye.tolist()
+    ([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], [0.0, -10.0, 0.0])
+    """
+    centre = np.asarray(target, dtype=np.float64)
+    return tuple(np.asarray(np.asarray(pool, dtype=np.float64) - centre) for pool in pools)
+
+
+# The viewing pyramid as a body in the world.
+
+_CORNERS = np.array([[x, y, z] for z in (0, 1) for y in (0, 1) for x in (0, 1)])
+_FACES = ([0, 2, 3, 1], [4, 5, 7, 6], [0, 4, 6, 2], [1, 3, 7, 5], [2, 6, 7, 3], [0, 1, 5, 4])
+
+
+@dataclass(frozen=True, eq=False)
+class Frustum:
+    """What a system shows of the world: the frustum between the far and the near plane, inside the clipping window.
+
+    Parameters
+    ----------
+    system : CoordinateSystem
+        Of the eye.
+    box : Box
+        The clipping window, and the depths after T2 of the far and the near plane.
+
+    Raises
+    ------
+    InputError
+        For depths that are not in front of the neutral plane.
+
+    Notes
+    -----
+    In a parallel projection it is a box, and the depths of the clipping box are those of the system.
+
+    Source: Glaeser, sections 2.2 and 2.5, figures 3, 4 and 11.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import Box, CoordinateSystem, Window
+    >>> from vectorplot.textbook import Frustum
+    >>> system = CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
+    >>> frustum = Frustum(system, Box(Window(-1, 1, -1, 1), -0.5, 1.0))
+    >>> frustum.depths, frustum.mesh.face_count
+    ((-10.0, 5.0), 6)
+    >>> frustum.contains([(0, 0, 0), (1.5, 0, 0), (1.5, 0, -9)]).tolist()
+    [True, False, True]
+    """
+
+    system: CoordinateSystem
+    box: Box
+
+    def __post_init__(self) -> None:
+        if self.system.distance != INFINITE and not -1.0 < self.box.min_z < self.box.max_z < INFINITE:
+            raise InputError("near and far plane must lie in front of the neutral plane: -1 < far < near after T2")
+
+    @property
+    def depths(self) -> tuple[float, float]:
+        """Depths of the far and of the near plane in the system."""
+        if self.system.distance == INFINITE:
+            return self.box.min_z, self.box.max_z
+        far, near = depth_of([self.box.min_z, self.box.max_z], self.system.distance)
+        return float(far), float(near)
+
+    @property
+    def corners(self) -> Floats:
+        """(8, 3) in the world: far ones first, then lower ones, then left ones."""
+        w, (far, near) = self.box.window, self.depths
+        limits = np.array([[w.min_x, w.min_y, far], [w.max_x, w.max_y, near]])
+        return self.system.to_world(np.take_along_axis(limits, _CORNERS, axis=0))
+
+    @property
+    def mesh(self) -> Mesh:
+        """The frustum as a solid: far, near, left, right, upper and lower face."""
+        turned = np.prod(np.sign(self.system.scale)) < 0.0
+        mesh = Mesh.from_polygons(self.corners, _FACES)
+        return mesh.reversed() if turned else mesh
+
+    @property
+    def box_mesh(self) -> Mesh:
+        """The same solid after T2: a box."""
+        w = self.box.window
+        limits = np.array([[w.min_x, w.min_y, self.box.min_z], [w.max_x, w.max_y, self.box.max_z]])
+        return Mesh.from_polygons(np.take_along_axis(limits, _CORNERS, axis=0), _FACES)
+
+    def contains(self, points: ArrayLike) -> Bools:
+        """Which world points lie inside or on the border.
+
+        Parameters
+        ----------
+        points : (..., 3) array_like of float
+            In the world.
+
+        Returns
+        -------
+        (...) array of bool
+            False for what lies behind the eye.
+        """
+        return np.asarray((matmul(self.system.homogeneous(points), self.box.planes.T) >= 0.0).all(axis=-1))
+
+
+# Homogeneous points, and matrices that act on them. Points are columns: a point p goes to matrix @ p.
+
+
+def homogeneous(points: ArrayLike) -> Floats:
+    """Homogeneous coordinates of points, last component 1.
+
+    Parameters
+    ----------
+    points : (..., k) array_like of float
+        In the plane or in space.
+
+    Returns
+    -------
+    (..., k+1) array of float
+        With one more column.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import homogeneous
+    >>> homogeneous([(3, 4)]).tolist()
+    [[3.0, 4.0, 1.0]]
+    """
+    p = np.asarray(points, dtype=np.float64)
+    return np.concatenate([p, np.ones((*p.shape[:-1], 1))], axis=-1)
+
+
+def dehomogenized(points: ArrayLike) -> Floats:
+    """The points of homogeneous coordinates, which may carry any common factor.
+
+    Parameters
+    ----------
+    points : (..., k+1) array_like of float
+        Homogeneous.
+
+    Returns
+    -------
+    (..., k) array of float
+        Divided by the last component.
+
+    Raises
+    ------
+    InputError
+        For points at infinity (last component 0).
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import dehomogenized
+    >>> dehomogenized([(6, 8, 2)]).tolist()
+    [[3.0, 4.0]]
+    """
+    p = np.asarray(points, dtype=np.float64)
+    if np.any(p[..., -1] == 0.0):
+        raise InputError("a point at infinity has no coordinates")
+    return np.asarray(p[..., :-1] / p[..., -1:])
+
+
+def transformed(matrix: ArrayLike, points: ArrayLike) -> Floats:
+    """Points under a homogeneous matrix, after division by the last component.
+
+    Parameters
+    ----------
+    matrix : (k+1, k+1) array_like of float
+        Acts on homogeneous columns.
+    points : (..., k) array_like of float
+        In the plane or in space.
+
+    Returns
+    -------
+    (..., k) array of float
+        Their images.
+
+    Raises
+    ------
+    InputError
+        For images at infinity.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import transformed, viewport
+    >>> transformed(viewport(100, 80), [(-1, -1, 0), (1, 1, 0)]).tolist()
+    [[-0.5, -0.5, 0.0], [99.5, 79.5, 0.0]]
+    """
+    return dehomogenized(matmul(homogeneous(points), np.asarray(matrix, dtype=np.float64).T))
+
+
+# The matrices of the viewing pipeline. Points are columns: a point p goes to matrix @ p, the first of several stands
+# right.
+#
+# Camera coordinates: x right, y up, z towards the eye; what is seen has z < 0, and so near and far are negative
+# numbers. Source: viewing-transformation lecture; errata V-01 to V-05.
+
+
+def window_transform(source: ArrayLike, target: ArrayLike) -> Floats:
+    """The matrix that carries one box to another, translate, scale, translate: windows in the plane, boxes in space.
+
+    Parameters
+    ----------
+    source, target : (2, k) array_like of float
+        Two opposite corners each, in the same order; a target may run backwards, which mirrors.
+
+    Returns
+    -------
+    (k+1, k+1) array of float
+        Acts on homogeneous columns.
+
+    Raises
+    ------
+    InputError
+        For a source box without extent.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import transformed, window_transform
+    >>> matrix = window_transform([(0, 0), (2, 2)], [(0, 100), (100, 0)])
+    >>> transformed(matrix, [(0, 0), (1, 2)]).tolist()
+    [[0.0, 100.0], [50.0, 0.0]]
+    """
+    s, t = np.asarray(source, dtype=np.float64), np.asarray(target, dtype=np.float64)
+    if np.any(s[0] == s[1]):
+        raise InputError("a window without extent cannot be mapped")
+    k = s.shape[1]
+    matrix = np.eye(k + 1)
+    matrix[np.arange(k), np.arange(k)] = (t[1] - t[0]) / (s[1] - s[0])
+    matrix[:k, k] = (t[0] * s[1] - t[1] * s[0]) / (s[1] - s[0])
+    return matrix
+
+
+def viewport(columns: int, rows: int) -> Floats:
+    """The matrix from the square [-1, 1]^2 to an image of so many pixels, whose centres are the integers.
+
+    Parameters
+    ----------
+    columns, rows : int
+        The size in pixels.
+
+    Returns
+    -------
+    (4, 4) array of float
+        The image is [-1/2, columns - 1/2] x [-1/2, rows - 1/2]. Depth is kept. Row 0 is at y = -1.
+
+    Raises
+    ------
+    InputError
+        For an image without pixels.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import transformed, viewport
+    >>> transformed(viewport(4, 2), [(0, 0, 0.5)]).tolist()
+    [[1.5, 0.5, 0.5]]
+    """
+    if columns < 1 or rows < 1:
+        raise InputError(f"an image of {columns} x {rows} pixels shows nothing")
+    matrix = np.eye(4)
+    matrix[0, 0], matrix[0, 3] = columns / 2.0, (columns - 1) / 2.0
+    matrix[1, 1], matrix[1, 3] = rows / 2.0, (rows - 1) / 2.0
+    return matrix
+
+
+@dataclass(frozen=True)
+class ViewVolume:
+    """What is seen, in camera coordinates.
+
+    Parameters
+    ----------
+    left, right : float
+        Limits of x in the plane z = near, left < right.
+    bottom, top : float
+        Limits of y there, bottom < top.
+    near, far : float
+        Limits of z, 0 > near > far.
+
+    Raises
+    ------
+    InputError
+        For a volume that is empty or reaches the eye.
+
+    Notes
+    -----
+    Source: lecture, M_orth, P and M_per.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import ViewVolume, transformed
+    >>> volume = ViewVolume(-1, 1, -1, 1, near=-1, far=-9)
+    >>> transformed(volume.orthographic_perspective, [(1, 1, -1), (9, -9, -9)]).tolist()
+    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0]]
+    """
+
+    left: float
+    right: float
+    bottom: float
+    top: float
+    near: float
+    far: float
+
+    def __post_init__(self) -> None:
+        if not (self.left < self.right and self.bottom < self.top and 0.0 > self.near > self.far > -np.inf):
+            raise InputError("a view volume needs left < right, bottom < top and 0 > near > far")
+
+    @classmethod
+    def of_field(cls, fov_deg: float, aspect: float, near: float, far: float) -> ViewVolume:
+        """The symmetric volume with a field of vision over its height.
+
+        Parameters
+        ----------
+        fov_deg : float
+            In degrees.
+        aspect : float
+            Width / height.
+        near, far : float
+            As of ViewVolume.
+
+        Returns
+        -------
+        ViewVolume
+            With the eye's ray in its middle.
+
+        Raises
+        ------
+        InputError
+            For what ViewVolume refuses.
+        """
+        half = -near * float(tan(np.radians(fov_deg) / 2.0))
+        return cls(-half * aspect, half * aspect, -half, half, near, far)
+
+    @cached_property
+    def orthographic(self) -> Floats:
+        """(4, 4) from the box to the cube [-1, 1]^3: near to z = +1, far to -1."""
+        low, high = (self.left, self.bottom, self.far), (self.right, self.top, self.near)
+        return window_transform((low, high), ((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)))
+
+    @cached_property
+    def perspective(self) -> Floats:
+        """(4, 4) from the frustum to the box: keeps the near plane, the z of the far plane and the order in between.
+
+        The last component of a visible point's image is its z, a negative number (erratum V-04).
+        """
+        n, f = self.near, self.far
+        return np.array([[n, 0.0, 0.0, 0.0], [0.0, n, 0.0, 0.0], [0.0, 0.0, n + f, -f * n], [0.0, 0.0, 1.0, 0.0]])
+
+    @cached_property
+    def orthographic_perspective(self) -> Floats:
+        """(4, 4) from the frustum to the cube: both in one."""
+        return np.asarray(matmul(self.orthographic, self.perspective))
+
+
+def camera_matrix(eye: ArrayLike, gaze: ArrayLike, up: ArrayLike) -> Floats:
+    """M_cam, from the world to camera coordinates: the eye goes to the origin, the gaze to -z.
+
+    Parameters
+    ----------
+    eye : (3,) array_like of float
+        In the world.
+    gaze, up : (3,) array_like of float
+        As of basis_of_gaze.
+
+    Returns
+    -------
+    (4, 4) array of float
+        Acts on homogeneous columns.
+
+    Raises
+    ------
+    InputError
+        For vectors without length, or collinear ones.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.textbook import camera_matrix, transformed
+    >>> camera = camera_matrix(eye=(0, -5, 0), gaze=(0, 1, 0), up=(0, 0, 1))
+    >>> np.allclose(transformed(camera, [(0, 0, 0), (1, 0, 2)]), [(0, 0, -5), (1, 2, -5)])
+    True
+    """
+    return frame_from_world(eye, basis_of_gaze(gaze, up))
+
+
+def pixel_matrix(camera: ArrayLike, volume: ViewVolume, columns: int, rows: int) -> Floats:
+    """Viewport, orthographic, perspective and camera matrix in one: from the world to pixels and depth.
+
+    Parameters
+    ----------
+    camera : (4, 4) array_like of float
+        As of camera_matrix.
+    volume : ViewVolume
+        What is seen.
+    columns, rows : int
+        The size of the image in pixels.
+
+    Returns
+    -------
+    (4, 4) array of float
+        Acts on homogeneous columns.
+
+    Raises
+    ------
+    InputError
+        For an image without pixels.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import ViewVolume, camera_matrix, pixel_matrix, transformed
+    >>> camera = camera_matrix(eye=(0, 0, 5), gaze=(0, 0, -1), up=(0, 1, 0))
+    >>> matrix = pixel_matrix(camera, ViewVolume(-1, 1, -1, 1, -1, -9), 100, 80)
+    >>> transformed(matrix, [(0, 0, 4), (1, 1, 4)])[:, :2].round(6).tolist()
+    [[49.5, 39.5], [99.5, 79.5]]
+    """
+    return np.asarray(
+        matmul(
+            matmul(viewport(columns, rows), volume.orthographic_perspective),
+            np.asarray(camera, dtype=np.float64),
+        )
+    )
+
+
+def segments_to_pixels(
+    starts: ArrayLike, ends: ArrayLike, camera: ArrayLike, volume: ViewVolume, columns: int, rows: int
+) -> tuple[Floats, Floats, Bools]:
+    """The images of segments, and which segments have one.
+
+    Parameters
+    ----------
+    starts, ends : (n, 3) array_like of float
+        In the world.
+    camera : (4, 4) array_like of float
+        As of camera_matrix.
+    volume : ViewVolume
+        What is seen.
+    columns, rows : int
+        The size of the image in pixels.
+
+    Returns
+    -------
+    (n, 3) array of float
+        The images of the starts, in pixels and depth; zeros where there is none.
+    (n, 3) array of float
+        Those of the ends.
+    (n,) array of bool
+        Which segments have an image.
+
+    Raises
+    ------
+    InputError
+        For an image without pixels.
+
+    Notes
+    -----
+    Segments are cut at the near plane before the division, so one that reaches behind the eye shows its part in front.
+    Nothing else is cut.
+
+    Source: lecture, final algorithm; erratum V-04.
+
+    Examples
+    --------
+    >>> from vectorplot.textbook import ViewVolume, camera_matrix, segments_to_pixels
+    >>> camera = camera_matrix(eye=(0, 0, 5), gaze=(0, 0, -1), up=(0, 1, 0))
+    >>> volume = ViewVolume(-1, 1, -1, 1, -1, -9)
+    >>> starts, ends, seen = segments_to_pixels([(0, 0, 0), (0, 0, 6)], [(1, 0, 6), (0, 0, 9)], camera, volume, 100, 80)
+    >>> seen.tolist(), ends[0, 2].round(6).item()
+    ([True, False], 1.0)
+    """
+    camera = np.asarray(camera, dtype=np.float64)
+    p, q = (matmul(homogeneous(x), camera.T) for x in (starts, ends))
+    above_p, above_q = p[:, 2] - volume.near, q[:, 2] - volume.near
+    seen = (above_p <= 0.0) | (above_q <= 0.0)
+    gap = np.where((above_p > 0.0) == (above_q > 0.0), 1.0, above_p - above_q)
+    at_near = p + (above_p / gap)[:, None] * (q - p)
+    at_near[:, 2] = volume.near
+    matrix = matmul(viewport(columns, rows), volume.orthographic_perspective)
+    images = np.zeros((2, len(p), 3))
+    for image, point, above in ((images[0], p, above_p), (images[1], q, above_q)):
+        kept = np.where((above > 0.0)[:, None], at_near, point)[seen]
+        image[seen] = dehomogenized(matmul(kept, matrix.T))
+    return images[0], images[1], np.asarray(seen)

@@ -1,1 +1,0 @@
-"""Which of two faces or bodies is painted first."""

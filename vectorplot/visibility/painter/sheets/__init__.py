@@ -1,1 +1,0 @@
-"""Transparent polygons, blended as sheets."""

@@ -1,1 +1,0 @@
-"""Convex bodies of quadrics as the eye sees them, and what they hide."""

@@ -1,1 +1,0 @@
-"""Where the visibility of a curve may change."""

@@ -1,1 +1,0 @@
-"""Smooth surfaces as the second engine sees them."""

@@ -1,1 +1,0 @@
-"""The curves of a scene, before it is known what hides them."""
