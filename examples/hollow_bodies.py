@@ -55,7 +55,7 @@ def main(folder: Path) -> None:
     inside = np.array(shows_inside)
     whole = drawing.layers[0].marks
     for name, kept in (("insides", inside), ("whole", inside | True)):
-        marks = tuple(mark.some(np.flatnonzero(kept)) if mark is fills else mark for mark in whole)
+        marks = tuple(mark.take(np.flatnonzero(kept)) if mark is fills else mark for mark in whole)
         layers = (replace(drawing.layers[0], marks=marks), *drawing.layers[1:])
         vp.save(replace(drawing, layers=layers), folder / f"hollow_bodies_{name}.svg")
 

@@ -14,7 +14,14 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.geometry import box, placed
 from vectorplot.scene import look
-from vectorplot.visibility import demands, gordian_knots, knot_report, mikado, priorities, view_objects
+from vectorplot.visibility import (
+    cyclic_overlap_report,
+    cyclic_overlaps,
+    demands,
+    priorities,
+    topological_order,
+    view_objects,
+)
 
 COLOURS = ("orange", "green", "blue", "yellow", "pink", "cyan")
 STICK = placed(box((9, 0.4, 0.3)), (1, 0, 0, -4.5, 0, 1, 0, -0.2, 0, 0, 1, 0))
@@ -34,10 +41,10 @@ def sticks(count: int) -> tuple[vp.Item, ...]:
 
 
 def main(folder: Path) -> None:
-    scene = vp.Scene(sticks(12), (LIGHT,), title="Mikado")
+    scene = vp.Scene(sticks(12), (LIGHT,), title="TopologicalSort")
     camera = vp.Camera(eye=(8, -18, 34), target=(0, 0, 1), fov_deg=20)
     before, after = demands(priorities(view_objects(look(scene, camera))))
-    found = mikado(12, before, after)
+    found = topological_order(12, before, after)
     place = np.argsort(found.order)
     assert not len(found.knot) and (place[before] < place[after]).all()
     assert (before < after).all(), "the eye is above: higher sticks come later"
@@ -49,8 +56,8 @@ def main(folder: Path) -> None:
     tangled = replace(scene, items=(*scene.items[8:], *KNOT.items))
     assert KNOT.camera is not None
     before, after = demands(priorities(view_objects(look(tangled, KNOT.camera))))
-    (knot,) = gordian_knots(len(tangled.items), before, after)
-    (sentence,) = knot_report([knot], [item.name for item in tangled.items])
+    (knot,) = cyclic_overlaps(len(tangled.items), before, after)
+    (sentence,) = cyclic_overlap_report([knot], [item.name for item in tangled.items])
     assert knot.tolist() == [4, 5, 6] and all(bar.name in sentence for bar in KNOT.items)
 
 

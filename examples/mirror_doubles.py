@@ -52,7 +52,7 @@ def main(folder: Path) -> None:
     at = reflected(np.array([(3.0, -2, 4)]), np.array([1.0, 2, 2]), 5.0)[0]
     assert np.allclose(at, (2.55555555555556, -2.88888888888889, 3.11111111111111))
     (fills,) = shown.layers[0].fills
-    seen = fills.some(np.flatnonzero(fills.kind == FillKind.REFLECTION))
+    seen = fills.take(np.flatnonzero(fills.kind == FillKind.REFLECTION))
     corners = np.concatenate([item.mesh.vertices for item in map(double, bodies)])
     flat = np.column_stack([corners, np.ones(len(corners))]) @ shown.page_from_world.T
     images = flat[:, :2] / flat[:, 3:]

@@ -70,7 +70,7 @@ def main(folder: Path) -> None:
     flip = np.array([turn(c) for c in corners]) > 0
     inner = face_colours(view, (replace(vase, colour="blue"),), face_shades(view, scene.items, lights).total)
     two = Fills.flat(fills.points, offsets, np.where(flip[:, None], colours[order], inner[order]))
-    for name, part in (("half", two.some(np.arange(len(fills) // 2))), ("whole", two)):
+    for name, part in (("half", two.take(np.arange(len(fills) // 2))), ("whole", two)):
         drawing = vp.Drawing(96, 120, (vp.Layer("rings", vp.Pen(), (part,)),), title="Rings")
         vp.save(drawing, folder / f"revolution_rings_{name}.svg")
 

@@ -35,7 +35,7 @@ def main(folder: Path) -> None:
             vp.save(drawing, folder / "swimming_pool.svg")
 
         (fills,) = drawing.layers[0].fills
-        under = fills.some(np.flatnonzero((fills.kind == FillKind.GLASS) | (fills.kind == FillKind.FACE)))
+        under = fills.take(np.flatnonzero((fills.kind == FillKind.GLASS) | (fills.kind == FillKind.FACE)))
         seen = seen_in_surface(eye, tiles, (0, 0, 1), (0, 0, LEVEL), C)
         assert np.allclose(seen[:, 2], LEVEL)
         gap = np.linalg.norm(on_page(drawing, seen)[:, None] - under.points, axis=2).min(axis=1)

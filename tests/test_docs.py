@@ -26,7 +26,7 @@ from vectorplot.cli.commands.sheet import sheet
 from vectorplot.cli.commands.speed import speed
 from vectorplot.cli.commands.try_ import try_
 from vectorplot.cli.main import run
-from vectorplot.geometry.columns import dot
+from vectorplot.geometry.component_arrays import dot
 
 DOCS = ROOT / "docs"
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted(DOCS.glob("*.md")), *sorted(DOCS.glob("*/*.md"))]

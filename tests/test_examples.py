@@ -255,7 +255,7 @@ def test_scenes_are_painted_as_well(name, made):
 def test_the_cube_with_patterns_shows_those_of_its_visible_faces():
     scene = vp.read(ROOT / "data" / "patterns.scene")
     (fills,) = vp.paint(scene).layers[0].fills
-    patterns = fills.some(np.flatnonzero(fills.kind == FillKind.PATTERN))
+    patterns = fills.take(np.flatnonzero(fills.kind == FillKind.PATTERN))
     assert len(patterns) == 4
     on_top = np.abs(patterns.points3d[:, 2] - 10.0) < 1e-9
     assert on_top.sum() == 8, "the two polygons on the top are two of them"

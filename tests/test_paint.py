@@ -245,7 +245,7 @@ def test_patterns_lie_on_their_faces_also_in_mirrors_and_shadows() -> None:
     assert inside[0] > 100 and inside[2] < 20 and outside[2] > 100
     below = Camera((0.0, -0.5, 0.6), (0.0, 0.0, 0.0), up=(0.0, 1.0, 0.0), fov_deg=100.0)
     fills = fills_of(paint(scene, below, page=SQUARE, fit=False, smooth=False))
-    spots = fills.some(np.flatnonzero(fills.kind == FillKind.PATTERN))
+    spots = fills.take(np.flatnonzero(fills.kind == FillKind.PATTERN))
     reds = np.unique(spots.colours[:, 0])
     assert len(reds) == 2 and reds[0] < 0.7 * reds[1], "one part in the light, one in the shadow"
     mirror = Item("MIRROR", box((-3, 2, -3), (3, 2.1, 3)), "cyan", Material("mirror"))

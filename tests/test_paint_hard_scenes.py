@@ -36,7 +36,7 @@ def test_two_mirrors_show_each_other_as_plain_faces() -> None:
         Item("POST", box((-0.5, 0, 0), (0.5, 1, 1.5)), "orange"),
     )
     fills = fills_of(paint(Scene(walls, (SUN,)), Camera((4, -9, 4), (0, 0, 1))))
-    doubles = fills.some(np.flatnonzero(fills.kind == FillKind.REFLECTION))
+    doubles = fills.take(np.flatnonzero(fills.kind == FillKind.REFLECTION))
     assert set(doubles.item.tolist()) == {0, 1, 2}
     # What is painted after the double of the one mirror in the other are things before it, none of them its doubles.
     seen = fills.points3d[fills.offsets[:-1][fills.kind == FillKind.REFLECTION]]

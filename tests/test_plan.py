@@ -16,7 +16,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.io.read_file import read
 from vectorplot.pictures.draw import draw
 from vectorplot.pictures.paint import paint
-from vectorplot.pictures.pipeline import Stage, StageReport, Walk
+from vectorplot.pictures.pipeline import Pipeline, Stage, StageReport
 from vectorplot.pictures.render import render
 from vectorplot.scene.item import Item, Pattern, SurfaceNormals
 from vectorplot.scene.light import Light
@@ -244,7 +244,7 @@ def test_transparency_without_refraction_loads_no_effect() -> None:
 
 
 def test_what_overflows_in_a_stage_is_infinite_without_a_warning() -> None:
-    walk = Walk((Stage("look", "always"),), None, None)
+    walk = Pipeline((Stage("look", "always"),), None, None)
     assert walk.run("look", lambda: np.float64(1e200) * np.array([1e200]))[0] == np.inf
     with pytest.warns(RuntimeWarning, match="invalid"):
         walk.run("look", lambda: np.array([np.inf]) - np.inf)

@@ -138,7 +138,7 @@ def test_balls_on_sticks() -> None:
     assert exponent < 1.2
 
 
-def mikado(count: int) -> Scene:
+def topological_order(count: int) -> Scene:
     """Rods that lie across each other, as dense whatever their number."""
     rng = np.random.default_rng(1)
     middles = rng.uniform(0.0, 1.6 * count ** (1.0 / 3.0), (count, 3))
@@ -158,8 +158,8 @@ def calls(scene: Scene) -> int:
 
 def test_rods_across_each_other() -> None:
     """Every pair has its curve, found with those of the others in whole arrays."""
-    exponent = measured("rods across each other", {count: mikado(count) for count in (400, 1600)})
-    more = calls(mikado(400)) - calls(mikado(100))
+    exponent = measured("rods across each other", {count: topological_order(count) for count in (400, 1600)})
+    more = calls(topological_order(400)) - calls(topological_order(100))
     print(f"  growth exponent {exponent:.2f}, {more / 300:,.0f} calls for each more")
     assert exponent < 1.2
     assert more < 300 * 600

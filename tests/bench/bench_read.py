@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from vectorplot.geometry.mesh_repair import is_closed_oriented, mended
+from vectorplot.geometry.mesh_repair import is_closed_oriented, repaired
 from vectorplot.io.mesh_file import decimals, padded
 from vectorplot.io.read_file import read
 
@@ -107,7 +107,7 @@ def test_test_of_closedness_needs_no_sort(stl: Path) -> None:
     )
     print(f"\n1.3M triangles, closed and oriented: {seconds:.3f} s (one sort of as many keys: {sorting:.3f} s)")
     assert is_closed_oriented(mesh)
-    print(f"1.3M triangles, mended: {_seconds(lambda: mended(mesh, 2.0**-23)):.2f} s")
+    print(f"1.3M triangles, mended: {_seconds(lambda: repaired(mesh, 2.0**-23)):.2f} s")
 
 
 def test_decimals_against_python() -> None:

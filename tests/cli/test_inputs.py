@@ -13,7 +13,7 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.cli.options import direction
 from vectorplot.geometry import box
-from vectorplot.io.mesh_file import upwards_hint
+from vectorplot.io.mesh_file import up_axis_hint
 
 
 @pytest.fixture
@@ -61,7 +61,7 @@ def test_directions_have_names():
     ],
 )
 def test_files_with_y_upwards_are_hinted_at(name, sides, camera, hinted):
-    told = upwards_hint(name, vp.Scene((vp.Item("a", box(sides)),), camera=camera))
+    told = up_axis_hint(name, vp.Scene((vp.Item("a", box(sides)),), camera=camera))
     assert (told is not None) == hinted and (told is None or "--up y stands it up" in told)
 
 

@@ -41,7 +41,7 @@ def test_long_work_shows_the_stage_and_takes_the_bar_away(monkeypatch):
 
 
 def test_warnings_are_told_once_and_only_those_about_input(capsys):
-    with progress.told_warnings(quiet=False):
+    with progress.reported_warnings(quiet=False):
         for _ in range(2):
             warnings.warn("a.obj: one\nthing", InputWarning, stacklevel=1)
         warnings.simplefilter("ignore", RuntimeWarning)

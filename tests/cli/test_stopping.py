@@ -20,7 +20,7 @@ from support.paths import ROOT
 
 import vectorplot as vp
 from vectorplot.cli.main import run, stoppable
-from vectorplot.pictures.pipeline import Walk
+from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.save import write
 
 SCENE = """
@@ -90,7 +90,7 @@ class Walked:
 
 
 def walked(arguments: list[str], monkeypatch) -> Walked:
-    found, real = Walked([], {}, {}), Walk.run
+    found, real = Walked([], {}, {}), Pipeline.run
 
     def recorded(walk, name, *rest, **more):
         number = len(found.stages)
@@ -100,7 +100,7 @@ def walked(arguments: list[str], monkeypatch) -> Walked:
         return found.results[number]
 
     with monkeypatch.context() as patch:
-        patch.setattr(Walk, "run", recorded)
+        patch.setattr(Pipeline, "run", recorded)
         assert run(arguments) == 0
     return found
 
@@ -117,7 +117,7 @@ def whole_walk(words: tuple[str, ...]) -> Walked:
 def stop_at(number: int, what, before: Walked, monkeypatch) -> None:
     """From the stage with this number on, call what; in the middle of the stage's own work where that is the last. What
     the stages before it gave in a whole run need not be found again."""
-    real, begun = Walk.run, [0]
+    real, begun = Pipeline.run, [0]
 
     def stopping(self, name, function, *rest, **more):
         here = begun[0]
@@ -135,7 +135,7 @@ def stop_at(number: int, what, before: Walked, monkeypatch) -> None:
 
         return real(self, name, stopped, *rest, **more)
 
-    monkeypatch.setattr(Walk, "run", stopping)
+    monkeypatch.setattr(Pipeline, "run", stopping)
 
 
 @pytest.mark.slow

@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_slots import Formulas, formula_graph, formula_surface
+from vectorplot.io.shape_arguments import Formulas, formula_graph, formula_surface
 from vectorplot.surfaces.graphs import Disc, graph, graph_over_disc
 from vectorplot.surfaces.surface import Domain
 

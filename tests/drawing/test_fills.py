@@ -39,7 +39,7 @@ def polygon(fills: Fills, k: int) -> list:
 def test_some_and_joined_keep_every_column_in_order():
     fills = sample(30)
     which = np.array([7, 3, 3, 29, 0])
-    some = fills.some(which)
+    some = fills.take(which)
     assert [polygon(some, k) for k in range(5)] == [polygon(fills, k) for k in which]
     both = Fills.joined(some, Fills.empty(), fills)
     assert len(both) == 35
@@ -47,7 +47,7 @@ def test_some_and_joined_keep_every_column_in_order():
         *(polygon(some, k) for k in range(5)),
         *(polygon(fills, k) for k in range(30)),
     ]
-    assert len(Fills.joined()) == len(Fills.empty()) == len(fills.some(np.zeros(0, dtype=np.intp))) == 0
+    assert len(Fills.joined()) == len(Fills.empty()) == len(fills.take(np.zeros(0, dtype=np.intp))) == 0
 
 
 def test_flat_polygons_have_one_colour_and_lie_on_the_page_if_not_said_otherwise():

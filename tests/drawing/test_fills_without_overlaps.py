@@ -110,7 +110,7 @@ def assert_same_picture(painted: vp.Drawing) -> None:
     _, away = shapely.STRtree(edges).query_nearest(shapely.points(points), return_distance=True, all_matches=False)
     points = points[away > 1e-3]
     assert np.array_equal(colours_at(before, points), colours_at(after, points))
-    opaque = after.some(np.flatnonzero(after.opacity >= 1.0))
+    opaque = after.take(np.flatnonzero(after.opacity >= 1.0))
     polygons = polygons_of(opaque.points.T, opaque.offsets)
     assert shapely.area(polygons).sum() == pytest.approx(shapely.union_all(polygons, grid_size=1e-4).area, rel=1e-5)
     flat = np.c_[after.points3d, np.ones(len(after.points3d))] @ painted.page_from_world.T
@@ -132,7 +132,7 @@ def test_sides_that_run_out_and_back_again_are_no_obstacle() -> None:
 @pytest.mark.parametrize("name", ["mirror", "patterns", "shadows", "table"])
 def test_effects_leave_regions_that_do_not_overlap(name: str) -> None:
     seen = paint(vp.read(DATA / f"{name}.scene"), fills="visible").layers[0].fills[0]
-    opaque = seen.some(np.flatnonzero((seen.opacity == 1.0) & (np.diff(seen.offsets) > 2)))
+    opaque = seen.take(np.flatnonzero((seen.opacity == 1.0) & (np.diff(seen.offsets) > 2)))
     polygons = polygons_of(opaque.points.T, opaque.offsets)
     assert shapely.union_all(polygons, grid_size=1e-5).area == pytest.approx(shapely.area(polygons).sum(), rel=1e-5)
 

@@ -111,7 +111,7 @@ def test_shaded_polygons_keep_their_colours_where_they_are_cut() -> None:
     for corner in ((3.0, 0.0, 6.0, 4.0), (0.0, 0.0, 10.0, 4.0)):
         on = Overlay(rectangle(*corner, colour=(9, 9, 9), kind=FillKind.SHADOW), np.array([0]))
         found = flattened(base, [on], WORLD).fills
-        part = found.some(np.flatnonzero(found.kind == FillKind.FACE))
+        part = found.take(np.flatnonzero(found.kind == FillKind.FACE))
         expected = np.column_stack([20.0 * part.points, np.zeros(len(part.points))])
         assert np.abs(part.colours - expected).max() <= 0.5
 

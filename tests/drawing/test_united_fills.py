@@ -35,7 +35,7 @@ def seen():
 def test_every_shade_of_a_smooth_body_is_a_region(seen):
     painted, regions = seen
     for number, name in enumerate(("blue", "red")):
-        mine = regions.some(np.flatnonzero(regions.item == number))
+        mine = regions.take(np.flatnonzero(regions.item == number))
         colours = mine.colours[mine.offsets[:-1]]
         assert {tuple(colour) for colour in colours.tolist()} <= {tuple(row) for row in palette(name, STEPS).tolist()}
         assert STEPS // 2 <= len(np.unique(colours, axis=0)) <= len(mine) <= 4 * STEPS
@@ -53,7 +53,7 @@ def test_regions_of_shades_cover_what_was_painted_and_do_not_overlap(seen):
 def test_shades_of_regions_are_those_of_the_painting_to_half_a_step(seen):
     painted, regions = seen
     trees = [shapely.STRtree(polygons_of(fills.points.T, fills.offsets)) for fills in seen]
-    triangles = painted.some(np.flatnonzero((painted.item == 0) & (np.diff(painted.offsets) == 3)))
+    triangles = painted.take(np.flatnonzero((painted.item == 0) & (np.diff(painted.offsets) == 3)))
     middles = triangles.points.reshape(-1, 3, 2).mean(axis=1)
     shade = triangles.colours.reshape(-1, 3, 3)[..., 0].mean(axis=1) / 178.5
     # The last triangle is on top; of regions there is one only.

@@ -6,7 +6,7 @@ import pytest
 from vectorplot.features.edge_splitting import Within
 from vectorplot.features.facets import LOT, facets, facets_of_all
 from vectorplot.geometry.budget import USUAL
-from vectorplot.shading.fineness import Coarse
+from vectorplot.shading.facet_resolution import Coarse
 from vectorplot.surfaces.capped_bodies import Capped
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.placed_surface import PlacedSurface

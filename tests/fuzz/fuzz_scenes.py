@@ -8,8 +8,8 @@ from random import Random
 from fuzz.fuzz_words import HOSTILE, NAMES, changed_bytes, changed_words, number, one, repeated, whole
 
 from vectorplot.io.expressions import CONSTANTS, FUNCTIONS
+from vectorplot.io.named_shapes import CURVES, SURFACES
 from vectorplot.io.reserved_words import RESERVED
-from vectorplot.io.scene_families import CURVES, SURFACES
 from vectorplot.words import COLOURS, LINE_WORDS, MATERIALS
 
 VOCABULARY = (*sorted(RESERVED), *sorted(COLOURS), *NAMES, ",", '"', "#", "\n", "", "0", "-1", '"x"', '"2*pi"', '"1/0"')

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.geometry import columns
+from vectorplot.geometry import component_arrays as columns
 
 
 @pytest.mark.parametrize("count", [0, 1, 7, 500])

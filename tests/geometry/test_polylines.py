@@ -25,7 +25,7 @@ from vectorplot.geometry.polylines import (
     closed_round,
     joined,
     segments,
-    some,
+    take,
     with_points_kept,
 )
 from vectorplot.visibility.smooth.traced_curves import Curves
@@ -72,7 +72,7 @@ def points_of(line):
 @pytest.mark.parametrize("which", [[3, 0], [], [1], [2, 2], [0, 1, 2, 3, 4], CLOSED], ids=str)
 def test_some_lines_keep_all_that_is_said_of_them(type_, which):
     lines, index = of(type_), np.asarray(which) if len(which) else np.zeros(0, dtype=np.intp)
-    found = some(lines, index)
+    found = take(lines, index)
     named = np.flatnonzero(index) if index.dtype == np.bool_ else index
     points = np.concatenate([np.zeros(0, dtype=np.intp), *(points_of(k) for k in named)])
     assert np.diff(found.offsets).tolist() == [SIZES[k] for k in named]
@@ -143,7 +143,7 @@ def test_a_field_more_needs_a_mark_and_nothing_else():
         offsets: np.ndarray
 
     warm = Warm(np.arange(10) * 10, OFFSETS)
-    assert some(warm, np.array([2])).heat.tolist() == [30, 40]
+    assert take(warm, np.array([2])).heat.tolist() == [30, 40]
     assert joined([warm, warm]).heat.tolist() == [*warm.heat, *warm.heat]
 
 

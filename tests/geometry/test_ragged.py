@@ -8,7 +8,8 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.geometry import columns, ragged, vectors
+from vectorplot.geometry import component_arrays as columns
+from vectorplot.geometry import ragged, vectors
 
 SIZES = st.lists(st.integers(0, 5), max_size=12)
 

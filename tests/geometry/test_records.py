@@ -27,7 +27,7 @@ def marks(*numbers: int) -> Marks:
 
 @pytest.mark.parametrize("which", [np.array([2, 0]), np.array([True, False, True]), np.zeros(0, dtype=np.intp)])
 def test_some_of_a_record_has_rows_and_columns_of_the_same_elements(which):
-    some = records.some(marks(4, 5, 6), which)
+    some = records.take(marks(4, 5, 6), which)
     expected = marks(*np.array([4, 5, 6])[which].tolist())
     for name in ("places", "corners", "kind"):
         np.testing.assert_array_equal(getattr(some, name), getattr(expected, name))
@@ -54,7 +54,7 @@ class Faces:
 def test_polygons_may_keep_coordinates_in_columns():
     points = np.arange(21.0).reshape(3, 7)
     faces = Faces(points, np.array([0, 3, 7]), np.array([[1.0, 2.0], [3.0, 4.0]]))
-    last = polylines.some(faces, np.array([1]))
+    last = polylines.take(faces, np.array([1]))
     np.testing.assert_array_equal(last.points, points[:, 3:])
     np.testing.assert_array_equal(last.planes, [[2.0], [4.0]])
     both = polylines.joined([last, faces])

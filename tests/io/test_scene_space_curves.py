@@ -24,7 +24,7 @@ from vectorplot.curves.splines import (
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.io.description import describe
-from vectorplot.io.scene_families import CURVES
+from vectorplot.io.named_shapes import CURVES
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.pictures.draw import draw

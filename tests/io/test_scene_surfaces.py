@@ -10,7 +10,7 @@ from support.sample_surfaces import FAMILIES, same_surface
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.io.scene_families import SURFACES
+from vectorplot.io.named_shapes import SURFACES
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.scene.surface_lines import Section
 from vectorplot.surfaces.quadrics import Sphere

@@ -11,7 +11,7 @@ import vectorplot as vp
 from vectorplot.effects.scales import coloured
 from vectorplot.scene.item import SurfaceNormals
 from vectorplot.scene.scales import Colouring
-from vectorplot.shading.fineness import FacetedScene
+from vectorplot.shading.facet_resolution import FacetedScene
 from vectorplot.surfaces import Sphere
 
 

@@ -13,7 +13,7 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import fitted_picture
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.fineness import FacetedScene
+from vectorplot.shading.facet_resolution import FacetedScene
 from vectorplot.shading.shaded_faces import TrueNormals
 
 CAMERA = Camera.view("front")

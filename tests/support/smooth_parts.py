@@ -9,7 +9,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces.quadrics import Sphere
-from vectorplot.visibility.smooth.families import StraightLines
+from vectorplot.visibility.smooth.curve_families import StraightLines
 from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.sheets import ParametricSheet
 from vectorplot.visibility.smooth.traced_curves import Curves

@@ -15,7 +15,7 @@ from vectorplot.visibility.polyhedra.lines import edge_lines, frame_of, in_frame
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords
-from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth.scene_curves import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 

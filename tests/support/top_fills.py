@@ -27,7 +27,7 @@ def covering(fills: Fills, places: Floats) -> tuple[Ints, Ints]:
 
     sizes = np.diff(fills.offsets)
     kept = np.flatnonzero(sizes >= 3)
-    some = fills.some(kept)
+    some = fills.take(kept)
     rings = shapely.linearrings(some.points, indices=np.repeat(np.arange(len(kept)), np.diff(some.offsets)))
     place, polygon = shapely.STRtree(shapely.polygons(rings)).query(shapely.points(places), predicate="within")
     order = np.lexsort((polygon, place))

@@ -4,7 +4,7 @@ import pytest
 from vectorplot.features.edge_splitting import Within
 from vectorplot.features.facets import facets
 from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_slots import Formulas, formula_graph
+from vectorplot.io.shape_arguments import Formulas, formula_graph
 from vectorplot.surfaces.graphs import Graph
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import StackedSurfaces, jumping_cells, jumps

@@ -12,7 +12,7 @@ from support.smooth_seen import chords_seen
 import vectorplot as vp
 from vectorplot.errors import InputWarning
 from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_slots import Formulas, formula_implicit
+from vectorplot.io.shape_arguments import Formulas, formula_implicit
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.words import LineKind
 

@@ -16,7 +16,7 @@ from vectorplot.drawing.strokes import directed, swapped, unrolled, world_per_mm
 from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.polylines import joined, some, with_points
+from vectorplot.geometry.polylines import joined, take, with_points
 from vectorplot.geometry.projections import projection_of
 from vectorplot.scene.extent import GRID, smooth_bounds
 from vectorplot.scene.page import Page
@@ -95,13 +95,13 @@ def _sorted(mark: Paths | CurvedStrokes, nearest: _Nearest) -> Paths | CurvedStr
     first, last = paths.offsets[:-1], paths.offsets[1:] - 1
     keys = (far[first], number[last], number[first], paths.curve, paths.hidden_by > 0, paths.kind, paths.item)
     rank = np.lexsort(keys)
-    found = some(paths, rank)
+    found = take(paths, rank)
     if isinstance(mark, Paths):
         return found
     place = np.empty(len(rank), dtype=np.intp)
     place[rank] = np.arange(len(rank))
     arcs = replace(mark.arcs, stroke=place[mark.arcs.stroke])
-    return CurvedStrokes(found, some(mark.beziers, rank), arcs.some(np.argsort(arcs.stroke, kind="stable")))
+    return CurvedStrokes(found, take(mark.beziers, rank), arcs.take(np.argsort(arcs.stroke, kind="stable")))
 
 
 def _turned(mark: CurvedStrokes, nearest: _Nearest) -> CurvedStrokes:
@@ -158,8 +158,8 @@ def _cut_at_junctions(paths: Paths, nearest: _Nearest) -> Paths:
     if round_.any():
         some_cut = np.flatnonzero(cut)
         begin = some_cut[np.searchsorted(some_cut, paths.offsets[:-1]) % max(len(some_cut), 1)] - paths.offsets[:-1]
-        loops = some(unrolled(paths, np.where(round_, begin, 0), round_.astype(np.intp)), round_)
-        paths = joined([some(paths, ~round_), loops])
+        loops = take(unrolled(paths, np.where(round_, begin, 0), round_.astype(np.intp)), round_)
+        paths = joined([take(paths, ~round_), loops])
         cut = _junctions(paths, nearest)
     ends = np.zeros(len(cut), dtype=np.bool_)
     ends[paths.offsets[:-1]] = ends[paths.offsets[1:] - 1] = True

@@ -20,7 +20,7 @@ from vectorplot.errors import InputError, printable
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping import Polygons, Window, clip_lines_2d, clip_polygons_2d
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, Polylines, joined, segments, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, Polylines, joined, segments, take
 from vectorplot.geometry.regions import corners_of, polygons_of, triangles_of, unions
 from vectorplot.shading.palettes import PALETTE_LIMITS
 
@@ -238,7 +238,7 @@ class MovieFrame:
         first = np.repeat(self.shades[self.offsets[:-1]], self.sizes)
         return bool((self.shades != first).any())
 
-    def some(self, which: Ints | NDArray[np.bool_]) -> MovieFrame:
+    def take(self, which: Ints | NDArray[np.bool_]) -> MovieFrame:
         """The polygons with these numbers, or those where a mask is true.
 
         Parameters
@@ -259,7 +259,7 @@ class MovieFrame:
         >>> len(line.some(np.array([0, 0]))), len(line.some(np.array([False])))
         (2, 0)
         """
-        return some(self, which)
+        return take(self, which)
 
 
 @dataclass(frozen=True)
@@ -378,8 +378,8 @@ def coloured_polygons(drawing: Drawing) -> ColouredPolygons:
     white = Fills.whole_page(drawing.width_mm, drawing.height_mm, np.full(3, 255, dtype=np.uint8))
     (paper,) = _filled(white, window)
     found = _on_grid(joined([*parts, paper]) if parts else paper, scale)
-    sheet, rest = some(found, np.array([len(found) - 1])), some(found, np.arange(len(found) - 1))
-    rest = some(rest, _areas(rest) > TINY)
+    sheet, rest = take(found, np.array([len(found) - 1])), take(found, np.arange(len(found) - 1))
+    rest = take(rest, _areas(rest) > TINY)
     if len(rest) and _corners(rest) == _corners(sheet):
         return rest
     return joined([sheet, rest])
@@ -416,11 +416,11 @@ def _filled(fills: Fills, window: Window) -> list[ColouredPolygons]:
     inside = clip_polygons_2d(Polygons(table[at], offsets), window)
     faces = ColouredPolygons(inside.points[:, :2], inside.offsets, inside.points[:, 2:], fills.item[of])
     left = np.flatnonzero(np.diff(inside.offsets) > 0)
-    faces, owner = _few_corners(some(faces, left), of[left])
+    faces, owner = _few_corners(take(faces, left), of[left])
     pairs = np.flatnonzero(sizes == 2)
     lines, line = _clipped(table[fills.offsets[pairs]], table[fills.offsets[pairs] + 1], fills.item[pairs], window)
     found = joined([faces, lines])
-    return [some(found, np.argsort(np.concatenate([owner, pairs[line]]), kind="stable"))]
+    return [take(found, np.argsort(np.concatenate([owner, pairs[line]]), kind="stable"))]
 
 
 def _few_corners(faces: ColouredPolygons, owner: Ints) -> tuple[ColouredPolygons, Ints]:
@@ -428,7 +428,7 @@ def _few_corners(faces: ColouredPolygons, owner: Ints) -> tuple[ColouredPolygons
     many = np.diff(faces.offsets) > MOST_CORNERS
     if not many.any():
         return faces, owner
-    large, small = some(faces, many), some(faces, ~many)
+    large, small = take(faces, many), take(faces, ~many)
     triangles, of = triangles_of(polygons_of(large.points.T, large.offsets))
     points, offsets = corners_of(triangles)
     colours = np.repeat(large.colours[large.offsets[:-1]][of], np.diff(offsets), axis=0)
@@ -558,7 +558,7 @@ def pruned(frame: MovieFrame, item: Ints) -> Bools:
     faces = np.flatnonzero(sizes > 2)
     if len(faces) < 2:
         return needed
-    whole = frame.some(faces)
+    whole = frame.take(faces)
     shapes = polygons_of(whole.points.T.astype(np.float64), whole.offsets)
     sound = shapely.is_valid(shapes)
     faces, shapes = faces[sound], shapes[sound]
@@ -858,7 +858,7 @@ class Recorder:
         sizes = np.diff(found.offsets)
         palette, shades = self._palettes.of(found.colours, sizes)
         frame = MovieFrame(found.points.astype(np.intp), found.offsets, palette, shades)
-        frame = frame.some(pruned(frame, found.item))
+        frame = frame.take(pruned(frame, found.item))
         self._frames.append(None if self._shown is not None and frame == self._shown else frame)
         self._shown = frame
 

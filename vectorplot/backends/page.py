@@ -26,7 +26,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.geometry.vectors import all_components, any_component
 from vectorplot.scene.labels import TYPE_SIZE
 
@@ -504,7 +504,7 @@ def areas(fills: Fills, width_mm: float, height_mm: float) -> Areas:
     Shaded polygons become triangles, those that nearly have one colour become flat. Polygons without area, without
     opacity or off the page are dropped.
     """
-    solid = fills if (fills.opacity > 0.0).all() else fills.some(np.flatnonzero(fills.opacity > 0.0))
+    solid = fills if (fills.opacity > 0.0).all() else fills.take(np.flatnonzero(fills.opacity > 0.0))
     sizes = np.diff(solid.offsets)
     drawn = _with_flat_lines(Polygons(solid.points, solid.offsets, solid.colours, np.arange(len(solid))), sizes == 2)
     drawn = _fanned(drawn)
@@ -584,7 +584,7 @@ class Polygons:
 
 def _in_order(parts: tuple[Polygons, ...], place: tuple[Ints, ...]) -> Polygons:
     """The polygons of all parts by their places, those of one place in the order in which they come."""
-    return some(joined(parts), np.argsort(np.concatenate(place), kind="stable"))
+    return take(joined(parts), np.argsort(np.concatenate(place), kind="stable"))
 
 
 def _differ(colours: Colours, offsets: Ints) -> Bools:
@@ -622,7 +622,7 @@ def _fanned(polygons: Polygons) -> Polygons:
         polygons.colours[corner],
         polygons.source[owner],
     )
-    return _in_order((some(polygons, others), fans), (others, owner))
+    return _in_order((take(polygons, others), fans), (others, owner))
 
 
 def _clipped(polygons: Polygons, width_mm: float, height_mm: float) -> Polygons:
@@ -633,9 +633,9 @@ def _clipped(polygons: Polygons, width_mm: float, height_mm: float) -> Polygons:
     count = ragged.offsets(beyond)[polygons.offsets]
     out, line = count[1:] > count[:-1], np.diff(polygons.offsets) == 2
     inside, cut, crossing = (np.flatnonzero(which) for which in (~out, out & ~line, out & line))
-    parts, owner = _cut(some(polygons, cut), low, high)
-    lines, of_line = _cut_lines(some(polygons, crossing), low, high)
-    return _in_order((some(polygons, inside), parts, lines), (inside, cut[owner], crossing[of_line]))
+    parts, owner = _cut(take(polygons, cut), low, high)
+    lines, of_line = _cut_lines(take(polygons, crossing), low, high)
+    return _in_order((take(polygons, inside), parts, lines), (inside, cut[owner], crossing[of_line]))
 
 
 def _cut(polygons: Polygons, low: Floats, high: Floats) -> tuple[Polygons, Ints]:
@@ -893,5 +893,5 @@ def _whole_arcs(mark: CurvedStrokes, page: Rectangle, source: Ints) -> EllipseAr
     out = ((control < page[:2]) | (control > page[2:])).any(axis=(1, 2))
     owner = ragged.owner(np.diff(mark.beziers.offsets))
     cut = np.bincount(owner[out], minlength=len(mark))[mark.arcs.stroke] > 0
-    arcs = mark.arcs.some(~cut & np.isin(mark.arcs.stroke, source))
+    arcs = mark.arcs.take(~cut & np.isin(mark.arcs.stroke, source))
     return replace(arcs, stroke=np.searchsorted(source, arcs.stroke))

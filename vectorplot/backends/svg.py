@@ -35,7 +35,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse, singular_decomposition
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.tolerances import ABOVE_WHOLE, ARC_DECIMAL_MM, LEAST_DIVISOR, NARROW_OF_LENGTH
 
 
@@ -176,7 +176,7 @@ class Strips:
 def joined_strips(one: Strips, other: Strips) -> Strips:
     """The strips of both by their triangles."""
     both = joined((one, other))
-    return some(both, np.argsort(both.triangle, kind="stable"))
+    return take(both, np.argsort(both.triangle, kind="stable"))
 
 
 def stops_of(colours: Floats) -> tuple[Floats, Ints, Ints]:
@@ -499,7 +499,7 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
     )
     place = np.empty(len(order), dtype=np.intp)
     place[order] = np.arange(len(order))
-    return pieces, some(strips, np.flatnonzero(~flat)), place[len(others) :][~flat], ramps
+    return pieces, take(strips, np.flatnonzero(~flat)), place[len(others) :][~flat], ramps
 
 
 # Texts in SVG: text elements that readers set, search and copy.
@@ -686,7 +686,7 @@ def _arc_data(lines: PageStrokes, height: int) -> list[bytes]:
     owner = ragged.owner(count)
     last = np.cumsum(count) - 1
     number = np.arange(len(owner)) - np.repeat(last + 1 - count, count) + 1
-    end = arcs.some(owner).points(arcs.start[owner] + (arcs.end - arcs.start)[owner] * (number / count[owner]))
+    end = arcs.take(owner).points(arcs.start[owner] + (arcs.end - arcs.start)[owner] * (number / count[owner]))
     # The last end is that of the stroke, so that strokes that touch do so in the file too.
     end[last] = lines.microns[lines.offsets[arcs.stroke + 1] - 1] / 1000.0
     end[:, 1] = height / 1000.0 - end[:, 1]

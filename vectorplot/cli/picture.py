@@ -80,7 +80,7 @@ def progress_bar(*, quiet: bool) -> Iterator[Progress | None]:
 
 
 @contextmanager
-def told_warnings(*, quiet: bool) -> Iterator[None]:
+def reported_warnings(*, quiet: bool) -> Iterator[None]:
     """Print every InputWarning of the work, up to WARNINGS of them, as one line on stderr, after the work.
 
     Work that fails says why in one line, and nothing else.
@@ -170,13 +170,13 @@ class Source:
 
     def read(self) -> Scene:
         """All that is in them; an InputWarning hints at files with y upwards."""
-        from vectorplot.io.mesh_file import upwards_hint
+        from vectorplot.io.mesh_file import up_axis_hint
         from vectorplot.io.read_file import read_named
         from vectorplot.scene.scene import together
 
         scenes = [read_named(path, exaggeration=self.exaggeration) for path in self.paths]
         for path, scene in zip(self.paths, scenes, strict=True):
-            told = None if self.upright else upwards_hint(path, scene)
+            told = None if self.upright else up_axis_hint(path, scene)
             if told is not None:
                 warnings.warn(told, InputWarning, stacklevel=2)
         return together(scenes)
@@ -199,7 +199,7 @@ def make_picture(
     processors where it is None; overlaid: texts are left to LaTeX, in a file beside OUT.
     """
     reports: list[StageReport] = []
-    with told_warnings(quiet=quiet):
+    with reported_warnings(quiet=quiet):
         check_place(out)
         with progress_bar(quiet=quiet) as progress:
             report = Report(progress, reports.append if explain else None)
@@ -225,7 +225,7 @@ def make_pages(
     from vectorplot.save_frames import write_frames
 
     reports: list[StageReport] = []
-    with told_warnings(quiet=quiet):
+    with reported_warnings(quiet=quiet):
         check_place(out)
         with progress_bar(quiet=quiet) as progress:
             report = Report(progress, reports.append if explain else None)
@@ -259,18 +259,18 @@ def picture_contents(
     that of the picture's file."""
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.geometry.budget import threads_of
-    from vectorplot.pictures.pipeline import Stage, Walk
+    from vectorplot.pictures.pipeline import Pipeline, Stage
     from vectorplot.save import write, write_for_latex
 
     stages = (Stage("read", source.name), Stage("write", f"as {format_}"))
-    walk = Walk(stages, report.explain, None, threads_of(jobs))
-    scene = walk.run("read", source.read)
+    pipeline = Pipeline(stages, report.explain, None, threads_of(jobs))
+    scene = pipeline.run("read", source.read)
     with located(scene):
         made = picture(scene, report)
     warn_of_nothing(source, made)
     if overlaid and isinstance(made, Drawing):
-        return walk.run("write", write_for_latex, made, format_, name)
-    return (walk.run("write", write, made, format_),)
+        return pipeline.run("write", write_for_latex, made, format_, name)
+    return (pipeline.run("write", write, made, format_),)
 
 
 def picture_made(

@@ -299,9 +299,9 @@ class EllipseArcs:
         """All arcs of all parts."""
         return records.joined((cls.none(), *parts))
 
-    def some(self, which: Ints | Bools) -> EllipseArcs:
+    def take(self, which: Ints | Bools) -> EllipseArcs:
         """Some of the arcs."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     def points(self, t: Floats) -> Floats:
         """(a,...,2) points at the parameters t (a,...)."""
@@ -350,7 +350,7 @@ def recognised_arcs(points: Floats, offsets: Ints, closed: Bools, *, tolerance: 
     rise = smaller * (1.0 - np.cos(np.minimum(np.abs(total) / 2.0, np.pi / 2.0)))
     kept &= (np.abs(total) >= SMALLEST_ANGLE) & (rise >= SMALLEST_RISE * tolerance)
     start, whole = angle[starts], np.where(loop, 2.0 * np.pi * np.sign(total), total)
-    return EllipseArcs(stroke, centre, axes[:, 0], axes[:, 1], start, start + whole).some(kept)
+    return EllipseArcs(stroke, centre, axes[:, 0], axes[:, 1], start, start + whole).take(kept)
 
 
 def arc_segments(arcs: EllipseArcs, closed: Bools, *, tolerance: float) -> BezierPaths:
@@ -374,7 +374,7 @@ def arc_segments(arcs: EllipseArcs, closed: Bools, *, tolerance: float) -> Bezie
     place = np.arange(offsets[-1]) - offsets[:-1][owner]
     width = (arcs.end - arcs.start) / count
     t = arcs.start[owner, None] + width[owner, None] * np.stack((place, place + 1), axis=1)
-    one = arcs.some(owner)
+    one = arcs.take(owner)
     ends, handles = one.points(t), 4.0 / 3.0 * tan(width / 4.0)[owner, None, None] * one.tangents(t)
     control = np.stack((ends[:, 0], ends[:, 0] + handles[:, 0], ends[:, 1] - handles[:, 1], ends[:, 1]), axis=1)
     return BezierPaths(control, offsets, closed, radius * arc_error(angle / count))

@@ -11,7 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import least_squares, linear_solution, matmul
 from vectorplot.geometry.elementary import power
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.tolerances import ABOVE_WHOLE, LENGTH_SETTLED, ROUNDING
 
 MAX_FLAT_POINTS = 10_000_000
@@ -255,13 +255,13 @@ def clipped_paths(paths: BezierPaths, low: Floats, high: Floats) -> tuple[Bezier
     leaves = np.bincount(owner[out], minlength=len(paths)) > 0
     if not leaves.any():
         which = np.flatnonzero(size)
-        return some(paths, which), which
+        return take(paths, which), which
     whole = np.flatnonzero(~leaves & (size > 0))
     parts, source = _inside(paths, owner, out, np.flatnonzero(leaves[owner]), (low, high))
-    both = joined((some(paths, whole), parts))
+    both = joined((take(paths, whole), parts))
     owners = np.concatenate((whole, source))
     order = np.argsort(owners, kind="stable")
-    return some(both, order), owners[order]
+    return take(both, order), owners[order]
 
 
 def _any_outside(points: Floats, low: Floats, high: Floats) -> Bools:

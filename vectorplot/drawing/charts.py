@@ -227,7 +227,7 @@ def _points(stroke: str) -> Floats:
 # Charts as drawings: panels side by side, each with curves over logarithmic axes, and what the curves are.
 
 COLOURS = ("#1f4e8c", "#b8321f", "#2b7a3d", "#8a5a00", "#6a3d9a", "#00717a")
-"""Inks of curves, one after the other; they differ in print and for eyes that see few colours."""
+"""PenOverrides of curves, one after the other; they differ in print and for eyes that see few colours."""
 
 PANEL_MM = (84.0, 66.0)
 """Width and height of the area between the axes of a panel."""

@@ -282,14 +282,14 @@ def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints
         alive = ~dropped[owner]
         owner, run = owner[alive], run[alive]
     parts = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
-    for winner, loser in pairs_in_crowds(owner, run, segments.line):
+    for winner, loser in pairs_in_dense_groups(owner, run, segments.line):
         over, low, high = segments.overlaps(winner, loser)
         parts.append((loser[over], low, high))
     loser, low, high = (np.concatenate(column) for column in zip(*parts, strict=True))
     return np.flatnonzero(dropped), loser, low, high
 
 
-def pairs_in_crowds(owner: Ints, run: Ints, line: Ints) -> Iterator[tuple[Ints, Ints]]:
+def pairs_in_dense_groups(owner: Ints, run: Ints, line: Ints) -> Iterator[tuple[Ints, Ints]]:
     """Blocks of all pairs of strokes of a crowd that are of different lines (n,), the more important first."""
     if not len(run):
         return
@@ -336,7 +336,7 @@ def with_shared_kinds(view: View, lines: Lines) -> Lines:
     owner, run = owner[kept], run[kept]
     order = np.lexsort((~contour[owner], run))
     found = [(np.zeros(0, dtype=np.intp), np.zeros(0), np.zeros(0))]
-    for one, other in pairs_in_crowds(owner[order], run, number):
+    for one, other in pairs_in_dense_groups(owner[order], run, number):
         apart = contour[one] & ~contour[other] & (lines.item[which[one]] != lines.item[which[other]])
         outline, crease = which[one[apart]], which[other[apart]]
         on, low, high = _common(lines, outline, crease)
@@ -380,7 +380,7 @@ def _promoted(view: View, lines: Lines, crease: Ints, low: Floats, high: Floats)
     shared = lines.cut(view, touched[number], low, high)
     return joined_lines(
         [
-            lines.some(~np.isin(np.arange(len(lines)), touched)),
+            lines.take(~np.isin(np.arange(len(lines)), touched)),
             replace(shared, kind=np.full_like(shared.kind, int(LineKind.CONTOUR))),
             lines.cut(view, touched[left], left_low, left_high),
         ]

@@ -70,7 +70,7 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
     20.0
     """
     sizes = np.diff(fills.offsets)
-    solid, lines = fills.some(np.flatnonzero(sizes > 2)), fills.some(np.flatnonzero(sizes == 2))
+    solid, lines = fills.take(np.flatnonzero(sizes > 2)), fills.take(np.flatnonzero(sizes == 2))
     parts, source = without_holes(*visible_regions(solid))
     return Fills.joined(listed(solid, parts, source, page_from_world), lines)
 
@@ -79,7 +79,7 @@ def cut_out(fills: Fills, over: Fills, page_from_world: Floats) -> Fills:
     """The parts of polygons, as of visible_fills, that do not lie under others; these are not among them."""
     mark = int(fills.item.max(initial=0)) + 1
     found = visible_fills(Fills.joined(fills, replace(over, item=np.full(len(over), mark))), page_from_world)
-    return found.some(np.flatnonzero(found.item != mark))
+    return found.take(np.flatnonzero(found.item != mark))
 
 
 def visible_regions(fills: Fills) -> tuple[Any, Ints]:
@@ -301,24 +301,24 @@ def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats,
     layers = stacked([Overlay(base, np.arange(len(base))), *overlays])
     kept = _uncovered(base, layers, opaque)
     ground = np.append(True, layers.after[1:] != layers.after[:-1])[kept]
-    layers = Overlay(layers.fills.some(kept), layers.after[kept])
+    layers = Overlay(layers.fills.take(kept), layers.after[kept])
     stack = _planes(base, opaque, np.arange(len(base)) if plane is None else plane)
     several = np.bincount(stack, minlength=len(base))[stack] > 1
     touched = opaque & (several | _reaching_borders(base, layers))
     which = np.flatnonzero(touched[layers.after])
     if not len(which):
         return layers
-    heaps = _brought_together(Overlay(layers.fills.some(which), layers.after[which]), ground[which], stack)
+    heaps = _brought_together(Overlay(layers.fills.take(which), layers.after[which]), ground[which], stack)
     low = _within_limits(heaps)
     # A high heap on a polygon that is one anyway has nothing to be brought together.
     alone = ~low & ~several[heaps.stack]
-    source, done = layers.fills.some(which), [heaps.some(np.flatnonzero(~low & ~alone))]
+    source, done = layers.fills.take(which), [heaps.take(np.flatnonzero(~low & ~alone))]
     if low.any():
-        done.append(_cut_apart(base, stack, heaps.some(np.flatnonzero(low)), source))
+        done.append(_cut_apart(base, stack, heaps.take(np.flatnonzero(low)), source))
     left = np.ones(len(base), dtype=np.bool_)
     left[heaps.stack[~alone]] = False
     rest = np.flatnonzero(left[stack[layers.after]])
-    whole = Overlay(layers.fills.some(rest), layers.after[rest])
+    whole = Overlay(layers.fills.take(rest), layers.after[rest])
     return stacked([whole, *(_listed(some, source, page_from_world) for some in done)])
 
 
@@ -349,7 +349,7 @@ def _brought_together(layers: Overlay, ground: Bools, stack: Ints) -> _Layers:
     depth[some] = _depths(region[some], layers.after[some], ground[some])
     tone = np.where(some, fills.colours[fills.offsets[:-1]].astype(np.intp) @ (65536, 256, 1), 0)
     order = np.lexsort((number, tone, depth, of))
-    return _united(every.some(order), fills, depth[order])
+    return _united(every.take(order), fills, depth[order])
 
 
 def _depths(region: NDArray[np.object_], piece: Ints, ground: Bools) -> Ints:
@@ -417,11 +417,11 @@ def _reaching_borders(base: Fills, layers: Overlay) -> Bools:
     if not len(deep):
         return result
     border = np.full(len(base), None, dtype=object)
-    some = base.some(deep)
+    some = base.take(deep)
     border[deep] = shapely.boundary(polygons_of(some.points.T, some.offsets))
     first = np.append(True, layers.after[1:] != layers.after[:-1])
     on = np.flatnonzero(~first)
-    parts = layers.fills.some(on)
+    parts = layers.fills.take(on)
     of = layers.after[on]
     far = shapely.distance(shapely.points(parts.points), border[np.repeat(of, np.diff(parts.offsets))])
     near = np.minimum.reduceat(far, parts.offsets[:-1]) < MARGIN_MM
@@ -443,8 +443,8 @@ class _Layers:
     opacity: Floats
     kind: Ints
 
-    def some(self, which: Ints) -> _Layers:
-        return records.some(self, which)
+    def take(self, which: Ints) -> _Layers:
+        return records.take(self, which)
 
     @classmethod
     def joined(cls, *parts: _Layers) -> _Layers:
@@ -458,7 +458,7 @@ def _cut_apart(base: Fills, stack: Ints, layers: _Layers, fills: Fills) -> _Laye
     layers = _united(_mixed(layers, fills), fills)
     numbers, of = np.unique(layers.stack, return_inverse=True)
     below = np.flatnonzero(np.isin(stack, numbers))
-    some = base.some(below)
+    some = base.take(below)
     parts = insides_of(polygons_of(some.points.T, some.offsets))
     ground = unions(parts, np.searchsorted(numbers, stack[below]), None)
     inside = grown(insides_of(ground), -MARGIN_MM)
@@ -468,7 +468,7 @@ def _cut_apart(base: Fills, stack: Ints, layers: _Layers, fills: Fills) -> _Laye
     covered = np.flatnonzero(~shapely.is_empty(cover))
     region = layers.region.copy()
     region[covered] = insides_of(shapely.difference(region[covered], insides_of(cover[covered])))
-    return replace(layers, region=region).some(np.flatnonzero(~hidden))
+    return replace(layers, region=region).take(np.flatnonzero(~hidden))
 
 
 def _above(layers: _Layers) -> NDArray[np.object_]:
@@ -502,7 +502,7 @@ def _mixed(layers: _Layers, fills: Fills) -> _Layers:
         number = np.arange(len(layers.stack))
         below = np.flatnonzero(number < veil)
         below = below[own[below]]
-        under = layers.some(below)
+        under = layers.take(below)
         seen = insides_of(shapely.difference(under.region, _above(under)))
         seen = insides_of(shapely.intersection(seen, layers.region[veil[below]]))
         share = layers.opacity[veil[below]]
@@ -515,10 +515,10 @@ def _mixed(layers: _Layers, fills: Fills) -> _Layers:
             kind=layers.kind[veil[below]],
         )
         left = np.flatnonzero(number != veil)
-        every = _Layers.joined(layers.some(left), veiled)
+        every = _Layers.joined(layers.take(left), veiled)
         position = np.concatenate([left, veil[below]])
         order = np.argsort(position, kind="stable")
-        layers = every.some(order[~shapely.is_empty(every.region[order])])
+        layers = every.take(order[~shapely.is_empty(every.region[order])])
 
 
 def _means(fills: Fills) -> Floats:
@@ -545,7 +545,7 @@ def _united(layers: _Layers, fills: Fills, depth: Ints | None = None) -> _Layers
     new[1:] |= clear[1:] & (True if depth is None else depth[1:] != depth[:-1])
     if new.all():
         return layers
-    leaders = layers.some(np.flatnonzero(new))
+    leaders = layers.take(np.flatnonzero(new))
     several = np.flatnonzero(np.diff(np.append(np.flatnonzero(new), len(new))) > 1)
     run = np.cumsum(new) - 1
     region = leaders.region.copy()
@@ -646,7 +646,7 @@ def united(overlay: Overlay, sheet: Ints) -> Overlay:
     if not len(mine):
         return overlay
     _, first, of = np.unique(run[mine], return_index=True, return_inverse=True)
-    some = fills.some(mine)
+    some = fills.take(mine)
     regions = insides_of(polygons_of(some.points.T, some.offsets))
     region = unions(regions, of, GRID_MM)
     leader, kept = mine[first], np.flatnonzero(~several)
@@ -656,7 +656,7 @@ def united(overlay: Overlay, sheet: Ints) -> Overlay:
     made = _regions_listed(some, parts, first[which])
     order = np.argsort(np.concatenate([kept, source]), kind="stable")
     after = np.concatenate([overlay.after[kept], overlay.after[source]])
-    return Overlay(Fills.joined(fills.some(kept), made).some(order), after[order])
+    return Overlay(Fills.joined(fills.take(kept), made).take(order), after[order])
 
 
 def visible_shades(painted: Overlay, smooth: Bools, page_from_world: Floats) -> Fills:
@@ -672,7 +672,7 @@ def visible_shades(painted: Overlay, smooth: Bools, page_from_world: Floats) -> 
     whole = np.where(painted.after < 0, -1 - np.arange(len(fills)), painted.after)
 
     sizes = np.diff(fills.offsets)
-    solid, lines = fills.some(np.flatnonzero(sizes >= TRIANGLE)), fills.some(np.flatnonzero(sizes < TRIANGLE))
+    solid, lines = fills.take(np.flatnonzero(sizes >= TRIANGLE)), fills.take(np.flatnonzero(sizes < TRIANGLE))
     if not len(solid):
         return fills
     seen = visible_parts(solid, whole[sizes >= TRIANGLE])

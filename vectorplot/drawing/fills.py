@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 
 Colours = NDArray[np.uint8]
 
@@ -230,7 +230,7 @@ class Fills:
         """
         return joined(parts or (cls.empty(),))
 
-    def some(self, which: Ints) -> Fills:
+    def take(self, which: Ints) -> Fills:
         """The polygons with these numbers, in this order.
 
         Parameters
@@ -243,4 +243,4 @@ class Fills:
         Fills
             k polygons.
         """
-        return some(self, which)
+        return take(self, which)

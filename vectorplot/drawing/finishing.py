@@ -35,7 +35,7 @@ FEWEST = 8
 """So many lines that end in one point converge; fewer make a corner, as of a mesh."""
 
 
-def thinned_ends(paths: Paths, width_mm: float, page_from_world: Floats) -> Paths:
+def trimmed_ends(paths: Paths, width_mm: float, page_from_world: Floats) -> Paths:
     """The strokes, those that converge ending early: where many lines of that width meet in a point, every second one
     stops where the gaps to its neighbours would be narrower than the lines, every fourth one at half of that distance,
     and so on; one reaches the point. Strokes that go on through the point are divided there.
@@ -236,7 +236,7 @@ def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) ->
     """The long strokes of a pen, with its dashes."""
     long = long_strokes(paths)
     if thinned:
-        long = thinned_ends(long, pen.width_mm, world)
+        long = trimmed_ends(long, pen.width_mm, world)
     if pen.dash_mm is not None:
         return dashed(long, *pen.dash_mm, world) if any(pen.dash_mm) else long
     chained = np.isin(long.kind, CHAINED)

@@ -136,7 +136,7 @@ class TonedRegions:
         outer = np.diff(self.of, prepend=-1) != 0
         return np.asarray(np.bincount(self.of, np.where(outer, area, -area), minlength=len(self)), dtype=np.float64)
 
-    def some(self, which: Bools) -> TonedRegions:
+    def take(self, which: Bools) -> TonedRegions:
         """Those regions, with their rings."""
         corners, offsets = ragged.take(self.offsets, which[self.of])
         return TonedRegions(
@@ -166,7 +166,7 @@ def toned_regions(fills: Fills) -> TonedRegions:
     import shapely
 
     fills = _in_triangles(
-        fills.some(np.flatnonzero((np.diff(fills.offsets) > 2) & (fills.kind != FillKind.BACKGROUND)))
+        fills.take(np.flatnonzero((np.diff(fills.offsets) > 2) & (fills.kind != FillKind.BACKGROUND)))
     )
     parts, source = visible_regions(fills)
     rings, of = shapely.get_rings(parts, return_index=True)
@@ -193,7 +193,7 @@ def _in_triangles(fills: Fills) -> Fills:
     differs = (fills.colours != np.repeat(fills.colours[first], np.diff(fills.offsets), axis=0)).any(axis=1)
     shaded = np.zeros(len(fills), dtype=np.bool_)
     shaded[ragged.owner(np.diff(fills.offsets))[differs]] = True
-    plain, fan = fills.some(np.flatnonzero(~shaded)), fills.some(np.flatnonzero(shaded))
+    plain, fan = fills.take(np.flatnonzero(~shaded)), fills.take(np.flatnonzero(shaded))
     corners, of = ragged.fans(fan.offsets)
     at = corners.ravel()
     triangles = Fills(
@@ -206,7 +206,7 @@ def _in_triangles(fills: Fills) -> Fills:
         fan.kind[of],
     )
     number = np.concatenate([np.flatnonzero(~shaded), np.flatnonzero(shaded)[of]])
-    return Fills.joined(plain, triangles).some(np.argsort(number, kind="stable"))
+    return Fills.joined(plain, triangles).take(np.argsort(number, kind="stable"))
 
 
 def _darkness(fills: Fills) -> tuple[Floats, Floats, Floats]:
@@ -274,7 +274,7 @@ def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) 
     Degenerate: places of no region are as dark as the nearest one.
     """
     paths = chosen(lines.paths, lines.paths.item == lines.item)
-    some = regions.some(regions.item == lines.item)
+    some = regions.take(regions.item == lines.item)
     if not len(paths) or not len(some):
         return Paths.empty()
     from scipy.spatial import cKDTree
@@ -727,7 +727,7 @@ def hatched_regions(
         if one.by == "none":
             continue
         mine = np.array([other == one for other in given], dtype=np.bool_)
-        some = regions.some(mine[regions.item] & (regions.item >= 0) & scan)
+        some = regions.take(mine[regions.item] & (regions.item >= 0) & scan)
         if isinstance(one, Stippling):
             found.append(stippled(some, one, page_from_world))
             continue
@@ -752,11 +752,11 @@ def _family(regions: TonedRegions, hatching: Hatching, family: int, page_from_wo
     """The strokes of one direction: of plain regions, and of those where darkness varies."""
     angle = float(np.radians(hatching.angle_deg)) + family * np.pi / 2.0
     page = PageFrame(angle)
-    plain = regions.plain & ~_crumbs(regions, hatching.spacing_mm) | (hatching.by == "even")
-    even, varied = regions.some(plain), regions.some(~plain)
+    plain = regions.plain & ~_fragments(regions, hatching.spacing_mm) | (hatching.by == "even")
+    even, varied = regions.take(plain), regions.take(~plain)
     found = []
     spacing = even_spacings(hatching, np.ones(len(even)) if hatching.by == "even" else even.lowest)[family]
-    even, spacing = even.some(np.isfinite(spacing)), spacing[np.isfinite(spacing)]
+    even, spacing = even.take(np.isfinite(spacing)), spacing[np.isfinite(spacing)]
     if len(even):
         frame = page if hatching.along != "surface" else plane_frame(even, angle, page_from_world)
         parts = scanned(*frame.coordinates(even), even.offsets, even.of, spacing)
@@ -770,7 +770,7 @@ def _family(regions: TonedRegions, hatching: Hatching, family: int, page_from_wo
     return found
 
 
-def _crumbs(regions: TonedRegions, spacing_mm: float) -> Bools:
+def _fragments(regions: TonedRegions, spacing_mm: float) -> Bools:
     """(n,) the regions of items with varying darkness in planes of less than CRUMB squares between lines: triangles of
     round bodies that happen to have one shade. Their strokes are those of the regions around them."""
     round_ = np.unique(regions.item[~regions.plain])

@@ -76,7 +76,7 @@ COLOURS = {
     "black": BLACK,
     "red": "#c00000",
 }
-"""Inks for the palettes' names: dark enough for a line on white paper."""
+"""PenOverrides for the palettes' names: dark enough for a line on white paper."""
 
 
 FRAME_PEN = Pen(0.5)

@@ -30,7 +30,7 @@ def stacked(overlays: Sequence[Overlay]) -> Overlay:
     """All polygons by what they come after; of several after one polygon those of the first overlay come first."""
     place = np.concatenate([overlay.after for overlay in overlays])
     order = np.argsort(place, kind="stable")
-    return Overlay(Fills.joined(*(overlay.fills for overlay in overlays)).some(order), place[order])
+    return Overlay(Fills.joined(*(overlay.fills for overlay in overlays)).take(order), place[order])
 
 
 def overlaid(base: Overlay, overlays: Sequence[Overlay]) -> Overlay:

@@ -37,7 +37,7 @@ from vectorplot.drawing.pens import (
 from vectorplot.drawing.strokes import concatenated
 from vectorplot.errors import InputError
 from vectorplot.scene.page import Page
-from vectorplot.scene.pens import Inks
+from vectorplot.scene.pens import PenOverrides
 from vectorplot.shading.palettes import palette
 from vectorplot.words import LineKind, check_word, unknown
 
@@ -218,7 +218,7 @@ class OverlaidPens:
 
 
 def overlaid_pens(
-    inks: Inks | None,
+    inks: PenOverrides | None,
     style: Style | str | None,
     pens: Pens | None,
     dashes: str | Mapping[str, str] | Iterable[str] | None,

@@ -172,11 +172,11 @@ class _AllPairs:
         return one, other, self.apart[one, other]
 
 
-Crowd = tuple[_Stretch | _AllPairs, ...]
+SeparationTest = tuple[_Stretch | _AllPairs, ...]
 """Ends of strokes among which near ones are sought again and again."""
 
 
-def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> Crowd:
+def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> SeparationTest:
     """The ends at these spots, with curves through them. Only ends of the same layer (n,) count for each other, but for
     opposite (n,): one end that does not count for each."""
     if len(spots) <= ALL_PAIRS:
@@ -213,7 +213,7 @@ def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> Crowd:
         return tuple(mapped(stretch, product(range(len(curves)), slices(len(spots), ENDS_AT_ONCE))))
 
 
-def nearer_than(reach: Floats, among: Crowd) -> Pairs:
+def nearer_than(reach: Floats, among: SeparationTest) -> Pairs:
     """Ends (p,), ends that count for them less than reach (n,) from them, and how far. Not all that are so near, if
     many others are nearer."""
     with threads(workers(len(reach))):

@@ -16,7 +16,7 @@ from vectorplot.drawing.layers import ink
 from vectorplot.errors import InputError
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.page import LENGTH, length_mm
-from vectorplot.scene.pens import FINEST_MM, FRAME, HIDDEN, LONGEST_MM, WIDEST_MM, Inks, target_of, unknown_item
+from vectorplot.scene.pens import FINEST_MM, FRAME, HIDDEN, LONGEST_MM, WIDEST_MM, PenOverrides, target_of, unknown_item
 from vectorplot.words import COLOURS, LineKind, check_colour, check_word, is_colour, nearest, unknown
 
 _NEXT = re.compile(r",(?=[^,=]*=)")
@@ -387,14 +387,14 @@ def check_style(word: str) -> None:
 # The style and the pens that a scene asks for itself.
 
 
-def style_of_scene(inks: Inks | None, asked: Style | str | None) -> tuple[Style, tuple[PenRule, ...]]:
+def style_of_scene(inks: PenOverrides | None, asked: Style | str | None) -> tuple[Style, tuple[PenRule, ...]]:
     """The style that is asked for, else that of the scene, else plain; and the rules of the scene's own pens.
 
     Pens of the scene have nothing to do in a wireframe, which has colours of its own.
 
     Errors: InputError for unknown styles and what is no pen, and for a scene with pens and a wireframe of its own.
     """
-    own = Inks() if inks is None else inks
+    own = PenOverrides() if inks is None else inks
     style = style_of(asked if asked is not None else own.style or "plain")
     rules = pen_rules(own.pens, own.dashes)
     if style.look == "plain":

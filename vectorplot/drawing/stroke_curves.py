@@ -14,7 +14,7 @@ from vectorplot.drawing.drawing import CurvedStrokes, Paths
 from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.polylines import joined, segments, some
+from vectorplot.geometry.polylines import joined, segments, take
 from vectorplot.tolerances import ARC_OF_TOLERANCE, CUBIC_OF_TOLERANCE
 
 
@@ -113,7 +113,7 @@ def fewer_cubics(paths: BezierPaths, tolerance: float) -> BezierPaths:
     which = np.flatnonzero((count > 1) & ~too_large)
     if not len(which):
         return paths
-    many = some(paths, which)
+    many = take(paths, which)
     points, offsets, tangents = _samples(many, SAG_OF_KNOWN * tolerance)
     found = fitted_paths(
         points,
@@ -125,7 +125,7 @@ def fewer_cubics(paths: BezierPaths, tolerance: float) -> BezierPaths:
         sag=SAG_OF_KNOWN * tolerance,
     )
     better = (np.diff(found.offsets) < count[which]) & (found.error <= FIT_OF_KNOWN * tolerance)
-    return _put(paths, which[better], some(found, np.flatnonzero(better)))
+    return _put(paths, which[better], take(found, np.flatnonzero(better)))
 
 
 def _put(paths: BezierPaths, which: Ints, others: BezierPaths) -> BezierPaths:

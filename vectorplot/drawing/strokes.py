@@ -14,7 +14,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import joined as joined_of_polylines
-from vectorplot.geometry.polylines import some, with_points
+from vectorplot.geometry.polylines import take, with_points
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import SUM_OF_LENGTHS
 
@@ -29,7 +29,7 @@ def world_per_mm(paths: Paths) -> float:
 
 def chosen(paths: Paths, which: Ints | Bools) -> Paths:
     """The strokes with these indices, in this order; or those where a mask is true."""
-    return some(paths, which)
+    return take(paths, which)
 
 
 def concatenated(parts: tuple[Paths, ...]) -> Paths:

@@ -386,7 +386,7 @@ def page_hatch(cut: Cut, way: Way) -> Hatching:
     return Hatching("even", spacing, turned(cut, way)[0], along="surface", width_mm=width)
 
 
-def usual_page(scene: Scene) -> InSpace:
+def default_page(scene: Scene) -> InSpace:
     """What a millimetre is where a scene fills a page of usual size."""
     extent = float(np.ptp(scene.bounds, axis=0).max())
     return lambda points: np.full(len(points), extent / USUAL_PAGE_MM)
@@ -518,7 +518,9 @@ def _known_names(scene: Scene, items: Iterable[str]) -> tuple[str, ...]:
     return names
 
 
-def cut_scene(scene: Scene, camera: Camera | str | None = None, page: Callable[[Scene], InSpace] = usual_page) -> Scene:
+def cut_scene(
+    scene: Scene, camera: Camera | str | None = None, page: Callable[[Scene], InSpace] = default_page
+) -> Scene:
     """The scene after its cuts: what is left of its items, then the faces that show, and what was taken away.
 
     Parameters

@@ -16,7 +16,7 @@ from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some, with_points
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take, with_points
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.regions import corners_of, polygons_of, triangles_of, unions, without_holes, without_splinters
 from vectorplot.scene.item import Item
@@ -102,7 +102,7 @@ class Decals:
         Decals
             k polygons.
         """
-        return some(self, decals)
+        return take(self, decals)
 
     def parts(self, decals: Ints, points: Floats, offsets: Ints) -> Decals:
         """Polygons each of which is a part of one of the decals.

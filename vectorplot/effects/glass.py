@@ -37,7 +37,6 @@ from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting, opacities
 from vectorplot.shading.palettes import Colours
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, polygons_of, view_points
-from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.pairs import (
     Outlines,
@@ -47,6 +46,7 @@ from vectorplot.visibility.painter.pairs import (
     face_relations,
     overlapping,
 )
+from vectorplot.visibility.painter.topological_order import component_ranks
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell
 
@@ -385,11 +385,11 @@ def refracted_order(view: View, parts: ImageFaces, face: Ints, tolerance: float)
     before, after = (np.concatenate([some[k] for some in demands]) for k in (0, 1))
     rank = component_ranks(count, before, after)
     circled = (np.bincount(rank, minlength=1)[rank] > 1)[face]
-    pieces = _pieces(view, parts.some(np.flatnonzero(circled)))
-    whole = joined((parts.some(np.flatnonzero(~circled)), replace(pieces, rank=np.arange(len(pieces)))))
+    pieces = _pieces(view, parts.take(np.flatnonzero(circled)))
+    whole = joined((parts.take(np.flatnonzero(~circled)), replace(pieces, rank=np.arange(len(pieces)))))
     number = np.empty(int(parts.source.max(initial=-1)) + 1, dtype=np.intp)
     number[parts.source] = rank[face]
-    return whole.some(np.lexsort((whole.rank, number[whole.source])))
+    return whole.take(np.lexsort((whole.rank, number[whole.source])))
 
 
 def _larger_first(parts: ImageFaces, face: Ints, count: int) -> Ints:
@@ -471,7 +471,7 @@ def seen_in_glass(
         window = np.flatnonzero(shown)
         if len(window):
             front, way = np.unique(painted.source[window], return_inverse=True)
-            panes = Panes(painted.some(window), way, window)
+            panes = Panes(painted.take(window), way, window)
             number = np.searchsorted(solid.face, front)
             glass = _glass(view, solid, number, panes, tolerance, no_decals() if decals is None else decals)
             inside = _seen_inside(glass)
@@ -495,7 +495,7 @@ class _Cover:
         if len(self.window):
             at = np.minimum(np.searchsorted(self.window, window), len(self.window) - 1)
             here = np.flatnonzero(self.window[at] == window)
-            some = faces.some(here)
+            some = faces.take(here)
             shapely.prepare(self.region)
             result[here] = shapely.covers(self.region[at[here]], regions.polygons_of(some.points, some.offsets))
         return result
@@ -504,7 +504,7 @@ class _Cover:
 def _cover(glass: _Glass, inside: SeenThrough, scene: Scene) -> _Cover:
     """What opaque things in a solid hide, to the tolerance of bent sides."""
     hides = opacities(scene.items)[glass.view.face_item[inside.source]] >= 1.0
-    some = inside.some(np.flatnonzero(hides & (inside.decal < 0)))
+    some = inside.take(np.flatnonzero(hides & (inside.decal < 0)))
     window, of = np.unique(some.window, return_inverse=True)
     polygons = regions.polygons_of(some.points, some.offsets)
     joined = regions.unions(polygons, of, glass.view.tolerance)
@@ -609,7 +609,7 @@ def _panes_of(glass: _Glass, front: Ints, back: int) -> Panes:
 def _open(glass: _Glass, panes: Panes) -> Panes:
     """Those of some panes behind which things are seen."""
     left = np.flatnonzero(~glass.cover.hides(panes.faces, panes.window))
-    return Panes(panes.faces.some(left), panes.way[left], panes.window[left])
+    return Panes(panes.faces.take(left), panes.way[left], panes.window[left])
 
 
 def _bent_inside(glass: _Glass, soup: Soup) -> Soup:
@@ -692,7 +692,7 @@ def _shown(glass: _Glass, soup: Soup, lying: Soup, panes: Panes) -> SeenThrough:
     # After all parts of a face that follow each other: a part would cover the border of what lies on its neighbour.
     new = np.append(True, (np.diff(source) != 0) | (np.diff(soup.way[piece]) != 0))
     run = np.cumsum(new)
-    return sorted_by_window(both.some(np.lexsort((both.decal, np.concatenate([run, run[part]])))))
+    return sorted_by_window(both.take(np.lexsort((both.decal, np.concatenate([run, run[part]])))))
 
 
 def _laid_on(glass: _Glass, parts: ImageFaces, face: Ints, way: Ints, lying: Soup) -> tuple[Ints, SeenThrough]:
@@ -733,12 +733,12 @@ def glass_fills(
     lying = joined_decals(*(some.of(some.painting_order) for some in shown))
     seen = seen_in_glass(scene, view, projected, faces, tolerance_mm / placement.scale, lying)
     bare, marked = np.flatnonzero(seen.decal < 0), np.flatnonzero(seen.decal >= 0)
-    base = seen_fills(view, lighting, seen.some(bare), placement, FillKind.GLASS).fills
-    marks = seen.some(marked)
+    base = seen_fills(view, lighting, seen.take(bare), placement, FillKind.GLASS).fills
+    marks = seen.take(marked)
     laid = laid_fills(view, lighting, lying, Laid(marks.points, marks.offsets, marks.decal, marks.window), placement)
     laid = replace(laid, kind=np.full(len(laid), int(FillKind.GLASS)))
     order = np.argsort(np.concatenate([bare, marked]), kind="stable")
-    return united(Overlay(Fills.joined(base, laid).some(order), seen.window), seen.decal)
+    return united(Overlay(Fills.joined(base, laid).take(order), seen.window), seen.decal)
 
 
 def tinted(

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import polylines, ragged, records
-from vectorplot.geometry.columns import dot
+from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.elementary import arcsin, arctan, tan
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 from vectorplot.geometry.records import IN_COLUMNS
@@ -587,13 +587,13 @@ class Soup:
     def __len__(self) -> int:
         return len(self.source)
 
-    def some(self, which: Ints) -> Soup:
+    def take(self, which: Ints) -> Soup:
         """Some of the polygons."""
-        return polylines.some(self, which)
+        return polylines.take(self, which)
 
     def on_ways(self, polygon: Ints, way: Ints) -> Soup:
         """Polygons (n,), each on a way (n,) of its own."""
-        return replace(self.some(polygon), way=way)
+        return replace(self.take(polygon), way=way)
 
 
 def joined_soups(parts: list[Soup]) -> Soup:
@@ -703,7 +703,7 @@ def _moved(view: View, sight_ways: SightWays, soup: Soup, windows: Floats) -> So
     image = view.image_of(points)
     box = np.stack([over_corners(e, row, soup.offsets) for row in image for e in (np.minimum, np.maximum)])
     kept = np.logical_and.reduceat(seen, soup.offsets[:-1]) & _meet(box, windows[:, soup.way])
-    return Soup(points, soup.offsets, soup.source, soup.way).some(np.flatnonzero(kept))
+    return Soup(points, soup.offsets, soup.source, soup.way).take(np.flatnonzero(kept))
 
 
 def _bends(view: View, points: Floats, seen: Bools, windows: Floats) -> tuple[Floats, Bools]:

@@ -17,7 +17,7 @@ from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.letters import lettered, typeset
 from vectorplot.drawing.pens import PenRule
 from vectorplot.drawing.strokes import split_long
-from vectorplot.effects.cuts import InSpace, cut_scene, usual_page
+from vectorplot.effects.cuts import InSpace, cut_scene, default_page
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Within, divided
 from vectorplot.features.facets import Facets, facets_of_all
@@ -594,8 +594,8 @@ def _check_word(by: object, scene: Scene) -> None:
 def _of_field(fields: Fields, name: str, mesh: Mesh) -> _Valued:
     """The triangles of a mesh with the numbers of a field, and those that have none."""
     points, triangles = mesh.vertices, face_triangles(mesh).triangles
-    stepped = fields.is_on_faces(name)
-    if stepped:
+    posterized = fields.is_on_faces(name)
+    if posterized:
         middles = points[triangles].mean(axis=1)
         values = np.repeat(fields.at(name, middles), TRIANGLE)
         points, triangles = points[triangles].reshape(-1, 3), np.arange(len(values)).reshape(-1, TRIANGLE)
@@ -605,7 +605,7 @@ def _of_field(fields: Fields, name: str, mesh: Mesh) -> _Valued:
     told = known[triangles].all(axis=1)
     without = None if told.all() else welded(Mesh.from_triangles(points, triangles[~told]))[0]
     least = float(values[known].min()) if known.any() else np.nan
-    return _Valued(points, np.where(known, values, least), triangles[told], without, stepped)
+    return _Valued(points, np.where(known, values, least), triangles[told], without, posterized)
 
 
 def _of_shape(by: str, mesh: Mesh, triangles: Ints, normals: Floats | None) -> Floats:
@@ -772,7 +772,7 @@ class Scaled:
         return fitted_with_room(view, page, view.image_of(points), low, high, border)
 
 
-def scaled(scene: Scene, camera: Camera | str | None, page: Callable[[Scene], InSpace] = usual_page) -> Scaled:
+def scaled(scene: Scene, camera: Camera | str | None, page: Callable[[Scene], InSpace] = default_page) -> Scaled:
     """The scene as a chart, after its cuts; page: as of cut_scene. Errors: InputError as of coloured."""
     seen_from, bar = camera_of(camera, scene), None
     if scene.colouring is not None or scene.box is not None:

@@ -24,7 +24,7 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.shading.fineness import SHORTEST_MM, refined
+from vectorplot.shading.facet_resolution import SHORTEST_MM, refined
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities, smooth_faces
 from vectorplot.shading.palettes import COLOUR_MAP, Colours, shaded_colours
 from vectorplot.shading.shaded_faces import Shades, face_shades, view_lights
@@ -267,7 +267,7 @@ def reflection_fills(
     plane_of[mirrors.face] = mirrors.plane
     parts = []
     for number in range(len(mirrors)):
-        here = seen.some(np.flatnonzero(plane_of[seen.pane] == number))
+        here = seen.take(np.flatnonzero(plane_of[seen.pane] == number))
         if len(here):
             there = _mirrored_light(view, lighting, mirrors, number)
             shown = np.isin(np.arange(view.face_count), here.source)
@@ -301,7 +301,7 @@ def _of_double(
     points, offsets, parent = refined(
         mirrored, lighting, seen.points, seen.offsets, seen.source, SHORTEST_MM / placement.scale, USUAL.facets
     )
-    seen = replace(seen.some(parent), points=points, offsets=offsets)
+    seen = replace(seen.take(parent), points=points, offsets=offsets)
     shown = seen_fills(mirrored, lighting, seen, placement, FillKind.REFLECTION)
     laid = [decal_fills(mirrored, lighting, some, seen, placement) for some in decals]
     whole = shown

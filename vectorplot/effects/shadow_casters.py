@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping import Polygons, cut_polygons
-from vectorplot.geometry.columns import cross
+from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
@@ -215,7 +215,7 @@ class Casters:
     def __len__(self) -> int:
         return len(self.item)
 
-    def some(self, which: Ints) -> Casters:
+    def take(self, which: Ints) -> Casters:
         """Some of them, given by ascending numbers."""
         position, first = ragged.take(self.volumes.first, which)
         number = np.full(len(self), -1, dtype=np.intp)
@@ -326,7 +326,7 @@ class Receivers:
         position, offsets = ragged.take(view.offsets, face)
         return cls(face, view.points[:, view.corners[position]], offsets)
 
-    def some(self, which: Ints) -> Receivers:
+    def take(self, which: Ints) -> Receivers:
         """Some of them."""
         position, offsets = ragged.take(self.offsets, which)
         return Receivers(self.face[which], self.points[:, position], offsets)
@@ -402,7 +402,7 @@ def crowds(view: View, system: LightSystem, casters: Casters, receivers: Receive
     chosen = np.flatnonzero(possible[casters.item] & _in_sample(casters.item, own))
     if not len(chosen):
         return np.zeros((2, 0), dtype=np.intp)
-    sample = casters.some(chosen)
+    sample = casters.take(chosen)
     keys, sizes = [], []
     for caster, receiver in candidates(view, system, sample, receivers, FIRST_OF_SAMPLE):
         key, size = np.unique(caster * items + item[receiver], return_counts=True)
@@ -432,8 +432,8 @@ def apart(view: View, casters: Casters, receivers: Receivers, crowded: Ints) -> 
     """The casters with the receivers that they may shadow where those of items (2,k) are left out."""
     of, on = crowded
     usual = np.flatnonzero(~np.isin(casters.item, of))
-    yield (casters if len(usual) == len(casters) else casters.some(usual)), receivers
+    yield (casters if len(usual) == len(casters) else casters.take(usual)), receivers
     item = view.face_item[receivers.face]
     for one in np.unique(of).tolist():
         open_still = np.flatnonzero(~np.isin(item, on[of == one]))
-        yield casters.some(np.flatnonzero(casters.item == one)), receivers.some(open_still)
+        yield casters.take(np.flatnonzero(casters.item == one)), receivers.take(open_still)

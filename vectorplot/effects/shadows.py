@@ -12,8 +12,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.body_shadows import LitBodies, lit_bodies
 from vectorplot.effects.decals import Decals, FaceFrames, disjoint_decals, joined_decals, no_decals
-from vectorplot.effects.lit_bodies import LitBodies, lit_bodies
 from vectorplot.effects.shadow_casters import (
     Casters,
     FacePlanes,
@@ -29,7 +29,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, mapped, unresolved
 from vectorplot.geometry.polygon_cuts import Crossings, Parts, crossings_of, parts_of
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.regions import cells_of, corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.item import Item
@@ -117,9 +117,9 @@ class Shadows:
         """(m,) how many lights each lacks."""
         return np.bitwise_count(self.lacking).astype(np.intp)
 
-    def some(self, which: Ints) -> Shadows:
+    def take(self, which: Ints) -> Shadows:
         """Some of them, in the order asked for."""
-        return some(self, which)
+        return take(self, which)
 
     def without_needless(self) -> Shadows:
         """The same without those on faces that another shadow for want of the same lights covers whole."""
@@ -129,7 +129,7 @@ class Shadows:
         first[1:] = (face[1:] != face[:-1]) | (lacking[1:] != lacking[:-1])
         leader = np.maximum.accumulate(np.where(first, np.arange(len(order)), 0))
         kept = first | ~self.whole[order][leader]
-        return self if kept.all() else self.some(np.sort(order[kept]))
+        return self if kept.all() else self.take(np.sort(order[kept]))
 
 
 def joined_shadows(shadows: Sequence[Shadows]) -> Shadows:
@@ -156,14 +156,14 @@ def graded(view: View, shadows: Shadows) -> Shadows:
     dark = np.zeros(len(faces), dtype=np.intp)
     np.bitwise_or.at(dark, number[whole], shadows.lacking[whole])
     first = np.unique(number[whole], return_index=True)[1]
-    found = [_lacking(shadows.some(whole[first]), dark[number[whole[first]]])]
+    found = [_lacking(shadows.take(whole[first]), dark[number[whole[first]]])]
     part = np.flatnonzero(~shadows.whole)
     several = np.bincount(number[part], minlength=len(faces))[number[part]] > 1
     alone = part[~several]
-    found.append(_lacking(shadows.some(alone), shadows.lacking[alone] | dark[number[alone]]))
+    found.append(_lacking(shadows.take(alone), shadows.lacking[alone] | dark[number[alone]]))
     crowd = part[several]
     count = 0
-    for cells in mapped(lambda lot: _arranged(view, shadows.some(crowd[lot])), _lots(number[crowd])):
+    for cells in mapped(lambda lot: _arranged(view, shadows.take(crowd[lot])), _lots(number[crowd])):
         count += len(cells)
         if count > MOST_CELLS:
             raise InputError(f"shadows overlap in more than {MOST_CELLS} parts: fewer lights, or the verb render")
@@ -377,12 +377,12 @@ def cast_within(
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()
         alone[bodies.item[bodies.convex]] = False
-        inside = _whole(bright.some(bodies.within(bright)), number)
+        inside = _whole(bright.take(bodies.within(bright)), number)
         parts = [joined_shadows([outlined, inside]).without_needless()]
         still = ~np.isin(bright.face, parts[0].face[parts[0].whole])
         for casters, on in ((alone, still), (open_items, still & open_receivers)):
             dark = replace(shadow_casters(view, planes, system, facing, casters, solids), known=bodies.settle)
-            under = bright.some(np.flatnonzero(on))
+            under = bright.take(np.flatnonzero(on))
             crowded = crowds(view, system, dark, under, pairs)
             missing.append(np.insert(crowded, 0, number, axis=0))
             parts += [_of_faces(view, system, *each, number) for each in apart(view, dark, under, crowded)]
@@ -436,7 +436,7 @@ def _thrown(
         dark[receiver[found.pair[first]]] = True
         useful = ~dark[receiver[found.pair]]
         useful[first] = True
-        found = found.some(np.flatnonzero(useful))
+        found = found.take(np.flatnonzero(useful))
         cut = parts_of(receivers.points, receivers.offsets, receiver, found, view.tolerance)
         parts.append(Shadows.of_light(cut, receivers.face[receiver[cut.pair]], number))
     # What was found of a face before it was found to be dark.

@@ -38,7 +38,7 @@ def shadow_borders(view: View, single: Shadows, cells: Shadows, width: float) ->
     import shapely
 
     near = np.minimum.reduceat(view.depth_of(single.points), single.offsets[:-1]) <= view.near if len(single) else True
-    single = single.some(np.flatnonzero(~single.whole & ~near))
+    single = single.take(np.flatnonzero(~single.whole & ~near))
     if width == 0.0 or not len(single):
         return no_decals()
     rows = np.stack([single.face, single.lacking], axis=1)
@@ -95,14 +95,14 @@ def _lit_somewhere(view: View, single: Shadows, cells: Shadows) -> Shadows:
     position, offsets = ragged.take(view.offsets, face)
     bare = np.zeros(len(face), dtype=np.intp)
     faces = Shadows(view.points[:, view.corners[position]], offsets, face, bare, bare == 0)
-    every = joined_shadows([faces, cells.some(np.flatnonzero(np.isin(cells.face, face)))])
+    every = joined_shadows([faces, cells.take(np.flatnonzero(np.isin(cells.face, face)))])
     beyond = view.depth_of(every.points) - view.near
     if view.eye is None or not (beyond < 0.0).any():
         return every
     cut, _ = cut_polygons(Polygons(every.points.T, every.offsets), beyond)
     full = np.flatnonzero(np.diff(cut.offsets))
     offsets = np.append(cut.offsets[full], len(cut.points))
-    left = every.some(full)
+    left = every.take(full)
     return Shadows(np.ascontiguousarray(cut.points.T), offsets, left.face, left.lacking, left.whole)
 
 
@@ -125,7 +125,7 @@ def united_shadows(view: View, shadows: Shadows) -> Shadows:
     which = which[count[group.ravel()] > 1]
     if not len(which):
         return shadows
-    many = shadows.some(which)
+    many = shadows.take(which)
     rows = np.stack([many.face, many.lacking], axis=1)
     _, leader, group = np.unique(rows, axis=0, return_index=True, return_inverse=True)
     frames = FaceFrames.of(view, many.face)
@@ -138,4 +138,4 @@ def united_shadows(view: View, shadows: Shadows) -> Shadows:
     united = Shadows(points, offsets, many.face[first], many.lacking[first], many.whole[first])
     rest = np.ones(len(shadows), dtype=np.bool_)
     rest[which] = False
-    return joined_shadows([shadows.some(np.flatnonzero(rest)), united])
+    return joined_shadows([shadows.take(np.flatnonzero(rest)), united])

@@ -16,7 +16,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex, inside_convex, polygon_areas
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
@@ -126,7 +126,7 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
     Source: Glaeser, section 6.6 (every second, third or fourth pixel), for pens.
     """
     clear = (fills.opacity < 1.0) & (np.diff(fills.offsets) > 2)
-    glass = fills.some(np.flatnonzero(clear))
+    glass = fills.take(np.flatnonzero(clear))
     door = screen_door(glass.points.T, glass.offsets, pitch_mm, sparseness(glass.opacity))
     count = len(door)
     flat = np.stack([door.start, door.end], axis=2).reshape(2, -1).T
@@ -140,7 +140,7 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
         in_space(glass, flat, np.repeat(door.polygon, 2), page_from_world),
         np.full(count, int(FillKind.GLASS)),
     )
-    return Fills.joined(fills.some(np.flatnonzero(~clear)), lines)
+    return Fills.joined(fills.take(np.flatnonzero(~clear)), lines)
 
 
 # Polygons of the image that are seen through windows: mirrors, or faces of transparent bodies.
@@ -166,9 +166,9 @@ class SeenThrough:
     def __len__(self) -> int:
         return len(self.source)
 
-    def some(self, which: Ints) -> SeenThrough:
+    def take(self, which: Ints) -> SeenThrough:
         """Some of the polygons, in the order asked for."""
-        return some(self, which)
+        return take(self, which)
 
 
 def nothing_seen() -> SeenThrough:
@@ -211,7 +211,7 @@ def _wide(points: Floats, offsets: Ints, pair: Ints, tolerance: float) -> tuple[
 
 def sorted_by_window(seen: SeenThrough) -> SeenThrough:
     """The same polygons by windows; those of one window in the order they have."""
-    return seen.some(np.argsort(seen.window, kind="stable"))
+    return seen.take(np.argsort(seen.window, kind="stable"))
 
 
 def joined_seen(parts: list[SeenThrough]) -> SeenThrough:

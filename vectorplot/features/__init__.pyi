@@ -48,7 +48,7 @@ from .parameter_curves import borders, parameter_lines, u_lines, v_lines
 from .shortest_paths import mesh_distances, mesh_shortest_paths
 from .streamlines import evenly_spaced_curves
 from .surface_integration import Accuracy, geodesics, integral_curves
-from .surface_places import FaceSites, Sites, TangentPlanes, face_sites
+from .surface_points import FaceSites, Sites, TangentPlanes, face_sites
 from .tangent_fields import (
     AsymptoticDirections,
     ConstantElevation,

@@ -23,7 +23,7 @@ from vectorplot.features.zero_curves import ZeroManifold, check_grid, zero_manif
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget, slices
-from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, NumberedLines, joined, some
+from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, NumberedLines, joined, take
 from vectorplot.geometry.vectors import all_finite, from_components, norm
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances import (
@@ -533,7 +533,7 @@ def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> Surf
     crumb = np.zeros(len(curves), dtype=np.bool_)
     across = np.linalg.norm((places[first] - places[last]) / size, axis=1)
     crumb[own] = found.reshape(2, -1).any(axis=0) & (across <= CRUMB * resolution)
-    return some(led, ~crumb) if crumb.any() else led
+    return take(led, ~crumb) if crumb.any() else led
 
 
 def _in_space(conditions: StackedConditions[C], found: Sequence[ZeroManifold]) -> list[SurfaceCurves]:

@@ -14,8 +14,8 @@ from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, curves_whe
 from vectorplot.features.holes import wrapped
 from vectorplot.features.zero_curves import check_grid
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.chord_refinement import narrowed
-from vectorplot.geometry.polylines import joined, some
+from vectorplot.geometry.chord_refinement import bisected
+from vectorplot.geometry.polylines import joined, take
 from vectorplot.geometry.vectors import cross, dot, length, norm
 from vectorplot.surfaces.stacked import unit_normals_of
 from vectorplot.surfaces.surface import Domain, OverDomain, Surface, normals
@@ -191,7 +191,7 @@ def _singular_only(surface: Surface, found: SurfaceCurves, size: float) -> Surfa
             kept.append(k)
     own_nodes = np.linalg.norm(normals(surface, *found.nodes.T), axis=-1) <= SINGULAR_PRODUCT * size
     return replace(
-        some(found, np.array(kept, dtype=np.intp)),
+        take(found, np.array(kept, dtype=np.intp)),
         isolated=np.array(single).reshape(-1, 2),
         nodes=found.nodes[own_nodes],
         touching=found.touching[:0],
@@ -220,7 +220,7 @@ def _with_cusps(area: _SignedArea, curves: SurfaceCurves) -> SurfaceCurves:
         way = np.where((way * still[start]).sum(axis=1, keepdims=True) < 0.0, -way, way)
         return np.asarray(_across(area, new, way) * across[start] > 0.0)
 
-    _, high = narrowed(goes_on, np.zeros(len(first)), np.ones(len(first)), HALVINGS)
+    _, high = bisected(goes_on, np.zeros(len(first)), np.ones(len(first)), HALVINGS)
     new = on_edge(first, high)
     at = np.insert(at, first + 1, new, axis=0)
     points = area.surface.points(*wrapped(area.surface.domain, *new.T))
@@ -436,7 +436,7 @@ class _Pieces:
 
     def chosen(self, which: Ints) -> _Pieces:
         """Those at some positions."""
-        return records.some(self, which)
+        return records.take(self, which)
 
 
 def _sizes(contours: StackedConditions[Contour], of: Ints) -> Floats:

@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Picture
 from vectorplot.features.patches import Patch, SurfacePatch
 from vectorplot.features.tessellation import FREE
-from vectorplot.features.triangle_pairs import Contacts
+from vectorplot.features.triangle_intersections import Contacts
 from vectorplot.geometry.algebra import least_squares, matmul
 from vectorplot.geometry.chord_refinement import Traces, refined
 from vectorplot.geometry.elementary import arctan2
@@ -91,7 +91,7 @@ def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Boun
     Source: Glaeser, section 8.4; Barnhill and Kersey, A marching method for parametric surface/surface intersection
     (1990).
     """
-    a, b = one.on_rails(at_one, bound.rail_one), two.on_rails(at_two, bound.rail_two)
+    a, b = one.on_constraints(at_one, bound.rail_one), two.on_constraints(at_two, bound.rail_two)
     met = np.zeros(len(a), dtype=np.bool_)
     zero = np.broadcast_to(np.asarray(zero, dtype=np.float64), len(a))
     active = np.arange(len(a))
@@ -109,8 +109,8 @@ def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Boun
         met[active] = close
         moving = np.flatnonzero(good & ~done)
         active = active[moving]
-        a[active] = one.on_rails(one.moved(a[active], steps[0, moving]), bound.rail_one[active])
-        b[active] = two.on_rails(two.moved(b[active], steps[1, moving]), bound.rail_two[active])
+        a[active] = one.on_constraints(one.moved(a[active], steps[0, moving]), bound.rail_one[active])
+        b[active] = two.on_constraints(two.moved(b[active], steps[1, moving]), bound.rail_two[active])
     p, q = one.points(a), two.points(b)
     d = np.sqrt(((p - q) ** 2).sum(axis=1))
     return Meetings(a, b, np.asarray(np.isfinite(d) & (d <= 4.0 * zero), dtype=np.bool_))
@@ -132,7 +132,7 @@ def _steps(one: Patch, two: Patch, a: Floats, b: Floats, points: tuple[Floats, F
     for patch, at, normal, point, rails in ((one, a, n, p, bound.rail_one), (two, b, m, q, bound.rail_two)):
         on = np.flatnonzero(rails != FREE)
         if len(on):
-            held[on] = cross(normal[on], patch.along_rails(at[on], rails[on]))
+            held[on] = cross(normal[on], patch.along_constraints(at[on], rails[on]))
             origin[on] = point[on]
     with np.errstate(all="ignore"):
         held /= np.sqrt((held * held).sum(axis=1, keepdims=True))

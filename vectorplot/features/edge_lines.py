@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.columns import cross
+from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh, next_positions
 from vectorplot.geometry.vectors import dot
@@ -333,7 +333,7 @@ def smooth_mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_de
     keys = [edges.start * faces.points.shape[1] + edges.end for edges in (contours, others, creases)]
     sharp = np.isin(keys[0], keys[2])
     rest = ~np.isin(keys[1], keys[0][sharp])
-    return records.joined([records.some(contours, sharp), records.some(others, rest)])
+    return records.joined([records.take(contours, sharp), records.take(others, rest)])
 
 
 # A mesh taken apart along its creases: what is left is smooth, and its normals may be averaged.

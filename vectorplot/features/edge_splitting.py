@@ -105,9 +105,9 @@ class Vertices:
     points: Floats
     normals: Floats
 
-    def some(self, which: Ints | Bools) -> Vertices:
+    def take(self, which: Ints | Bools) -> Vertices:
         """Those with these numbers."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     def joined(self, other: Vertices) -> Vertices:
         """These and others behind them."""
@@ -165,13 +165,13 @@ class Edges:
     t: Floats
     fold: Ints
 
-    def some(self, which: Ints | Bools) -> Edges:
+    def take(self, which: Ints | Bools) -> Edges:
         """Those with these numbers."""
         at = Vertices(self.at.places[:, which], self.at.points[:, which], self.at.normals[:, which])
-        return Edges(self.start.some(which), self.end.some(which), at, self.t[:, which], self.fold[:, which])
+        return Edges(self.start.take(which), self.end.take(which), at, self.t[:, which], self.fold[:, which])
 
 
-class Demand(Protocol):
+class Criterion(Protocol):
     """How fine triangles have to be."""
 
     @property
@@ -192,7 +192,7 @@ class Demand(Protocol):
         """(k,n) the same where it is more than 1; elsewhere any numbers up to 1."""
         ...
 
-    def border_excess(self, edges: Edges) -> Floats:
+    def border_error_ratio(self, edges: Edges) -> Floats:
         """(k,n) the same for sides along borders and outlines."""
         ...
 
@@ -225,7 +225,7 @@ class _Found:
         return _Found(key, rows), np.flatnonzero(~known)
 
 
-def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
+def refined(net: Net, between: Between, demand: Criterion, most: int) -> Net:
     """The triangles divided until all of their sides are fine enough, or there are so many of a surface that the next
     division would make more than most. They keep the sense in which they turn.
 
@@ -256,7 +256,7 @@ def refined(net: Net, between: Between, demand: Demand, most: int) -> Net:
             break
         middle = np.full(len(edges), -1, dtype=np.intp)
         middle[which] = count + np.arange(len(which))
-        ends = net.vertices.some(edges[which, 0]), net.vertices.some(edges[which, 1])
+        ends = net.vertices.take(edges[which, 0]), net.vertices.take(edges[which, 1])
         vertices = net.vertices.joined(between(*ends, part[which], uses[which] == 1))
         triangles, of = divided(net.triangles, middle[sides], vertices.points)
         places = vertices.places[triangles]
@@ -293,7 +293,7 @@ def _full(surface: Ints, more: Ints, most: int) -> Ints:
     return np.flatnonzero((np.bincount(surface) + wanted > most) & (wanted > 0))
 
 
-def _front(vertices: Vertices, triangles: Ints, demand: Demand) -> Bools:
+def _front(vertices: Vertices, triangles: Ints, demand: Criterion) -> Bools:
     """(s,t) which triangles (t,3) show their front to each place from where folds are outlines."""
     if not demand.outlines:
         return np.zeros((0, len(triangles)), dtype=np.bool_)
@@ -312,17 +312,17 @@ def _outlines(front: Bools, sides: Ints, uses: Ints) -> Bools:
     return found
 
 
-def _splits(net: Net, edges: Ints, border: Bools, between: Between, demand: Demand) -> Floats:
+def _splits(net: Net, edges: Ints, border: Bools, between: Between, demand: Criterion) -> Floats:
     """(3,n) by how many times sides are too coarse, and would be as borders; at which part they are to be split."""
-    start, end = net.vertices.some(edges[:, 0]), net.vertices.some(edges[:, 1])
+    start, end = net.vertices.take(edges[:, 0]), net.vertices.take(edges[:, 1])
     found = np.repeat([[0.0], [0.0], [0.5]], len(edges), axis=1)
     apart = _apart(net.vertices, edges)
     inside = np.flatnonzero(start.known & end.known & apart)
     if len(inside):
-        found[:, inside] = _in_sight(start.some(inside), end.some(inside), border[inside], between, demand)
+        found[:, inside] = _in_sight(start.take(inside), end.take(inside), border[inside], between, demand)
     rim = np.flatnonzero((start.known != end.known) & apart)
     if len(rim):
-        part = _rim(start.some(rim), end.some(rim), border[rim], between)
+        part = _rim(start.take(rim), end.take(rim), border[rim], between)
         found[:, rim] = np.where(part > 0.0, np.inf, 0.0), np.zeros(len(rim)), part
     return found
 
@@ -336,7 +336,7 @@ def _apart(vertices: Vertices, edges: Ints) -> Bools:
     return any_component(way > JUMP_OF_DOMAIN * extent)
 
 
-def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, demand: Demand) -> Floats:
+def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, demand: Criterion) -> Floats:
     """As _splits, for sides both ends of which are known."""
     start, end = between.ends(start, end)
     count = len(start.points)
@@ -361,7 +361,7 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
     fold[-1] = number
     edges = Edges(start, end, at, t, fold)
     excess = np.nan_to_num(demand.too_coarse(edges), nan=0.0)
-    as_border = np.nan_to_num(demand.border_excess(edges), nan=0.0).max(axis=0)
+    as_border = np.nan_to_num(demand.border_error_ratio(edges), nan=0.0).max(axis=0)
     part = np.full(count, 0.5)
     at_fold = np.flatnonzero((excess[-1] > 1.0) & (number != NONE))
     # A side that begins at a fold has a vertex there.
@@ -376,7 +376,7 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
     # Where a surface is steep above its domain what is over a side is far from it, and yet the side near the surface.
     steep = np.flatnonzero((worst > 1.0) & (number == NONE) & ~border & at.known.all(axis=0))
     if len(steep):
-        some = edges.some(steep)
+        some = edges.take(steep)
         some = replace(some, at=between.nearer(some))
         worst[steep] = np.minimum(worst[steep], np.nan_to_num(demand.too_coarse(some), nan=0.0).max(axis=0))
     return np.stack((worst, as_border, part))
@@ -387,7 +387,7 @@ def _looks(start: Vertices, end: Vertices, border: Bools, between: Between) -> V
     as long as many."""
     every = np.tile(np.arange(len(start.points)), len(LOOKS))
     t = np.repeat(LOOKS, len(start.points))
-    return between(start.some(every), end.some(every), t, border[every])
+    return between(start.take(every), end.take(every), t, border[every])
 
 
 def _with_roots(looks: Vertices, number: Ints, at_root: Vertices) -> Vertices:
@@ -404,7 +404,7 @@ def _with_roots(looks: Vertices, number: Ints, at_root: Vertices) -> Vertices:
 def _bulging(edges: Edges, hole: Ints) -> Edges:
     """The sides with a hole beneath them, its points taken for points that are off the side by BULGE of its length:
     both ends of a side along the rim of a hole are on the rim, but never all of it."""
-    found = edges.some(hole)
+    found = edges.take(hole)
     at, start = found.at, found.start.points
     way = found.end.points - start
     off = BULGE * np.linalg.norm(way, axis=1, keepdims=True) * np.nan_to_num(found.start.normals)
@@ -413,7 +413,7 @@ def _bulging(edges: Edges, hole: Ints) -> Edges:
 
 
 def _roots(
-    start: Vertices, end: Vertices, values: Floats, border: Bools, between: Between, demand: Demand
+    start: Vertices, end: Vertices, values: Floats, border: Bools, between: Between, demand: Criterion
 ) -> tuple[Floats, Ints, Vertices]:
     """(n,) the part of each side at which it crosses a fold, and the number of the fold; 0.5 and NONE for most; and the
     vertices there, of the others.
@@ -426,12 +426,12 @@ def _roots(
         crossed = (values[:, 1:] * values[:, :-1] < 0.0).reshape(-1, count)
     which = np.flatnonzero(crossed.any(axis=0)) if len(crossed) else np.zeros(0, dtype=np.intp)
     if not len(which):
-        return part, number, start.some(which)
+        return part, number, start.take(which)
     fold, step = np.divmod(np.argmax(crossed[:, which], axis=0), values.shape[1] - 1)
     nodes = np.array((0.0, *LOOKS, 1.0))
     low, high = nodes[step], nodes[step + 1]
     at_low, at_high = values[fold, step, which], values[fold, step + 1, which]
-    first, last = start.some(which), end.some(which)
+    first, last = start.take(which), end.take(which)
     for _ in range(STEPS):
         t = low + (high - low) * at_low / (at_low - at_high)
         found = between(first, last, t, border[which])
@@ -442,7 +442,7 @@ def _roots(
         low, high = np.where(before, t, low), np.where(before, high, t)
     good = (t > NEAR) & (t < 1.0 - NEAR)
     part[which[good]], number[which[good]] = t[good], fold[good]
-    return part, number, found.some(good)
+    return part, number, found.take(good)
 
 
 def _rim(start: Vertices, end: Vertices, border: Bools, between: Between) -> Floats:
@@ -472,7 +472,7 @@ INSIDE = 0.75
 
 
 class AllSidesAlike(ABC):
-    """What a Demand has that treats all sides of triangles alike, outlines and borders among them."""
+    """What a Criterion has that treats all sides of triangles alike, outlines and borders among them."""
 
     def folds(self, points: Floats, normals: Floats) -> Floats:
         """None."""
@@ -485,14 +485,14 @@ class AllSidesAlike(ABC):
 
     @abstractmethod
     def excess(self, edges: Edges) -> Floats:
-        """(k,n) as Demand."""
+        """(k,n) as Criterion."""
 
     def too_coarse(self, edges: Edges) -> Floats:
-        """(k,n) as Demand."""
+        """(k,n) as Criterion."""
         return self.excess(edges)
 
-    def border_excess(self, edges: Edges) -> Floats:
-        """(k,n) as Demand: borders are as all sides."""
+    def border_error_ratio(self, edges: Edges) -> Floats:
+        """(k,n) as Criterion: borders are as all sides."""
         return np.zeros(edges.t.shape)
 
 
@@ -514,7 +514,7 @@ class Within(AllSidesAlike):
         return asked[0]
 
     def excess(self, edges: Edges) -> Floats:
-        """(k,n) as Demand: the larger one of the distances and the turning of the normals, as parts of their limits."""
+        """(k,n) as Criterion: the larger of the distances and the turning of the normals, as parts of their limits."""
         far = off_chords(edges) / (INSIDE * self.allowed(edges.at.points))
         return np.asarray(np.maximum(far, turning(edges) / TURN))
 

@@ -16,7 +16,7 @@ from vectorplot.features.edge_splitting import (
     LOOKS,
     NONE,
     Between,
-    Demand,
+    Criterion,
     Edges,
     Net,
     Vertices,
@@ -29,9 +29,9 @@ from vectorplot.features.hole_rims import cut_at_holes
 from vectorplot.features.holes import beside_rim_chords, in_domain, is_known, ways_between
 from vectorplot.features.implicit_singular_lines import (
     SingularLines,
+    default_gradient,
     led_into_singular_set,
     singular_lines,
-    usual_gradient,
 )
 from vectorplot.features.implicit_surfaces import BOXED, onto_surface, polygonized, settled_from, sides_of
 from vectorplot.features.tessellation import UNEVEN, seam_numbers
@@ -272,13 +272,13 @@ def _wrapped(domain: Domain, places: Floats) -> Floats:
     return places
 
 
-def first_net(surface: Surface, demand: Demand) -> Net:
+def first_net(surface: Surface, demand: Criterion) -> Net:
     """A grid that has as few columns and rows as it may, but not so few that something between its lines is missed."""
     ((columns, rows),) = first_counts(Patch(surface, ()), 1, demand)
     return grid_net(surface, columns, rows)
 
 
-def first_counts(patch: Patch, surfaces: int, demand: Demand) -> list[tuple[int, int]]:
+def first_counts(patch: Patch, surfaces: int, demand: Criterion) -> list[tuple[int, int]]:
     """The columns and rows of the first nets of so many surfaces."""
     domain = patch.surface.domain
     columns = _enough(lambda count, own: _lines(patch, count, own, True), domain.closed_u, surfaces, demand)
@@ -354,7 +354,7 @@ def _on_grid(u: Floats, v: Floats) -> Floats:
     return np.stack([*np.meshgrid(u, v, indexing="ij"), np.zeros((len(u), len(v)))], axis=-1)
 
 
-def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, demand: Demand) -> Ints:
+def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, demand: Criterion) -> Ints:
     """(s,) how many parts of lines of the grids of so many surfaces are enough to begin with.
 
     lines: of so many parts, of some of the surfaces, of one after the other.
@@ -370,7 +370,7 @@ def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, de
             inside = sides.start.known | sides.end.known
             # Of few parts nothing matters but whether they are enough.
             told = demand.too_coarse if count < USUAL else demand.excess
-            excess = np.nan_to_num(told(sides.some(inside)), nan=2.0).max(axis=0) if inside.any() else np.zeros(0)
+            excess = np.nan_to_num(told(sides.take(inside)), nan=2.0).max(axis=0) if inside.any() else np.zeros(0)
             of = np.repeat(np.arange(len(own)), len(inside) // len(own))[inside]
             counts[own] = [_next_count(count, excess[of == k]) for k in range(len(own))]
             left.append(own[(counts[own] > count) & (np.bincount(of, minlength=len(own)) > 0)])
@@ -437,7 +437,7 @@ class Level:
     @cached_property
     def least(self) -> float:
         """The length of gradients that are not but for rounding."""
-        return VANISHED_GRADIENT * usual_gradient(self.surface, self.mesh.vertices)
+        return VANISHED_GRADIENT * default_gradient(self.surface, self.mesh.vertices)
 
     def __call__(self, start: Vertices, end: Vertices, t: Floats, border: Bools) -> Vertices:
         """The vertices over parts t of sides, on the surface; border: of sides at its borders."""
@@ -493,11 +493,11 @@ def cut_where_normals_jump(net: Net, between: Between) -> tuple[Net, Bools]:
     """
     count = len(net.vertices.points)
     edges, sides, uses = edges_of(net.triangles, count)
-    start, end = between.ends(net.vertices.some(edges[:, 0]), net.vertices.some(edges[:, 1]))
+    start, end = between.ends(net.vertices.take(edges[:, 0]), net.vertices.take(edges[:, 1]))
     with np.errstate(invalid="ignore"):
         which = np.flatnonzero(component_sum(start.normals * end.normals) < 0.0)
-    found = _turns(start.some(which), end.some(which), uses[which] == 1, between)
-    which, found = which[found.known], found.some(found.known)
+    found = _turns(start.take(which), end.take(which), uses[which] == 1, between)
+    which, found = which[found.known], found.take(found.known)
     middle = np.full(len(edges), -1, dtype=np.intp)
     middle[which] = count + np.arange(len(which))
     vertices = net.vertices.joined(found)
@@ -532,7 +532,7 @@ class Facets:
     sharp: Bools
 
 
-def facets(shape: Surface | ImplicitSurface, demand: Demand, most: int = USUAL_BUDGET.facets) -> Facets:
+def facets(shape: Surface | ImplicitSurface, demand: Criterion, most: int = USUAL_BUDGET.facets) -> Facets:
     """Triangles of a smooth surface as fine as the demand says, every vertex on the surface.
 
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
@@ -617,7 +617,7 @@ def _without_jumps(surface: Surface, net: Net) -> Net:
 def _facets(net: Net, sharp: Bools, apex: Bools | None = None) -> Facets:
     triangles = net.triangles[net.vertices.known[net.triangles].all(axis=1)]
     used, corners = np.unique(triangles, return_inverse=True)
-    vertices = net.vertices.some(used)
+    vertices = net.vertices.take(used)
     normals = vertices.normals if apex is None else np.where(apex[used, None], np.nan, vertices.normals)
     return Facets(Mesh.from_triangles(vertices.points, corners.reshape(-1, 3)), normals, not net.stopped, sharp[used])
 
@@ -633,7 +633,7 @@ do by itself."""
 
 
 @runtime_checkable
-class Joinable(Demand, Protocol):
+class Joinable(Criterion, Protocol):
     """A demand that can be made of several surfaces at once."""
 
     @property
@@ -642,7 +642,7 @@ class Joinable(Demand, Protocol):
         ...
 
     @classmethod
-    def joined(cls, asked: Sequence[Self]) -> Demand:
+    def joined(cls, asked: Sequence[Self]) -> Criterion:
         """That of several surfaces, told apart by the numbers of those that places are on."""
         ...
 
@@ -663,7 +663,7 @@ class Patches(Patch):
         return np.column_stack([np.tile(places, (len(numbers), 1)), np.repeat(numbers, len(places))])
 
 
-def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Demand], most: int) -> list[Facets]:
+def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Criterion], most: int) -> list[Facets]:
     """The facets of each of some surfaces, to the last bit those that it has alone.
 
     demand: how fine those of a shape have to be, by its number; most: triangles of each. What is no surface of a
@@ -695,7 +695,7 @@ def _family(shape: Any) -> Hashable:
     return type(inner), known, inner.domain, tuple((pole.axis, pole.place) for pole in poles(shape))
 
 
-def _joinable(asked: Sequence[Demand]) -> list[list[int]]:
+def _joinable(asked: Sequence[Criterion]) -> list[list[int]]:
     """The numbers of demands, those together that can be joined."""
     found: dict[Hashable, list[int]] = {}
     for number, one in enumerate(asked):
@@ -741,7 +741,7 @@ def _apart(net: Net, count: int) -> list[Net]:
     for number in range(count):
         own = np.flatnonzero(of == number)
         place[own] = np.arange(len(own))
-        vertices = net.vertices.some(own)
+        vertices = net.vertices.take(own)
         vertices = replace(vertices, places=np.ascontiguousarray(vertices.places[:, :3]))
         stopped = (0,) if number in net.stopped else ()
         found.append(Net(vertices, place[net.triangles[of_triangle == number]], stopped))

@@ -53,9 +53,9 @@ class Bending:
         """(n,3) unit tangents a quarter turn to the left of along."""
         return cross(self.normals, self.along)
 
-    def some(self, which: Ints) -> Bending:
+    def take(self, which: Ints) -> Bending:
         """What is known of some of the points."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     def turned_over(self, side: Floats) -> Bending:
         """The same where sides (n,) are 1, and seen from the other side, but in the same tangents, where they are -1:

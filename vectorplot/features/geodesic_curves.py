@@ -17,11 +17,11 @@ from vectorplot.features.surface_integration import (
     Accuracy,
     Courses,
     JacobiFlow,
-    courses_from,
     drawn,
     starts_of,
+    traces_from,
 )
-from vectorplot.features.surface_places import Sites, charts, unit
+from vectorplot.features.surface_points import Sites, charts, unit
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import Surface
@@ -170,11 +170,11 @@ def geodesics_between(
     last = np.inf if most is None else roughly.length[:most].max(initial=0.0)
     wanted = np.flatnonzero(roughly.length <= (1.0 + LENGTH_ROUGHLY) * last)
     near = max(GEODESIC_MET, MET_OF_INTEGRATED * accuracy.error)
-    found, aside, runs = shooting.met(records.some(roughly, wanted), limit, accuracy, near)
+    found, aside, runs = shooting.met(records.take(roughly, wanted), limit, accuracy, near)
     if not len(found.length):
         return no_curves()
     order = np.arange(len(found.length))[:most]
-    curves = drawn(runs.some(order), 1, size, tracing)
+    curves = drawn(runs.take(order), 1, size, tracing)
     doubts = ("of infinitely many geodesics between conjugate points there is one",)
     conjugate = bool((aside[order] <= ONE_GEODESIC_OF_EXTENT * size).any())
     return replace(
@@ -213,7 +213,7 @@ class _Shooting:
         ahead, left = self.frame
         tangents = np.cos(shots.angle)[:, None] * ahead + np.sin(shots.angle)[:, None] * left
         starts = np.tile(self.start, (len(tangents), 1))
-        return courses_from(self.flow, starts, tangents, shots.length, 1, self.extent, accuracy)
+        return traces_from(self.flow, starts, tangents, shots.length, 1, self.extent, accuracy)
 
     def passing(self, longest: float) -> _Shots:
         """Those that come by the end, turned and as long as they should be to meet it, the shortest first."""
@@ -231,7 +231,7 @@ class _Shooting:
         with np.errstate(all="ignore"):
             turn = np.clip(np.nan_to_num(left[at] / aside[at]), -turned, turned)
         found = _Shots(angle[row[at]] + turn, np.clip(along[at] + ahead[at], step, longest))
-        return records.some(found, np.argsort(found.length, kind="stable")[:TRIED])
+        return records.take(found, np.argsort(found.length, kind="stable")[:TRIED])
 
     def missed(self, runs: Courses, row: Ints, along: Floats) -> tuple[Floats, Floats, Floats, Floats]:
         """How far (k,) the end is from places along courses; how much of that is ahead, and to the left; and how far
@@ -262,18 +262,18 @@ class _Shooting:
             done = (way <= near * size) & self._on_its_sheet(runs, begun, along) & (along <= longest)
             met.append(_Shots(angle[done], along[done]))
             sides.append(np.abs(aside[done]))
-            courses.append(runs.some(begun[done]))
+            courses.append(runs.take(begun[done]))
             with np.errstate(all="ignore"):
                 turn = np.clip(np.nan_to_num(left / aside), -FARTHEST, FARTHEST)
             length = along + ahead
             # Newton's method comes nearer with every step, or not at all.
             goes_on = np.flatnonzero((way > near * size) & (length > 0.0) & (way < last[begun]))
-            shots, last = records.some(_Shots(angle + turn, length), goes_on), way[goes_on]
+            shots, last = records.take(_Shots(angle + turn, length), goes_on), way[goes_on]
             if not len(goes_on):
                 break
         found, aside = records.joined(met), np.concatenate(sides)
         order = np.argsort(found.length, kind="stable")
-        found, aside = records.some(found, order), aside[order]
+        found, aside = records.take(found, order), aside[order]
         # At a conjugate point all that are as long as each other count as one.
         least = max(ONE_GEODESIC_OF_EXTENT, SAME * near)
         single = aside > least * size
@@ -283,7 +283,7 @@ class _Shooting:
             chosen.append(int(left_over[0]))
             left_over = left_over[norm(key[left_over] - key[left_over[0]]) > least]
         kept = np.array(chosen, dtype=np.intp)
-        return records.some(found, kept), aside[kept], Courses.joined(courses).some(order[kept])
+        return records.take(found, kept), aside[kept], Courses.joined(courses).take(order[kept])
 
     def _on_its_sheet(self, runs: Courses, row: Ints, along: Floats) -> Bools:
         """(k,) whether places along courses are near the end along the surface, if they are in space."""

@@ -20,7 +20,7 @@ from vectorplot.features.holes import (
     wrapped,
 )
 from vectorplot.geometry.budget import unresolved
-from vectorplot.geometry.chord_refinement import Traces, narrowed, refined
+from vectorplot.geometry.chord_refinement import Traces, bisected, refined
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import closed_round
@@ -137,7 +137,7 @@ def _is_straight(surface: Surface, places: Floats, triangles: Ints, known: Bools
         def goes_on(which: Ints, part: Floats, way: Floats = way) -> Bools:
             return np.asarray(is_known(surface, base[which] + part[:, None] * way[which]) == alone[which])
 
-        low, high = narrowed(goes_on, np.zeros(len(base)), np.ones(len(base)), HALVINGS)
+        low, high = bisected(goes_on, np.zeros(len(base)), np.ones(len(base)), HALVINGS)
         ends.append(0.5 * (low + high)[:, None] * way / size)
         at_corners &= np.where(alone, low == 0.0, high == 1.0)
     chord = ends[1] - ends[0]

@@ -174,7 +174,7 @@ class Nodes:
 
     def chosen(self, which: Ints) -> Nodes:
         """Some of them."""
-        return records.some(self, which)
+        return records.take(self, which)
 
 
 @dataclass(frozen=True, eq=False)

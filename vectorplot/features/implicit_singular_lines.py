@@ -310,7 +310,7 @@ def singular_lines(surface: ImplicitSurface, mesh: Mesh) -> SingularLines:
     return SingularLines(_traced(edges, start), edges, _traced(doubles, start), doubles)
 
 
-def usual_gradient(surface: ImplicitSurface, points: Floats) -> float:
+def default_gradient(surface: ImplicitSurface, points: Floats) -> float:
     """How long the gradient is at most of the points (n,3); 0 without any."""
     with np.errstate(all="ignore"):
         steep = np.linalg.norm(surface.gradients(points), axis=1)
@@ -324,7 +324,7 @@ def _slow_places(surface: ImplicitSurface, mesh: Mesh, step: float) -> Floats:
         return np.zeros((0, 3))
     with np.errstate(all="ignore"):
         steep = np.linalg.norm(surface.gradients(mesh.vertices), axis=1)
-        slow = mesh.vertices[~(steep > SLOW * usual_gradient(surface, mesh.vertices))]
+        slow = mesh.vertices[~(steep > SLOW * default_gradient(surface, mesh.vertices))]
         slow = slow[one_each(slow, step)]
         # Second derivatives tell how far away the gradient may vanish.
         bends = np.linalg.norm(hessians(surface, slow), axis=(1, 2))
@@ -333,7 +333,7 @@ def _slow_places(surface: ImplicitSurface, mesh: Mesh, step: float) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class _Beads:
+class _SpuriousLoops:
     """Points (n,3) on lines with unit tangents (n,3); next (n,2): for each the one before it and the one behind it, by
     its tangent; NONE where that is not known yet, GONE where there is none."""
 
@@ -341,10 +341,10 @@ class _Beads:
     tangents: Floats
     next: Ints
 
-    def joined(self, points: Floats, tangents: Floats) -> _Beads:
+    def joined(self, points: Floats, tangents: Floats) -> _SpuriousLoops:
         """These and more."""
         fresh = np.full((len(points), 2), NONE)
-        return records.joined((self, _Beads(points, tangents, fresh)))
+        return records.joined((self, _SpuriousLoops(points, tangents, fresh)))
 
 
 def _traced(equations: SingularEquations, start: Floats) -> Polylines:
@@ -353,7 +353,7 @@ def _traced(equations: SingularEquations, start: Floats) -> Polylines:
     found, on = onto_lines(equations, start, np.full(len(start), REACH * step))
     found = found[on & sides_of(equations.surface).has(found)]
     found = found[one_each(found, step)]
-    beads = _Beads(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2), dtype=np.intp))
+    beads = _SpuriousLoops(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2), dtype=np.intp))
     beads = beads.joined(found, line_tangents(equations, found))
     for _ in range(LINE_ROUNDS):
         beads = _linked(equations, beads, step)
@@ -377,7 +377,7 @@ def _ahead(equations: SingularEquations, points: Floats, ways: Floats, lengths: 
     return found, on & sides_of(equations.surface).has(found)
 
 
-def _linked(equations: SingularEquations, beads: _Beads, step: float) -> _Beads:
+def _linked(equations: SingularEquations, beads: _SpuriousLoops, step: float) -> _SpuriousLoops:
     """The beads with those joined that follow one another: a line that sets out from the one arrives at the other."""
     from scipy.spatial import cKDTree
 
@@ -404,10 +404,10 @@ def _linked(equations: SingularEquations, beads: _Beads, step: float) -> _Beads:
     new[one[chosen], side[chosen]] = two[chosen]
     back = (new[two[chosen], other[chosen]] == one[chosen]) | (new[two[chosen], other[chosen]] < 0)
     new[two[chosen][back], other[chosen][back]] = one[chosen][back]
-    return _Beads(points, tangents, new)
+    return _SpuriousLoops(points, tangents, new)
 
 
-def _polylines(equations: SingularEquations, beads: _Beads, step: float) -> Polylines:
+def _polylines(equations: SingularEquations, beads: _SpuriousLoops, step: float) -> Polylines:
     """The beads on their strings, led on to where the lines end; those without neighbours that stay where they are make
     no line."""
     one, two = np.nonzero(beads.next >= 0)
@@ -649,7 +649,7 @@ def _into_points(surface: ImplicitSurface, points: Floats, reach: float) -> Floa
     low, high = np.asarray(surface.box, dtype=np.float64)
     sides = sides_of(surface)
     with np.errstate(all="ignore"):
-        usual = usual_gradient(surface, points)
+        usual = default_gradient(surface, points)
         steep = np.linalg.norm(surface.gradients(points), axis=1)
         near = np.flatnonzero(~(steep > SLOW * usual))
         start = points[near]

@@ -684,7 +684,7 @@ def _polylines(points: Floats, pairs: Ints, spans: Floats, dot: float) -> tuple[
     kept[starts[:-1]] = True
     real = length > dot
     kept &= real[line]
-    return lines.some(kept), branches.closed[real], own[starts[:-1]][~real]
+    return lines.take(kept), branches.closed[real], own[starts[:-1]][~real]
 
 
 def _ended_on_lines(curve: CurveInSpace, own: ImplicitMesh, lines: Traces, closed: Bools) -> Traces:

@@ -30,7 +30,7 @@ from vectorplot.features.double_curves import (
 )
 from vectorplot.features.patches import MeshPatch, Patch, StackedPatches, SurfaceGrids, SurfacePatch
 from vectorplot.features.tessellation import finer_grids
-from vectorplot.features.triangle_pairs import (
+from vectorplot.features.triangle_intersections import (
     Contacts,
     Piercings,
     contacts,

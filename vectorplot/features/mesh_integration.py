@@ -14,7 +14,7 @@ from vectorplot.curves.curve import positive
 from vectorplot.errors import InputError
 from vectorplot.features.mesh_lines import NO_FACE, MeshCurves, all_mesh_curves, without_inner
 from vectorplot.features.surface_integration import USUAL_LENGTH
-from vectorplot.features.surface_places import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
+from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.geometry import ragged
 from vectorplot.geometry.adjacency import face_barycentres
@@ -363,7 +363,7 @@ FAR = 4.0
 beyond."""
 
 
-class MeshCourses(NamedTuple):
+class MeshTraces(NamedTuple):
     """The segments of lines on a mesh in their order: line (s,), the point (s,3) where each begins and where it ends,
     and its face (s,); last (k,3): where the lines end; closed (k,): which came back, their first segment is from the
     start to where they do."""
@@ -386,7 +386,7 @@ class _Exits(NamedTuple):
     at_vertex: Bools
 
 
-def mesh_courses(
+def mesh_traces(
     sides: MeshSides,
     flow: MeshFlow,
     face: Ints,
@@ -395,7 +395,7 @@ def mesh_courses(
     way: Floats,
     length: Floats | float,
     beside: float = 0.0,
-) -> MeshCourses:
+) -> MeshTraces:
     """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it; length: of
     all, or (k,) of each. beside: those that come back so near to where they have been do not run on for many rounds;
     all do where it is zero.
@@ -449,7 +449,7 @@ def mesh_courses(
     parts = [np.concatenate([s[i] for s in segments]) if segments else np.zeros(0) for i in range(4)]
     order = np.argsort(parts[0], kind="stable")
     rows, begin, end, faces = (part[order] for part in parts)
-    return MeshCourses(
+    return MeshTraces(
         rows.astype(np.intp), begin.reshape(-1, 3), end.reshape(-1, 3), faces.astype(np.intp), last, closed
     )
 
@@ -714,13 +714,13 @@ def led_curves(
     both_ways: bool,
     beside: float = 0.0,
 ) -> MeshCurves:
-    """The lines of a flow as curves, both ways joined; beside: as of mesh_courses."""
+    """The lines of a flow as curves, both ways joined; beside: as of mesh_traces."""
     longest = USUAL_LENGTH * sides.extent if length is None else positive("integral curves: length", length)
     count = len(face)
     if not count:
         return all_mesh_curves([])
     ways = np.repeat([1.0, -1.0][: 1 + both_ways], count)
-    found = mesh_courses(
+    found = mesh_traces(
         sides,
         flow,
         np.tile(face, 1 + both_ways),
@@ -733,7 +733,7 @@ def led_curves(
     return _joined_ways(sides, found, count)
 
 
-def _joined_ways(sides: MeshSides, found: MeshCourses, count: int) -> MeshCurves:
+def _joined_ways(sides: MeshSides, found: MeshTraces, count: int) -> MeshCurves:
     """Curves from courses, those back (count and more) before those there; closed ones have no way back, and do without
     the way from the start to where they come back to."""
     place = ragged.place(np.bincount(found.line, minlength=len(found.closed)))

@@ -13,7 +13,7 @@ from vectorplot.features.edge_lines import Faces, unit_normals
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.boxes import overlapping_boxes, overlapping_pairs
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.columns import cross, dot, first_of_equal
+from vectorplot.geometry.component_arrays import cross, dot, first_of_equal
 from vectorplot.geometry.connectivity import pieces_of_faces
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import next_positions
@@ -114,7 +114,7 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
     normals = _normals_of(faces, one, two)
     found.extend(mapped(lambda some: _meet(faces, normals, one[some], two[some], tolerance), chunks))
     whole = records.joined(found)
-    return records.some(whole, _first_of_equal(whole.start, whole.end, tolerance))
+    return records.take(whole, _first_of_equal(whole.start, whole.end, tolerance))
 
 
 def self_intersections_of_parts(faces: Faces, part: Ints, tolerance: float) -> Intersections:
@@ -154,11 +154,11 @@ def self_intersections_of_parts(faces: Faces, part: Ints, tolerance: float) -> I
         [
             none,
             *(piercing for piercing, _, _ in found),
-            records.some(lying, _on_both_sides(lying, side, tolerance)),
+            records.take(lying, _on_both_sides(lying, side, tolerance)),
             _crossing_edges(faces, part, tolerance),
         ]
     )
-    return records.some(whole, _first_of_equal(whole.start, whole.end, tolerance))
+    return records.take(whole, _first_of_equal(whole.start, whole.end, tolerance))
 
 
 def _over_planes(

@@ -16,7 +16,7 @@ from vectorplot.features.implicit_tracing import no_curves as no_curves_of_impli
 from vectorplot.features.intersections import Joined, doubts_about, joined, repeats_dropped
 from vectorplot.features.patches import MeshPatch, SingleShape, SurfacePatch
 from vectorplot.features.tessellation import FREE, Tessellation, finer_grids
-from vectorplot.features.triangle_pairs import contacts, overlapping_triangles, piercings
+from vectorplot.features.triangle_intersections import contacts, overlapping_triangles, piercings
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot, norm
@@ -228,11 +228,11 @@ class ImplicitPatch(SingleShape):
         """(k,3) places moved along the surface, not out of the box."""
         return self._onto(places + steps)
 
-    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+    def along_constraints(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) directions of the curves on the sides of the box."""
         return np.cross(self.normals(places), sides_of(self.surface).normals[rails])
 
-    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+    def on_constraints(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) places put onto their sides of the box."""
         low, high = np.asarray(self.surface.box, dtype=np.float64)
         side = np.where(places - low < high - places, low, high)

@@ -31,13 +31,13 @@ from vectorplot.features.streamlines import (
     WIDEST,
     widest_first,
 )
-from vectorplot.features.surface_places import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
+from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
 from vectorplot.features.tangent_fields import TangentField, TurnedField
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.budget import workers
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.polylines import closed_round, joined, some
+from vectorplot.geometry.polylines import closed_round, joined, take
 from vectorplot.geometry.vectors import norm
 from vectorplot.geometry.weld import one_each
 
@@ -50,7 +50,7 @@ MOST_PLACES = 40_000
 
 
 @dataclass(frozen=True, eq=False)
-class CombedMesh:
+class StreamlineMesh:
     """A mesh (bent: and how it bends), a field, and the distance of curves; turned: the flow at right angles to that of
     the field.
 
@@ -305,7 +305,7 @@ GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
 
 
-def combed(shape: CombedMesh) -> MeshCurves:
+def combed(shape: StreamlineMesh) -> MeshCurves:
     """Curves of its field that cover a mesh evenly.
 
     Errors: InputError for a distance of less than a five-hundredth of the extent of the mesh.
@@ -332,7 +332,7 @@ def combed(shape: CombedMesh) -> MeshCurves:
             break
         seeds, spots = _seeds(shape, places[gaps], tree)
         new = _compared(shape, shape.along(seeds), spots)
-        kept, own = _without_crowds(shape, new, tree)
+        kept, own = _without_dense_groups(shape, new, tree)
         # A gap that nothing fits into is one no more.
         taken = np.concatenate([taken, own, where[gaps]])
         found += kept
@@ -371,7 +371,7 @@ def _away(tree: cKDTree, where: Floats, near: float) -> Floats:
         near *= FARTHER
 
 
-def _seeds(shape: CombedMesh, gaps: Floats, tree: cKDTree | None) -> tuple[Floats, Floats]:
+def _seeds(shape: StreamlineMesh, gaps: Floats, tree: cKDTree | None) -> tuple[Floats, Floats]:
     """Places (k,d) in the gaps, the distance apart across the field, and where (k,6) they are."""
     apart = shape.apart
     lines = shape.across(gaps)
@@ -392,7 +392,7 @@ def _seeds(shape: CombedMesh, gaps: Floats, tree: cKDTree | None) -> tuple[Float
     return shape.at(lines, found.node[at]), found.where[at]
 
 
-def _compared(shape: CombedMesh, curves: MeshCurves, spots: Floats) -> PlacedCurves:
+def _compared(shape: StreamlineMesh, curves: MeshCurves, spots: Floats) -> PlacedCurves:
     """The curves with places along them; spots: where (k,6) the places are that their levels number."""
     apart = shape.apart
     rounds = closed_round(curves)
@@ -428,7 +428,9 @@ def _compared(shape: CombedMesh, curves: MeshCurves, spots: Floats) -> PlacedCur
     return PlacedCurves(curves, owner, along, node, where, seed, total[ends])
 
 
-def _without_crowds(shape: CombedMesh, lines: PlacedCurves, tree: cKDTree | None) -> tuple[list[MeshCurves], Floats]:
+def _without_dense_groups(
+    shape: StreamlineMesh, lines: PlacedCurves, tree: cKDTree | None
+) -> tuple[list[MeshCurves], Floats]:
     """The curves, one after the other, as far as they are not too near what is taken, which the tree has, to those
     before, and to themselves; and where (k,6) they are.
 
@@ -545,11 +547,11 @@ def _beside_itself(found: PlacedCurves, one: Ints, two: Ints, apart: float) -> B
     return result
 
 
-def _cut(shape: CombedMesh, found: PlacedCurves, line: Ints, first: Ints, last: Ints) -> list[MeshCurves]:
+def _cut(shape: StreamlineMesh, found: PlacedCurves, line: Ints, first: Ints, last: Ints) -> list[MeshCurves]:
     """Parts of curves, from one place to another; whole curves as they are."""
     bounds = np.searchsorted(found.curve, np.arange(len(found.seed) + 1))
     whole = (first == bounds[line]) & (last == bounds[line + 1] - 1)
-    kept = [some(found.curves, line[whole])]
+    kept = [take(found.curves, line[whole])]
     if not whole.all():
         kept.append(shape.parts(found.curves, line[~whole], found.node[first[~whole]], found.node[last[~whole]]))
     return kept
@@ -607,5 +609,5 @@ def evenly_spaced_on_faces(bent: BentFaces, field: TangentField, apart: float) -
         return none
     flow = face_field_flow(sides, bent, field)
     across = face_field_flow(sides, bent, TurnedField(field, 0.5 * np.pi))
-    result = combed(CombedMesh(bent, field, apart, sides, flow, across))
+    result = combed(StreamlineMesh(bent, field, apart, sides, flow, across))
     return replace(result, levels=np.zeros(len(result)))

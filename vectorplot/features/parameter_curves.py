@@ -27,7 +27,7 @@ from vectorplot.features.scalar_fields import number, of_lines
 from vectorplot.geometry import records
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Refined, Traces, refined, straight_between, torn, with_standstills
-from vectorplot.geometry.polylines import some, split
+from vectorplot.geometry.polylines import split, take
 from vectorplot.geometry.vectors import all_finite, from_components, norm
 from vectorplot.surfaces.splines import line_pieces
 from vectorplot.surfaces.surface import Surface
@@ -298,7 +298,7 @@ def _without_holes(asked: SurfacesAtOnce, axis: int, lines: Traces, looks: int) 
     kept, ends = np.insert(good, change + 1, True), np.insert(last & good, change + 1, ~enters)
     # A line that consists of a single point is no line.
     kept &= ~(ends & np.concatenate([[True], (ends | ~kept)[:-1]]))
-    return Traces(np.insert(ways, change + 1, low, axis=0), ends).some(kept & np.insert(own, change + 1, True))
+    return Traces(np.insert(ways, change + 1, low, axis=0), ends).take(kept & np.insert(own, change + 1, True))
 
 
 def _on_surface(asked: SurfacesAtOnce, axis: int, ways: Floats) -> Bools:
@@ -360,7 +360,7 @@ def _curves(asked: SurfacesAtOnce, axis: int, lines: Traces, sizes: Floats, enou
     whole = SurfaceCurves(u, v, points, offsets, closed, turns, lines.points[first, 0], none, none, none, ())
     real = _more_than_points(whole, sizes[of])
     if not real.all():
-        whole, of = some(whole, real), of[real]
+        whole, of = take(whole, real), of[real]
     doubt = unresolved("parameter lines or borders are off by more than the tolerance")
     return [
         replace(curves, doubts=() if did else (doubt,))

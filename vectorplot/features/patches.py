@@ -54,11 +54,11 @@ class Patch(Protocol):
         """(k,d) places moved by steps (k,3) in their tangent planes, to first order; never over a border."""
         ...
 
-    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+    def along_constraints(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) directions of the lines that rails (k,) name, at places on them."""
         ...
 
-    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+    def on_constraints(self, places: Floats, rails: Ints) -> Floats:
         """(k,d) places put on their rails, FREE ones left alone, where rounding took them off."""
         ...
 
@@ -152,12 +152,12 @@ class MeshPatch(SingleShape):
         points = points - ((points - origin) * normal).sum(axis=1, keepdims=True) * normal
         return np.concatenate([points, places[:, 3:]], axis=1)
 
-    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+    def along_constraints(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) directions of edges."""
         ends = self.mesh.vertices[self.tessellation.edges[rails]]
         return np.asarray(ends[:, 1] - ends[:, 0])
 
-    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+    def on_constraints(self, places: Floats, rails: Ints) -> Floats:
         """The places: edges are met to rounding."""
         return places
 
@@ -288,13 +288,13 @@ class OnSurfaces(ABC):
         longest = np.maximum(LONGEST_STEP * size / self.grid, LONGEST_PART * size)
         return _with_numbers(_inside(surface, places[:, :2] + np.clip(change, -longest, longest)), places)
 
-    def along_rails(self, places: Floats, rails: Ints) -> Floats:
+    def along_constraints(self, places: Floats, rails: Ints) -> Floats:
         """(k,3) derivatives by the other parameter than the one that rails (k,), 0 or 1, keep."""
         surface = self.surface_at(places)
         along_u, along_v = surface.partials(*_home(surface, places))
         return np.where((rails == 0)[:, None], along_v, along_u)
 
-    def on_rails(self, places: Floats, rails: Ints) -> Floats:
+    def on_constraints(self, places: Floats, rails: Ints) -> Floats:
         """(k,d) places whose parameter that does not change on its rail is an end of the domain exactly."""
         domain, result = self.surface_at(places).domain, places.copy()
         ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))

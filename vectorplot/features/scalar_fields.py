@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.chord_refinement import Traces, narrowed, refined, torn
+from vectorplot.geometry.chord_refinement import Traces, bisected, refined, torn
 from vectorplot.geometry.vectors import any_component, from_components, greatest_component
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances import (
@@ -506,7 +506,7 @@ def up_to_holes(field: ScalarFields, end: Floats, before: Floats, reach: Floats,
     def on_from(which: Ints, far: Floats) -> tuple[Floats, Bools]:
         return onto_curve(field, moved(end[which], far[:, None] * way[which]), far[:, None] * across[which], zero)
 
-    last, _ = narrowed(lambda which, far: on_from(which, far)[1], np.zeros(len(end)), np.full(len(end), 2.0), HALVINGS)
+    last, _ = bisected(lambda which, far: on_from(which, far)[1], np.zeros(len(end)), np.full(len(end), 2.0), HALVINGS)
     goes = last > 0.0
     best = end.copy()
     best[goes] = on_from(np.flatnonzero(goes), last[goes])[0]
@@ -530,7 +530,7 @@ def without_repeats(lines: Traces, size: Floats) -> tuple[Traces, Floats]:
     step[lines.last[:-1]] = 0.0
     dot = np.bincount(path[1:], weights=step, minlength=len(first)) <= DOT_OF_DOMAIN
     kept = ~drop & ~dot[path]
-    return lines.some(kept), lines.points[first[dot]]
+    return lines.take(kept), lines.points[first[dot]]
 
 
 # How large the values of functions over their domains are: what counts as zero goes by that.
@@ -539,7 +539,7 @@ PLACES = 40
 """Places beside the grid at which the size of f is looked at too."""
 
 
-def usual_sizes(field: ScalarFields, w: Floats) -> Floats:
+def default_sizes(field: ScalarFields, w: Floats) -> Floats:
     """(s,) the sizes that nineteen in twenty of the values do not exceed, or if that is zero the largest; and no less
     than half of some values beside the grid, all of whose points may be zeros of f.
 

@@ -23,7 +23,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard, unresolved
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.polylines import some
+from vectorplot.geometry.polylines import take
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.tolerances import LEAST_DIVISOR, SETTLED_OF_EXTENT, ZERO_OF_EXTENT
 
@@ -159,7 +159,7 @@ class Windows:
     def __len__(self) -> int:
         return len(self.side)
 
-    def some(self, which: Ints | Bools) -> Windows:
+    def take(self, which: Ints | Bools) -> Windows:
         """Some of them."""
         return Windows(*(getattr(self, f.name)[which] for f in fields(self)))
 
@@ -235,8 +235,8 @@ def lead_on(
         reached.fresh[vertices] = False
         _along_edges(sides, vertices, reached)
         now = keys <= limit
-        batch = all_windows([waiting.some(now), _from_vertices(sides, vertices, reached.far[vertices])])
-        batch = batch.some(_useful(sides, batch, reached, aimed))
+        batch = all_windows([waiting.take(now), _from_vertices(sides, vertices, reached.far[vertices])])
+        batch = batch.take(_useful(sides, batch, reached, aimed))
         numbers = reached.count + np.arange(len(batch))
         reached.found.append(batch)
         reached.count += len(batch)
@@ -244,8 +244,8 @@ def lead_on(
             count = len(sides.start) // 3
             raise InputError(unresolved(f"shortest paths on {count} triangles need more than {most} windows"))
         children = _led_through(sides, batch, numbers, reached, targets)
-        children = children.some(_useful(sides, children, reached, aimed))
-        waiting = all_windows([waiting.some(~now), children])
+        children = children.take(_useful(sides, children, reached, aimed))
+        waiting = all_windows([waiting.take(~now), children])
         to_go = _to_go(sides.middles(children.side), aimed, sides.lengths[children.side])
         keys = np.concatenate([keys[~now], children.nearest + to_go])
 
@@ -332,7 +332,7 @@ def _led_through(sides: TriangleSides, w: Windows, numbers: Ints, reached: Reach
         low, high = np.where(back, long[own] - high, low), np.where(back, long[own] - low, high)
         x = np.where(back, long[own] - x, x)
         fits = kept[own] & (high - low > sides.slack)
-        parts.append(Windows(beyond, low, high, x, off[own], w.base[own], w.root[own], numbers[own]).some(fits))
+        parts.append(Windows(beyond, low, high, x, off[own], w.base[own], w.root[own], numbers[own]).take(fits))
     return all_windows(parts)
 
 
@@ -376,7 +376,7 @@ def _reach_targets(sides: TriangleSides, w: Windows, numbers: Ints, reached: Rea
     own, which = ragged.owner(count), ragged.ranges(low, count)
     if not len(own):
         return
-    some = w.some(own)
+    some = w.take(own)
     x, y = sides.in_plane(some.side, targets.points[which])
     left = (some.low - some.x) * (y + some.y) - some.y * (x - some.x)
     right = (some.high - some.x) * (y + some.y) - some.y * (x - some.x)
@@ -474,7 +474,7 @@ def mesh_shortest_paths(
         told = part_of(done, number, len(places))
         parts.append(_ways(mesh, sides, source, _of(to, own), own, budget.windows, told))
     found = all_mesh_curves(parts)
-    found = some(found, np.argsort(found.levels, kind="stable"))
+    found = take(found, np.argsort(found.levels, kind="stable"))
     return without_inner(found, faces.extent)
 
 
@@ -629,7 +629,7 @@ def _traced(sides: TriangleSides, reached: Reached, source: Floats, ends: Floats
     window, vertex = reached.target_window, reached.target_before
     ways, points = [way], [point]
     while len(way):
-        own = windows.some(np.maximum(window, 0)) if len(windows) else None
+        own = windows.take(np.maximum(window, 0)) if len(windows) else None
         through = window != NOWHERE
         new = np.where((vertex != NOWHERE)[:, None], sides.points[np.maximum(vertex, 0)], source)
         if own is not None:

@@ -19,10 +19,10 @@ from vectorplot.features.surface_integration import (
     Courses,
     FieldFlow,
     Until,
-    courses_from,
     drawn,
+    traces_from,
 )
-from vectorplot.features.surface_places import Charts, Sites, charts, check_parametrised
+from vectorplot.features.surface_points import Charts, Sites, charts, check_parametrised
 from vectorplot.features.tangent_fields import TangentField, TurnedField
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import workers
@@ -166,14 +166,14 @@ class Taken:
 
 
 @dataclass(frozen=True, eq=False)
-class Crowd:
+class SeparationTest:
     """What is taken of a surface, in groups of which each is more than twice as large as the next one: that many grow
     by little as they are added to, and are few."""
 
     ground: Ground
     groups: tuple[Taken, ...] = ()
 
-    def with_places(self, places: Floats, where: Floats) -> Crowd:
+    def with_places(self, places: Floats, where: Floats) -> SeparationTest:
         """With more places, u and v (k,2), where (k,6)."""
         if not len(places):
             return self
@@ -183,7 +183,7 @@ class Crowd:
             places, where = np.concatenate([last.places, places]), np.concatenate([last.where, where])
         return replace(self, groups=(*groups, Taken(places, where)))
 
-    def together(self, other: Crowd) -> Crowd:
+    def together(self, other: SeparationTest) -> SeparationTest:
         """With what another one has."""
         result = self
         for group in other.groups:
@@ -223,7 +223,7 @@ class Crowd:
         return result
 
 
-def crowds_itself(ground: Ground, line: PlacesAlong, where: Floats, which: Ints, reach: float) -> Bools:
+def is_near_itself(ground: Ground, line: PlacesAlong, where: Floats, which: Ints, reach: float) -> Bools:
     """(k,) which of some places (k,) of one line, where (p,6) it has them, are within reach of one that is nearer to
     where the line began, but not just a little before.
 
@@ -308,11 +308,11 @@ class Gaps:
             return np.array([np.argmin(norm(points - np.median(points, axis=0)))])
         return widest_first(self.where, self.away, self.ground.apart, AT_ONCE)
 
-    def left_by(self, crowd: Crowd, tried: Ints) -> Gaps:
+    def left_by(self, crowd: SeparationTest, tried: Ints) -> Gaps:
         """Those that are left now that these places are taken, and some have been tried: a gap that nothing fits into
         is one no more."""
         reach = WIDEST * self.ground.apart
-        spent = Crowd(self.ground).with_places(self.places[tried], self.where[tried])
+        spent = SeparationTest(self.ground).with_places(self.places[tried], self.where[tried])
         taken = (each.near(self.places, self.where, reach) for each in (crowd, spent))
         kept = np.flatnonzero(~np.logical_or(*taken))
         where = self.where[kept]
@@ -382,7 +382,7 @@ GROUP = 2048
 """Places of curves that are compared with each other at a time; those of one curve may be more."""
 
 
-def uncrowded(lines: PlacesAlong, crowd: Crowd) -> tuple[Floats, Crowd]:
+def uncrowded(lines: PlacesAlong, crowd: SeparationTest) -> tuple[Floats, SeparationTest]:
     """(s,3) which of the lines, which begin away from what is taken, to keep, in their order, and from where to where
     along each; and what is taken with them.
 
@@ -393,7 +393,7 @@ def uncrowded(lines: PlacesAlong, crowd: Crowd) -> tuple[Floats, Crowd]:
     near, wide = NEAREST * ground.apart, WIDEST * ground.apart
     where = ground.where(lines.places)
     free = ~crowd.near(lines.places, where, near)
-    kept, own = [np.zeros((0, 3), dtype=np.intp)], Crowd(ground)
+    kept, own = [np.zeros((0, 3), dtype=np.intp)], SeparationTest(ground)
     left = np.arange(len(lines.around))
     while len(left):
         seeds = lines.seeds[left]
@@ -417,7 +417,7 @@ def _long(lines: PlacesAlong, first: Ints, last: Ints, apart: float) -> Bools:
     return np.asarray((last >= first) & (lines.along[last] - lines.along[first] >= SHORTEST * apart))
 
 
-def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, crowd: Crowd) -> Ints:
+def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, crowd: SeparationTest) -> Ints:
     """(s,3) which lines of a group to keep, and their first and last places. free (p,): places that are not beside
     what is taken; those beside themselves are free no more."""
     ground = crowd.ground
@@ -427,7 +427,7 @@ def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, 
     at = ragged.ranges(first, last - first + 1)
     if len(at) > GROUP:
         # One line, of any length, is looked at portion after portion.
-        free[at[crowds_itself(ground, lines, where, at, NEAREST * ground.apart)]] = False
+        free[at[is_near_itself(ground, lines, where, at, NEAREST * ground.apart)]] = False
         pairs, seeds = np.zeros((2, 0), dtype=np.intp), np.zeros((2, 0), dtype=np.intp)
     else:
         pairs, seeds = _beside_each_other(lines, where, group, at, crowd)
@@ -453,7 +453,9 @@ def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, 
     return np.array(result, dtype=np.intp).reshape(-1, 3)
 
 
-def _beside_each_other(lines: PlacesAlong, where: Floats, group: Ints, at: Ints, crowd: Crowd) -> tuple[Ints, Ints]:
+def _beside_each_other(
+    lines: PlacesAlong, where: Floats, group: Ints, at: Ints, crowd: SeparationTest
+) -> tuple[Ints, Ints]:
     """(2,n) pairs, both ways round, of the places at (k,) of a group of lines that are near each other, of one line if
     it is long between them; and (2,n) places that are beside where another line began, with that place."""
     from scipy.spatial import cKDTree
@@ -587,7 +589,7 @@ def evenly_spaced_curves(
         )
     ground = Ground(surface, charts(surface), apart)
     flow = FieldFlow(surface, ground.charts, field)
-    gaps, crowd = gaps_all_over(ground, field), Crowd(ground)
+    gaps, crowd = gaps_all_over(ground, field), SeparationTest(ground)
     found: list[SurfaceCurves] = []
     for _ in range(ROUNDS):
         widest = gaps.widest()
@@ -595,7 +597,7 @@ def evenly_spaced_curves(
             break
         seeds = _seeds(flow, gaps.places[widest], crowd, size)
         runs = _both_ways(flow, seeds, USUAL_LENGTH * size[0], size, accuracy, crowd, NEAREST)
-        kept, crowd = _without_crowds(runs, seeds, crowd)
+        kept, crowd = _without_dense_groups(runs, seeds, crowd)
         found.append(drawn(kept, 2, size[0], tracing))
         gaps = gaps.left_by(crowd, widest)
     result = together([no_curves(), *found])
@@ -608,7 +610,7 @@ def _both_ways(
     longest: float,
     size: tuple[float, float],
     accuracy: Accuracy,
-    crowd: Crowd,
+    crowd: SeparationTest,
     reach: float,
 ) -> Courses:
     """The courses from u and v (k,2) along the field and against it, until they are within a part, reach, of the
@@ -619,10 +621,10 @@ def _both_ways(
         return crowd.near(places, crowd.ground.where(places), reach * crowd.ground.apart)
 
     until = Until(beside if crowd.groups else None, crowd.ground.apart)
-    return courses_from(flow, starts, tangents, longest, 2, size, accuracy, until)
+    return traces_from(flow, starts, tangents, longest, 2, size, accuracy, until)
 
 
-def _seeds(flow: FieldFlow, gaps: Floats, crowd: Crowd, size: tuple[float, float]) -> Floats:
+def _seeds(flow: FieldFlow, gaps: Floats, crowd: SeparationTest, size: tuple[float, float]) -> Floats:
     """u and v (k,2) of places where curves begin: in the gaps, evenly across the field, the distance apart."""
     ground = crowd.ground
     apart = ground.apart
@@ -672,7 +674,7 @@ def _evenly(lines: PlacesAlong, first: Ints, last: Ints, apart: float) -> tuple[
     return np.clip(along, low[own], high[own]), sizes
 
 
-def _without_crowds(runs: Courses, places: Floats, crowd: Crowd) -> tuple[Courses, Crowd]:
+def _without_dense_groups(runs: Courses, places: Floats, crowd: SeparationTest) -> tuple[Courses, SeparationTest]:
     """The curves from u and v (k,2), one after the other, as far as they are not too near what is taken, to those
     before, and to themselves; and what is taken with them."""
     ground = crowd.ground
@@ -692,4 +694,4 @@ def _without_crowds(runs: Courses, places: Floats, crowd: Crowd) -> tuple[Course
     line = line.astype(np.intp)
     whole = runs.closed[line] & (last - first >= runs.lengths[line])
     lengths = np.concatenate([np.where(whole, runs.lengths[line], last), np.where(whole, 0.0, -first)])
-    return runs.some(np.concatenate([line, line + len(there)])).up_to(lengths), crowd
+    return runs.take(np.concatenate([line, line + len(there)])).up_to(lengths), crowd

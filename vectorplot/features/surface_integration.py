@@ -15,7 +15,7 @@ from vectorplot.curves.curve import positive
 from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, no_curves
 from vectorplot.features.scalar_fields import bracketed_zeros
-from vectorplot.features.surface_places import Charts, Sites, charts, check_parametrised, unit
+from vectorplot.features.surface_points import Charts, Sites, charts, check_parametrised, unit
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.budget import unresolved
@@ -100,9 +100,9 @@ class Steps:
         way = self.move + y * between
         return np.asarray(way + x * (y * (bent + (y - x) * self.bend) - between))
 
-    def some(self, which: Ints) -> Steps:
+    def take(self, which: Ints) -> Steps:
         """Some of the steps."""
-        return records.some(self, which)
+        return records.take(self, which)
 
 
 def steps(rates: Rates, start: Floats, first: Floats, length: Floats) -> Steps:
@@ -261,7 +261,7 @@ def running_on(
         # Round a pole, u may run through more than a half of its period within one step.
         to, last, every = np.broadcast_to(part, len(chart))[around], before[around], np.tile(around, PARTS)
         shares = np.linspace(0.0, 1.0, PARTS + 1)[1:, None] * to
-        stops = charts.parameters(chart[every], steps.some(every).at(shares.ravel())[:, :2])
+        stops = charts.parameters(chart[every], steps.take(every).at(shares.ravel())[:, :2])
         for stop in stops.reshape(PARTS, -1, 2):
             last = charts.near_to(stop, last)
         result[around] = last
@@ -269,7 +269,7 @@ def running_on(
 
 
 @dataclass(frozen=True, eq=False)
-class Leaps:
+class IntegrationSteps:
     """Steps of points over a surface: row (s,): which point each leads; chart (s,); part (s,): how much of the step
     counts; length (s,): of that; before (s,2): u and v where it begins, running on over seams."""
 
@@ -289,7 +289,7 @@ class Courses:
     """
 
     flow: Flow
-    leaps: Leaps
+    leaps: IntegrationSteps
     steps: Steps
     offsets: Ints
     closed: Bools
@@ -298,11 +298,11 @@ class Courses:
 
     def states(self, step: Ints, part: Floats) -> Floats:
         """(k,d) the states at parts (k,) of what counts of steps (k,)."""
-        return self.steps.some(step).at(part * self.leaps.part[step])
+        return self.steps.take(step).at(part * self.leaps.part[step])
 
     def places(self, step: Ints, part: Floats) -> Floats:
         """(k,2) u and v there, running on over seams."""
-        leaps, steps = self.leaps, self.steps.some(step)
+        leaps, steps = self.leaps, self.steps.take(step)
         to = part * leaps.part[step]
         return running_on(self.flow.charts, leaps.chart[step], steps, steps.at(to), leaps.before[step], to)
 
@@ -316,7 +316,7 @@ class Courses:
         """(k,2) how u and v grow there by the length of the ways: as the flow leads at these places, and not only as
         what is between the ends of steps does; NaN at poles."""
         charts, chart, to = self.flow.charts, self.leaps.chart[step], part * self.leaps.part[step]
-        steps = self.steps.some(step)
+        steps = self.steps.take(step)
         states = steps.at(to)
         u, v = charts.inside(charts.parameters(chart, states[:, :2]))
         nearly = charts.steps(chart, u, v, steps.slopes(to)[:, :2])
@@ -368,12 +368,12 @@ class Courses:
         steps = records.joined([part.steps for part in parts])
         return cls(parts[0].flow, leaps, steps, ragged.offsets(sizes), closed, stalled, spent)
 
-    def some(self, rows: Ints) -> Courses:
+    def take(self, rows: Ints) -> Courses:
         """The ways of some of the points."""
         which, offsets = ragged.take(self.offsets, rows)
-        leaps = replace(records.some(self.leaps, which), row=ragged.owner(np.diff(offsets)))
+        leaps = replace(records.take(self.leaps, which), row=ragged.owner(np.diff(offsets)))
         return Courses(
-            self.flow, leaps, self.steps.some(which), offsets, self.closed[rows], self.stalled[rows], self.spent[rows]
+            self.flow, leaps, self.steps.take(which), offsets, self.closed[rows], self.stalled[rows], self.spent[rows]
         )
 
     def up_to(self, lengths: Floats) -> Courses:
@@ -381,7 +381,7 @@ class Courses:
         begins = self.ends - self.leaps.length
         left = np.repeat(lengths, np.diff(self.offsets)) - begins
         kept = np.flatnonzero(left > 0.0)
-        leaps = records.some(self.leaps, kept)
+        leaps = records.take(self.leaps, kept)
         length = np.minimum(leaps.length, left[kept])
         with np.errstate(all="ignore"):
             part = leaps.part * np.where(leaps.length > 0.0, length / leaps.length, 1.0)
@@ -390,7 +390,7 @@ class Courses:
         return Courses(
             self.flow,
             replace(leaps, part=part, length=length),
-            self.steps.some(kept),
+            self.steps.take(kept),
             ragged.offsets(counts),
             self.closed & ~cut,
             self.stalled & ~cut,
@@ -535,9 +535,9 @@ def courses(
         found, new, there = flow.rates(now.chart, states, now.tangents, way[now.which])
         return found
 
-    leaps: list[Leaps] = []
+    leaps: list[IntegrationSteps] = []
     found: list[Steps] = []
-    now = records.some(now, all_finite(now.rates) & (now.left > 0.0))
+    now = records.take(now, all_finite(now.rates) & (now.left > 0.0))
     while len(now.which):
         step = np.minimum(now.step, now.left)
         with np.errstate(all="ignore"):
@@ -557,12 +557,12 @@ def courses(
 
         part = np.ones(len(step))
         if out.any():
-            part[out] = _crossing(flow, now.chart[out], records.some(tried, out))
+            part[out] = _crossing(flow, now.chart[out], records.take(tried, out))
         back, share = _back(flow, now, good, tried, part, points, home, tangents, size, accuracy.error)
         part[back] = share
         closed[now.which[back]] = True
         length = step * part
-        leap = Leaps(now.which, now.chart, part, length, now.places)
+        leap = IntegrationSteps(now.which, now.chart, part, length, now.places)
         leaps.append(_those(leap, good))
         found.append(_those(tried, good))
 
@@ -585,13 +585,13 @@ def courses(
         now = _renewed(flow, _those(ends, ~(finished | stuck | worn)), way)
     order, offsets = np.zeros(0, dtype=np.intp), np.zeros(count + 1, dtype=np.intp)
     if not leaps:
-        none = Leaps(order, order, np.zeros(0), np.zeros(0), np.zeros((0, 2)))
+        none = IntegrationSteps(order, order, np.zeros(0), np.zeros(0), np.zeros((0, 2)))
         empty = states[:0]
         return Courses(flow, none, Steps(*[empty] * 6), offsets, closed, stalled, spent)
     every = records.joined(leaps)
     order = np.argsort(every.row, kind="stable")
     offsets = ragged.offsets(np.bincount(every.row, minlength=count))
-    return Courses(flow, records.some(every, order), records.joined(found).some(order), offsets, closed, stalled, spent)
+    return Courses(flow, records.take(every, order), records.joined(found).take(order), offsets, closed, stalled, spent)
 
 
 R = TypeVar("R", bound=records.Record)
@@ -599,7 +599,7 @@ R = TypeVar("R", bound=records.Record)
 
 def _those(record: R, which: Bools) -> R:
     """Those of the elements where which (k,) is true: mostly all of them."""
-    return record if which.all() else records.some(record, which)
+    return record if which.all() else records.take(record, which)
 
 
 def _either(which: Bools, one: _Points, two: _Points) -> _Points:
@@ -623,7 +623,7 @@ def _first(done: Steps, what: Callable[[Floats, Ints], Floats], last: Floats, sm
     first = np.minimum(what(done.start, np.arange(count)), -LEAST_DIVISOR)
 
     def values(part: Floats, which: Ints) -> Floats:
-        return what(done.some(which).at(part), which)
+        return what(done.take(which).at(part), which)
 
     with np.errstate(all="ignore"):
         guess = first / (first - last)
@@ -672,7 +672,7 @@ def _back(
     def ahead(states: Floats, some: Ints) -> Floats:
         return np.asarray(dot(way(states, some), along[some]))
 
-    some = done.some(rows)
+    some = done.take(rows)
     there = _first(some, ahead, after[rows], ROUNDING_OF_POINTS * size)
     near = norm(way(some.at(there), np.arange(len(rows)))) <= max(CLOSED_OF_EXTENT, CLOSED_OF_ERROR * error) * size
     near &= there <= part[rows]
@@ -845,10 +845,10 @@ def curves_from(
         return no_curves()
     longest = USUAL_LENGTH * size if length is None else positive("integral curves: length", length)
     sides = 2 if both_ways else 1
-    return drawn(courses_from(flow, starts, tangents, longest, sides, (size, large), accuracy), sides, size, tracing)
+    return drawn(traces_from(flow, starts, tangents, longest, sides, (size, large), accuracy), sides, size, tracing)
 
 
-def courses_from(
+def traces_from(
     flow: Flow,
     starts: Floats,
     tangents: Floats,

@@ -13,7 +13,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import number, vector
 from vectorplot.errors import InputError
 from vectorplot.features.feature_lines import principal_axes
-from vectorplot.features.surface_places import BentFaces, FaceSites, Sites, TangentPlanes, on_surface, unit
+from vectorplot.features.surface_points import BentFaces, FaceSites, Sites, TangentPlanes, on_surface, unit
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import cross, dot, norm, normalize
 from vectorplot.tolerances import BEYOND_NOISE, FLAT_SLOPE, UMBILIC

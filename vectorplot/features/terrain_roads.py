@@ -12,15 +12,15 @@ from vectorplot.curves.curve import positive
 from vectorplot.errors import InputError
 from vectorplot.features.mesh_integration import (
     NO_SIDE,
-    MeshCourses,
     MeshSides,
+    MeshTraces,
     Onward,
-    mesh_courses,
     mesh_sides,
+    mesh_traces,
     outwards,
 )
 from vectorplot.features.mesh_lines import NO_FACE, MeshCurves
-from vectorplot.features.surface_places import face_sites, unit
+from vectorplot.features.surface_points import face_sites, unit
 from vectorplot.features.terrain_water import places_on_terrain
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
@@ -239,7 +239,7 @@ class _Search:
         points = np.concatenate([found.begin[rows], end[None]])
         return _Road(points, self.hills.sides.source[found.face[rows]], float(arcsin(tried[best])))
 
-    def _ends(self, slope: Floats, side: float) -> tuple[Bools, Floats, MeshCourses]:
+    def _ends(self, slope: Floats, side: float) -> tuple[Bools, Floats, MeshTraces]:
         """(k,) whether roads of slopes (k,) come to the height of the end, how far beside it, to its left (positive) or
         right, and the roads."""
         start, end = self.points
@@ -248,7 +248,7 @@ class _Search:
         face = np.full(len(slope), self.faces[0])
         length = (end[2] - start[2]) / slope
         first = np.broadcast_to(start, (len(slope), 3))
-        found = mesh_courses(
+        found = mesh_traces(
             self.hills.sides, flow, face, first, flow.directions(face, line), line.astype(np.float64), length
         )
         way = found.last - end

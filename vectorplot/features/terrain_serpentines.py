@@ -12,7 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import number, positive
 from vectorplot.errors import InputError
-from vectorplot.features.mesh_integration import MeshCourses, Onward, mesh_courses
+from vectorplot.features.mesh_integration import MeshTraces, Onward, mesh_traces
 from vectorplot.features.mesh_lines import NO_FACE, MeshCurves
 from vectorplot.features.terrain_roads import Hillsides, SlopeFlow, hillsides_of
 from vectorplot.features.terrain_water import Ground, places_on_terrain
@@ -39,7 +39,7 @@ class Legs(NamedTuple):
     """Legs (k,) of roads: their course; stop (k,): the segment of it in which they end, -1 where they come to an end
     of the terrain; last (k,3): where; arrived (k,): whether at the height of the road's end."""
 
-    course: MeshCourses
+    course: MeshTraces
     stop: Ints
     last: Floats
     arrived: Bools
@@ -83,7 +83,7 @@ class Climb:
         flow = _LegFlow(self.hills, np.full(count, self.sine), side, self, far)
         line = np.arange(count)
         longest = LONGEST_LEG * self.hills.sides.extent
-        found = mesh_courses(
+        found = mesh_traces(
             self.hills.sides, flow, face, start, flow.directions(face, line), line.astype(np.float64), longest
         )
         above, out = found.end[:, 2] - top, side[found.line] * self.aside(found.end) - width[found.line]

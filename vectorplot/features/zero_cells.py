@@ -124,9 +124,9 @@ class Cells:
     def __len__(self) -> int:
         return len(self.of)
 
-    def some(self, which: Ints | Bools) -> Cells:
+    def take(self, which: Ints | Bools) -> Cells:
         """Some of the cells."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     def beside(self, steps: Ints) -> Cells:
         """(k n,) the cells that these steps (n,2) lead to from each."""
@@ -271,10 +271,10 @@ def subdivided(lattice: Lattice, odd: Bools, noise: Floats, most: int) -> Subdiv
             break
         too_many = np.bincount(cells.of, minlength=len(odd)) > most
         complete &= ~too_many
-        cells = cells.some(~too_many[cells.of])
+        cells = cells.take(~too_many[cells.of])
         marked.append(cells)
         quarters = cells.quarters()
-        cells = quarters.some(_odd(lattice, quarters, level + 1, noise))
+        cells = quarters.take(_odd(lattice, quarters, level + 1, noise))
     return Subdivision(lattice, _graded(lattice, marked), cells, complete)
 
 
@@ -316,7 +316,7 @@ def _graded(lattice: Lattice, marked: list[Cells]) -> list[Ints]:
         keys = np.unique(lattice.keys(records.joined([marked[level], above]), level))
         split.append(keys)
         near, inside = lattice.at_home(lattice.cells(keys, level).beside(AROUND), level)
-        near = near.some(inside)
+        near = near.take(inside)
         above = Cells(near.of, near.i >> 1, near.j >> 1)
     return split[::-1]
 
@@ -352,12 +352,12 @@ def triangles_near(subdivision: Subdivision, w: Floats, near: Bools) -> Corners:
 def _plain_cells(subdivision: Subdivision, w: Floats, near: Bools) -> Cells:
     """Cells of the grids that change sign, are not split and have no split neighbour."""
     cells = Cells(*np.nonzero(near))
-    cells = cells.some(~_one_sign(corner_values(w, cells)))
+    cells = cells.take(~_one_sign(corner_values(w, cells)))
     if subdivision.lattice.levels:
         free = np.ones(len(cells), dtype=np.bool_)
         for a, b in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)):
             free &= ~_is_split(subdivision, Cells(cells.of, cells.i + a, cells.j + b), 0)
-        cells = cells.some(free)
+        cells = cells.take(free)
     return cells
 
 
@@ -444,7 +444,7 @@ def _leaves(subdivision: Subdivision, level: int) -> Cells:
     """Cells of a level that are cut into a fan: children of split cells, or on level 0 neighbours of split ones."""
     lattice, split = subdivision.lattice, subdivision.split
     cells = lattice.cells(split[level - 1], level - 1).quarters() if level else _beside_split(subdivision)
-    return cells.some(~_is_split(subdivision, cells, level))
+    return cells.take(~_is_split(subdivision, cells, level))
 
 
 def _beside_split(subdivision: Subdivision) -> Cells:

@@ -20,6 +20,7 @@ from vectorplot.features.scalar_fields import (
     Gradients,
     Positions,
     ScalarFields,
+    default_sizes,
     grid_points,
     in_units,
     moved,
@@ -30,7 +31,6 @@ from vectorplot.features.scalar_fields import (
     sizes_of_zeros,
     units_of_values,
     up_to_holes,
-    usual_sizes,
     without_poles,
     without_repeats,
 )
@@ -73,7 +73,7 @@ REACH = 3
 line that it touches, fewer stay odd."""
 
 
-def without_tangles(subdivision: Subdivision, traced: Segments) -> tuple[Subdivision, Segments, Floats]:
+def without_unresolved(subdivision: Subdivision, traced: Segments) -> tuple[Subdivision, Segments, Floats]:
     """The subdivision without the odd cells of tangles, the segments without those inside them, and (s,) the part of
     each domain that tangles cover.
 
@@ -99,7 +99,7 @@ def without_tangles(subdivision: Subdivision, traced: Segments) -> tuple[Subdivi
     at = np.clip((part * (columns, rows)).astype(np.intp), 0, (columns - 1, rows - 1))
     inside = np.isin(lattice.keys(Cells(of, at[:, 0], at[:, 1]), lattice.levels), tangle)
     covered = np.bincount(cells.of, minlength=len(lattice.field)) / (columns * rows)
-    return replace(subdivision, odd=odd.some(kept)), replace(traced, pairs=traced.pairs[~inside]), covered
+    return replace(subdivision, odd=odd.take(kept)), replace(traced, pairs=traced.pairs[~inside]), covered
 
 
 def _eroded(keys: Ints) -> Ints:
@@ -214,12 +214,12 @@ def double_points(field: ScalarFields, starts: Floats, cell: Floats, zero: Float
     size = np.sort(np.abs(curvature), axis=1)
     flat = size[:, 0] <= FLAT_NODE * size[:, 1]
     many = (size[:, 1] <= BENT * bent) & ~flat
-    in_line = in_crowds(number(points), flat)
+    in_line = in_dense_groups(number(points), flat)
     kept = _singled(field, points, cell, flat | many, in_line)
     return DoublePoints(points[kept], np.asarray(flat[kept], dtype=np.bool_), _radii(curvature[kept]), ovals)
 
 
-def in_crowds(of: Ints, some: Bools) -> Bools:
+def in_dense_groups(of: Ints, some: Bools) -> Bools:
     """(k,) whether the function with this number has more than MOST_ALONE of what is marked among them (k,)."""
     return np.asarray((np.bincount(of[some], minlength=int(of.max(initial=0)) + 1) > MOST_ALONE)[of], dtype=np.bool_)
 
@@ -459,12 +459,12 @@ def found_branches(subdivision: Subdivision, traced: Segments, scale: Floats) ->
     u, v = (field.start[odd.of, axis] + (at + 0.5) * cell[odd.of, axis] for axis, at in enumerate((odd.i, odd.j)))
     zero = np.maximum(NODE_OF_VALUES * scale, sizes_of_zeros(field, scale))
     doubles = double_points(field, np.stack([u, v, odd.of], axis=1), cell, zero, GRID_NOISE * scale)
-    line = doubles.flat & in_crowds(number(doubles.points), doubles.flat)
+    line = doubles.flat & in_dense_groups(number(doubles.points), doubles.flat)
     single, touching = doubles.points[~line], doubles.points[line]
     own = cell[number(single)]
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, doubles.radii[~line, None] * own)
     lines, dots = without_repeats(_polylines(field, joined.points, joined.segments), field.size)
-    lines, beads = _without_beads(field, lines, cell, touching)
+    lines, beads = _without_spurious_loops(field, lines, cell, touching)
     # A point beside a curve, or one of a line that goes over into a curve, is not alone; what went round it and shrank
     # to it does not count.
     apart = np.where(doubles.flat[~line], FAR_APART, 3.0)[:, None] * own
@@ -476,7 +476,7 @@ def found_branches(subdivision: Subdivision, traced: Segments, scale: Floats) ->
         return centres[without_points_near(field, centres, points, cells * cell[number(centres)])]
 
     dots = field.wrapped(free(dots, doubles.points, 2.0))
-    dotted = in_crowds(number(dots), np.ones(len(dots), dtype=np.bool_))
+    dotted = in_dense_groups(number(dots), np.ones(len(dots), dtype=np.bool_))
     return FoundBranches(
         lines,
         single[joined.meets > 0],
@@ -488,14 +488,16 @@ def found_branches(subdivision: Subdivision, traced: Segments, scale: Floats) ->
     )
 
 
-def _without_beads(field: ScalarFields, lines: Traces, cell: Floats, touching: Floats) -> tuple[Traces, Floats]:
+def _without_spurious_loops(
+    field: ScalarFields, lines: Traces, cell: Floats, touching: Floats
+) -> tuple[Traces, Floats]:
     """The polylines without the closed ones that are thinner than a cell (s,2) and stand in a row, or have no area
     where many are that thin or f touches zero in many places touching (t,3); and the middles (k,3) of these: they are
     what lattice points between two branches that cannot be told apart make of them."""
     first, last = lines.starts, lines.ends
     p, whose = lines.points, of_lines(lines)
     counted = np.concatenate([whose, number(touching)])
-    many = in_crowds(counted, np.ones(len(counted), dtype=np.bool_))[: len(whose)]
+    many = in_dense_groups(counted, np.ones(len(counted), dtype=np.bool_))[: len(whose)]
     if not many.any():
         return lines, p[:0]
     path = ragged.owner(last - first + 1)
@@ -517,10 +519,10 @@ def _without_beads(field: ScalarFields, lines: Traces, cell: Floats, touching: F
     crowded = (np.bincount(near, minlength=len(thin)) > 1) | (area[thin] < 1.0)
     counted = np.concatenate([whose[thin], number(touching)])
     marked = np.concatenate([crowded, np.ones(len(touching), dtype=np.bool_)])
-    crowded &= in_crowds(counted, marked)[: len(thin)]
+    crowded &= in_dense_groups(counted, marked)[: len(thin)]
     gone = np.zeros(len(first), dtype=np.bool_)
     gone[thin[crowded]] = True
-    return lines.some(~gone[path]), middles[crowded]
+    return lines.take(~gone[path]), middles[crowded]
 
 
 def _polylines(field: ScalarFields, points: Floats, segments: Ints) -> Traces:
@@ -782,7 +784,7 @@ def zero_manifolds(
         check_grid(domain, columns, rows, resolution)
     field = scalar_fields(f, domains, gradient)
     field, w = without_poles(field, field.on_grid(columns, rows) if values is None else values)
-    scale = usual_sizes(field, w)
+    scale = default_sizes(field, w)
     unit = units_of_values(scale)
     field, w, scale = in_units(field, unit), w / unit[:, None, None], scale / unit
     zero = sizes_of_zeros(field, scale)
@@ -793,7 +795,7 @@ def zero_manifolds(
     # Along the border of an area where f is zero slopes say nothing.
     subdivision = subdivided(lattice, odd & ~beside(flat, field.closed), GRID_NOISE * scale, budget.cells)
     traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero)
-    subdivision, traced, tangled = without_tangles(subdivision, traced)
+    subdivision, traced, tangled = without_unresolved(subdivision, traced)
     found = found_branches(subdivision, traced, scale)
     holes: Bools = np.asarray(np.isnan(w).any(axis=(1, 2)))
     lines = found.lines if not holes.any() else led_to_holes(field, found.lines, holes, lattice.cell(), zero)

@@ -28,7 +28,7 @@ from .convex_bodies import convex_prism_parts, convex_revolution_parts, cut_body
 from .convex_polygons import convex_hull, convex_polygon_parts, hull_mesh, is_convex_polygon
 from .mesh import Mesh
 from .mesh_cuts import HalfSpaces
-from .mesh_repair import Mending, MeshReport, mended, mesh_report, welded
+from .mesh_repair import Mending, MeshReport, mesh_report, repaired, welded
 from .outline import Branches, contour_branches, contour_edges, spatial_hull
 from .polygon_cuts import clipped_by_convex, inside_convex
 from .polylines import Strokes
@@ -126,7 +126,6 @@ __all__ = [
     "length",
     "lens_advice",
     "look_rotation",
-    "mended",
     "mesh_report",
     "neighbour_faces",
     "normalize",
@@ -143,6 +142,7 @@ __all__ = [
     "ragged",
     "region_codes",
     "regular_polygon",
+    "repaired",
     "revolution",
     "rotated_about_line",
     "rotation_about",

@@ -65,9 +65,9 @@ class Traces:
         """(m,) positions of the last points of polylines."""
         return np.flatnonzero(self.last)
 
-    def some(self, kept: Bools) -> Traces:
+    def take(self, kept: Bools) -> Traces:
         """The points that are kept; the last one of a polyline has to be."""
-        return records.some(self, kept)
+        return records.take(self, kept)
 
     def unrepeated(self, closed: Bools) -> tuple[Bools, Ints]:
         """Which points (n,) to keep where closed (m,) polylines do not repeat their first one, and the offsets (m+1,)
@@ -242,7 +242,7 @@ def torn(lines: Traces, image: Image, tolerance: float | Floats, size: Floats) -
         return lines
     last[at] = True
     alone = last & np.concatenate([[True], last[:-1]])
-    return Traces(p, last).some(~alone)
+    return Traces(p, last).take(~alone)
 
 
 def _seen(image: Image, points: Floats) -> Floats:
@@ -259,7 +259,7 @@ MOST_HALVINGS = 4
 """What is left of a way is cut in one call as fine as by no more halvings than that."""
 
 
-def narrowed(
+def bisected(
     goes_on: Callable[[Ints, Floats], Bools], low: Floats, high: Floats, halvings: int
 ) -> tuple[Floats, Floats]:
     """(k,) the last parameters between low and high (k,) up to which something is as it is at low, and the first at

@@ -15,7 +15,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.exact.predicates import orient2d
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.columns import cross, dot
+from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm

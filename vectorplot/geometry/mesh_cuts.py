@@ -155,7 +155,7 @@ class _Polygons:
     def count(self) -> int:
         return len(self.offsets) - 1
 
-    def some(self, which: Bools) -> _Polygons:
+    def take(self, which: Bools) -> _Polygons:
         corners, offsets = ragged.take(self.offsets, which)
         return _Polygons(self.corners[corners], offsets)
 
@@ -182,18 +182,18 @@ def divided_mesh(mesh: Mesh, region: HalfSpaces) -> Divided:
     sides = np.stack([_sides(every, one, points, normal) for one, normal in zip(heights, region.normals, strict=True)])
     out, within = present & (sides < 0).any(axis=0), present & (sides > 0).all(axis=0)
     cut = present & ~out & ~within
-    outer, inner = [every.some(out)], every.some(within)
+    outer, inner = [every.take(out)], every.take(within)
     if not cut.any():
         place = np.where(out, np.cumsum(out) - 1, -1)
         return Divided(_mesh(points, outer), _mesh(points, [inner]), place)
-    current = _convex(points, every.some(cut))
+    current = _convex(points, every.take(cut))
     tables = []
     for number, normal in enumerate(region.normals):
         current, points, heights, made = _split(current, points, heights, number)
         tables.append(made)
         side = _sides(current, heights[number], points, normal)
-        outer.append(current.some(side < 0))
-        current = current.some(side >= 0)
+        outer.append(current.take(side < 0))
+        current = current.take(side >= 0)
     if len(tables) > 1:
         outer = [_with_corners(some, tables, len(points)) for some in outer]
         inner = _with_corners(inner, tables, len(points))
@@ -216,10 +216,10 @@ def section_sides(mesh: Mesh, region: HalfSpaces, number: int) -> Floats:
     below, above = heights[0] <= 0.0, heights[0] >= 0.0
     near = _count(every, below) * _count(every, above) > 0
     near &= (_count(every, below & above) > 1) | ((_count(every, ~above) > 0) & (_count(every, ~below) > 0))
-    some = every.some(near)
+    some = every.take(near)
     side = _sides(some, heights[0], points, normal)
-    pieces, points, heights, _ = _split(_convex(points, some.some(side == 0)), points, heights, 0)
-    kept = [some.some(side < 0), pieces.some(_sides(pieces, heights[0], points, normal) < 0)]
+    pieces, points, heights, _ = _split(_convex(points, some.take(side == 0)), points, heights, 0)
+    kept = [some.take(side < 0), pieces.take(_sides(pieces, heights[0], points, normal) < 0)]
     starts, ends = [], []
     for part in kept:
         here, there = part.corners, part.corners[ragged.following(part.offsets)]
@@ -256,7 +256,7 @@ def _sides(polygons: _Polygons, height: Floats, points: Floats, normal: tuple[fl
     if len(flat):
         in_plane = np.zeros(polygons.count, dtype=np.bool_)
         in_plane[flat] = True
-        some = polygons.some(in_plane)
+        some = polygons.take(in_plane)
         areas = Mesh(points, some.corners, some.offsets).area_vectors
         side[flat] = np.where(matmul(areas, np.array(normal)) < 0.0, 1, -1)
     return side

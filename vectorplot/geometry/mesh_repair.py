@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.columns import cross, dot, triangle_corners
+from vectorplot.geometry.component_arrays import cross, dot, triangle_corners
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh, next_positions
@@ -146,8 +146,8 @@ __all__ = [
     "Mending",
     "MeshReport",
     "is_closed_oriented",
-    "mended",
     "mesh_report",
+    "repaired",
     "welded",
     "without_loose_vertices",
 ]
@@ -349,7 +349,7 @@ def _solid_angles(mesh: Mesh, eye: Floats) -> Floats:
     )
 
 
-def mended(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
+def repaired(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
     """The mesh without degenerate faces, welded where it is open, faces agreeing about the outside; and what was done.
 
     Parameters

@@ -12,7 +12,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.convex_polygons import convex_hulls
 from vectorplot.geometry.mesh import next_positions
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.geometry.records import IN_COLUMNS
 
 PAIRS_AT_ONCE = 1 << 15
@@ -78,7 +78,7 @@ class Crossings:
         """(m,) whether nothing is cut off."""
         return np.asarray(self.first[1:] == self.first[:-1], dtype=np.bool_)
 
-    def some(self, which: Ints) -> Crossings:
+    def take(self, which: Ints) -> Crossings:
         """Some of them, given by ascending numbers."""
         position, first = ragged.take(self.first, which)
         return Crossings(self.pair[which], self.planes[:, position], first)
@@ -116,7 +116,7 @@ def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings,
     """
     found = [_no_parts()]
     for low in range(0, len(crossings), PARTS_AT_ONCE):
-        lot = crossings.some(np.arange(low, min(low + PARTS_AT_ONCE, len(crossings))))
+        lot = crossings.take(np.arange(low, min(low + PARTS_AT_ONCE, len(crossings))))
         found.append(_cut(points, offsets, polygon, lot, tolerance))
     return joined(found)
 
@@ -180,12 +180,12 @@ def _cut(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tol
     counts = np.diff(crossings.first)
     found: list[tuple[Ints, Polygons]] = []
     here = np.arange(len(crossings))
-    now = some(Polygons(points.T, offsets), polygon[crossings.pair])
+    now = take(Polygons(points.T, offsets), polygon[crossings.pair])
     for step in range(int(counts.max(initial=0)) + 1):
         done = counts[here] == step
-        found.append((here[done], some(now, np.flatnonzero(done))))
+        found.append((here[done], take(now, np.flatnonzero(done))))
         rest = np.flatnonzero(~done)
-        here, now = here[rest], some(now, rest)
+        here, now = here[rest], take(now, rest)
         a, b, c, d = np.repeat(crossings.planes[:, crossings.first[here] + step], np.diff(now.offsets), axis=1)
         height = a * now.points[:, 0] + b * now.points[:, 1] + c * now.points[:, 2] - d
         height[np.abs(height) <= tolerance] = 0.0
@@ -202,7 +202,7 @@ def _parts(found: list[tuple[Ints, Polygons]], crossings: Crossings, tolerance: 
     whole = crossings.whole[here]
     order = np.flatnonzero(_wider(both.points.T, both.offsets, tolerance) | whole)
     order = order[np.argsort(here[order], kind="stable")]
-    result = some(both, order)
+    result = take(both, order)
     return Parts(np.ascontiguousarray(result.points.T), result.offsets, crossings.pair[here[order]], whole[order])
 
 

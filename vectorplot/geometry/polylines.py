@@ -138,7 +138,7 @@ def segments(lines: RingRecord) -> Ints:
     return np.stack([rounds.index[at], rounds.index[at + 1]], axis=1)
 
 
-def some(lines: L, which: Ints | Bools) -> L:
+def take(lines: L, which: Ints | Bools) -> L:
     """Some of the polylines, with all that is said of them: those with these indices, in this order; or those where a
     mask is true."""
     if which.dtype == np.bool_ and which.all():

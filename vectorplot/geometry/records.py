@@ -30,7 +30,7 @@ class Record(Protocol):
 R = TypeVar("R", bound=Record)
 
 
-def some(record: R, which: Ints | Bools) -> R:
+def take(record: R, which: Ints | Bools) -> R:
     """Some of the elements, with all that is said of them: those with these indices, in this order; or those where a
     mask is true."""
     chosen = which.nonzero()[0] if which.dtype == np.bool_ else which

@@ -8,7 +8,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.columns import cross, dot, triangle_corners
+from vectorplot.geometry.component_arrays import cross, dot, triangle_corners
 from vectorplot.geometry.connectivity import circulation, pieces_of_sides, scrambled
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.tolerances import LEAST_DIVISOR

@@ -16,7 +16,7 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh, whole_numbers
-from vectorplot.geometry.mesh_repair import mended
+from vectorplot.geometry.mesh_repair import repaired
 from vectorplot.io.read_file import read
 from vectorplot.scene.item import Item
 from vectorplot.scene.scales import Fields
@@ -262,7 +262,7 @@ def _mended(vertices: np.ndarray[Any, Any], corners: Ints, offsets: Ints) -> Mes
     if vertices.ndim == 2 and vertices.shape[1] == 2:
         vertices = np.column_stack([vertices, np.zeros(len(vertices))])
     mesh = Mesh(np.asarray(vertices, dtype=np.float64), np.asarray(corners, dtype=np.intp), offsets)
-    mesh, done = mended(mesh, SINGLE_ULP if vertices.dtype == np.float32 else ULP)
+    mesh, done = repaired(mesh, SINGLE_ULP if vertices.dtype == np.float32 else ULP)
     # An open mesh is no mistake of a program.
     told = str(replace(done, boundary_edges=0))
     if told:

@@ -415,7 +415,7 @@ SLENDER = 1.25
 """What is so many times longer along y than along x and z stands on its end, if z is up, seldom on purpose."""
 
 
-def upwards_hint(path: str, scene: Scene) -> str | None:
+def up_axis_hint(path: str, scene: Scene) -> str | None:
     """A line that says how to stand a file up that seems to have y upwards; None for others, and where the scene has a
     camera of its own. The reader of glb files, in which y is up, stands them up."""
     suffix = Path(path).suffix.lower()

@@ -82,7 +82,7 @@ _BEGINNINGS = (
 )
 
 
-def foreign_kind(path: Path, head: bytes) -> str | None:
+def unsupported_kind(path: Path, head: bytes) -> str | None:
     """What a file is that is neither a scene nor a mesh, and what to do with it; None for what may be a scene.
 
     head: the first bytes of the file.
@@ -156,7 +156,7 @@ def _scene_text(path: Path) -> Scene:
 def _check_text(path: Path) -> None:
     """An InputError, which names its kind, for a file that cannot be a scene text."""
     with path.open("rb") as file:
-        kind = foreign_kind(path, file.read(4096))
+        kind = unsupported_kind(path, file.read(4096))
     if kind:
         raise InputError(kind, file=shown(path))
 
@@ -192,7 +192,7 @@ def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
         raise InputError("nothing came in", file=_NAME)
     if len(data) > MAX_FILE_BYTES:
         raise InputError(f"larger than {MAX_FILE_BYTES >> 20} MiB: this is no scene", file=_NAME)
-    kind = foreign_kind(Path(STANDARD_INPUT), data)
+    kind = unsupported_kind(Path(STANDARD_INPUT), data)
     if kind:
         raise InputError(f"{kind}; standard input is read as a scene", file=_NAME)
     try:

@@ -12,7 +12,7 @@ from vectorplot.arrays import Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.mesh_repair import Mending, is_closed_oriented, mended, sound_parts
+from vectorplot.geometry.mesh_repair import Mending, is_closed_oriented, repaired, sound_parts
 from vectorplot.io.mesh_file import MeshFile, shown
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.item import Item
@@ -93,10 +93,10 @@ def _mended_parts(stem: str, content: MeshFile) -> tuple[list[tuple[str, Mesh]],
     if len(content.names) == 1 or _share_vertices(content.mesh, content.first_faces):
         # Objects that share vertices are one body: taken apart, their seams would be borders.
         name = content.names[0] if len(content.names) == 1 else stem
-        mesh, mending = mended(content.mesh, content.precision)
+        mesh, mending = repaired(content.mesh, content.precision)
         return [(name, mesh)], mending
     if is_closed_oriented(content.mesh):
-        mesh, mending = mended(content.mesh, content.precision)
+        mesh, mending = repaired(content.mesh, content.precision)
         if mending == Mending():
             return list(zip(content.names, _split(mesh, content.first_faces), strict=True)), mending
     sound, boundary = sound_parts(
@@ -106,7 +106,7 @@ def _mended_parts(stem: str, content: MeshFile) -> tuple[list[tuple[str, Mesh]],
     parts = list(zip(content.names, _split(content.mesh, content.first_faces), strict=True))
     for number in np.flatnonzero(~sound).tolist():
         name, part = parts[number]
-        mesh, mending = mended(part, content.precision)
+        mesh, mending = repaired(part, content.precision)
         parts[number] = (name, mesh)
         total = total + mending
     return parts, total

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from vectorplot.io.scene_families import CURVES, SLOT_WORDS, SURFACES
+from vectorplot.io.named_shapes import CURVES, SLOT_WORDS, SURFACES
 from vectorplot.io.scene_item import CAP_WORDS
 from vectorplot.io.scene_statements import FIELD_WORDS
 from vectorplot.io.scene_words import FORM_WORDS, ITEM_WORDS, SCENE_WORDS

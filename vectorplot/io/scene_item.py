@@ -37,8 +37,8 @@ from vectorplot.geometry.solids import (
     swept_polygon,
     turned_outwards,
 )
-from vectorplot.io.scene_curves import CurveDraft
 from vectorplot.io.scene_words import Words
+from vectorplot.io.surface_line_words import CurveDraft
 from vectorplot.scene.hatching import HATCHED_ALONG, HATCHED_BY, Hatching
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.material import Material

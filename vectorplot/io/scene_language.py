@@ -14,10 +14,10 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import IDENTITY
+from vectorplot.io.item_reader import ItemReader
 from vectorplot.io.mesh_file import shown
 from vectorplot.io.named_files import DEEPEST, NamedFiles
 from vectorplot.io.scene_item import Draft, finished
-from vectorplot.io.scene_items import ItemReader
 from vectorplot.io.scene_statements import (
     INK_WORDS,
     begins_annotation,

@@ -26,7 +26,7 @@ from vectorplot.scene.cuts import AWAY, AXES, Cut, Explosion
 from vectorplot.scene.labels import HIDDEN, MARKS, PLACES, Along, AtVertex, Label, OnCurve, OnPage, capital_height
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import FIT, LENGTH, Page, length_mm, sheet_size
-from vectorplot.scene.pens import CUES, FINEST_MM, LONGEST_MM, PEN_KINDS, WIDEST_MM, DepthCue, Inks
+from vectorplot.scene.pens import CUES, FINEST_MM, LONGEST_MM, PEN_KINDS, WIDEST_MM, DepthCue, PenOverrides
 from vectorplot.scene.placement import fitted_page, page_of_width
 from vectorplot.scene.scales import BoxAxes, Colouring
 from vectorplot.scene.scene import Scene
@@ -509,9 +509,9 @@ STYLE_FILE = ".toml"
 """What the names of files with styles end in."""
 
 
-def read_ink(words: Words, at: int, now: Inks | None, files: NamedFiles | None) -> tuple[Inks, int]:
+def read_ink(words: Words, at: int, now: PenOverrides | None, files: NamedFiles | None) -> tuple[PenOverrides, int]:
     """The inks with what the words from style, pen or dash on say, and the word behind them."""
-    inks = Inks() if now is None else now
+    inks = PenOverrides() if now is None else now
     word = words.words[at]
     if word == "style":
         if inks.style is not None:
@@ -551,7 +551,7 @@ def read_explosion(words: Words, at: int) -> tuple[Explosion, int]:
         words.fail(start, error.cause)
 
 
-def ink_texts(inks: Inks) -> list[str]:
+def ink_texts(inks: PenOverrides) -> list[str]:
     """The statements that say it, as read_ink reads them."""
     found = [] if inks.style is None else [f"style {_quoted(inks.style, inks.style in STYLE_WORDS)}"]
     for target, said in inks.pens.items():

@@ -16,10 +16,10 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.solids import IDENTITY
-from vectorplot.io.scene_curves import AXES, CurveDraft
-from vectorplot.io.scene_families import CURVES, SURFACES, read_points, read_rows
-from vectorplot.io.scene_slots import Family, Slot, read_family, read_number, read_numbers, read_whole
+from vectorplot.io.named_shapes import CURVES, SURFACES, read_points, read_rows
 from vectorplot.io.scene_words import Words
+from vectorplot.io.shape_arguments import Family, Slot, read_family, read_number, read_numbers, read_whole
+from vectorplot.io.surface_line_words import AXES, CurveDraft
 from vectorplot.scene.added_lines import evenly_between, least_extent
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector

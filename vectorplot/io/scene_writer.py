@@ -22,9 +22,9 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.reserved_words import RESERVED
 from vectorplot.io.scene_item import hatch_text
-from vectorplot.io.scene_slots import Formulas
 from vectorplot.io.scene_statements import ink_texts
 from vectorplot.io.scene_words import bare_word
+from vectorplot.io.shape_arguments import Formulas
 from vectorplot.scene.cuts import Cut
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.labels import Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
@@ -99,7 +99,7 @@ def lines_text(curves: SurfaceLines, lights: Sequence[Light]) -> str:
             words.append(f"{word} normal {_numbers(section.normal)} at {_list(section.offsets)}{index}")
     words += [f"surface_curve {_quoted(path.function)} t {_numbers((path.start, path.end))}" for path in curves.paths]
     if curves.integral:
-        from vectorplot.io.scene_integral import integral_text
+        from vectorplot.io.integral_line_words import integral_text
 
         words += [integral_text(lines) for lines in curves.integral]
     words += [_terrain_text(asked) for asked in curves.terrain]

@@ -374,7 +374,7 @@ def scene_of_heights(path: Path, exaggeration: float | None) -> Scene:
             _say(path, f"every {_ordinal(step)} height each way is taken, {' x '.join(map(str, land.heights.shape))}")
         factor = exaggeration
         if factor is None:
-            factor = usual_exaggeration(land)
+            factor = default_exaggeration(land)
             if factor != 1.0:
                 _say(path, _drawn(factor, "an exaggeration of 1"))
         return terrain_scene(land, name=path.stem, exaggeration=factor)
@@ -391,13 +391,13 @@ def scene_of_array(heights: Floats) -> Scene:
     Errors: InputError as of `terrain` and `terrain_scene`.
     """
     land = terrain(np.ma.asarray(heights))
-    factor = usual_exaggeration(land)
+    factor = default_exaggeration(land)
     if factor != 1.0:
         warnings.warn(_drawn(factor, "vp.surface(x, y, z)"), InputWarning, stacklevel=4)
     return terrain_scene(land, exaggeration=factor)
 
 
-def usual_exaggeration(land: Terrain) -> float:
+def default_exaggeration(land: Terrain) -> float:
     """1, or the 1, 2 or 5 times a power of ten with which the heights of a terrain are an eighth of its width, about,
     where they are much less or more."""
     low, high = land.relief

@@ -15,8 +15,8 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.lines import (
-    Finish,
-    Traceable,
+    LineSources,
+    OutputStyle,
     chord_error_mm,
     fit_error_mm,
     labels_in_place,
@@ -25,10 +25,10 @@ from vectorplot.pictures.lines import (
     traceable,
 )
 from vectorplot.pictures.options import check_line_options, check_longest, check_look, check_types
-from vectorplot.pictures.pipeline import StageReport, Walk
+from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
-from vectorplot.pictures.subject import Paper, beside_bar, left_of_bar, subject_of
-from vectorplot.scene.added_lines import with_usual_lines
+from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene
+from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, depth_cue_of
@@ -39,7 +39,7 @@ from vectorplot.words import DRAWN, TEXT_WORDS, WIRES, check_word, line_kinds
 
 
 def hatched_in_place(
-    shapes: Traceable,
+    shapes: LineSources,
     placement: Placement,
     hatch: Hatching | Stippling | None,
     crease_angle_deg: float,
@@ -49,7 +49,7 @@ def hatched_in_place(
     """The strokes in what is seen of a scene's faces, as they come. hatch and all else as of draw."""
     from vectorplot.pictures.fills import hatched
 
-    walk = shapes.walk
+    pipeline = shapes.pipeline
     trace = partial(
         lines_in_place,
         view=shapes.view,
@@ -65,9 +65,9 @@ def hatched_in_place(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget_of(budget),
-        progress=walk.fraction("hatching"),
+        progress=pipeline.fraction("hatching"),
     )
-    return walk.run("hatching", filled, shapes.scene, placement, hatch, trace)
+    return pipeline.run("hatching", filled, shapes.scene, placement, hatch, trace)
 
 
 # The verb draw: a scene becomes strokes on a page.
@@ -221,7 +221,7 @@ def draw(
     ['contour', 'hidden']
     """
     check_types(locals())
-    given = scene_of(scene) if lines is not None else with_usual_lines(scene_of(scene))
+    given = scene_of(scene) if lines is not None else with_default_lines(scene_of(scene))
     chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)
     hidden = chosen.hidden if hidden is None else hidden
@@ -236,11 +236,11 @@ def draw(
     kinds = line_kinds((DRAWN if chosen.look == "plain" else WIRES) if lines is None else lines)
     sheet = page_of(page, given, width, fit)
     paper = Paper(sheet, fit, pen_scale(sheet) if scale_pens else 1.0)
-    subject = subject_of(given, camera, paper, explain, progress, depth_cue=depth_cue)
+    subject = prepared_scene(given, camera, paper, explain, progress, depth_cue=depth_cue)
     seen, bar = subject.scene, subject.bar
     sheet, strip = left_of_bar(sheet, bar)
     rules = (*chosen.rules, *own, *asked)
-    finish = Finish(
+    finish = OutputStyle(
         look=chosen.look,
         hidden=hidden,
         layers=layers,
@@ -258,31 +258,31 @@ def draw(
     planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look)
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
     smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in seen.items)
-    walk = Walk(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
-    view = walk.run("look", look, seen, subject.camera)
-    faces = walk.run("faces", project_faces, view)
-    shapes = traceable(walk, seen, view, faces, kinds, crease_angle_deg, allowed)
+    pipeline = Pipeline(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
+    view = pipeline.run("look", look, seen, subject.camera)
+    faces = pipeline.run("faces", project_faces, view)
+    shapes = traceable(pipeline, seen, view, faces, kinds, crease_angle_deg, allowed)
     placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed)
     placement = subject.around(placed.placement, view, sheet)
     strokes = replace(placed, placement=placement).with_halo(halo_mm).strokes()
     for stage in ("visible lines", "counted lines"):
-        walk.measured(stage, "mm", lambda: view.tolerance * placement.scale)
-    walk.measured("curves", "mm", chord_error_mm, strokes)
+        pipeline.measured(stage, "mm", lambda: view.tolerance * placement.scale)
+    pipeline.measured("curves", "mm", chord_error_mm, strokes)
     labels = None
-    if walk.calls_for("labels"):
+    if pipeline.calls_for("labels"):
         beside = (subject.anchors, strokes, hidden, finish.look, text)
-        labels = walk.run("labels", labels_in_place, seen, view, faces, placement, *beside)
+        labels = pipeline.run("labels", labels_in_place, seen, view, faces, placement, *beside)
         strokes = labels.interrupted(strokes, placement.page_from_world)
     hatches = Paths.empty()
-    if walk.calls_for("hatching"):
+    if pipeline.calls_for("hatching"):
         hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget)
         hatches = hatches if labels is None else labels.interrupted(hatches, placement.page_from_world)
-    found = finish.layered(walk, seen, view, strokes, hatches, hatch, placement.page)
+    found = finish.layered(pipeline, seen, view, strokes, hatches, hatch, placement.page)
     letters, cue = finish.letters(found), seen.depth_cue
     if cue is not None and finish.plain:
-        found = finish.cued(walk, found, view, cue, placement)
-    inks = finish.inked(walk, found, placement)
-    walk.measured("pen", "mm", fit_error_mm, inks)
+        found = finish.cued(pipeline, found, view, cue, placement)
+    inks = finish.inked(pipeline, found, placement)
+    pipeline.measured("pen", "mm", fit_error_mm, inks)
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
     return beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)

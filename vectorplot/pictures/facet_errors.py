@@ -9,7 +9,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
-from vectorplot.shading.fineness import FacetedScene
+from vectorplot.shading.facet_resolution import FacetedScene
 
 MOST = 1 << 16
 """So many sides are measured at most, evenly among all."""

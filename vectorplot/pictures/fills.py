@@ -18,12 +18,12 @@ from vectorplot.drawing.hatching import FollowedLines, hatched_regions, place_ra
 from vectorplot.drawing.painted_fills import Overlay, fills_on_page, shown_faces, stacked
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent
-from vectorplot.features.edge_splitting import Demand
+from vectorplot.features.edge_splitting import Criterion
 from vectorplot.features.mesh_lines import MeshCurves, face_triangles
 from vectorplot.features.mesh_streamlines import evenly_spaced_on_faces
 from vectorplot.features.streamlines import MOST_LINES as MOST_LINES_of_streamlines
 from vectorplot.features.streamlines import evenly_spaced_curves
-from vectorplot.features.surface_places import USUAL_CREASE_DEG, BentFaces, FaceSites, Sites, charts, unit
+from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, FaceSites, Sites, charts, unit
 from vectorplot.features.tangent_fields import (
     AsymptoticDirections,
     IsophoteDirections,
@@ -35,13 +35,13 @@ from vectorplot.features.tangent_fields import (
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import Budget, unresolved
-from vectorplot.geometry.columns import dot
+from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import level_bands
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.projections import Projection
 from vectorplot.geometry.vectors import cross, norm, normalize
-from vectorplot.pictures.pipeline import Walk
+from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_paint
 from vectorplot.scene.added_lines import curve_light
 from vectorplot.scene.hatching import Hatching, Stippling
@@ -51,8 +51,15 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import KnownCurves, Section, SurfaceLines
-from vectorplot.scene.view import View, view_of, without_twins
-from vectorplot.shading.fineness import SHORTEST_MM, FacetedScene, faceted, picture_fineness, refined, shade_error
+from vectorplot.scene.view import View, view_of, without_coincident
+from vectorplot.shading.facet_resolution import (
+    SHORTEST_MM,
+    FacetedScene,
+    faceted,
+    picture_fineness,
+    refined,
+    shade_error,
+)
 from vectorplot.shading.illumination import AMBIENT
 from vectorplot.shading.painted_colours import (
     Lighting,
@@ -102,7 +109,7 @@ with the surface in a few places only."""
 
 
 @dataclass(frozen=True, eq=False)
-class Seen:
+class VisiblePolygons:
     """What is painted: a scene without smooth surfaces, its view, its faces in the image, the polygons of the picture
     back to front, and where the picture goes; smooth (i,): the items whose faces stand for those of smooth surfaces."""
 
@@ -122,7 +129,7 @@ def without_unseen_facets(
     smooth = smooth_items(faceted)
     pieces = np.bincount(painted.faces.source, minlength=view.face_count)
     unseen = unseen_faces(view, projected, (pieces > 0) & smooth[view.face_item], pieces > 1, budget)
-    return painted.faces.some(np.flatnonzero(~unseen[painted.faces.source]))
+    return painted.faces.take(np.flatnonzero(~unseen[painted.faces.source]))
 
 
 def smooth_items(faceted: FacetedScene) -> Bools:
@@ -130,7 +137,7 @@ def smooth_items(faceted: FacetedScene) -> Bools:
     return np.array([normals is not None for normals in faceted.normals], dtype=np.bool_)
 
 
-def off_surfaces(seen: Seen, tolerance_mm: float) -> Floats:
+def off_surfaces(seen: VisiblePolygons, tolerance_mm: float) -> Floats:
     """(i,) how far outlines of the faces of items may be off those of the surfaces that they stand for, in the view."""
     view = seen.view
     off = np.where(seen.smooth, OUTLINES_OFF * tolerance_mm / seen.placement.scale, 0.0)
@@ -142,7 +149,7 @@ def off_surfaces(seen: Seen, tolerance_mm: float) -> Floats:
     return np.asarray(off * np.maximum(nearest, view.near) / view.focus)
 
 
-def finer(seen: Seen, lighting: Lighting, most: int, error: float) -> ImageFaces:
+def finer(seen: VisiblePolygons, lighting: Lighting, most: int, error: float) -> ImageFaces:
     """The polygons, those that are shaded so small that shades are off by no more than error, or as many as may be."""
     faces = seen.faces
     shortest = SHORTEST_MM / seen.placement.scale
@@ -154,7 +161,7 @@ def finer(seen: Seen, lighting: Lighting, most: int, error: float) -> ImageFaces
     return ImageFaces(points, offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
 
 
-def shades_of_faces(seen: Seen, lighting: Lighting) -> Shades:
+def shades_of_faces(seen: VisiblePolygons, lighting: Lighting) -> Shades:
     """What every light gives to the corners of the polygons."""
     faces = seen.faces
     points = view_points(seen.view, faces.points)
@@ -173,7 +180,7 @@ STEPS = 255.0
 """Of a colour, from its darkest to its brightest shade."""
 
 
-def shade_error_steps(seen: Seen, lighting: Lighting) -> float | None:
+def shade_error_steps(seen: VisiblePolygons, lighting: Lighting) -> float | None:
     """By how many of 255 steps the linear shading of polygons is off the light that the surface has where it is seen,
     in the middles of their sides, at most; None where all polygons have one shade each.
 
@@ -197,7 +204,7 @@ def shade_error_steps(seen: Seen, lighting: Lighting) -> float | None:
     return float(STEPS * max(off.max(), _moved(seen, lighting, np.unique(faces.source[smooth])).max(initial=0.0)))
 
 
-def _moved(seen: Seen, lighting: Lighting, source: Ints) -> Floats:
+def _moved(seen: VisiblePolygons, lighting: Lighting, source: Ints) -> Floats:
     """How far shades in the middles of sides of faces (n,) of smooth surfaces are off those that are seen there,
     because the faces are off the surfaces."""
     view = seen.view
@@ -233,7 +240,7 @@ def border_tolerance_mm(tolerance_mm: float, shades: int) -> float:
     return tolerance_mm * min(max(shades / PLAIN_STEPS, FINEST_BORDERS), 1.0)
 
 
-def stepped(seen: Seen, lighting: Lighting, shade: Floats) -> tuple[Seen, Floats, Ints]:
+def posterized(seen: VisiblePolygons, lighting: Lighting, shade: Floats) -> tuple[VisiblePolygons, Floats, Ints]:
     """What is seen with polygons of smooth surfaces cut where the palette goes from one shade to the next, and the
     shades (n,) or (3,n) of the corners then: of each of these polygons one, that of its entry of the palette; and (m,)
     the polygon that each is a part of.
@@ -291,55 +298,63 @@ def _full(corners: Floats) -> np.ndarray:
 
 
 def coloured(
-    walk: Walk, seen: Seen, lighting: Lighting, page: Page, aura_mm: float, tolerance_mm: float, budget: Budget
+    pipeline: Pipeline,
+    seen: VisiblePolygons,
+    lighting: Lighting,
+    page: Page,
+    aura_mm: float,
+    tolerance_mm: float,
+    budget: Budget,
 ) -> Overlay:
     """The polygons of the picture in their colours, with all that lies on them and is seen in them; after: the polygon
     whose steps of shade they are, -1 for what lies on such, is seen in them, or is paper."""
     seen = replace(seen, faces=finer(seen, lighting, budget.facets, shade_error(tolerance_mm)))
-    shades = walk.run("shades", shades_of_faces, seen, lighting).total
-    walk.measured("shades", "of 255", shade_error_steps, seen, lighting)
-    seen, shades, whole = stepped(seen, lighting, shades)
+    shades = pipeline.run("shades", shades_of_faces, seen, lighting).total
+    pipeline.measured("shades", "of 255", shade_error_steps, seen, lighting)
+    seen, shades, whole = posterized(seen, lighting, shades)
     aura = aura_mm / seen.placement.scale
-    decals, lighting = _decals(walk, seen, lighting, aura, tolerance_mm, budget)
+    decals, lighting = _decals(pipeline, seen, lighting, aura, tolerance_mm, budget)
     laid = _laid(seen, lighting, decals)
-    overlays = _overlays(walk, seen, lighting, decals, aura, tolerance_mm, budget)
-    painted = walk.run("fills", _fills, walk, seen, lighting, shades, laid, overlays, page)
+    overlays = _overlays(pipeline, seen, lighting, decals, aura, tolerance_mm, budget)
+    painted = pipeline.run("fills", _fills, pipeline, seen, lighting, shades, laid, overlays, page)
     # A face comes before all that lies on it.
     is_face = (painted.after >= 0) & (np.diff(painted.after, prepend=-1) != 0)
     return replace(painted, after=np.where(is_face, np.append(whole, -1)[painted.after], -1))
 
 
 def _decals(
-    walk: Walk, seen: Seen, lighting: Lighting, aura: float, tolerance_mm: float, budget: Budget
+    pipeline: Pipeline, seen: VisiblePolygons, lighting: Lighting, aura: float, tolerance_mm: float, budget: Budget
 ) -> tuple[tuple[Decals, ...], Lighting]:
     """The polygons that lie on faces, in the order in which they are painted."""
     scene, view, projected = seen.scene, seen.view, seen.projected
     found: list[Decals] = []
-    if walk.calls_for("shadows"):
+    if pipeline.calls_for("shadows"):
         from vectorplot.effects.scene_decals import scene_shadows
 
         off = off_surfaces(seen, tolerance_mm)
-        found.append(walk.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, off, budget))
-    if walk.calls_for("mirror light"):
+        found.append(
+            pipeline.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, off, budget)
+        )
+    if pipeline.calls_for("mirror light"):
         from vectorplot.effects.scene_decals import scene_mirror_light
 
-        lit, doubles = walk.run("mirror light", scene_mirror_light, scene, view, projected, lighting, found[0])
+        lit, doubles = pipeline.run("mirror light", scene_mirror_light, scene, view, projected, lighting, found[0])
         found.append(lit)
         lighting = replace(lighting, doubles=doubles)
-    if walk.calls_for("patterns"):
+    if pipeline.calls_for("patterns"):
         from vectorplot.effects.decals import joined_decals
         from vectorplot.effects.scene_decals import scene_patterns
 
-        found.append(walk.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found[:1])))
-    if walk.calls_for("transparent shadows"):
+        found.append(pipeline.run("patterns", scene_patterns, scene, view, lighting, joined_decals(*found[:1])))
+    if pipeline.calls_for("transparent shadows"):
         from vectorplot.effects.shadows import transparent_shadows
 
         clear = partial(transparent_shadows, projected=projected, budget=budget)
-        found.append(walk.run("transparent shadows", clear, view, scene, scene.lights, found[0] if found else None))
+        found.append(pipeline.run("transparent shadows", clear, view, scene, scene.lights, found[0] if found else None))
     return tuple(found), lighting
 
 
-def _laid(seen: Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[Overlay, ...]:
+def _laid(seen: VisiblePolygons, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[Overlay, ...]:
     """What lies on the polygons of the picture."""
     if not decals:
         return ()
@@ -349,8 +364,8 @@ def _laid(seen: Seen, lighting: Lighting, decals: tuple[Decals, ...]) -> tuple[O
 
 
 def _overlays(
-    walk: Walk,
-    seen: Seen,
+    pipeline: Pipeline,
+    seen: VisiblePolygons,
     lighting: Lighting,
     decals: tuple[Decals, ...],
     aura: float,
@@ -362,25 +377,27 @@ def _overlays(
     aura: the width of soft borders of shadows in the image.
     """
     found = []
-    if walk.calls_for("reflections"):
+    if pipeline.calls_for("reflections"):
         from vectorplot.effects.mirrors import mirrors
         from vectorplot.effects.scene_decals import double_decals, reflection_fills
 
         shown = mirrors(seen.scene, seen.view, seen.projected)
-        borders = aura if walk.calls_for("shadows") else None
+        borders = aura if pipeline.calls_for("shadows") else None
         off = off_surfaces(seen, tolerance_mm)
 
         def decals_of(number: int, there: Lighting, which: Bools) -> tuple[Decals, ...]:
             return double_decals(seen.scene, seen.view, shown, number, there, which, borders, off, budget)
 
         found.append(
-            walk.run("reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placement)
+            pipeline.run(
+                "reflections", reflection_fills, seen.view, lighting, shown, decals_of, seen.faces, seen.placement
+            )
         )
-    if walk.calls_for("refraction"):
+    if pipeline.calls_for("refraction"):
         from vectorplot.effects.glass import glass_fills
 
         found.append(
-            walk.run(
+            pipeline.run(
                 "refraction",
                 glass_fills,
                 seen.scene,
@@ -397,8 +414,8 @@ def _overlays(
 
 
 def _fills(
-    walk: Walk,
-    seen: Seen,
+    pipeline: Pipeline,
+    seen: VisiblePolygons,
     lighting: Lighting,
     shades: Floats,
     laid: tuple[Overlay, ...],
@@ -419,20 +436,22 @@ def _fills(
         item=item,
         kind=np.where(opacity < 1.0, int(FillKind.GLASS), int(FillKind.FACE)),
     )
-    if walk.calls_for("reflections"):
+    if pipeline.calls_for("reflections"):
         from vectorplot.effects.mirrors import mirrors
         from vectorplot.effects.scene_decals import silvered
 
         panes = np.isin(faces.source, mirrors(seen.scene, view, seen.projected).face)
         fills, laid = silvered(fills, panes, paper(seen.scene)[0], laid)
-    if walk.calls_for("refraction"):
+    if pipeline.calls_for("refraction"):
         from vectorplot.effects.glass import refracting_items, tinted
 
         clear = refracting_items(seen.scene, view, seen.projected)[item]
         fills, both = tinted(fills, clear, opacity, paper(seen.scene)[0], (*laid, *overlays))
         laid, overlays = both[: len(laid)], both[len(laid) :]
-    with_decals = stacked([Overlay(fills, np.arange(len(fills))), *(laid if walk.calls_for("visible fills") else ())])
-    if not walk.calls_for("visible fills"):
+    with_decals = stacked(
+        [Overlay(fills, np.arange(len(fills))), *(laid if pipeline.calls_for("visible fills") else ())]
+    )
+    if not pipeline.calls_for("visible fills"):
         from vectorplot.drawing.fill_visibility import flattened
 
         world, plane = seen.placement.page_from_world, lighting.plane[faces.source]
@@ -768,32 +787,32 @@ def group_names(scene: Scene) -> list[str]:
     return sorted({item.group for item in scene.items if not is_curve(item.shape)} - {""})
 
 
-def tell_groups(walk: Walk, scene: Scene, painted: Painted) -> None:
+def tell_groups(pipeline: Pipeline, scene: Scene, painted: Painted) -> None:
     """Tell the listener which groups stay together, and which do not."""
     names = group_names(scene)
     undone = [names[k] for k in painted.undone]
     if kept := [name for name in names if name not in undone]:
-        walk.tell("groups", f"{', '.join(kept)}: ordered as wholes, then within", len(kept))
+        pipeline.tell("groups", f"{', '.join(kept)}: ordered as wholes, then within", len(kept))
     if undone:
-        walk.tell("groups undone", f"{', '.join(undone)}: something else comes between", len(undone))
+        pipeline.tell("groups undone", f"{', '.join(undone)}: something else comes between", len(undone))
 
 
-def tell_slices(walk: Walk, scene: Scene, sliced: Mapping[int, Section], painted: Painted) -> None:
+def tell_slices(pipeline: Pipeline, scene: Scene, sliced: Mapping[int, Section], painted: Painted) -> None:
     """Tell the listener which items are painted slice by slice, and which are not."""
     for number, planes in sliced.items():
         name = scene.items[number].name
         if number in painted.ribbons:
             count = painted.ribbons[number]
-            walk.tell("ribbons", f"{name}: in {len(planes.offsets) + 1} slices, ribbon by ribbon", count)
+            pipeline.tell("ribbons", f"{name}: in {len(planes.offsets) + 1} slices, ribbon by ribbon", count)
         else:
-            walk.tell("ribbons undone", f"{name}: something else is in front of it or behind it", 0)
+            pipeline.tell("ribbons undone", f"{name}: something else is in front of it or behind it", 0)
 
 
-def tell_knots(walk: Walk, scene: Scene, painted: Painted) -> None:
+def tell_cyclic_overlaps(pipeline: Pipeline, scene: Scene, painted: Painted) -> None:
     """Say which items were cut because no order of whole faces was right."""
     if len(painted) > painted.uncut:
         names = _names(scene, painted.knots)
-        walk.tell("cut", f"{names}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
+        pipeline.tell("cut", f"{names}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
 
 
 def warn_of_guesses(scene: Scene, painted: Painted) -> None:
@@ -835,11 +854,11 @@ class OrderedFaces:
 
 
 def ordered_faces(
-    walk: Walk,
+    pipeline: Pipeline,
     scene: Scene,
     shown: Scene,
     projection: Projection,
-    demand: Callable[[], Callable[[int], Demand]],
+    demand: Callable[[], Callable[[int], Criterion]],
     budget: Budget,
 ) -> OrderedFaces:
     """The faces of a scene back to front. shown: what of it is painted; demand: how fine triangles have to be, as of
@@ -847,17 +866,17 @@ def ordered_faces(
 
     Warns: InputWarning for items that may be in a wrong order.
     """
-    if walk.calls_for("facets"):
-        facets = walk.run("facets", faceted, shown, demand(), budget)
+    if pipeline.calls_for("facets"):
+        facets = pipeline.run("facets", faceted, shown, demand(), budget)
     else:
         facets = FacetedScene.of_meshes(shown)
     facets = replace(facets, scene=_with_clear_items(facets.scene))
-    view = walk.run("look", view_of, facets.scene, projection)
-    projected = walk.run("faces", project_faces, view)
+    view = pipeline.run("look", view_of, facets.scene, projection)
+    projected = pipeline.run("faces", project_faces, view)
     known, groups = known_orders(shown, view), _groups(scene)
     sliced = {number: planes for number, item in enumerate(scene.items) if (planes := item.curves.slices)}
     normals = _normals_at_corners(facets, view)
-    painted = walk.run(
+    painted = pipeline.run(
         "order",
         painters_order,
         view,
@@ -869,41 +888,43 @@ def ordered_faces(
         budget=budget,
     )
     warn_of_guesses(scene, painted)
-    tell_slices(walk, scene, sliced, painted)
-    tell_knots(walk, scene, painted)
-    tell_groups(walk, scene, painted)
+    tell_slices(pipeline, scene, sliced, painted)
+    tell_cyclic_overlaps(pipeline, scene, painted)
+    tell_groups(pipeline, scene, painted)
     faces = painted.faces
-    if walk.calls_for("unseen facets"):
-        faces = walk.run("unseen facets", without_unseen_facets, facets, view, projected, painted, budget)
+    if pipeline.calls_for("unseen facets"):
+        faces = pipeline.run("unseen facets", without_unseen_facets, facets, view, projected, painted, budget)
     return OrderedFaces(facets, view, projected, faces)
 
 
-def seen_on_page(walk: Walk, ordered: OrderedFaces, placement: Placement, budget: Budget) -> tuple[Seen, Ints]:
+def seen_on_page(
+    pipeline: Pipeline, ordered: OrderedFaces, placement: Placement, budget: Budget
+) -> tuple[VisiblePolygons, Ints]:
     """What is seen of faces back to front on a page, and the numbers (f,) of the planes of the view.
 
     Warns: InputWarning for transparent items with too much on one another.
     """
     facets, view, projected, faces = ordered.facets, ordered.view, ordered.projected, ordered.faces
-    if walk.calls_for("transparent sheets"):
+    if pipeline.calls_for("transparent sheets"):
         from vectorplot.visibility.painter.transparent_sheets import connected_parts, in_sheets
 
         item = view.face_item[faces.source]
         opacity = opacities(facets.scene.items)[item]
         sheet, width = np.where(opacity < 1.0, item, -1), SIDE_BY_SIDE_MM / placement.scale
-        if walk.calls_for("refraction"):
+        if pipeline.calls_for("refraction"):
             from vectorplot.effects.glass import refracting_items
 
             # What is seen in them is mixed, and opaque: nothing of them is blended.
             sheet = np.where(refracting_items(facets.scene, view, projected)[item], -1, sheet)
         part = connected_parts(view, faces, sheet)
         most = budget.pairs
-        sheets = walk.run("transparent sheets", in_sheets, faces, sheet, part, opacity, width, view.tolerance, most)
+        sheets = pipeline.run("transparent sheets", in_sheets, faces, sheet, part, opacity, width, view.tolerance, most)
         warn_of_single_polygons(facets.scene, sheets.single)
         faces = sheets.faces
     plane = plane_numbers(view)
-    faces = faces.some(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
+    faces = faces.take(side_by_side(faces, _planes_of(facets.scene, view, faces, plane), view.tolerance))
     shown = shown_faces(faces, placement)
-    return Seen(facets.scene, view, projected, shown, placement, smooth_items(facets)), plane
+    return VisiblePolygons(facets.scene, view, projected, shown, placement, smooth_items(facets)), plane
 
 
 def _normals_at_corners(facets: FacetedScene, view: View) -> Floats | None:
@@ -976,24 +997,24 @@ def hatched(
     """
     how = [given if item.hatch is None else item.hatch for item in scene.items]
     toned = replace(_toned(scene, how), background=None)
-    shown = without_twins(toned)
+    shown = without_coincident(toned)
     told = None if progress is None else lambda stage, fraction: progress(fraction)
-    walk = Walk(plan_paint(toned, "auto", "visible", frozenset()), None, told)
+    pipeline = Pipeline(plan_paint(toned, "auto", "visible", frozenset()), None, told)
     page, projection = placement.page, placement.projection
 
-    def demand() -> Callable[[int], Demand]:
+    def demand() -> Callable[[int], Criterion]:
         allowed = allowed_in_space(toned, projection, page, placement.whole, ENDS * tolerance_mm)
         return picture_fineness(shown, projection, bool(toned.lights), allowed, ROUGHLY * tolerance_mm)
 
-    ordered = ordered_faces(walk, toned, shown, projection, demand, budget)
-    seen, plane = seen_on_page(walk, ordered, placement, budget)
+    ordered = ordered_faces(pipeline, toned, shown, projection, demand, budget)
+    seen, plane = seen_on_page(pipeline, ordered, placement, budget)
     lit, lights = exposed_scene(seen.view, seen.scene)
     seen = replace(seen, scene=lit)
     # Planes have one shade each: no light varies on them.
     normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, crease_angle_deg)
     lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
-    fills = coloured(walk, seen, lighting, page, 0.0, ROUGHLY * tolerance_mm, budget).fills
-    regions = walk.run("visible fills", toned_regions, fills)
+    fills = coloured(pipeline, seen, lighting, page, 0.0, ROUGHLY * tolerance_mm, budget).fills
+    regions = pipeline.run("visible fills", toned_regions, fills)
     lines = followed_lines(scene, how, seen.view, placement, trace, tolerance_mm, crease_angle_deg)
     return hatched_regions(regions, how, placement.page_from_world, lines)
 

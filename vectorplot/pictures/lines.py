@@ -24,9 +24,9 @@ from vectorplot.geometry.budget import Budget, budget_of, line_each
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
-from vectorplot.pictures.pipeline import Walk
+from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.pictures.plan import plan_draw
-from vectorplot.pictures.subject import room_for_labels, titled
+from vectorplot.pictures.prepared_scene import room_for_labels, titled
 from vectorplot.scene.annotations import LabelAnchors, annotation_points, is_annotation, only_annotations
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.page import Page
@@ -61,18 +61,18 @@ if TYPE_CHECKING:
     from vectorplot.drawing.labels import SceneLabels
     from vectorplot.visibility.quadrics.closed_forms import ClosedForms, Seen
     from vectorplot.visibility.smooth.meetings import SmoothSheet
-    from vectorplot.visibility.smooth.traced import TracedScene
+    from vectorplot.visibility.smooth.scene_curves import TracedScene
 
 
 OF_F = "f is what is 0 on the contours, sections or other lines of the surface that are looked for"
 """What doubts about curves f = 0 are of, for those who asked for a picture."""
 
 
-def smooth_sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | None) -> tuple[SmoothSheet, ...]:
+def smooth_sheets(pipeline: Pipeline, scene: Scene, view: View, forms: ClosedForms | None) -> tuple[SmoothSheet, ...]:
     """The smooth surfaces of the scene that are not drawn in closed form, if it has any."""
-    if not walk.calls_for("curves"):
+    if not pipeline.calls_for("curves"):
         return ()
-    from vectorplot.visibility.smooth.traced import scene_sheets
+    from vectorplot.visibility.smooth.scene_curves import scene_sheets
 
     sheets = scene_sheets(scene, view, frozenset() if forms is None else forms.items)
     for sheet in sheets:
@@ -82,7 +82,7 @@ def smooth_sheets(walk: Walk, scene: Scene, view: View, forms: ClosedForms | Non
 
 
 def lines_and_chords(
-    walk: Walk,
+    pipeline: Pipeline,
     scene: Scene,
     view: View,
     sheets: tuple[SmoothSheet, ...],
@@ -94,7 +94,7 @@ def lines_and_chords(
 ) -> Lines:
     """The lines and the curves of smooth surfaces, cut where one of these begins to hide them or ends, if they hide;
     those of balls as they are seen among these."""
-    if not walk.calls_for("curves"):
+    if not pipeline.calls_for("curves"):
         return lines
     from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords, whole_lines_and_chords
 
@@ -102,17 +102,17 @@ def lines_and_chords(
         text = "the picture shows so small a part of the scene that smooth curves are off by more than the tolerance"
         warnings.warn(text, InputWarning, stacklevel=3)
     tolerance = max(tolerance, FINEST_CHORD_OF_EXTENT)
-    done = walk.fraction("curves")
-    traced = walk.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
-    if not sheets or not walk.calls_for("smooth surfaces"):
+    done = pipeline.fraction("curves")
+    traced = pipeline.run("curves", _all_curves, scene, view, sheets, forms, kinds, tolerance, budget, done)
+    if not sheets or not pipeline.calls_for("smooth surfaces"):
         _say(traced.doubts)
         return with_kinds_of_cuts(scene, view, whole_lines_and_chords(traced, lines), kinds)
-    done = walk.fraction("smooth surfaces")
-    cut, unsure = walk.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
+    done = pipeline.fraction("smooth surfaces")
+    cut, unsure = pipeline.run("smooth surfaces", cut_lines_and_chords, view, traced, lines, tolerance, budget, done)
     _say([*traced.doubts, *((scene.items[item].name, text) for item, text in unsure)])
     cut = replace(cut, behind=np.where(cut.kind == LineKind.CENTRE, 0, cut.behind))
     cut = with_kinds_of_cuts(scene, view, cut, kinds)
-    return cut if not walk.calls_for("visible lines") else cut.some(cut.behind == 0)
+    return cut if not pipeline.calls_for("visible lines") else cut.take(cut.behind == 0)
 
 
 def _say(doubts: Iterable[tuple[str, str]]) -> None:
@@ -134,7 +134,7 @@ def _all_curves(
 ) -> TracedScene:
     """The curves of sheets, the arcs of what is drawn in closed form, and the curves in which the latter meet that are
     no arcs."""
-    from vectorplot.visibility.smooth.traced import traced_scene, tracing_of
+    from vectorplot.visibility.smooth.scene_curves import traced_scene, tracing_of
 
     traced = traced_scene(scene, view, sheets, kinds, tolerance, budget, done)
     if forms is None:
@@ -184,7 +184,7 @@ PAPER = "white"
 
 
 @dataclass(frozen=True)
-class Finish:
+class OutputStyle:
     """What draw is told of pens and paper, by its keywords; look: plain, or that of a wireframe; rules: of pens, the
     last one that fits counts; curved_mm: how far fitted curves may be off strokes, None for polylines.
 
@@ -216,7 +216,7 @@ class Finish:
 
     def layered(
         self,
-        walk: Walk,
+        pipeline: Pipeline,
         scene: Scene,
         view: View,
         strokes: Paths,
@@ -226,30 +226,30 @@ class Finish:
     ) -> tuple[Layer, ...]:
         """Strokes of a scene, and those that hatch its faces, in layers with their pens; hatch: as of draw."""
         if self.look == "plain":
-            found = walk.run("layers", _line_layers, scene, strokes, hatches, hatch, self.layers, self.rules)
+            found = pipeline.run("layers", _line_layers, scene, strokes, hatches, hatch, self.layers, self.rules)
         else:
             from vectorplot.effects.wireframe import wire_layers
 
             scene = scene if self.background is None else replace(scene, background=self.background)
-            found = walk.run("layers", wire_layers, scene, view, strokes, page, self.look)
+            found = pipeline.run("layers", wire_layers, scene, view, strokes, page, self.look)
         if not self.scale_pens:
             return found
         return tuple(replace(layer, pen=scaled_pen(layer.pen, pen_scale(page))) for layer in found)
 
     def cued(
-        self, walk: Walk, layers: tuple[Layer, ...], view: View, cue: DepthCue, placement: Placement
+        self, pipeline: Pipeline, layers: tuple[Layer, ...], view: View, cue: DepthCue, placement: Placement
     ) -> tuple[Layer, ...]:
         """The layers with their strokes by depth."""
         from vectorplot.effects.depth_cues import depth_cued
         from vectorplot.shading.palettes import palette
 
         paper = palette(self.background or PAPER)[-1].tolist()
-        return walk.run("depth cue", depth_cued, layers, view, cue, paper, placement.page_from_world)
+        return pipeline.run("depth cue", depth_cued, layers, view, cue, paper, placement.page_from_world)
 
-    def inked(self, walk: Walk, layers: tuple[Layer, ...], placement: Placement) -> tuple[Layer, ...]:
+    def inked(self, pipeline: Pipeline, layers: tuple[Layer, ...], placement: Placement) -> tuple[Layer, ...]:
         """The layers with strokes that are joined, fitted with curves, and in the order of a pen."""
         world = placement.page_from_world
-        return walk.run("pen", inked, layers, self.hidden, world, self.curved_mm, self.longest_mm, self.thin_ends)
+        return pipeline.run("pen", inked, layers, self.hidden, world, self.curved_mm, self.longest_mm, self.thin_ends)
 
     def letters(self, layers: Sequence[Layer]) -> Pen:
         """The pen of letters on a drawing with such layers."""
@@ -356,57 +356,63 @@ def fit_error_mm(layers: Iterable[Layer]) -> float | None:
 # Spheres, ellipsoids and capped bodies among what is drawn: their lines, and what they hide, in closed form.
 
 
-def balls(walk: Walk, scene: Scene, view: View, kinds: frozenset[LineKind]) -> ClosedForms | None:
+def balls(pipeline: Pipeline, scene: Scene, view: View, kinds: frozenset[LineKind]) -> ClosedForms | None:
     """The spheres and ellipsoids of the scene, if it has any, and their lines as they are seen among them."""
-    if not walk.calls_for("balls"):
+    if not pipeline.calls_for("balls"):
         return None
     from vectorplot.visibility.quadrics.closed_forms import closed_forms
 
-    hidden_too = not walk.calls_for("visible lines")
-    return walk.run("balls", closed_forms, scene, view, kinds, _seen_among_balls(walk, "balls", view), hidden_too)
+    hidden_too = not pipeline.calls_for("visible lines")
+    return pipeline.run(
+        "balls", closed_forms, scene, view, kinds, _seen_among_balls(pipeline, "balls", view), hidden_too
+    )
 
 
-def _seen_among_balls(walk: Walk, stage: str, view: View) -> Seen:
+def _seen_among_balls(pipeline: Pipeline, stage: str, view: View) -> Seen:
     """What becomes of the arcs on balls: all of them, the visible parts, or all parts counted."""
     from vectorplot.visibility.quadrics import hidden_arcs
 
-    if walk.calls_for("all lines"):
+    if pipeline.calls_for("all lines"):
         return lambda bodies, arcs, sides: hidden_arcs.whole_arcs(arcs)
-    done = walk.fraction(stage)
-    if walk.calls_for("visible lines"):
+    done = pipeline.fraction(stage)
+    if pipeline.calls_for("visible lines"):
         return partial(hidden_arcs.visible_arcs, progress=done)
     return partial(hidden_arcs.counted_arcs, items=len(view.occludes), progress=done)
 
 
-def behind_balls(walk: Walk, view: View, forms: ClosedForms | None, lines: Lines) -> Lines:
+def behind_balls(pipeline: Pipeline, view: View, forms: ClosedForms | None, lines: Lines) -> Lines:
     """The lines cut where spheres and ellipsoids begin or end to hide them, if there are any."""
-    if forms is None or not walk.calls_for("behind balls"):
+    if forms is None or not pipeline.calls_for("behind balls"):
         return lines
     from vectorplot.visibility.quadrics.closed_forms import lines_behind
 
-    seen = _seen_among_balls(walk, "behind balls", view)
+    seen = _seen_among_balls(pipeline, "behind balls", view)
     over = lines.kind == LineKind.CENTRE
-    cut = walk.run("behind balls", lines_behind, view, forms, lines.some(~over), seen)
-    return joined_lines((cut, lines.some(over))) if over.any() else cut
+    cut = pipeline.run("behind balls", lines_behind, view, forms, lines.take(~over), seen)
+    return joined_lines((cut, lines.take(over))) if over.any() else cut
 
 
 # Which parts of lines are seen.
 
 
-def seen_parts(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
+def seen_parts(pipeline: Pipeline, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
     """The visible parts of lines, all their parts counted, or whole lines, as the plan has it."""
-    if walk.calls_for("all lines"):
+    if pipeline.calls_for("all lines"):
         from vectorplot.effects.wireframe import all_lines
 
-        return walk.run("all lines", all_lines, lines)
+        return pipeline.run("all lines", all_lines, lines)
     over = lines.kind == LineKind.CENTRE
     if over.any():
-        rest = seen_parts(walk, view, faces, solid, lines.some(~over))
+        rest = seen_parts(pipeline, view, faces, solid, lines.take(~over))
         return with_whole_lines(rest, over)
     segments = Segments(lines.start + lines.aside, lines.end + lines.aside)
-    if walk.calls_for("visible lines"):
-        return walk.run("visible lines", visible_parts, view, faces, solid, segments, walk.fraction("visible lines"))
-    seen = walk.run("counted lines", counted_parts, view, faces, solid, segments, walk.fraction("counted lines"))
+    if pipeline.calls_for("visible lines"):
+        return pipeline.run(
+            "visible lines", visible_parts, view, faces, solid, segments, pipeline.fraction("visible lines")
+        )
+    seen = pipeline.run(
+        "counted lines", counted_parts, view, faces, solid, segments, pipeline.fraction("counted lines")
+    )
     return replace(seen, hidden_by=seen.hidden_by + lines.behind[seen.segment])
 
 
@@ -414,7 +420,7 @@ def seen_parts(walk: Walk, view: View, faces: ProjectedFaces, solid: Bools, line
 
 
 def straight_lines(
-    walk: Walk,
+    pipeline: Pipeline,
     scene: Scene,
     view: View,
     faces: ProjectedFaces,
@@ -425,17 +431,17 @@ def straight_lines(
 ) -> Lines:
     """The lines of polyhedra."""
     found = []
-    backs = ~solid if walk.calls_for("visible lines") else np.ones(len(solid), dtype=np.bool_)
-    if walk.calls_for("edges"):
-        found.append(walk.run("edges", edge_lines, scene, view, faces, kinds, crease_angle_deg, backs))
-    if walk.calls_for("intersections"):
-        found.append(walk.run("intersections", intersection_lines, scene, view, faces, kinds, solid, backs))
-    if walk.calls_for("patterns"):
-        found.append(walk.run("patterns", pattern_lines, scene, view, kinds))
-    if walk.calls_for("lines on meshes"):
-        done = walk.fraction("lines on meshes")
+    backs = ~solid if pipeline.calls_for("visible lines") else np.ones(len(solid), dtype=np.bool_)
+    if pipeline.calls_for("edges"):
+        found.append(pipeline.run("edges", edge_lines, scene, view, faces, kinds, crease_angle_deg, backs))
+    if pipeline.calls_for("intersections"):
+        found.append(pipeline.run("intersections", intersection_lines, scene, view, faces, kinds, solid, backs))
+    if pipeline.calls_for("patterns"):
+        found.append(pipeline.run("patterns", pattern_lines, scene, view, kinds))
+    if pipeline.calls_for("lines on meshes"):
+        done = pipeline.fraction("lines on meshes")
         how = (kinds, crease_angle_deg, budget, done)
-        found.append(walk.run("lines on meshes", mesh_curve_lines, scene, view, *how))
+        found.append(pipeline.run("lines on meshes", mesh_curve_lines, scene, view, *how))
     return with_kinds_of_cuts(scene, view, with_shared_kinds(view, joined_lines(found)), kinds)
 
 
@@ -443,11 +449,11 @@ def straight_lines(
 
 
 @dataclass(frozen=True, eq=False)
-class Traceable:
+class LineSources:
     """A scene in a view, for lines of some kinds: the faces of its polyhedra, which of its items are solid (i,), its
     balls, if it has any, its other smooth surfaces; and the lines of its polyhedra, which no tolerance changes."""
 
-    walk: Walk
+    pipeline: Pipeline
     scene: Scene
     view: View
     kinds: frozenset[LineKind]
@@ -466,34 +472,34 @@ class Traceable:
     def lines(self, tolerance: float, budget: Budget) -> Lines:
         """All lines, curves as chords within a tolerance in the unit box."""
         smooth = (self.sheets, self.balls, self.kinds, self.straight)
-        return lines_and_chords(self.walk, self.scene, self.view, *smooth, tolerance, budget)
+        return lines_and_chords(self.pipeline, self.scene, self.view, *smooth, tolerance, budget)
 
     def framed(self, lines: Lines, place: Placement | None) -> Lines:
         """What of lines is before the eye and, where the picture has its place, inside of it; cut where balls begin to
         hide them."""
-        inside = self.walk.run("frame", in_frame, self.view, lines, place)
-        return behind_balls(self.walk, self.view, self.balls, inside)
+        inside = self.pipeline.run("frame", in_frame, self.view, lines, place)
+        return behind_balls(self.pipeline, self.view, self.balls, inside)
 
     def seen(self, lines: Lines) -> Visibility:
         """Which parts of framed lines are seen."""
-        return seen_parts(self.walk, self.view, self.faces, self.solid, lines)
+        return seen_parts(self.pipeline, self.view, self.faces, self.solid, lines)
 
 
 def traceable(
-    walk: Walk,
+    pipeline: Pipeline,
     scene: Scene,
     view: View,
     faces: ProjectedFaces,
     kinds: frozenset[LineKind],
     crease_angle_deg: float,
     budget: Budget,
-) -> Traceable:
+) -> LineSources:
     """What lines of these kinds are traced on. view: of the scene; faces: of that; budget: of shortest ways."""
     solid = solid_items(view, faces)
-    straight = straight_lines(walk, scene, view, faces, solid, kinds, crease_angle_deg, budget)
-    round_bodies = balls(walk, scene, view, kinds)
-    sheets = smooth_sheets(walk, scene, view, round_bodies)
-    return Traceable(walk, scene, view, kinds, faces, solid, straight, round_bodies, sheets)
+    straight = straight_lines(pipeline, scene, view, faces, solid, kinds, crease_angle_deg, budget)
+    round_bodies = balls(pipeline, scene, view, kinds)
+    sheets = smooth_sheets(pipeline, scene, view, round_bodies)
+    return LineSources(pipeline, scene, view, kinds, faces, solid, straight, round_bodies, sheets)
 
 
 # The lines of a scene where its picture has found its place on the page.
@@ -506,30 +512,30 @@ LARGER = 1.25
 class PlacedLines:
     """Lines before the eye, what is seen of them, and where that stands on the page."""
 
-    shapes: Traceable
+    shapes: LineSources
     lines: Lines
     seen: Visibility
     placement: Placement
 
     def with_halo(self, halo_mm: float) -> PlacedLines:
         """The same, lines ending so far beside what is in front of them where the plan has it."""
-        walk = self.shapes.walk
-        if not walk.calls_for("halo"):
+        pipeline = self.shapes.pipeline
+        if not pipeline.calls_for("halo"):
             return self
         from vectorplot.effects.halos import halo
 
         width = halo_mm / self.placement.scale
-        return replace(self, seen=walk.run("halo", halo, self.shapes.view, self.lines, self.seen, width))
+        return replace(self, seen=pipeline.run("halo", halo, self.shapes.view, self.lines, self.seen, width))
 
     def strokes(self) -> Paths:
         """The seen parts as strokes on the page, as they come."""
         shapes = self.shapes
-        return shapes.walk.run("strokes", strokes_on_page, shapes.view, self.lines, self.seen, self.placement)
+        return shapes.pipeline.run("strokes", strokes_on_page, shapes.view, self.lines, self.seen, self.placement)
 
 
-def placed_lines(shapes: Traceable, sheet: Page, fit: bool, tolerance_mm: float, budget: Budget) -> PlacedLines:
+def placed_lines(shapes: LineSources, sheet: Page, fit: bool, tolerance_mm: float, budget: Budget) -> PlacedLines:
     """The lines of a scene, and their place on a sheet that they fill; without fit that of the field of vision."""
-    walk, view, reached = shapes.walk, shapes.view, shapes.reached
+    pipeline, view, reached = shapes.pipeline, shapes.view, shapes.reached
     scale = mm_per_image(view, reached, sheet, fit)
     while True:
         # Chords take one half of the tolerance, Béziers through their ends the other.
@@ -539,7 +545,7 @@ def placed_lines(shapes: Traceable, sheet: Page, fit: bool, tolerance_mm: float,
         framed = shapes.framed(every, bounded)
         seen = shapes.seen(framed)
         placement = bounded or fitted_lines(view, framed, seen, sheet)
-        if bounded is None and not len(seen) and walk.calls_for("hatching"):
+        if bounded is None and not len(seen) and pipeline.calls_for("hatching"):
             # Without lines the picture is that of the faces.
             placement = fitted_picture(view, sheet, view.image_of(reached))
         if (
@@ -594,7 +600,7 @@ def places_beside_faces(
         # They are told when the lines are drawn.
         warnings.simplefilter("ignore", InputWarning)
         shapes = traceable(
-            Walk(plan_draw(alone, kinds, "none", 0.0), None, None), alone, view, faces, kinds, 180.0, allowed
+            Pipeline(plan_draw(alone, kinds, "none", 0.0), None, None), alone, view, faces, kinds, 180.0, allowed
         )
         every = shapes.lines(0.5 * tolerance_mm / scale, allowed)
     if view.reaches_too_far(every.start, every.end):
@@ -623,9 +629,9 @@ def lines_in_place(
     draw.
     """
     told = None if progress is None else lambda stage, fraction: progress(fraction)
-    walk = Walk(plan_draw(scene, kinds, "none", 0.0), None, told)
+    pipeline = Pipeline(plan_draw(scene, kinds, "none", 0.0), None, told)
     allowed = budget_of(budget)
-    shapes = traceable(walk, scene, view, faces, kinds, crease_angle_deg, allowed)
+    shapes = traceable(pipeline, scene, view, faces, kinds, crease_angle_deg, allowed)
     every = shapes.lines(0.5 * tolerance_mm / placement.scale, allowed)
     # Lines may reach too far where what the picture was fitted to does not.
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
@@ -643,7 +649,7 @@ OUTLINES = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
 
 
 @dataclass(frozen=True, eq=False)
-class Ruler:
+class LineOverlay:
     """How the lines of a scene come to be on a picture of its faces. view: of the latter, surfaces as triangles; faces:
     its faces in the image, where they are known; all else as of draw, in the units of the placement's page."""
 
@@ -668,21 +674,23 @@ class Ruler:
         return labels_in_place(self.scene, *self._view, self.placement, anchors, strokes, text=text, mm=mm)
 
     def layers(
-        self, layers: Sequence[Layer], walk: Walk, cue: DepthCue | None, paper: Sequence[int]
+        self, layers: Sequence[Layer], pipeline: Pipeline, cue: DepthCue | None, paper: Sequence[int]
     ) -> tuple[Layer, ...]:
         """Layers of visible lines as a pen draws them, by depth too where there is a cue; paper: its colour."""
         world = self.placement.page_from_world
-        return inked(self.cued(layers, walk, cue, paper), "none", world, self.tolerance_mm)
+        return inked(self.cued(layers, pipeline, cue, paper), "none", world, self.tolerance_mm)
 
     def cued(
-        self, layers: Sequence[Layer], walk: Walk, cue: DepthCue | None, paper: Sequence[int]
+        self, layers: Sequence[Layer], pipeline: Pipeline, cue: DepthCue | None, paper: Sequence[int]
     ) -> tuple[Layer, ...]:
         """Layers of lines, their strokes by depth where there is a cue."""
-        if cue is None or not walk.calls_for("depth cue"):
+        if cue is None or not pipeline.calls_for("depth cue"):
             return tuple(layers)
         from vectorplot.effects.depth_cues import depth_cued
 
-        return walk.run("depth cue", depth_cued, tuple(layers), self.view, cue, paper, self.placement.page_from_world)
+        return pipeline.run(
+            "depth cue", depth_cued, tuple(layers), self.view, cue, paper, self.placement.page_from_world
+        )
 
     def strokes(self, scene: Scene, kinds: frozenset[LineKind]) -> Paths:
         """The visible lines as polylines. scene: this one, whatever patterns it has."""

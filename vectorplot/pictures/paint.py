@@ -15,27 +15,27 @@ from vectorplot.drawing.painted_fills import fills_on_page, placement_of_faces
 from vectorplot.drawing.pen_layers import overlaid_pens
 from vectorplot.drawing.pens import Pens, Style, check_targets
 from vectorplot.errors import InputError
-from vectorplot.features.edge_splitting import Demand, Within
+from vectorplot.features.edge_splitting import Criterion, Within
 from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.facet_errors import outline_error
-from vectorplot.pictures.fills import Seen, border_tolerance_mm, coloured, ordered_faces, paper, seen_on_page
+from vectorplot.pictures.fills import VisiblePolygons, border_tolerance_mm, coloured, ordered_faces, paper, seen_on_page
 from vectorplot.pictures.fills import background as background_of
-from vectorplot.pictures.lines import PEN, Ruler, places_beside_faces
+from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
 from vectorplot.pictures.options import check_types
-from vectorplot.pictures.pipeline import StageReport, Walk
+from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import accuracy_of_paint, plan_paint, with_accuracy
-from vectorplot.pictures.subject import Paper, beside_bar, left_of_bar, room_for_labels, subject_of, titled
-from vectorplot.scene.added_lines import with_usual_lines
+from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
+from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, depth_cue_of
 from vectorplot.scene.placement import FittedPage, allowed_in_space, page_of
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.view import without_twins
-from vectorplot.shading.fineness import picture_fineness
+from vectorplot.scene.view import without_coincident
+from vectorplot.shading.facet_resolution import picture_fineness
 from vectorplot.shading.painted_colours import Lighting, painted_normals
 from vectorplot.shading.palettes import PALETTE_SIZE, shaded_colours
 from vectorplot.shading.shaded_faces import exposed_scene, item_colours
@@ -43,7 +43,9 @@ from vectorplot.tolerances import LEAST_TOLERANCE_MM
 from vectorplot.words import LINE_WORDS, TEXT_WORDS, LineKind, check_word, line_kinds
 
 
-def erased(walk: Walk, seen: Seen, scene: Scene, ruler: Ruler, kinds: frozenset[LineKind], size: int) -> Fills:
+def erased(
+    pipeline: Pipeline, seen: VisiblePolygons, scene: Scene, ruler: LineOverlay, kinds: frozenset[LineKind], size: int
+) -> Fills:
     """Blank polygons, and the lines of the scene on them."""
     from vectorplot.drawing.painted_fills import erased_fills, line_fills
 
@@ -58,12 +60,14 @@ def erased(walk: Walk, seen: Seen, scene: Scene, ruler: Ruler, kinds: frozenset[
         item=view.face_item[faces.source],
         kind=np.full(len(faces), int(FillKind.BACKGROUND)),
     )
-    drawn = walk.run("outlines", _coloured_strokes, scene, ruler, kinds, size)
+    drawn = pipeline.run("outlines", _coloured_strokes, scene, ruler, kinds, size)
     lines = Fills.joined(*(line_fills(strokes, ink) for strokes, ink in drawn))
-    return walk.run("erasing", erased_fills, blank, lines, PEN.width_mm)
+    return pipeline.run("erasing", erased_fills, blank, lines, PEN.width_mm)
 
 
-def _coloured_strokes(scene: Scene, ruler: Ruler, kinds: frozenset[LineKind], size: int) -> list[tuple[Paths, Colours]]:
+def _coloured_strokes(
+    scene: Scene, ruler: LineOverlay, kinds: frozenset[LineKind], size: int
+) -> list[tuple[Paths, Colours]]:
     """The visible lines of a scene, and their inks (m,3): the middle shades of the palettes of items, and of those of
     patterns."""
     from vectorplot.drawing.strokes import chosen
@@ -225,12 +229,12 @@ def paint(
     threads = threads_of(jobs)
     given, kinds = scene_of(scene), line_kinds(lines)
     if fills == "erasing" and not kinds:
-        given = with_usual_lines(given)
+        given = with_default_lines(given)
     chosen = overlaid_pens(given.inks, style, pens, dashes)
     if fills == "erasing" and (style is not None or pens is not None or dashes is not None):
         raise InputError("style, pens and dashes do not go with fills that are erasing, whose lines are those of items")
     sheet = page_of(page, given, width, fit)
-    subject = subject_of(
+    subject = prepared_scene(
         given,
         camera,
         Paper(sheet, fit),
@@ -247,15 +251,15 @@ def paint(
     check_targets(over.rules, names)
     sheet, strip = left_of_bar(sheet, bar)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
-    walk = Walk(stages, explain, progress, threads)
+    pipeline = Pipeline(stages, explain, progress, threads)
     projection = projection_of(subject.camera, scene.bounds)
     # Lines belong to each item, polygons to what is seen.
-    shown = scene if kinds or fills == "erasing" else without_twins(scene)
+    shown = scene if kinds or fills == "erasing" else without_coincident(scene)
 
     steps = palette if fills == "visible" else None
     fine_mm = tolerance_mm if steps is None else border_tolerance_mm(tolerance_mm, steps)
 
-    def demand() -> Callable[[int], Demand]:
+    def demand() -> Callable[[int], Criterion]:
         allowed = allowed_in_space(scene, projection, sheet, fit, fine_mm)
         # Where each triangle has one shade they have to be so small that nobody sees it.
         if not smooth or fills == "erasing":
@@ -263,14 +267,14 @@ def paint(
         casts = shadows != "none" and bool(scene.lights)
         return picture_fineness(shown, projection, casts, allowed, fine_mm)
 
-    ordered = ordered_faces(walk, scene, shown, projection, demand, budget_of(budget))
+    ordered = ordered_faces(pipeline, scene, shown, projection, demand, budget_of(budget))
     drawn = kinds or line_kinds(LINE_WORDS if fills == "erasing" else ())
     beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
     placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, beside)
     if fit:
         placement = subject.around(placement, ordered.view, sheet)
-    walk.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
-    seen, plane = seen_on_page(walk, ordered, placement, budget_of(budget))
+    pipeline.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
+    seen, plane = seen_on_page(pipeline, ordered, placement, budget_of(budget))
     view, true = seen.view, ordered.facets.normals
     page, world = placement.page, placement.page_from_world
     lit, here = exposed_scene(view, seen.scene)
@@ -282,28 +286,30 @@ def paint(
         # Pens have no gradients: smooth surfaces have steps, meshes and planes one shade for each of their faces.
         normals = painted_normals(view, scene.items, (), true, plane, 0.0)
     lighting = Lighting(scene.items, here, normals, plane, palette, smooth_size=steps)
-    ruler = Ruler(scene, view, seen.projected, seen.placement, crease_angle_deg, tolerance_mm, budget)
-    if walk.calls_for("erasing"):
-        polygons = erased(walk, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
+    ruler = LineOverlay(scene, view, seen.projected, seen.placement, crease_angle_deg, tolerance_mm, budget)
+    if pipeline.calls_for("erasing"):
+        polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
     else:
-        painted = coloured(walk, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
+        painted = coloured(pipeline, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
         polygons = painted.fills
     for stage in ("order", "shadows"):
-        walk.measured(stage, "mm", lambda: view.tolerance * placement.scale)
-    if walk.calls_for("visible fills"):
+        pipeline.measured(stage, "mm", lambda: view.tolerance * placement.scale)
+    if pipeline.calls_for("visible fills"):
         from vectorplot.drawing.fill_visibility import visible_shades
 
         curved = np.array([normals is not None for normals in ordered.facets.normals], dtype=np.bool_) & smooth
-        polygons = walk.run("visible fills", visible_shades, painted, curved, world)
-    if walk.calls_for("screen door"):
+        polygons = pipeline.run("visible fills", visible_shades, painted, curved, world)
+    if pipeline.calls_for("screen door"):
         from vectorplot.effects.windows import screened
 
-        polygons = walk.run("screen door", screened, polygons, PEN.width_mm, world)
+        polygons = pipeline.run("screen door", screened, polygons, PEN.width_mm, world)
     layers: tuple[Layer, ...] = (Layer("fills", PEN, (polygons,)),)
-    found = walk.run("lines", ruler.found, kinds, walk.fraction("lines")) if walk.calls_for("lines") else None
+    found = (
+        pipeline.run("lines", ruler.found, kinds, pipeline.fraction("lines")) if pipeline.calls_for("lines") else None
+    )
     labels = None
-    if walk.calls_for("labels"):
-        labels = walk.run("labels", ruler.labels, subject.anchors, found, text)
+    if pipeline.calls_for("labels"):
+        labels = pipeline.run("labels", ruler.labels, subject.anchors, found, text)
         found = found and labels.interrupted(found, world)
         from vectorplot.drawing.fill_visibility import cut_out
 
@@ -312,7 +318,7 @@ def paint(
         layers = (replace(layers[0], marks=(polygons,)),)
     if found is not None:
         lines_ = over.layers(found, names)
-        layers += ruler.layers(lines_, walk, scene.depth_cue, paper(scene)[0].tolist())
+        layers += ruler.layers(lines_, pipeline, scene.depth_cue, paper(scene)[0].tolist())
     letters = over.letters(letter_pen(layers))
     if labels is not None:
         layers = labels.on_top(layers, False, None, world, letters)

@@ -14,11 +14,11 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.budget import threads_of
 from vectorplot.geometry.camera import Camera, Panorama
 from vectorplot.io.anything import scene_of
-from vectorplot.pictures.lines import Finish, lines_in_place
+from vectorplot.pictures.lines import OutputStyle, lines_in_place
 from vectorplot.pictures.options import check_types
-from vectorplot.pictures.pipeline import StageReport, Walk
+from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import plan_panorama
-from vectorplot.scene.added_lines import with_usual_lines
+from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.exploded import shown_apart
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import field_of_vision, page_of
@@ -97,12 +97,12 @@ def panorama(
     True
     """
     check_types(locals())
-    given = scene_of(scene) if lines is not None else with_usual_lines(scene_of(scene))
+    given = scene_of(scene) if lines is not None else with_default_lines(scene_of(scene))
     given = shown_apart(given)
     chosen, own = style_of_scene(given.inks, style)
     if chosen.look != "plain":
         raise InputError(f"panorama: a picture in the style {chosen.look} shows all lines, and a panorama those seen")
-    finish = Finish(
+    finish = OutputStyle(
         look=chosen.look,
         hidden="none",
         layers=chosen.layers if layers is None else layers,
@@ -120,7 +120,7 @@ def panorama(
     seamless = without_seams(given)
     eye = eye_of(round_about, seamless)
     sheet = page_of(page, seamless, width)
-    walk = Walk(plan_panorama(), explain, progress, threads)
+    pipeline = Pipeline(plan_panorama(), explain, progress, threads)
     trace = partial(
         _seen_by,
         seamless,
@@ -129,11 +129,11 @@ def panorama(
         tolerance_mm=tolerance_mm,
         budget=budget,
     )
-    strokes, marks, placement = walk.run(
-        "panorama", panorama_on_page, round_about, eye, sheet, tolerance_mm, trace, walk.fraction("panorama")
+    strokes, marks, placement = pipeline.run(
+        "panorama", panorama_on_page, round_about, eye, sheet, tolerance_mm, trace, pipeline.fraction("panorama")
     )
-    found = walk.run("layers", sorted_layers, strokes, *_names_and_colours(seamless), finish.layers, finish.rules)
-    inks, letters = finish.inked(walk, found, placement), finish.letters(found)
+    found = pipeline.run("layers", sorted_layers, strokes, *_names_and_colours(seamless), finish.layers, finish.rules)
+    inks, letters = finish.inked(pipeline, found, placement), finish.letters(found)
     return finish.drawing((*inks, Layer("bearings", letters, (marks,))), placement, seamless, letters)
 
 

@@ -55,7 +55,7 @@ ERROR_WIDTH = 14
 """The letters of an error with its unit."""
 
 
-class Walk:
+class Pipeline:
     """Runs the stages of a plan, and only those; tells a listener about each, and a progress bar how far it is."""
 
     def __init__(
@@ -77,15 +77,15 @@ class Walk:
         """Whether the plan has this stage."""
         return name in self._stages
 
-    def repetition(self, names: Sequence[str], number: int, count: int) -> Walk:
+    def repetition(self, names: Sequence[str], number: int, count: int) -> Pipeline:
         """The walk of one of some repetitions, the number-th of count, of stages that follow one another."""
         spans = [self._spans[name] for name in names if name in self._spans]
         first, whole = min(begin for begin, _ in spans), sum(end - begin for begin, end in spans)
-        walk = Walk(list(self._stages.values()), self._explain, self._progress, self._jobs)
-        for name in walk._spans.keys() & set(names):
-            begin, end = (first + (whole * number + place - first) / count for place in walk._spans[name])
-            walk._spans[name] = (begin, end)
-        return walk
+        pipeline = Pipeline(list(self._stages.values()), self._explain, self._progress, self._jobs)
+        for name in pipeline._spans.keys() & set(names):
+            begin, end = (first + (whole * number + place - first) / count for place in pipeline._spans[name])
+            pipeline._spans[name] = (begin, end)
+        return pipeline
 
     def fraction(self, name: str) -> Callable[[float], None]:
         """What a stage calls with the part of it that is done."""

@@ -16,7 +16,7 @@ from vectorplot.drawing.finishing import long_strokes
 from vectorplot.errors import InputError
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import cross
-from vectorplot.pictures.pipeline import Walk
+from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.scene.light import Light
 from vectorplot.scene.page import MM_PER_INCH
 from vectorplot.scene.scene import Scene
@@ -57,14 +57,14 @@ BAND_PIXELS = 1 << 22
 """So many pixels are in memory at a time."""
 
 
-def pixels_in_bands(walk: Walk, picture: Picture, samples: int) -> Bytes:
+def pixels_in_bands(pipeline: Pipeline, picture: Picture, samples: int) -> Bytes:
     """(rows, columns, 3) the finer picture, made in bands."""
     result = np.zeros((picture.rows, picture.columns, 3), dtype=np.uint8)
     step = max(1, BAND_PIXELS // (picture.columns * samples)) * samples
     tops = range(0, picture.rows, step)
     for number, top in enumerate(tops):
         bottom = min(top + step, picture.rows)
-        band = walk.repetition(("depth", "shading", "mirrors", "transparency"), number, len(tops))
+        band = pipeline.repetition(("depth", "shading", "mirrors", "transparency"), number, len(tops))
         buffer = band.run("depth", opaque_buffer, picture, top, bottom)
         colours = band.run("shading", shaded, picture, buffer)
         if band.calls_for("mirrors"):
@@ -123,13 +123,13 @@ FEWEST_TEXELS, MOST_TEXELS = 256, 4096
 """Along the side of a shadow map, unless told otherwise."""
 
 
-def usual_samples(size: tuple[int, int]) -> int:
+def default_samples(size: tuple[int, int]) -> int:
     """Along each side of a pixel where nobody says how many."""
     fine = (size[0] * SAMPLES, size[1] * SAMPLES)
     return SAMPLES if max(fine) <= LARGEST_SIDE_PIXELS and fine[0] * fine[1] <= LARGEST_RASTER_PIXELS else 1
 
 
-def usual_shadow_size(size: tuple[int, int]) -> int:
+def default_shadow_size(size: tuple[int, int]) -> int:
     """Texels along the side of a shadow map where nobody says how many: the power of two no less than the longer
     side of the picture, 256 to 4096."""
     needed = 1 << (int(max(size)) - 1).bit_length()
@@ -212,15 +212,15 @@ class ShadowMaps:
         return tuple((colour, opacity, self.of_items(casts)) for (colour, opacity), casts in groups.items())
 
 
-def scene_lighting(walk: Walk, scene: Scene, view: View, maps: ShadowMaps) -> Lighting:
+def scene_lighting(pipeline: Pipeline, scene: Scene, view: View, maps: ShadowMaps) -> Lighting:
     """The lights and their shadows, as far as the plan has any."""
     blocked: tuple[Blocked, ...] = ()
     clear: tuple[tuple[str, float, tuple[Blocked, ...]], ...] = ()
-    if walk.calls_for("shadows"):
+    if pipeline.calls_for("shadows"):
         casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)
-        blocked = walk.run("shadows", maps.of_items, casts)
-    if walk.calls_for("transparent shadows"):
-        clear = walk.run("transparent shadows", maps.of_clear_items, scene)
+        blocked = pipeline.run("shadows", maps.of_items, casts)
+    if pipeline.calls_for("transparent shadows"):
+        clear = pipeline.run("transparent shadows", maps.of_clear_items, scene)
     return lighting_of(view, scene.items, maps.lights, blocked, clear)
 
 

@@ -20,33 +20,33 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.facet_errors import facet_error
-from vectorplot.pictures.lines import Ruler, places_beside_faces
+from vectorplot.pictures.lines import LineOverlay, places_beside_faces
 from vectorplot.pictures.options import check_types
-from vectorplot.pictures.pipeline import StageReport, Walk
+from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.pixels import (
     PIXELS_PER_MM,
     ShadowMaps,
     check_lights,
     check_render_options,
     check_whole,
+    default_samples,
+    default_shadow_size,
     pixels_beside_bar,
     pixels_in_bands,
     pixels_left_of_bar,
     scene_lighting,
     tapered_for,
-    usual_samples,
-    usual_shadow_size,
 )
 from vectorplot.pictures.plan import accuracy_of_render, chosen_shadows, plan_render, with_accuracy
-from vectorplot.pictures.subject import Paper, subject_of, tell_what_leaves_page
+from vectorplot.pictures.prepared_scene import Paper, prepared_scene, tell_what_leaves_page
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.view import view_of, without_twins
+from vectorplot.scene.view import view_of, without_coincident
 from vectorplot.shading.depth import coplanar_faces
-from vectorplot.shading.fineness import FacetedScene, faceted
+from vectorplot.shading.facet_resolution import FacetedScene, faceted
 from vectorplot.shading.image import Image, averaged_light
 from vectorplot.shading.palettes import palette
 from vectorplot.shading.scene_pixels import picture_of
@@ -206,10 +206,10 @@ def render(
     """
     check_types(locals())
     kinds = line_kinds(lines)
-    samples = usual_samples(size) if samples is None else samples
+    samples = default_samples(size) if samples is None else samples
     check_whole(columns=size[0], rows=size[1], samples=samples)
     check_render_options(size, shadows, transparency, samples, crease_angle_deg)
-    texels = usual_shadow_size(size) if shadow_size is None else shadow_size
+    texels = default_shadow_size(size) if shadow_size is None else shadow_size
     check_whole(shadow_size=texels)
     settings = MapSettings(texels, shadow_bits, shadow_casters, shadow_focus)
     budget_of(budget)
@@ -217,7 +217,9 @@ def render(
     given = scene_of(scene)
     chosen = overlaid_pens(given.inks, style, pens, dashes)
     sheet = Paper(Page(size[0] / PIXELS_PER_MM, size[1] / PIXELS_PER_MM, 0.0), fit)
-    subject = subject_of(given, camera, sheet, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue)
+    subject = prepared_scene(
+        given, camera, sheet, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue
+    )
     seen, bar = subject.scene, subject.bar
     names = tuple(item.name for item in seen.items)
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
@@ -227,32 +229,32 @@ def render(
     whole, size = size, pixels_left_of_bar(size, bar)
     how, why = chosen_shadows(seen, subject.camera, size, fit) if shadows == "auto" else (shadows, "")
     said = accuracy_of_render(FACET_PIXELS, how, texels)
-    walk = Walk(with_accuracy(plan_render(seen, how, bool(kinds), why), said), explain, progress, threads)
-    _tell_what_is_missing(walk, seen, kinds)
+    pipeline = Pipeline(with_accuracy(plan_render(seen, how, bool(kinds), why), said), explain, progress, threads)
+    _tell_what_is_missing(pipeline, seen, kinds)
     fine = (size[0] * samples, size[1] * samples)
     projection = projection_of(subject.camera, seen.bounds)
     facets = FacetedScene.of_meshes(seen)
-    if walk.calls_for("facets"):
+    if pipeline.calls_for("facets"):
         demand = Within(allowed_in_space(seen, projection, Page(*fine, 0.0), fit, FACET_PIXELS))
-        facets = walk.run("facets", faceted, without_twins(seen), lambda number: demand, budget_of(budget))
-    view = walk.run("look", view_of, facets.scene, projection)
-    triangles = walk.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
+        facets = pipeline.run("facets", faceted, without_coincident(seen), lambda number: demand, budget_of(budget))
+    view = pipeline.run("look", view_of, facets.scene, projection)
+    triangles = pipeline.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     beside = places_beside_faces(seen, view, None, Page(*fine, 0.0), fit, kinds, LINE_PIXELS, budget)
     placement = picture_placement(view, *fine, fit, beside)
     if fit:
         placement = subject.around(placement, view, placement.page, AROUND_BOX, samples * PIXELS_PER_MM)
-    walk.measured("facets", "samples", facet_error, facets, view, placement)
+    pipeline.measured("facets", "samples", facet_error, facets, view, placement)
     system = pixel_system(placement)
     (seen, here), sides = exposed_scene(view, seen), outer_sides(view)
-    region = tapered_for(triangles, system, fine, how) if walk.calls_for("shadows") else None
-    lighting = scene_lighting(walk, seen, view, ShadowMaps(triangles, here, how, settings, region, sides))
+    region = tapered_for(triangles, system, fine, how) if pipeline.calls_for("shadows") else None
+    lighting = scene_lighting(pipeline, seen, view, ShadowMaps(triangles, here, how, settings, region, sides))
     if lighting.blocked and how != "exact":
         from vectorplot.pictures.pixels import wrong_shadows
 
-        walk.measured("shadows", "% wrong", wrong_shadows, seen, triangles, lighting)
+        pipeline.measured("shadows", "% wrong", wrong_shadows, seen, triangles, lighting)
     opacity = np.array([item.material.opacity for item in seen.items])
     mirror = np.array([item.material.is_mirror for item in seen.items], dtype=np.bool_)
-    coplanar = walk.run("coplanar", coplanar_faces, view)
+    coplanar = pipeline.run("coplanar", coplanar_faces, view)
     behind = paper[0].astype(np.float64)
     picture = picture_of(triangles, system, fine, lighting, opacity, mirror, sides, coplanar, behind)
     if transparency == "sparse":
@@ -261,15 +263,15 @@ def render(
         picture = replace(picture, every=sparseness(opacity), door=samples)
     if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
-    pixels = pixels_in_bands(walk, picture, samples)
-    ruler, found = Ruler(seen, view, None, placement, crease_angle_deg, LINE_PIXELS, budget), None
-    if walk.calls_for("lines"):
-        found = walk.run("lines", ruler.found, kinds, walk.fraction("lines"))
+    pixels = pixels_in_bands(pipeline, picture, samples)
+    ruler, found = LineOverlay(seen, view, None, placement, crease_angle_deg, LINE_PIXELS, budget), None
+    if pipeline.calls_for("lines"):
+        found = pipeline.run("lines", ruler.found, kinds, pipeline.fraction("lines"))
         found = chain_lines_dashed(found, placement.page_from_world, samples * PIXELS_PER_MM)
-    if walk.calls_for("labels"):
+    if pipeline.calls_for("labels"):
         from vectorplot.pictures.pixels import with_blanks, with_lines
 
-        labels = walk.run("labels", ruler.labels, subject.anchors, found, mm=samples * PIXELS_PER_MM)
+        labels = pipeline.run("labels", ruler.labels, subject.anchors, found, mm=samples * PIXELS_PER_MM)
         tell_what_leaves_page(labels)
         found = found and labels.interrupted(found, placement.page_from_world)
         letters = scaled_pen(over.letters(Pen(LETTER_PIXELS / PIXELS_PER_MM)), samples * PIXELS_PER_MM)
@@ -280,12 +282,12 @@ def render(
 
         layers = over.layers(long_strokes(found), names, float(samples), samples * PIXELS_PER_MM)
         layers = with_dashes(layers, placement.page_from_world)
-        pixels = with_layers(pixels, ruler.cued(layers, walk, seen.depth_cue, paper[0].tolist()))
-    averages = walk.run("average", averaged_light, pixels, samples)
+        pixels = with_layers(pixels, ruler.cued(layers, pipeline, seen.depth_cue, paper[0].tolist()))
+    averages = pipeline.run("average", averaged_light, pixels, samples)
     return Image(pixels_beside_bar(averages, bar, whole, behind), seen.title)
 
 
-def _tell_what_is_missing(walk: Walk, scene: Scene, kinds: frozenset[LineKind]) -> None:
+def _tell_what_is_missing(pipeline: Pipeline, scene: Scene, kinds: frozenset[LineKind]) -> None:
     """Say what paint would show of the scene, and a picture of pixels does not."""
     missing = []
     if any(item.patterns for item in scene.items) and LineKind.PATTERN not in kinds:
@@ -295,4 +297,4 @@ def _tell_what_is_missing(walk: Walk, scene: Scene, kinds: frozenset[LineKind]) 
     if missing:
         warnings.warn(f"not rendered: {', '.join(missing)}; the verb paint shows them", InputWarning, stacklevel=3)
     if scene.lights and any(item.material.is_mirror for item in scene.items):
-        walk.tell("left out", "light that mirrors throw back: the verb paint shows it", 0)
+        pipeline.tell("left out", "light that mirrors throw back: the verb paint shows it", 0)

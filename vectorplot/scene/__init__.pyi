@@ -6,7 +6,7 @@ from .labels import Along, AtVertex, Label, OnCurve, OnPage
 from .light import Light
 from .material import Material
 from .page import Page, sheet_size
-from .pens import DepthCue, Inks
+from .pens import DepthCue, PenOverrides
 from .placement import Placement, field_of_vision, fitted_picture
 from .scales import BoxAxes, Colouring, Fields
 from .scene import Scene
@@ -44,7 +44,6 @@ __all__ = [
     "GeodesicLines",
     "GeodesicsBetween",
     "Hatching",
-    "Inks",
     "Item",
     "KnownCurves",
     "Label",
@@ -54,6 +53,7 @@ __all__ = [
     "OnPage",
     "Page",
     "Pattern",
+    "PenOverrides",
     "Placement",
     "Roads",
     "Scene",

@@ -300,7 +300,7 @@ def curve_light(scene: Scene, view: View, item: Item) -> Light:
 # What is drawn of things where nobody asks for kinds of lines.
 
 
-def with_usual_lines(scene: Scene) -> Scene:
+def with_default_lines(scene: Scene) -> Scene:
     """The scene with the lines that are usual for its items as their own, where they have none of their own."""
     if all(item.usual_lines is None for item in scene.items):
         return scene

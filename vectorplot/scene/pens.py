@@ -28,7 +28,7 @@ FINEST_MM = 0.01
 
 
 @dataclass(frozen=True)
-class Inks:
+class PenOverrides:
     """The style, the pens and the dashes that a scene asks for; what `vp.draw` is told comes before them.
 
     Parameters
@@ -48,8 +48,8 @@ class Inks:
     --------
     >>> import vectorplot as vp
     >>> from vectorplot.geometry import box
-    >>> from vectorplot.scene import Inks
-    >>> scene = vp.Scene((vp.Item("die", box((1, 1, 1))),), inks=Inks(pens={"contour": "0.8:red"}))
+    >>> from vectorplot.scene import PenOverrides
+    >>> scene = vp.Scene((vp.Item("die", box((1, 1, 1))),), inks=PenOverrides(pens={"contour": "0.8:red"}))
     >>> next(layer.pen.width_mm for layer in vp.draw(scene).layers if layer.name == "contour")
     0.8
     """
@@ -58,7 +58,7 @@ class Inks:
     pens: Mapping[str, str] = field(default_factory=dict)
     dashes: Mapping[str, str] = field(default_factory=dict)
 
-    def renamed(self, names: Mapping[str, str]) -> Inks:
+    def renamed(self, names: Mapping[str, str]) -> PenOverrides:
         """The same of a scene whose items have other names.
 
         Parameters
@@ -68,13 +68,13 @@ class Inks:
 
         Returns
         -------
-        Inks
+        PenOverrides
             With targets of the new names.
 
         Examples
         --------
-        >>> from vectorplot.scene import Inks
-        >>> Inks(pens={"a.crease": "0.2", "contour": "1"}).renamed({"a": "b"}).pens
+        >>> from vectorplot.scene import PenOverrides
+        >>> PenOverrides(pens={"a.crease": "0.2", "contour": "1"}).renamed({"a": "b"}).pens
         {'b.crease': '0.2', 'contour': '1'}
         """
         pens, dashes = (

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.mesh_repair import mended, without_stutter
+from vectorplot.geometry.mesh_repair import repaired, without_stutter
 from vectorplot.scene.item import Item
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.graphs import graph as graph_surface
@@ -70,7 +70,7 @@ def surface(x: ArrayLike, y: ArrayLike, z: ArrayLike, colour: str = "gray", name
     faces = faces[there[faces].all(axis=1)]
     points = np.where(there[:, None], points, 0.0)
     corners = faces.ravel()
-    mesh, _ = mended(Mesh(points, corners, np.arange(0, len(corners) + 1, 4)), COMPUTED)
+    mesh, _ = repaired(Mesh(points, corners, np.arange(0, len(corners) + 1, 4)), COMPUTED)
     mesh, _ = without_stutter(mesh)
     if not mesh.face_count:
         raise InputError("surface: there is no face between the points")

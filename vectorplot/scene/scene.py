@@ -25,7 +25,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.labels import Label, renamed
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import Page
-from vectorplot.scene.pens import DepthCue, Inks
+from vectorplot.scene.pens import DepthCue, PenOverrides
 from vectorplot.scene.scales import BoxAxes, Colouring
 from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
 from vectorplot.surfaces.function_surface import FunctionSurface
@@ -65,7 +65,7 @@ class Scene(Movable["Scene"]):
         can make it.
     depth_cue : DepthCue, optional
         How lines tell how far away they are (None: not at all).
-    inks : Inks, optional
+    inks : PenOverrides, optional
         The style, the pens and the dashes that the scene is drawn with.
     explosion : Explosion, optional
         Parts are moved apart where the scene is shown, before it is cut.
@@ -103,7 +103,7 @@ class Scene(Movable["Scene"]):
     cuts: tuple[Cut, ...] = ()
     exposure: Exposure = 1.0
     depth_cue: DepthCue | None = None
-    inks: Inks | None = None
+    inks: PenOverrides | None = None
     explosion: Explosion | None = None
     exaggeration: float = 1.0
 
@@ -242,7 +242,7 @@ def together(scenes: Sequence[Scene]) -> Scene:
     )
 
 
-def _inks(scene: Scene, items: Sequence[Item]) -> Inks | None:
+def _inks(scene: Scene, items: Sequence[Item]) -> PenOverrides | None:
     """The pens of a scene whose items have other names now."""
     names = {old.name: new.name for old, new in zip(reversed(scene.items), reversed(items), strict=True)}
     return None if scene.inks is None else scene.inks.renamed(names)

@@ -352,7 +352,7 @@ BOX_ERROR = 1.0 / 250.0
 NOTHING = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
 
 
-def without_twins(scene: Scene) -> Scene:
+def without_coincident(scene: Scene) -> Scene:
     """The scene with nothing in place of items whose shape is, to the last digit, that of a later one that hides it, or
     a surface made of the same points.
 
@@ -403,7 +403,7 @@ def _keys_of_turned(scene: Scene, keys: list[Hashable]) -> list[Hashable]:
     return [first.get(key, key) for key in keys]
 
 
-def first_twins(view: View) -> Ints:
+def first_coincident(view: View) -> Ints:
     """(i,) for every item of a view the first one that has, to the last digit, the same faces in the same place, and
     hides as it does or does not: itself where no other one is before it; smooth surfaces and empty items are their own.
     """

@@ -10,7 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.columns import cross, dot
+from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View

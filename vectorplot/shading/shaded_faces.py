@@ -16,7 +16,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.columns import cross
+from vectorplot.geometry.component_arrays import cross
 from vectorplot.scene.added_lines import UPPER_LEFT
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light

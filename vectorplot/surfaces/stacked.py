@@ -63,7 +63,7 @@ class StackedSurfaces:
     def __len__(self) -> int:
         return len(self.surfaces)
 
-    def some(self, rows: Ints) -> StackedSurfaces:
+    def take(self, rows: Ints) -> StackedSurfaces:
         """Some of them, by their rows (k,)."""
         return StackedSurfaces(tuple(self.surfaces[row] for row in rows.tolist()))
 
@@ -135,7 +135,7 @@ class SurfaceRows:
     stack: StackedSurfaces
     row: Ints
 
-    def some(self, which: Ints | Bools) -> SurfaceRows:
+    def take(self, which: Ints | Bools) -> SurfaceRows:
         """Those of some of the pairs of parameters."""
         return replace(self, row=self.row[which])
 
@@ -224,7 +224,7 @@ class ExactRows(SurfaceRows):
 
 def of_some(surface: Surface, which: Ints | Bools) -> Surface:
     """The surface of some of the pairs of parameters that it is asked for."""
-    return surface.some(which) if isinstance(surface, SurfaceRows) else surface
+    return surface.take(which) if isinstance(surface, SurfaceRows) else surface
 
 
 @dataclass(frozen=True, eq=False)

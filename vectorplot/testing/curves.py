@@ -15,7 +15,7 @@ from vectorplot.curves.curve import vector
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.drawing.stroke_curves import CORNER_ANGLE
 from vectorplot.errors import InputError
-from vectorplot.features.surface_places import Sites, unit
+from vectorplot.features.surface_points import Sites, unit
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera

@@ -20,7 +20,7 @@ from vectorplot.features.mesh_integration import (
     starts_in_faces,
 )
 from vectorplot.features.nearest import nearest_on_mesh
-from vectorplot.features.surface_places import BentFaces, Sites, unit
+from vectorplot.features.surface_points import BentFaces, Sites, unit
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arcsin, arctan2

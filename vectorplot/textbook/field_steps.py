@@ -11,7 +11,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import positive
 from vectorplot.errors import InputError
 from vectorplot.features.surface_integration import FieldFlow
-from vectorplot.features.surface_places import MAIN, Sites, charts
+from vectorplot.features.surface_points import MAIN, Sites, charts
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.surfaces.surface import Surface
 

@@ -3,20 +3,20 @@ from .painter.cuts import cut_into_slices, slice_order, sliced_order
 from .painter.groups import (
     ObjectOrder,
     Objects,
+    cyclic_overlap_report,
+    cyclic_overlaps,
     demands,
-    gordian_knots,
     group_ranks,
     grouped_order,
-    knot_report,
     object_order,
     priorities,
     view_objects,
     wholly_hidden,
 )
 from .painter.image_faces import ImageFaces, image_faces, image_points
-from .painter.mikado import Mikado, Precedence, mikado
 from .painter.painters_order import Painted, painters_order
 from .painter.pairs import APART, BEHIND, COPLANAR, IN_FRONT, STRADDLING, Bodies, convex_bodies
+from .painter.topological_order import Precedence, TopologicalSort, topological_order
 from .polyhedra.hidden_lines import Segments, Visibility, counted_parts, visible_parts
 from .polyhedra.lines import Lines, edge_lines
 from .polyhedra.occluders import solid_items
@@ -31,26 +31,25 @@ __all__ = [
     "Bodies",
     "ImageFaces",
     "Lines",
-    "Mikado",
     "ObjectOrder",
     "Objects",
     "Painted",
     "Precedence",
     "ProjectedFaces",
     "Segments",
+    "TopologicalSort",
     "Visibility",
     "convex_bodies",
     "counted_parts",
     "cut_into_slices",
+    "cyclic_overlap_report",
+    "cyclic_overlaps",
     "demands",
     "edge_lines",
-    "gordian_knots",
     "group_ranks",
     "grouped_order",
     "image_faces",
     "image_points",
-    "knot_report",
-    "mikado",
     "object_order",
     "painters_order",
     "points_hidden_by",
@@ -59,6 +58,7 @@ __all__ = [
     "slice_order",
     "sliced_order",
     "solid_items",
+    "topological_order",
     "view_objects",
     "visible_parts",
     "wholly_hidden",

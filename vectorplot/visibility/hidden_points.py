@@ -114,8 +114,8 @@ def _by_sheets(scene: Scene, view: View, points: Floats, items: int) -> Bools:
     if not near:
         return np.zeros((points.shape[1], items), dtype=np.bool_)
     from vectorplot.visibility.smooth.rays import Samples, counts_in_front, targets_of
+    from vectorplot.visibility.smooth.scene_curves import scene_sheets
     from vectorplot.visibility.smooth.sheets import Sheets
-    from vectorplot.visibility.smooth.traced import scene_sheets
 
     sheets = Sheets(scene_sheets(scene, view, frozenset(range(items)) - frozenset(near)))
     count = points.shape[1]

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.columns import cross
+from vectorplot.geometry.component_arrays import cross
 from vectorplot.scene.view import View
 from vectorplot.tolerances import SINGLE_BOX_LEAST, SINGLE_BOX_SHARE
 

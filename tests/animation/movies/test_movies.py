@@ -283,7 +283,7 @@ def test_a_film_of_250_frames_of_300_polygons_is_under_1200_kilobytes(tmp_path):
     first = short.frames[0]
     assert short.frames[1] is None and len(first) > 250
     # The same polygons, and as many more as were left out, on their way through the page.
-    whole = first.some(np.arange(301) % len(first))
+    whole = first.take(np.arange(301) % len(first))
     moved = [
         MovieFrame(
             np.minimum(whole.points + step, 4095), *(getattr(whole, name) for name in ("offsets", "palette", "shades"))

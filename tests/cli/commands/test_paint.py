@@ -338,15 +338,15 @@ def test_a_reader_that_went_away_is_no_traceback(cube: Path) -> None:
 
 SLOW = """
 import sys, time
-import vectorplot.stages.walk as walk
+import vectorplot.pictures.pipeline as walk
 from vectorplot.cli.main import run
-real = walk.Walk.run
+real = walk.Pipeline.run
 def slow(self, name, function, *args, **kwargs):
     if name == "{stage}":
         print("working", flush=True)
         time.sleep(30)
     return real(self, name, function, *args, **kwargs)
-walk.Walk.run = slow
+walk.Pipeline.run = slow
 sys.exit(run(sys.argv[1:]))
 """
 

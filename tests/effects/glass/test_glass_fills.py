@@ -36,7 +36,7 @@ def test_what_is_seen_through_glass_is_mixed_with_its_colour():
     colours = {}
     for opacity in (0.0, 0.25, 1e-9):
         (fills,) = paint(pool(opacity), ABOVE, fit=False, shadows="none").layers[0].fills
-        floor = fills.some(np.flatnonzero((fills.kind == FillKind.GLASS) & (fills.item == 0)))
+        floor = fills.take(np.flatnonzero((fills.kind == FillKind.GLASS) & (fills.item == 0)))
         colours[opacity] = floor.colours[0].astype(float)
         assert (fills.opacity == 1.0).all()
     (fills,) = paint(pool(0.25), ABOVE, fit=False, shadows="none").layers[0].fills
@@ -61,7 +61,7 @@ def test_what_is_seen_in_a_pool_is_one_region_for_each_face_and_shadow():
     (fills,) = drawing.layers[0].fills
     assert len(fills) < 1200 and len(write(drawing, "svg")) < 200_000
     # Walls and floor touch all of the water: nothing is looked for behind it, or by way of total reflection.
-    seen = fills.some(np.flatnonzero((fills.kind == FillKind.GLASS) & (fills.opacity == 1.0)))
+    seen = fills.take(np.flatnonzero((fills.kind == FillKind.GLASS) & (fills.opacity == 1.0)))
     names = np.array(drawing.items)[seen.item]
     walls = np.isin(names, ["NORTH", "EAST", "SOUTH", "WEST"])
     polygons = polygons_of(seen.points.T, seen.offsets)[walls]

@@ -285,7 +285,7 @@ def test_what_lies_on_faces_behind_glass_is_where_the_refracted_ray_meets_it(sta
         bare = picture.seen
         picture.seen = seen_in_glass(scene, picture.view, projected, picture.painted, 1e-3, decals)
         assert (picture.seen.decal < 0).sum() == len(bare)
-        faces = picture.seen.some(np.flatnonzero(picture.seen.decal < 0))
+        faces = picture.seen.take(np.flatnonzero(picture.seen.decal < 0))
         assert np.array_equal(faces.points, bare.points) and np.array_equal(faces.window, bare.window)
         corners = decals.points.T.reshape(-1, 3, 3)
         view = picture.view
@@ -309,7 +309,7 @@ def test_what_lies_on_faces_behind_glass_is_where_the_refracted_ray_meets_it(sta
         found = np.full(200, -2.0)
         for window in np.unique(picture.seen.window).tolist():
             here = np.flatnonzero(top == window)
-            shown = picture.seen.some(np.flatnonzero(picture.seen.window == window))
+            shown = picture.seen.take(np.flatnonzero(picture.seen.window == window))
             at = topmost(shown.points, shown.offsets, samples[:, here])
             found[here] = np.where(at >= 0, shown.source[at] + 0.5 * (shown.decal[at] >= 0), -1.0)
         # In a perspective parts near the border of total reflection are left out, faces and what lies on them.

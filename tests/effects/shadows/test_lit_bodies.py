@@ -9,7 +9,7 @@ from support.blocked_lights import face_points, scene_triangles, wrong_points
 from support.triangle_rays import blocked
 
 import vectorplot as vp
-from vectorplot.effects.lit_bodies import LitBodies, lit_bodies
+from vectorplot.effects.body_shadows import LitBodies, lit_bodies
 from vectorplot.effects.shadow_casters import FacePlanes, Receivers, light_system
 from vectorplot.effects.shadows import cast_within, shadow_decals
 from vectorplot.geometry.camera import Camera

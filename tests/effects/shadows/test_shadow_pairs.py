@@ -51,11 +51,11 @@ def test_the_shadows_of_a_crowd_on_itself_are_left_out_and_no_others() -> None:
     every = cast_shadows(view, LAMPS)
     cast = cast_within(view, LAMPS, 100.0)
     assert cast.left_out.T.tolist() == [[0, 0, 0]]
-    kept = every.some(np.flatnonzero((view.face_item[every.face] == 1) | (every.lacking == 2)))
+    kept = every.take(np.flatnonzero((view.face_item[every.face] == 1) | (every.lacking == 2)))
     assert 0 < len(kept) < len(every)
     assert len(cast.shadows) == len(kept)
     order, same = (np.lexsort((s.points[0, s.offsets[:-1]], s.face, s.lacking)) for s in (cast.shadows, kept))
-    assert np.allclose(cast.shadows.some(order).points, kept.some(same).points, atol=1e-12)
+    assert np.allclose(cast.shadows.take(order).points, kept.take(same).points, atol=1e-12)
 
 
 @pytest.mark.parametrize("pairs", [1e6, np.inf])

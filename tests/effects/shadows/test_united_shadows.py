@@ -33,6 +33,6 @@ def test_regions_are_where_the_shadows_are(size: float) -> None:
     for bit in (1, 2):
         before, after = (
             shapely.union_all(polygons_of(some.points, some.offsets))
-            for some in (s.some(np.flatnonzero(s.lacking == bit)) for s in (cast, united))
+            for some in (s.take(np.flatnonzero(s.lacking == bit)) for s in (cast, united))
         )
         assert shapely.symmetric_difference(before, after).area < 1e-6 * before.area

@@ -141,7 +141,7 @@ def test_curvatures_and_their_derivatives_are_those_of_a_surface_of_third_order(
     fitted = mesh_bending(face_triangles(mesh))
     middle = int(np.linalg.norm(mesh.vertices, axis=1).argmin())
     x, y = (fitted.in_plane(np.tile(axis, (len(mesh.vertices), 1)))[middle : middle + 1] for axis in np.eye(3)[:2])
-    one = fitted.some(np.array([middle]))
+    one = fitted.take(np.array([middle]))
     np.testing.assert_allclose([one.bent(a)[0] @ b[0] for a, b in ((x, x), (x, y), (y, y))], (p, m, q), atol=0.02)
     np.testing.assert_allclose([one.cubed(x)[0], one.cubed(y)[0]], (d, g), atol=0.05)
 

@@ -12,9 +12,9 @@ from vectorplot import features, scene, surfaces
 from vectorplot.errors import InputError
 from vectorplot.features import Tracing, evenly_spaced_curves
 from vectorplot.features import streamlines as uncrowded_lines
-from vectorplot.features.streamlines import Crowd, Ground, PlacesAlong, crowds_itself, thinned, widest_first
-from vectorplot.features.surface_integration import Accuracy, FieldFlow, Until, courses_from
-from vectorplot.features.surface_places import charts
+from vectorplot.features.streamlines import Ground, PlacesAlong, SeparationTest, is_near_itself, thinned, widest_first
+from vectorplot.features.surface_integration import Accuracy, FieldFlow, Until, traces_from
+from vectorplot.features.surface_points import charts
 from vectorplot.surfaces import Cylinder, Domain, Sphere, Torus
 from vectorplot.testing import curves_in_space
 
@@ -95,7 +95,7 @@ def test_what_winds_round_a_focus_is_not_followed_all_the_way():
     flow = FieldFlow(plane, charts(plane), features.VectorField(inwards))
     first = np.array([[0.0, 1.0, 0.0]])
     found = [
-        courses_from(flow, np.array([[0.15, 0.0]]), first, 20.0, 1, (2.8, 1.0), Accuracy(1e-4), until).lengths[0]
+        traces_from(flow, np.array([[0.15, 0.0]]), first, 20.0, 1, (2.8, 1.0), Accuracy(1e-4), until).lengths[0]
         for until in (Until(), Until(None, tight))
     ]
     # Until a turn is as wide as that, and eight times as far on.
@@ -167,18 +167,18 @@ def test_what_is_near_is_so_on_the_same_sheet_and_for_a_line_not_a_little_before
     along = np.concatenate([[0.0], np.cumsum(steps)])
     line = PlacesAlong(np.array([0, 6000]), along, places, np.array([np.inf]))
     where = ground.where(places)
-    beside = crowds_itself(ground, line, where, np.arange(6000), 0.5)
+    beside = is_near_itself(ground, line, where, np.arange(6000), 0.5)
     first = int(np.argmax(beside))
     # The way back is beside the way there as soon as it is twice the distance long.
     assert first > 3000 and abs(along[first] - along[2999] - 1.4) < 0.7 and not beside[:3000].any()
-    crowd = Crowd(ground).with_places(places[:10], where[:10]).with_places(places[10:20], where[10:20])
+    crowd = SeparationTest(ground).with_places(places[:10], where[:10]).with_places(places[10:20], where[10:20])
     assert crowd.near(places[3000:], where[3000:], 0.5).sum() > 0 and len(crowd.groups) == 1
     # What is in a hole is no place for a line, whatever is taken.
     lost = np.where(np.arange(6000)[:, None] % 7 == 3, np.nan, where)
     near = crowd.near(places, lost, 0.5)
     assert near[3::7].all()
     assert np.array_equal(*(np.delete(some, np.s_[3::7]) for some in (near, crowd.near(places, where, 0.5))))
-    assert not crowd.away(lost)[3::7].any() and Crowd(ground).near(places[3:4], lost[3:4], 0.5).all()
+    assert not crowd.away(lost)[3::7].any() and SeparationTest(ground).near(places[3:4], lost[3:4], 0.5).all()
     chosen = thinned(ground, places, 0.5)
     assert cKDTree(where[chosen]).query(where[chosen], 2)[0][:, 1].min() > 0.5
     assert cKDTree(where[chosen]).query(where)[0].max() <= 0.5
@@ -196,7 +196,7 @@ def test_lines_are_taken_one_after_the_other_however_many_are_compared_at_a_time
     found = []
     for group in (50, 400, 1 << 14):
         monkeypatch.setattr(uncrowded_lines, "GROUP", group)
-        spans, crowd = uncrowded_lines.uncrowded(lines, Crowd(ground))
+        spans, crowd = uncrowded_lines.uncrowded(lines, SeparationTest(ground))
         found.append(spans)
     assert len(found[0]) > 10 and all(np.array_equal(spans, found[0]) for spans in found)
     line, low, high = found[0].T

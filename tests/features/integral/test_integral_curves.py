@@ -257,7 +257,7 @@ def test_geodesics_of_sphere_cylinder_cone_and_torus():
 @pytest.mark.capability("G9.4-field")
 def test_a_geodesic_of_the_torus_keeps_clairauts_constant():
     from vectorplot.features.surface_integration import GeodesicFlow, courses
-    from vectorplot.features.surface_places import charts
+    from vectorplot.features.surface_points import charts
 
     torus = Torus(3, 1)
     flow = GeodesicFlow(torus, charts(torus))

@@ -22,7 +22,7 @@ from vectorplot.features.mesh_lines import (
     vertex_normals,
 )
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.mesh_repair import mended
+from vectorplot.geometry.mesh_repair import repaired
 from vectorplot.geometry.solids import box
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.surfaces.quadrics import Sphere, implicit_cylinder, implicit_sphere
@@ -45,7 +45,7 @@ def globe(rows):
     u, v = np.meshgrid(*sphere.domain.grid(2 * rows, rows), indexing="ij")
     points = sphere.points(u, v)
     points[:, [0, -1]] = [[[0, 0, -1], [0, 0, 1]]]
-    return mended(mesh_of_grid(points, closed_u=True), 1e-9)[0]
+    return repaired(mesh_of_grid(points, closed_u=True), 1e-9)[0]
 
 
 def lies_in_its_face(mesh, curves):

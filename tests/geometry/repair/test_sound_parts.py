@@ -10,7 +10,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.mesh_repair import Mending, mended, sound_parts
+from vectorplot.geometry.mesh_repair import Mending, repaired, sound_parts
 from vectorplot.testing.shapes import box
 from vectorplot.tolerances import ULP
 
@@ -65,7 +65,7 @@ def test_what_is_sound_mending_leaves_alone(seed: int) -> None:
     meshes = [zoo[name] for name in names]
     sound, boundary = sound_parts(*united(meshes), len(meshes), ULP)
     for name, mesh, good, count in zip(names, meshes, sound, boundary, strict=True):
-        after, mending = mended(mesh, ULP)
+        after, mending = repaired(mesh, ULP)
         if good:
             assert mending == Mending(boundary_edges=int(count)), name
             assert after.corners.tolist() == mesh.corners.tolist()
@@ -92,7 +92,7 @@ def test_files_of_many_open_parts_are_read_as_fast_as_one_mesh(tmp_path) -> None
     seconds: list[float] = []
     zoo = list(parts().values())
     for item, mesh in zip(written(zoo).items, zoo, strict=True):
-        after, _ = mended(mesh, ULP)
+        after, _ = repaired(mesh, ULP)
         assert np.array_equal(item.mesh.vertices, after.vertices) and np.array_equal(item.mesh.corners, after.corners)
     assert len(written([tile(3.0 * k) for k in range(3000)]).items) == 3000
     # Each by itself they took .9 ms.

@@ -124,15 +124,15 @@ SMOOTH_FORMULAS = [
 def test_derivative_is_that_of_a_complex_step(text, variable):
     expression = parse_expression(text, ("u", "v"))
     step = 1e-150j
-    stepped = expression(u=U + step if variable == "u" else U, v=V + step if variable == "v" else V)
+    posterized = expression(u=U + step if variable == "u" else U, v=V + step if variable == "v" else V)
     plain, slope = expression(u=U, v=V), expression.derivative(variable)(u=U, v=V)
     there = np.isfinite(plain)
     assert there.any()
     there &= np.isfinite(slope)
     assert there.sum() > 0.9 * np.isfinite(plain).sum()
     # The real parts are the real function: the complex one continues it.
-    np.testing.assert_allclose(stepped.real[there], plain[there], rtol=1e-13, atol=1e-14)
-    np.testing.assert_allclose(slope[there], stepped.imag[there] / 1e-150, rtol=1e-10, atol=1e-11)
+    np.testing.assert_allclose(posterized.real[there], plain[there], rtol=1e-13, atol=1e-14)
+    np.testing.assert_allclose(slope[there], posterized.imag[there] / 1e-150, rtol=1e-10, atol=1e-11)
 
 
 @pytest.mark.parametrize("text", ["sin(u*v)/(2+cos(u))", "u^3*v^2", "exp(u*v)", "atan2(u, v+3)", "u*hypot(u,v)"])
@@ -141,8 +141,8 @@ def test_second_derivatives_commute_and_are_right(text):
     mixed = expression.derivative("u").derivative("v")
     other = expression.derivative("v").derivative("u")
     np.testing.assert_allclose(mixed(u=U, v=V), other(u=U, v=V), rtol=1e-11, atol=1e-12)
-    stepped = expression.derivative("u")(u=U, v=V + 1e-150j)
-    np.testing.assert_allclose(mixed(u=U, v=V), stepped.imag / 1e-150, rtol=1e-11, atol=1e-12)
+    posterized = expression.derivative("u")(u=U, v=V + 1e-150j)
+    np.testing.assert_allclose(mixed(u=U, v=V), posterized.imag / 1e-150, rtol=1e-11, atol=1e-12)
 
 
 def test_derivatives_are_simplified():

@@ -5,9 +5,9 @@ from __future__ import annotations
 import pytest
 from support.paths import DOCS
 
+from vectorplot.io.item_reader import HANDLERS
 from vectorplot.io.reserved_words import RESERVED
 from vectorplot.io.scene_item import CAP_WORDS
-from vectorplot.io.scene_items import HANDLERS
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_words import FORM_WORDS, ITEM_WORDS
 from vectorplot.words import COLOURS, MATERIALS, PALETTES

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_slots import (
+from vectorplot.io.shape_arguments import (
     Formulas,
     formula_graph,
     formula_graph_over_disc,

@@ -8,7 +8,7 @@ import vectorplot as vp
 from vectorplot.drawing.pens import STYLES
 from vectorplot.errors import InputError
 from vectorplot.io import parse_scene, read_scene, write_scene
-from vectorplot.scene import Explosion, Inks
+from vectorplot.scene import Explosion, PenOverrides
 from vectorplot.words import STYLE_WORDS, WIRE_STYLES
 
 DIE = "DIE red box solid 2 2 2"
@@ -55,8 +55,8 @@ def test_the_writer_says_it_again():
     assert again.inks == scene.inks
     assert scene.inks is not None and scene.inks.pens[""] == "0.4:#102030"
     assert again.explosion is not None and again.explosion.way.tolist() == [1.0, 0.0, 0.0]
-    loose = vp.Scene(scene.items, inks=Inks("book", {"hidden": "0.5 mm : Red"}, {"a b": "3, 1"}))
-    assert parse_scene(write_scene(loose) + ' "a b" red box solid 1 1 1').inks == Inks(
+    loose = vp.Scene(scene.items, inks=PenOverrides("book", {"hidden": "0.5 mm : Red"}, {"a b": "3, 1"}))
+    assert parse_scene(write_scene(loose) + ' "a b" red box solid 1 1 1').inks == PenOverrides(
         "book", {"hidden": "0.5mm:red"}, {"a b": "3,1"}
     )
 

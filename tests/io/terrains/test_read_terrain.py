@@ -9,7 +9,7 @@ import vectorplot as vp
 from vectorplot.effects.scales import axis_numbers, coloured, with_box
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.read_file import read
-from vectorplot.io.terrain_files import read_terrain, usual_exaggeration
+from vectorplot.io.terrain_files import default_exaggeration, read_terrain
 from vectorplot.scene.added_lines import round_sections, with_numbers
 from vectorplot.scene.scales import BoxAxes, Colouring
 from vectorplot.scene.scene import together
@@ -135,7 +135,7 @@ def test_every_verb_takes_a_file_of_heights(tmp_path):
 def test_heights_that_nobody_would_see_are_exaggerated_and_that_is_said(tmp_path):
     for scale, factor in ((1.0, 1.0), (0.01, 50.0), (1e-6, 5e5), (4000.0, 1e-4)):
         land = terrain(scale * hills(), (0, 8), (0, 6))
-        assert usual_exaggeration(land) == pytest.approx(factor)
+        assert default_exaggeration(land) == pytest.approx(factor)
     path = written(tmp_path, grid_text(terrain(0.01 * hills(8, 6), (0, 8), (0, 6))))
     with pytest.warns(InputWarning, match="heights are drawn 50 times as high"):
         read(path)

@@ -13,7 +13,7 @@ import vectorplot as vp
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.rotations import rotation_z
-from vectorplot.scene.view import NOTHING, are_in_one_place, fingerprint, first_twins, look, without_twins
+from vectorplot.scene.view import NOTHING, are_in_one_place, fingerprint, first_coincident, look, without_coincident
 from vectorplot.surfaces import Domain, Sphere, Torus, graph
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.testing.shapes import box
@@ -44,8 +44,8 @@ def test_only_what_hides_all_of_it_takes_the_place_of_another() -> None:
     wire = vp.Item("C", cube, occludes=False)
     for items in ((plain, glass), (plain, wire), (plain, vp.Item("D", other)), (plain,)):
         scene = scene_of(*items)
-        assert without_twins(scene) is scene
-    left = without_twins(scene_of(glass, wire, plain, replace(plain, colour="red")))
+        assert without_coincident(scene) is scene
+    left = without_coincident(scene_of(glass, wire, plain, replace(plain, colour="red")))
     assert [item.mesh.face_count for item in left.items] == [0, 0, 0, 6]
 
 
@@ -99,17 +99,17 @@ def test_bodies_in_one_place_are_told_from_those_that_only_begin_there() -> None
     one, two, long = box((0, 0, 0), (1, 1, 1)), box((0, 0, 0), (1, 1, 2)), box((0, 0, 0), (1, 1, 1 + 1e-12))
     turned = Mesh(one.vertices, np.roll(one.corners, 4), one.offsets)
     view = in_one_place(one, two, one, NOTHING, two, one, long, NOTHING, turned)
-    assert first_twins(view).tolist() == [0, 1, 0, 3, 1, 0, 6, 7, 8]
+    assert first_coincident(view).tolist() == [0, 1, 0, 3, 1, 0, 6, 7, 8]
 
 
 def test_a_body_that_hides_nothing_is_no_twin_of_one_that_does() -> None:
     one = box((0, 0, 0), (1, 1, 1))
-    assert first_twins(in_one_place(one, one, one, one, hides=[False, True, False, True])).tolist() == [0, 1, 0, 1]
+    assert first_coincident(in_one_place(one, one, one, one, hides=[False, True, False, True])).tolist() == [0, 1, 0, 1]
 
 
 def test_no_bodies_or_one() -> None:
-    assert first_twins(in_one_place()).tolist() == []
-    assert first_twins(in_one_place(box((0, 0, 0), (1, 1, 1)))).tolist() == [0]
+    assert first_coincident(in_one_place()).tolist() == []
+    assert first_coincident(in_one_place(box((0, 0, 0), (1, 1, 1)))).tolist() == [0]
 
 
 @pytest.mark.parametrize("hidden", ["none", "solid"])

@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.geometry.solids import box
 from vectorplot.scene.item import Item
-from vectorplot.shading.fineness import nearby, triangles_of_items
+from vectorplot.shading.facet_resolution import nearby, triangles_of_items
 from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
 
 PLACES = np.random.default_rng(3).uniform(-1.5, 1.5, (2000, 3))

@@ -90,7 +90,7 @@ def test_a_wrong_order_does_not_pass():
     faces = painters_order(view).faces
     x, y = sample_points(view, 400)
     truth, _ = nearest(view, x, y)
-    backwards = faces.some(np.arange(len(faces))[::-1])
+    backwards = faces.take(np.arange(len(faces))[::-1])
     shown = truth > 0.0
     right, wrong = (f.source[top_polygon(f, x[shown], y[shown])] for f in (faces, backwards))
     assert (right != wrong).mean() > 0.1

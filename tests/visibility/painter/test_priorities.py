@@ -24,10 +24,10 @@ from vectorplot.testing.shapes import (
 )
 from vectorplot.textbook.orders import sphere_order
 from vectorplot.visibility.painter.groups import (
+    cyclic_overlap_report,
+    cyclic_overlaps,
     demands,
-    gordian_knots,
     grouped_order,
-    knot_report,
     object_order,
     priorities,
     view_objects,
@@ -35,9 +35,9 @@ from vectorplot.visibility.painter.groups import (
     wholly_hidden,
 )
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
-from vectorplot.visibility.painter.mikado import component_ranks, mikado
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.pairs import APART, BEHIND, IN_FRONT, STRADDLING, convex_bodies, outlined_items
+from vectorplot.visibility.painter.topological_order import component_ranks, topological_order
 from vectorplot.visibility.projected_faces import project_faces
 
 EYE = Camera((9.0, 7.0, 6.0), (0, 0, 0))
@@ -175,7 +175,7 @@ def test_what_one_convex_body_hides_needs_no_drawing(seed):
     assert 3 < hidden.sum() < 28
     assert not shown & set(np.flatnonzero(hidden).tolist())
     # Left out, they are not missed.
-    kept = faces.some(np.flatnonzero(~hidden[view.face_item[faces.source]]))
+    kept = faces.take(np.flatnonzero(~hidden[view.face_item[faces.source]]))
     assert (
         np.append(kept.source, -1)[top_polygon(kept, x, y)] == np.append(faces.source, -1)[top_polygon(faces, x, y)]
     ).all()
@@ -199,21 +199,21 @@ def test_a_circle_of_three_is_isolated_from_fifty():
     first, second = np.triu_indices(50, 1)
     kept = random.random(len(first)) < 0.1
     before, after = order[first[kept]], order[second[kept]]
-    plain = mikado(50, before, after)
+    plain = topological_order(50, before, after)
     place = np.argsort(plain.order)
     assert (place[before] < place[after]).all()
     assert len(plain.knot) == 0
     low, middle, high = order[[20, 24, 28]]
     before = np.append(before, [low, middle, high])
     after = np.append(after, [middle, high, low])
-    knots = gordian_knots(50, before, after)
+    knots = cyclic_overlaps(50, before, after)
     assert len(knots) == 1
     assert {low, middle, high} <= set(knots[0].tolist())
     rank = component_ranks(50, before, after)
     assert (rank[before] <= rank[after]).all()
-    only = gordian_knots(50, np.array([7, 8, 9, 1]), np.array([8, 9, 7, 7]))
+    only = cyclic_overlaps(50, np.array([7, 8, 9, 1]), np.array([8, 9, 7, 7]))
     assert [k.tolist() for k in only] == [[7, 8, 9]]
-    isolated = mikado(50, np.array([7, 8, 9, 1]), np.array([8, 9, 7, 7]))
+    isolated = topological_order(50, np.array([7, 8, 9, 1]), np.array([8, 9, 7, 7]))
     assert isolated.knot.tolist() == [7, 8, 9]
     assert sorted(isolated.order.tolist()) == list(range(50))
 
@@ -226,7 +226,9 @@ def test_knots_are_reported_by_name():
         result = object_order(view, names)
     assert [k.tolist() for k in result.knots] == [[0, 1, 2]]
     assert all(name in str(caught[0].message) for name in names)
-    assert knot_report(result.knots, "XYZ") == ("X, Y and Z lie on one another in a circle, or pierce each other",)
+    assert cyclic_overlap_report(result.knots, "XYZ") == (
+        "X, Y and Z lie on one another in a circle, or pierce each other",
+    )
 
 
 @pytest.mark.capability("G5.6-two-pass")
@@ -240,7 +242,7 @@ def test_the_second_pass_undoes_knots_that_only_quick_decisions_make():
         bars = numbered([placed(box((-2, -0.01, -0.01), (2, 0.01, 0.01)), random, 1.5) for _ in range(6)])
         view = look(bars, EYE)
         quick, slow = (priorities(view_objects(view), critical=c) for c in (False, True))
-        assert len(gordian_knots(6, *demands(quick))) > 0
+        assert len(cyclic_overlaps(6, *demands(quick))) > 0
         result = object_order(view, [str(k) for k in range(6)])
         assert result.critical
         place = np.argsort(result.order)
@@ -275,8 +277,8 @@ def test_groups_give_the_same_picture():
     place = np.argsort(result.order)
     assert (place[before] < place[after]).all()
     pictures = []
-    for ranks in (place, np.argsort(mikado(len(houses), before, after).order)):
-        faces = objects.faces.some(np.argsort(ranks[objects.owner], kind="stable"))
+    for ranks in (place, np.argsort(topological_order(len(houses), before, after).order)):
+        faces = objects.faces.take(np.argsort(ranks[objects.owner], kind="stable"))
         x, y = sample_points(view, 1500)
         top = top_polygon(faces, x, y)
         pictures.append(np.append(faces.source, -1)[top])

@@ -14,7 +14,7 @@ from vectorplot.geometry.projections import projection_of
 from vectorplot.pictures.fills import without_unseen_facets
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.view import look, view_of
-from vectorplot.shading.fineness import faceted, picture_fineness
+from vectorplot.shading.facet_resolution import faceted, picture_fineness
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.unseen import unseen_faces
 from vectorplot.visibility.projected_faces import project_faces

@@ -50,7 +50,7 @@ def test_a_large_mesh_is_looked_through_once_from_the_file_to_the_drawing(monkey
     monkeypatch.setattr(
         pieces, "pieces_of_sides", lambda vertices, *rest: looks.append(vertices) or sides(vertices, *rest)
     )
-    mesh, _ = mesh_repair.mended(Mesh(BALL.vertices, BALL.corners, BALL.offsets), 2.0**-23)
+    mesh, _ = mesh_repair.repaired(Mesh(BALL.vertices, BALL.corners, BALL.offsets), 2.0**-23)
     drawn(mesh)
     # Where a mesh may meet itself is found in patches of it, whose vertices are other ones.
     assert looks.count(len(BALL.vertices)) == 1

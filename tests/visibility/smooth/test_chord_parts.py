@@ -18,8 +18,8 @@ from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.visibility.polyhedra.lines import joined_lines
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords, whole_lines_and_chords
+from vectorplot.visibility.smooth.scene_curves import scene_sheets, traced_scene
 from vectorplot.visibility.smooth.sheets import Sheets
-from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.visibility.smooth.traced_curves import ChordParts
 from vectorplot.words import FEATURE_KINDS, LineKind
 
@@ -61,7 +61,7 @@ def test_directions_are_those_of_the_curves(name):
         random = np.random.default_rng(number)
         begin, end = np.sort(random.uniform(0.0, 1.0, (2, len(chords.chord))), axis=0)
         some = random.permutation(len(begin))[:400]
-        whole = chords.some(some)
+        whole = chords.take(some)
         cut = replace(whole, begin=0.4 * begin[some], end=1.0 - 0.4 * end[some])
         for parts in (whole, cut):
             found = parts.directions(view)

@@ -19,7 +19,7 @@ from vectorplot.surfaces.tori import Torus
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.visibility.polyhedra.lines import joined_lines
 from vectorplot.visibility.smooth.hidden_curves import cut_lines_and_chords, hidden_curves
-from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
+from vectorplot.visibility.smooth.scene_curves import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 

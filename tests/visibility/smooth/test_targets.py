@@ -56,7 +56,7 @@ def test_near_boxes_are_those_that_overlap_one_by_one() -> None:
     """Whatever strips the triangles stand in, the last of which is shorter."""
     view, sheet, radius = ball_from_above()
     seen = targets_of(view, Sheets((sheet,)))
-    seen = seen.some(np.arange(0, len(seen), 3))
+    seen = seen.take(np.arange(0, len(seen), 3))
     rng = np.random.default_rng(6)
     low = radius * rng.uniform(-1.2, 1.0, (40, 2))
     high = low + radius * rng.uniform(0.0, 0.3, (40, 2))

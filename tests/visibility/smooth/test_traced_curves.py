@@ -13,7 +13,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
 from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.surface import Domain
-from vectorplot.visibility.smooth.families import ParameterCurves
+from vectorplot.visibility.smooth.curve_families import ParameterCurves
 from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.traced_curves import at_once
 

@@ -10,7 +10,7 @@ import click
 from vectorplot.cli.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, is_sequence, write_frames
 from vectorplot.cli.many import WORKER_OPTIONS, WorkerOptions
 from vectorplot.cli.options import chosen, pixels
-from vectorplot.cli.picture import located, progress_bar, summed, table, told_warnings
+from vectorplot.cli.picture import located, progress_bar, reported_warnings, summed, table
 from vectorplot.cli.picture_options import (
     BACKGROUND,
     BUDGET,
@@ -142,7 +142,7 @@ def animate(
         raise click.UsageError("--explain is of work in this process: it does not go with --workers and --cluster")
     camera, page = CameraOptions.of(told), PageOptions.of(told)
     reports: list[StageReport] = []
-    with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
+    with reported_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
         added, cuts = LineOptions.of(told), CutOptions.of(told)
         scene, kinds = added.in_scene(cuts.of_scene(added.with_materials(read(found(data_file)))))
         scene = replace(scene, camera=camera_from(camera, scene), page=page_from(page, scene))

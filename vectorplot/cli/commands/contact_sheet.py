@@ -16,7 +16,7 @@ from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.many import WORKER_OPTIONS, PictureVerb, WorkerOptions, inputs_of, picture_of
 from vectorplot.cli.options import at_least, format_of, page_size
-from vectorplot.cli.picture import check_place, progress_bar, told_warnings, write_out
+from vectorplot.cli.picture import check_place, progress_bar, reported_warnings, write_out
 from vectorplot.cli.picture_options import DRAWING_FORMATS, INPUT, LANDSCAPE, OUT, QUIET, format_option, with_options
 
 if TYPE_CHECKING:
@@ -124,7 +124,11 @@ def contact_sheet(
         if progress is not None:
             progress(f"drawing {done} of {len(cells)}", done / len(cells))
 
-    with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress, workers.executor() as (executor, window):
+    with (
+        reported_warnings(quiet=quiet),
+        progress_bar(quiet=quiet) as progress,
+        workers.executor() as (executor, window),
+    ):
         calls = [partial(picture_of, verb[0], one) for one in params]
         drawings: list[Drawing] = results(calls, executor, window=window, tell=partial(drawn, progress))
         made = sheet_of(drawings, page, columns=told["columns"], gap_mm=told["gap_mm"], title=told["title"])

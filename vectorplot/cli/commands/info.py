@@ -5,7 +5,7 @@ from __future__ import annotations
 import click
 
 from vectorplot.cli.options import upwards
-from vectorplot.cli.picture import told_warnings
+from vectorplot.cli.picture import reported_warnings
 from vectorplot.errors import printable
 
 
@@ -20,7 +20,7 @@ def info(files: tuple[str, ...], up: tuple[float, float, float] | None, quiet: b
     from vectorplot.io.read_file import read_named
     from vectorplot.scene.scene import together
 
-    with told_warnings(quiet=quiet):
+    with reported_warnings(quiet=quiet):
         scene = together([read_named(file) for file in files])
         lines = describe(scene if up is None else stood_up(scene, up))
     click.echo("\n".join(map(printable, lines)))

@@ -10,7 +10,7 @@ import click
 from vectorplot.cli.commands.try_ import PAGE_SHOWN_OPTIONS, check_viewer, show_address
 from vectorplot.cli.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
 from vectorplot.cli.options import chosen
-from vectorplot.cli.picture import progress_bar, told_warnings
+from vectorplot.cli.picture import progress_bar, reported_warnings
 from vectorplot.cli.picture_options import QUIET, with_options
 
 
@@ -43,7 +43,7 @@ def replay(
     from vectorplot.io.named_files import movie_to_read
 
     check_out(frames_out, frame_format)
-    with told_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
+    with reported_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
         movie = read_movie(movie_to_read(name))
         pictures = frame_drawings(movie, width)
         if frames_out is None:

@@ -12,7 +12,7 @@ import click
 
 from vectorplot.cli.frames import check_out
 from vectorplot.cli.options import between
-from vectorplot.cli.picture import check_place, progress_bar, told_warnings
+from vectorplot.cli.picture import check_place, progress_bar, reported_warnings
 
 if TYPE_CHECKING:
     from vectorplot.pictures.film import Film
@@ -56,7 +56,7 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
         # What is wrong with it is said before any page is shown.
         first = film(source.scene(None))
         if file is not None:
-            with told_warnings(quiet=False), progress_bar(quiet=False) as progress:
+            with reported_warnings(quiet=False), progress_bar(quiet=False) as progress:
                 file.parent.mkdir(exist_ok=True)
                 first.save(file, progress=progress)
             return

@@ -15,14 +15,14 @@ from vectorplot.geometry.budget import USUAL
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import next_positions
-from vectorplot.geometry.polylines import joined, some
+from vectorplot.geometry.polylines import joined, take
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.tolerances import ABOUT_AXIS
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, over_corners, polygons_of, view_points
-from vectorplot.visibility.painter.mikado import component_ranks
 from vectorplot.visibility.painter.pairs import APART, STRADDLING, Codes, box_pairs, drawn_before, face_relations
+from vectorplot.visibility.painter.topological_order import component_ranks
 from vectorplot.visibility.projected_faces import Bytes
 
 
@@ -35,7 +35,7 @@ def heights_above(faces: ImageFaces, planes: Floats) -> Floats:
 
 def height_span(faces: ImageFaces, which: Ints, planes: Floats) -> tuple[Floats, Floats]:
     """Least and largest height of the corners of some faces above planes (5,n)."""
-    some = faces.some(which)
+    some = faces.take(which)
     height = heights_above(some, planes)
     if not len(which):
         return np.zeros(0), np.zeros(0)
@@ -127,13 +127,13 @@ def partitioned(faces: ImageFaces, group: Ints, tolerance: float, most: int) -> 
         sides = np.full(len(faces), WITHIN, dtype=np.intp)
         sides[active] = side
         plane = knife[across]
-        below, above = halves(faces.some(cut), faces.planes[:, plane], faces.steepness[plane], tolerance)
+        below, above = halves(faces.take(cut), faces.planes[:, plane], faces.steepness[plane], tolerance)
         level = np.zeros(len(faces), dtype=np.intp)
         in_plane = active[side == WITHIN]
         level[in_plane] = faces.rank[in_plane]
         open_cell[in_plane] = False
         source = np.concatenate([kept, cut, cut])
-        faces = joined((faces.some(kept), below, above))
+        faces = joined((faces.take(kept), below, above))
         half = np.full(len(cut), BELOW), np.full(len(cut), ABOVE)
         cell = dense(cell[source], np.concatenate([sides[kept], *half]), level[source])
         parent, open_cell = parent[source], open_cell[source]
@@ -197,9 +197,9 @@ class Pairs:
     def __len__(self) -> int:
         return len(self.first)
 
-    def some(self, which: Ints | Bools) -> Pairs:
+    def take(self, which: Ints | Bools) -> Pairs:
         """Some of the pairs."""
-        return records.some(self, which)
+        return records.take(self, which)
 
 
 def cut_into_order(
@@ -216,12 +216,12 @@ def cut_into_order(
     place, full = group, len(faces) + most
     circled = np.zeros(len(faces), dtype=np.bool_)
     for number in range(MOST_ROUNDS):
-        pairs = pairs.some((place[pairs.first] == place[pairs.second]) & (pairs.codes != APART))
+        pairs = pairs.take((place[pairs.first] == place[pairs.second]) & (pairs.codes != APART))
         place = _sorted_out(faces, place, pairs)
-        pairs = pairs.some(place[pairs.first] == place[pairs.second])
+        pairs = pairs.take(place[pairs.first] == place[pairs.second])
         crowded = _much_pierced(place, pairs)[place]
         circled |= crowded
-        pairs = pairs.some(~crowded[pairs.first])
+        pairs = pairs.take(~crowded[pairs.first])
         if not len(pairs):
             break
         victim, knife = _cuts(faces, place, pairs, number, tolerance)
@@ -230,7 +230,7 @@ def cut_into_order(
         victim, knife = victim[halved], knife[halved]
         given_up = np.isin(place, place[pairs.first]) & ~np.isin(place, place[victim])
         circled |= given_up
-        pairs = pairs.some(~given_up[pairs.first])
+        pairs = pairs.take(~given_up[pairs.first])
         if len(faces) + len(victim) > full:
             circled |= np.isin(place, place[victim])
             return _with_trees(faces, place, circled, tolerance, int(circled.sum()))
@@ -256,11 +256,11 @@ def _with_trees(
     if not circled.any():
         return faces, place, np.ones(len(faces), dtype=np.bool_)
     done, left = np.flatnonzero(~circled), np.flatnonzero(circled)
-    found = partitioned(faces.some(left), place[left], tolerance, most)
+    found = partitioned(faces.take(left), place[left], tolerance, most)
     places = np.concatenate([place[done], place[left][found.parent]])
     ranks = np.concatenate([np.zeros(len(done), dtype=np.intp), found.rank])
     right = np.concatenate([np.ones(len(done), dtype=np.bool_), found.complete])
-    return joined((faces.some(done), found.faces)), dense(places, ranks), right
+    return joined((faces.take(done), found.faces)), dense(places, ranks), right
 
 
 def _sorted_out(faces: ImageFaces, place: Ints, pairs: Pairs) -> Ints:
@@ -281,14 +281,14 @@ def _sorted_out(faces: ImageFaces, place: Ints, pairs: Pairs) -> Ints:
 def _cuts(faces: ImageFaces, place: Ints, pairs: Pairs, number: int, tolerance: float) -> tuple[Ints, Ints]:
     """Which faces to cut this round, each one once, and by whose planes. All pairs lie within circles."""
     straddling = pairs.codes == STRADDLING
-    piercing = pairs.some(straddling)
+    piercing = pairs.take(straddling)
     smaller = faces.rank[piercing.first] > faces.rank[piercing.second]
     victim = np.where(smaller, piercing.second, piercing.first)
     knife = np.where(smaller, piercing.first, piercing.second)
     pierced = np.zeros(int(place.max()) + 1, dtype=np.bool_)
     pierced[place[piercing.first]] = True
     size = np.bincount(place)
-    rest = pairs.some(~pierced[place[pairs.first]] & (size[place[pairs.first]] <= LARGE_CIRCLE))
+    rest = pairs.take(~pierced[place[pairs.first]] & (size[place[pairs.first]] <= LARGE_CIRCLE))
     chosen = _once(faces, victim, knife, np.zeros(len(victim)))
     victim, knife = victim[chosen], knife[chosen]
     if not len(rest):
@@ -336,18 +336,18 @@ def _cut(
     whole = np.ones(len(faces), dtype=np.bool_)
     whole[victim] = False
     kept = np.flatnonzero(whole)
-    below, above = halves(faces.some(victim), planes, steepness, tolerance)
+    below, above = halves(faces.take(victim), planes, steepness, tolerance)
     children = np.full((len(faces), 2), -1, dtype=np.intp)
     children[kept, 0] = np.arange(len(kept))
     children[victim, 0] = len(kept) + np.arange(len(victim))
     children[victim, 1] = len(kept) + len(victim) + np.arange(len(victim))
-    return joined((faces.some(kept), below, above)), np.concatenate([kept, victim, victim]), children
+    return joined((faces.take(kept), below, above)), np.concatenate([kept, victim, victim]), children
 
 
 def _inherited(faces: ImageFaces, pairs: Pairs, children: Ints, tolerance: float) -> Pairs:
     """The pairs of what became of the faces, compared anew where something was cut."""
     cut = (children[pairs.first, 1] >= 0) | (children[pairs.second, 1] >= 0)
-    old, new = pairs.some(~cut), pairs.some(cut)
+    old, new = pairs.take(~cut), pairs.take(cut)
     first = np.concatenate([children[new.first, a] for a in (0, 0, 1, 1)])
     second = np.concatenate([children[new.second, b] for b in (0, 1, 0, 1)])
     there = (first >= 0) & (second >= 0)
@@ -461,11 +461,11 @@ def cut_into_slices(points: ArrayLike, offsets: Ints, axis: int, levels: ArrayLi
     while (across := last > first).any():
         whole, cut = np.flatnonzero(~across), np.flatnonzero(across)
         middle = (first[cut] + last[cut] + 1) // 2
-        split = some(pieces, cut)
+        split = take(pieces, cut)
         limit = np.repeat(level[middle - 1], np.diff(split.offsets))
         height = split.points[:, axis] - limit
         below, above = (_cut_at(split, side * height, axis, level[middle - 1]) for side in (-1.0, 1.0))
-        pieces = joined((some(pieces, whole), below, above))
+        pieces = joined((take(pieces, whole), below, above))
         source = np.concatenate([source[whole], source[cut], source[cut]])
         first, last = (
             np.concatenate([first[whole], first[cut], middle]),
@@ -517,7 +517,7 @@ def sliced_order(faces: ImageFaces, place: Ints, tolerance: float) -> ImageFaces
     """
     found = related(faces, pairs_in_slices(faces, place, tolerance), tolerance)
     pieces, places, _ = cut_into_order(faces, place, found, tolerance)
-    return pieces.some(np.lexsort((pieces.rank, places)))
+    return pieces.take(np.lexsort((pieces.rank, places)))
 
 
 def pairs_in_slices(faces: ImageFaces, place: Ints, tolerance: float) -> Pairs:
@@ -533,7 +533,7 @@ def pairs_in_slices(faces: ImageFaces, place: Ints, tolerance: float) -> Pairs:
 def related(faces: ImageFaces, pairs: Pairs, tolerance: float) -> Pairs:
     """Those of some pairs whose images overlap, compared."""
     found = Pairs(pairs.first, pairs.second, face_relations(faces, pairs.first, pairs.second, tolerance))
-    return found.some(found.codes != APART)
+    return found.take(found.codes != APART)
 
 
 # Surfaces cut into slices: each slice falls into ribbons, and ribbons are painted one after the other.
@@ -649,7 +649,7 @@ def ribbon_order(view: View, slices: Slices, found: Ribbons) -> ImageFaces:
     pairs = pairs_in_slices(faces, slices.place, view.tolerance)
     own = of[pairs.first] == of[pairs.second]
     asked = own | np.isin(_key(len(found), of[pairs.first], of[pairs.second]), unsure)
-    known = related(faces, pairs.some(asked), view.tolerance)
+    known = related(faces, pairs.take(asked), view.tolerance)
     ahead, behind = drawn_before(faces, known.first, known.second, known.codes)
     across = of[ahead] != of[behind]
     rank = component_ranks(
@@ -658,11 +658,11 @@ def ribbon_order(view: View, slices: Slices, found: Ribbons) -> ImageFaces:
         np.concatenate([*after, of[behind[across]]]),
     )
     place = dense(found.place, rank)[of]
-    left = pairs.some(~asked & (place[pairs.first] == place[pairs.second]))
+    left = pairs.take(~asked & (place[pairs.first] == place[pairs.second]))
     together = place[known.first] == place[known.second]
-    both = records.joined((known.some(together), related(faces, left, view.tolerance)))
+    both = records.joined((known.take(together), related(faces, left, view.tolerance)))
     pieces, places, _ = cut_into_order(faces, place, both, view.tolerance)
-    return pieces.some(np.lexsort((pieces.rank, places)))
+    return pieces.take(np.lexsort((pieces.rank, places)))
 
 
 def _adjoining(view: View, slices: Slices) -> tuple[Ints, Ints]:

@@ -18,7 +18,6 @@ from vectorplot.geometry.polygon_cuts import inside_convex
 from vectorplot.geometry.separating_planes import Surroundings, separations
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
-from vectorplot.visibility.painter.mikado import component_ranks, mikado
 from vectorplot.visibility.painter.pairs import (
     APART,
     BEHIND,
@@ -31,6 +30,7 @@ from vectorplot.visibility.painter.pairs import (
     outlined_items,
     pairs_across,
 )
+from vectorplot.visibility.painter.topological_order import component_ranks, topological_order
 from vectorplot.visibility.projected_faces import project_faces
 
 # Which of two objects is in front of the other, in the system of an eye or of a lamp: tables of decisions.
@@ -172,7 +172,7 @@ def _by_outlines(objects: Objects, first: Ints, second: Ints) -> Codes:
     wanted = np.zeros(count + 1, dtype=np.bool_)
     wanted[np.concatenate([first, second])] = True
     faces = np.flatnonzero(wanted[objects.owner])
-    some, owner = objects.faces.some(faces), objects.owner[faces]
+    some, owner = objects.faces.take(faces), objects.owner[faces]
     for a, b in box_pairs(some.box, objects.view.tolerance):
         keys = np.minimum(owner[a], owner[b]) * count + np.maximum(owner[a], owner[b])
         place = np.minimum(np.searchsorted(asked, keys), max(len(asked) - 1, 0))
@@ -356,7 +356,7 @@ class ObjectOrder:
     undone: tuple[int, ...] = ()
 
 
-def gordian_knots(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
+def cyclic_overlaps(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
     """The sets of objects, of two or more, that lie on one another in circles.
 
     Parameters
@@ -379,7 +379,7 @@ def gordian_knots(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
     --------
     >>> import numpy as np
     >>> from vectorplot import visibility
-    >>> knots = visibility.gordian_knots(4, before=np.array([0, 2, 3, 1]), after=np.array([2, 3, 0, 0]))
+    >>> knots = visibility.cyclic_overlaps(4, before=np.array([0, 2, 3, 1]), after=np.array([2, 3, 0, 0]))
     >>> [knot.tolist() for knot in knots]
     [[0, 2, 3]]
     """
@@ -389,13 +389,13 @@ def gordian_knots(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
     return tuple(sorted((c for c in circles if len(c) > 1), key=lambda c: int(c[0])))
 
 
-def knot_report(knots: Sequence[Ints], names: Sequence[str]) -> tuple[str, ...]:
+def cyclic_overlap_report(knots: Sequence[Ints], names: Sequence[str]) -> tuple[str, ...]:
     """One sentence for each knot, with the names of its objects.
 
     Parameters
     ----------
     knots : sequence of arrays of int
-        As of gordian_knots.
+        As of cyclic_overlaps.
     names : sequence of str
         Of all objects.
 
@@ -408,7 +408,7 @@ def knot_report(knots: Sequence[Ints], names: Sequence[str]) -> tuple[str, ...]:
     --------
     >>> import numpy as np
     >>> from vectorplot import visibility
-    >>> visibility.knot_report((np.array([0, 2, 3]),), ["oak", "elm", "ash", "fir"])
+    >>> visibility.cyclic_overlap_report((np.array([0, 2, 3]),), ["oak", "elm", "ash", "fir"])
     ('oak, ash and fir lie on one another in a circle, or pierce each other',)
     """
     sentences = []
@@ -457,11 +457,11 @@ def object_order(view: View, names: Sequence[str]) -> ObjectOrder:
     objects = view_objects(view)
     for critical in (False, True):
         before, after = demands(priorities(objects, critical=critical))
-        result = mikado(len(objects), before, after)
+        result = topological_order(len(objects), before, after)
         if not len(result.knot):
             return ObjectOrder(result.order, (), critical)
-    knots = gordian_knots(len(objects), before, after)
-    for sentence in knot_report(knots, names):
+    knots = cyclic_overlaps(len(objects), before, after)
+    for sentence in cyclic_overlap_report(knots, names):
         warnings.warn(f"{sentence}: no order is right everywhere", InputWarning, stacklevel=2)
     return ObjectOrder(result.order, knots, True)
 
@@ -509,9 +509,9 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
     if owner.shape != (count,):
         raise InputError(f"{count} objects need as many groups")
     within = np.empty(count, dtype=np.intp)
-    within[mikado(count, before, after).order] = np.arange(count)
+    within[topological_order(count, before, after).order] = np.arange(count)
     rank, undone = group_ranks(count, before, after, owner)
-    return ObjectOrder(np.lexsort((within, rank)), gordian_knots(count, before, after), undone=undone)
+    return ObjectOrder(np.lexsort((within, rank)), cyclic_overlaps(count, before, after), undone=undone)
 
 
 def group_ranks(count: int, before: Ints, after: Ints, owner: Ints) -> tuple[Ints, tuple[int, ...]]:
@@ -635,4 +635,4 @@ def by_depth(faces: ImageFaces) -> ImageFaces:
     Right where neighbours are small, as triangles of surfaces are, and apart in depth.
     Source: Newell, Newell and Sancha (1972), their first order.
     """
-    return faces.some(np.lexsort((faces.rank, faces.box[4])))
+    return faces.take(np.lexsort((faces.rank, faces.box[4])))

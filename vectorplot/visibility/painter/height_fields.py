@@ -15,7 +15,7 @@ from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.surfaces.graphs import vertical
-from vectorplot.visibility.painter.mikado import Precedence
+from vectorplot.visibility.painter.topological_order import Precedence
 from vectorplot.visibility.projected_faces import newell
 
 # Polygons that cover a part of the plane once: the gaps between them filled, and which ones lie side by side.

@@ -13,7 +13,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, take
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.unseen import body_sides
@@ -70,9 +70,9 @@ class ImageFaces:
         extremes = (np.minimum, np.maximum)
         return np.stack([over_corners(extreme, row, self.offsets) for row in self.points for extreme in extremes])
 
-    def some(self, which: Ints) -> ImageFaces:
+    def take(self, which: Ints) -> ImageFaces:
         """Some of the polygons, in the order asked for."""
-        return some(self, which)
+        return take(self, which)
 
     def heights(self, face: Ints, x: Floats, y: Floats) -> Floats:
         """(..., p) heights of the planes of faces (p,) above the points x, y (..., p) of the image."""

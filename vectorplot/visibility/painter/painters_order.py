@@ -17,7 +17,6 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.painter.cuts import Pairs, cut_into_order, dense, in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.groups import around, by_depth, crowded_items, group_ranks, pairs_allowed
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
-from vectorplot.visibility.painter.mikado import Precedence, among_things, component_ranks
 from vectorplot.visibility.painter.pairs import (
     APART,
     BEHIND,
@@ -38,6 +37,7 @@ from vectorplot.visibility.painter.pairs import (
     pairs_across,
     with_bulges,
 )
+from vectorplot.visibility.painter.topological_order import Precedence, among_things, component_ranks
 from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 
 PAIRS_AT_ONCE = 1 << 20
@@ -165,11 +165,11 @@ def painters_order(
     item = view.face_item[faces.source]
     alone = _alone(view, faces, item, list(sliced or {}))
     usual = {number: order for number, order in (known or {}).items() if not alone[number]}
-    together = faces.some(np.flatnonzero(~alone[item])) if alone.any() else faces
+    together = faces.take(np.flatnonzero(~alone[item])) if alone.any() else faces
     rest = _ordered(view, projected, together, usual, group, budget)
     ordered, uncut, counts = rest.faces, rest.uncut, {}
     for number in np.flatnonzero(alone).tolist():
-        slices = in_slices(view, faces.some(np.flatnonzero(item == number)), (sliced or {})[number])
+        slices = in_slices(view, faces.take(np.flatnonzero(item == number)), (sliced or {})[number])
         found = ribbons(view, projected.facing, slices)
         counts[number], uncut = len(found), uncut + len(slices.faces)
         ordered = joined((ribbon_order(view, slices, found), ordered))
@@ -217,7 +217,7 @@ def _ordered(
     allowed = pairs_allowed(budget.pairs, len(things))
     crowded, lot = crowded_items(things.box, item, field, view.tolerance, allowed)
     if len(crowded):
-        return _with_crowds(view, projected, faces, crowded, known, group_of_item, budget)
+        return _with_dense_groups(view, projected, faces, crowded, known, group_of_item, budget)
     lots = pairs_across(things.box, field, view.tolerance) if lot is None else [lot]
     compared = _demands(view, faces, things, lots)
     before, after = (np.concatenate(two) for two in zip(compared, (nodes.before, nodes.after), strict=True))
@@ -233,26 +233,26 @@ def _ordered(
     loose = np.flatnonzero(circled[things.of_face])
     if not len(loose):
         order = np.lexsort((faces.rank, rank[things.of_face]))
-        return Painted(faces.some(order), len(faces), np.zeros(0, dtype=np.intp), undone)
+        return Painted(faces.take(order), len(faces), np.zeros(0, dtype=np.intp), undone)
     rest = np.flatnonzero(~circled[things.of_face])
-    pieces = faces.some(loose)
+    pieces = faces.take(loose)
     group = rank[things.of_face[loose]]
     pairs = _pairs_within(pieces, group, things.of_face[loose], view.tolerance, allowed)
     if pairs is None:
         among = np.unique(view.face_item[pieces.source])
-        return _with_crowds(view, projected, faces, among, known, group_of_item, budget)
+        return _with_dense_groups(view, projected, faces, among, known, group_of_item, budget)
     pieces, place, right = cut_into_order(pieces, group, pairs, view.tolerance, budget.pieces)
     # Pieces keep their group: it is what their source had.
     group_of_source = np.full(view.face_count, -1, dtype=np.intp)
     group_of_source[faces.source] = rank[things.of_face]
-    whole = joined((faces.some(rest), pieces))
+    whole = joined((faces.take(rest), pieces))
     places = np.concatenate([np.zeros(len(rest), dtype=np.intp), place])
     order = np.lexsort((whole.rank, places, group_of_source[whole.source]))
     guessed = np.unique(view.face_item[pieces.source[~right]])
-    return Painted(whole.some(order), len(faces), np.unique(view.face_item[pieces.source]), undone, guessed=guessed)
+    return Painted(whole.take(order), len(faces), np.unique(view.face_item[pieces.source]), undone, guessed=guessed)
 
 
-def _with_crowds(
+def _with_dense_groups(
     view: View,
     projected: ProjectedFaces,
     faces: ImageFaces,
@@ -264,13 +264,13 @@ def _with_crowds(
     """The order of some faces of a view where some items, and what they overlap, are in order by depth alone."""
     item = view.face_item[faces.source]
     apart = around(faces.box, item, crowded, view.tolerance)
-    others = faces.some(np.flatnonzero(~apart[item]))
+    others = faces.take(np.flatnonzero(~apart[item]))
     usual = {number: order for number, order in known.items() if number >= len(apart) or not apart[number]}
     rest = _ordered(view, projected, others, usual, group_of_item, budget)
     undone: set[int] = set() if group_of_item is None else set(group_of_item[np.flatnonzero(apart)].tolist())
     return replace(
         rest,
-        faces=joined((by_depth(faces.some(np.flatnonzero(apart[item]))), rest.faces)),
+        faces=joined((by_depth(faces.take(np.flatnonzero(apart[item]))), rest.faces)),
         uncut=len(faces),
         undone=tuple(sorted({*rest.undone, *undone} - {-1})),
         crowded=np.union1d(rest.crowded, crowded),
@@ -330,7 +330,7 @@ def _demands(view: View, faces: ImageFaces, things: _Things, lots: Iterable[tupl
             before, after = drawn_before(faces, a, b, face_relations(faces, a, b, view.tolerance))
             demands.append((things.of_face[before], things.of_face[after]))
         if undecided.any():
-            demands.append(_face_demands(faces, things, first[undecided], second[undecided], view.tolerance))
+            demands.append(_face_criteria(faces, things, first[undecided], second[undecided], view.tolerance))
     return np.concatenate([d[0] for d in demands]), np.concatenate([d[1] for d in demands])
 
 
@@ -339,7 +339,9 @@ def _decided(first: Ints, second: Ints, codes: Codes) -> tuple[Ints, Ints]:
     return np.concatenate([second[front], first[behind]]), np.concatenate([first[front], second[behind]])
 
 
-def _face_demands(faces: ImageFaces, things: _Things, first: Ints, second: Ints, tolerance: float) -> tuple[Ints, Ints]:
+def _face_criteria(
+    faces: ImageFaces, things: _Things, first: Ints, second: Ints, tolerance: float
+) -> tuple[Ints, Ints]:
     """The demands that the faces of things make on each other."""
     sizes = np.diff(things.faces_of(first)[1]) * np.diff(things.faces_of(second)[1])
     demands = []
@@ -406,7 +408,7 @@ def _pairs_within(faces: ImageFaces, group: Ints, thing: Ints, tolerance: float,
         mine = np.flatnonzero((group[first] == group[second]) & (thing[first] != thing[second]))
         first, second = first[mine], second[mine]
         pairs = Pairs(first, second, face_relations(faces, first, second, tolerance))
-        found.append(pairs.some(pairs.codes != APART))
+        found.append(pairs.take(pairs.codes != APART))
     return records.joined(found)
 
 

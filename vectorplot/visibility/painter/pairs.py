@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.columns import cross, dot
+from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.elementary import arccos
 from vectorplot.scene.view import View
 from vectorplot.tolerances import AT_APEX
@@ -456,7 +456,7 @@ def face_relations(faces: ImageFaces, first: Ints, second: Ints, tolerance: floa
         return codes
     used, local = np.unique(np.concatenate([first, second]), return_inverse=True)
     if len(used) < len(faces):
-        return face_relations(faces.some(used), local[: len(first)], local[len(first) :], tolerance)
+        return face_relations(faces.take(used), local[: len(first)], local[len(first) :], tolerance)
     outlines = Outlines.of(faces.points, faces.offsets, tolerance)
     common = np.flatnonzero(overlapping(outlines, first, second, tolerance))
     first, second = first[common], second[common]

@@ -17,8 +17,8 @@ from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, tri
 from vectorplot.scene.view import View
 from vectorplot.tolerances import LEAST_DIVISOR, NEGLIGIBLE_PART
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.mikado import Links, component_ranks
 from vectorplot.visibility.painter.pairs import Outlines, box_pairs, overlapping
+from vectorplot.visibility.painter.topological_order import Links, component_ranks
 
 
 def connected_parts(view: View, faces: ImageFaces, item: Ints) -> Ints:
@@ -252,13 +252,13 @@ def in_sheets(
         return Sheets(faces, clear)
     between = slice(int(clear[0]), int(clear[-1]) + 1)
     number = np.arange(len(faces))
-    some = faces.some(number[between])
+    some = faces.take(number[between])
     before, after = _overlaps(some, tolerance)
     unit = units_of(item[between], part[between], before, after)
     region = polygons_of(some.points, some.offsets)
     heap = _Heap(region, unit, opacity[between], width, before, after, most)
     laid = _listed(some, item[between], heap.sheets())
-    whole = joined((faces.some(number[: between.start]), laid, faces.some(number[between.stop :])))
+    whole = joined((faces.take(number[: between.start]), laid, faces.take(number[between.stop :])))
     return Sheets(whole, np.unique(item[between][heap.single]))
 
 
@@ -547,7 +547,7 @@ def _listed(faces: ImageFaces, item: Ints, parts: _Parts) -> ImageFaces:
     order = np.lexsort((parts.polygon, item[parts.polygon] * (item[parts.polygon] >= 0), parts.stage))
     polygon, region, whole = parts.polygon[order], parts.region[order], parts.whole[order]
     if whole.all():
-        return faces.some(polygon)
+        return faces.take(polygon)
     pieces, of = _convex(region[~whole])
     points, offsets = corners_of(pieces)
     place, source = np.flatnonzero(~whole)[of], polygon[~whole][of]
@@ -560,7 +560,7 @@ def _listed(faces: ImageFaces, item: Ints, parts: _Parts) -> ImageFaces:
         faces.rank[source],
     )
     place = np.concatenate([np.flatnonzero(whole), place])
-    return joined((faces.some(polygon[whole]), made)).some(np.argsort(place, kind="stable"))
+    return joined((faces.take(polygon[whole]), made)).take(np.argsort(place, kind="stable"))
 
 
 def _convex(regions: Any) -> tuple[Any, Ints]:

@@ -9,7 +9,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_pairs
 from vectorplot.geometry.budget import Budget
-from vectorplot.geometry.columns import cross, dot
+from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.winding import components, edge_uses, inside_out, signed_volumes, turned_faces

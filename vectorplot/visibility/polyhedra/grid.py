@@ -109,9 +109,9 @@ class Pieces:
     def __len__(self) -> int:
         return len(self.segment)
 
-    def some(self, which: Ints | Bools) -> Pieces:
+    def take(self, which: Ints | Bools) -> Pieces:
         """Some of the pieces."""
-        return records.some(self, which)
+        return records.take(self, which)
 
 
 def cell_size(start: Floats, end: Floats, typical: float) -> float:

@@ -14,8 +14,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.columns import cross
-from vectorplot.scene.view import View, first_twins
+from vectorplot.geometry.component_arrays import cross
+from vectorplot.scene.view import View, first_coincident
 from vectorplot.tolerances import COVERED_MARGIN, SINGLE_LINE_SHARE
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import MAX_COVER_TESTS, Entries, Floats32, Grid, Pieces
@@ -34,7 +34,7 @@ SIDES = 2
 
 
 @dataclass(frozen=True, eq=False)
-class Sieve:
+class EarlyRejection:
     """Pieces and occluders in the image, packed.
 
     piece_boxes (p,): (right, -left, top, -bottom), boxes (k,): (left, -right, bottom, -top); ends (p,): x and y of the
@@ -57,13 +57,13 @@ class Sieve:
         return passing
 
 
-def sieve(view: View, grid: Grid, pieces: Pieces, occluders: Occluders) -> Sieve:
+def sieve(view: View, grid: Grid, pieces: Pieces, occluders: Occluders) -> EarlyRejection:
     """The sieve for pieces in a grid, which holds all of them, and occluders."""
     left, right, bottom, top = pieces.box
     piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
     left, right, bottom, top = occluders.box
     boxes = _packed(np.stack([left, -right, bottom, -top]))
-    return Sieve(piece_boxes, boxes, _packed(pieces.ends), _sides(view, grid, occluders))
+    return EarlyRejection(piece_boxes, boxes, _packed(pieces.ends), _sides(view, grid, occluders))
 
 
 def _sides(view: View, grid: Grid, occluders: Occluders) -> tuple[Packed, ...]:
@@ -515,7 +515,7 @@ def visible_parts(
         return Visibility(*intervals.complement(0, *_nothing(), gap), np.zeros(0, dtype=np.intp))
     grid, pieces = _pieces(view, faces, segments)
     # Of bodies in one place one hides as much as all of them.
-    once = first_twins(view) == np.arange(len(solid))
+    once = first_coincident(view) == np.arange(len(solid))
     alone = replace(view, occludes=view.occludes & once)
     occluders = _occluders(alone, faces, solid & once, grid, grids.deepest(grid, pieces))
     cover = covered_cells(view, grid, occluders)
@@ -528,7 +528,7 @@ def visible_parts(
             np.zeros(int(covered.sum()), dtype=np.intp),
         )
     ]
-    pieces = pieces.some(~covered)
+    pieces = pieces.take(~covered)
     alive = np.ones(len(pieces), dtype=np.bool_)
     fewer = min(len(occluders), len(pieces))
     slabs = min(max(fewer // IN_SLAB, 4), MOST_SLABS) if fewer > ONE_SLAB else 1
@@ -750,7 +750,7 @@ def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats)
 def _by_item(
     key: Ints, low: Floats, high: Floats, side: Ints, items: int, gap: Floats
 ) -> tuple[Ints, Floats, Floats, Ints]:
-    """Zones (segment, low, high, side), disjoint within each key = segment * items + item and side."""
+    """OccludedIntervals (segment, low, high, side), disjoint within each key = segment * items + item and side."""
     unique, owner = np.unique(key, return_inverse=True)
     segment = unique // items
     halved = np.zeros(len(unique), dtype=np.bool_)

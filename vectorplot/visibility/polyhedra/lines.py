@@ -25,7 +25,7 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard
-from vectorplot.geometry.columns import dot
+from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.connectivity import pieces_of_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import HalfSpaces
@@ -38,7 +38,7 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Roads, Serpentine, TerrainLines, WaterCourses
-from vectorplot.scene.view import View, first_twins
+from vectorplot.scene.view import View, first_coincident
 from vectorplot.tolerances import CUT_EDGE_OF_EXTENT
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import FEATURE_KINDS, LineKind
@@ -101,7 +101,7 @@ class Lines:
     def __len__(self) -> int:
         return len(self.kind)
 
-    def some(self, which: Ints | Bools) -> Lines:
+    def take(self, which: Ints | Bools) -> Lines:
         """Some of the lines, in the order asked for.
 
         Parameters
@@ -125,7 +125,7 @@ class Lines:
             self.smooth[which],
             self.behind[which],
             self.aside.take(which, axis=1),
-            self.chords.some(which) if self.chords else None,
+            self.chords.take(which) if self.chords else None,
         )
 
     def sides(self, view: View) -> Ints:
@@ -165,7 +165,7 @@ class Lines:
         """
         start, end = _divided(self.start.take(which, axis=1), self.end.take(which, axis=1), low, high)
         if self.chords:
-            self.chords.some(which).cut(view, low, high, start, end)
+            self.chords.take(which).cut(view, low, high, start, end)
         return start, end
 
     def cut(self, view: View, which: Ints, low: Floats, high: Floats) -> Lines:
@@ -181,7 +181,7 @@ class Lines:
         Lines
             k of them.
         """
-        some = self.some(which)
+        some = self.take(which)
         start, end = _divided(some.start, some.end, low, high)
         if not some.chords:
             return replace(some, start=start, end=end)
@@ -380,7 +380,7 @@ def intersection_lines(
     wants = items_wanting(LineKind.INTERSECTION, scene, kinds)
     part = _parts(scene, view, solid)
     faced = np.array([item.is_cut_face for item in scene.items], dtype=np.bool_)
-    left_out = (_beyond_two(first_twins(view)) | faced)[view.face_item]
+    left_out = (_beyond_two(first_coincident(view)) | faced)[view.face_item]
     left_out |= (faces.facing < 0) & (~backs & _outlined(scene, kinds))[view.face_item]
     asked, which = _faces(view, faces), np.flatnonzero(~left_out)
     if len(which) < view.face_count:
@@ -638,7 +638,7 @@ def with_kinds_of_cuts(scene: Scene, view: View, lines: Lines, kinds: frozenset[
         if not item.cut_by or not own & {LineKind.CUT, LineKind.BOUNDARY, LineKind.GHOST}:
             continue
         which = np.flatnonzero((lines.item == number) & (kind == LineKind.BOUNDARY))
-        shifts, cut = _onto_cuts(item.cut_by, view, lines.some(which), 2 if item.is_cut_face else 1)
+        shifts, cut = _onto_cuts(item.cut_by, view, lines.take(which), 2 if item.is_cut_face else 1)
         which, other = which[cut], which[~cut]
         if LineKind.GHOST in own:
             kind[lines.item == number] = LineKind.GHOST
@@ -652,7 +652,7 @@ def with_kinds_of_cuts(scene: Scene, view: View, lines: Lines, kinds: frozenset[
         end[:, which] += shifts[1][:, cut]
     if kept.all() and (kind == lines.kind).all():
         return lines
-    return replace(lines, kind=kind, start=start, end=end).some(kept)
+    return replace(lines, kind=kind, start=start, end=end).take(kept)
 
 
 def _onto_cuts(regions: tuple[HalfSpaces, ...], view: View, lines: Lines, planes: int) -> tuple[Floats, Bools]:

@@ -9,7 +9,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.columns import cross
+from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.scene.view import View
 from vectorplot.tolerances import SINGLE_DEPTH_LEAST, SINGLE_DEPTH_SHARE

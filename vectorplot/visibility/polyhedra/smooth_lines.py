@@ -17,7 +17,7 @@ from vectorplot.features.mesh_lines import MeshCurves
 from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
 from vectorplot.features.nearest import nearest_on_mesh
 from vectorplot.features.shortest_paths import mesh_shortest_paths
-from vectorplot.features.surface_places import USUAL_CREASE_DEG
+from vectorplot.features.surface_points import USUAL_CREASE_DEG
 from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, TangentField
 from vectorplot.geometry.budget import USUAL, Budget, unheard
 from vectorplot.geometry.mesh import Mesh

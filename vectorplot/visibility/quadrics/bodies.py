@@ -160,7 +160,7 @@ class Balls(UnitBodies):
         height = 1.0 / distance if self.sight.central else np.zeros(len(which))
         return self.circles(which, eye / distance[:, None], height)
 
-    def some(self, which: Ints | Bools) -> Balls:
+    def take(self, which: Ints | Bools) -> Balls:
         """Some of the balls."""
         return Balls(
             self.sight, self.centre[which], self.frame[which], self.item[which], self.hides[which], self.tolerance
@@ -352,7 +352,7 @@ class CappedBodies(UnitBodies):
         """Centres and two conjugate radii (k,3) of the rims at one end of bodies which (k,)."""
         return self.circles(which, self.ends[which, end], self.radii[which, end])
 
-    def some(self, which: Ints | Bools) -> CappedBodies:
+    def take(self, which: Ints | Bools) -> CappedBodies:
         """Some of the bodies."""
         return CappedBodies(
             self.sight,

@@ -19,7 +19,7 @@ from vectorplot.scene.view import View
 from vectorplot.tolerances import HOMOTHETIC, NARROW_CONIC
 from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP, Balls, CappedBodies, EyeCoordinates, sphere_sections
 from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, arcs_on, lines_on, parts_inside
-from vectorplot.visibility.quadrics.covers import ball_contours
+from vectorplot.visibility.quadrics.occlusion_volumes import ball_contours
 from vectorplot.words import LineKind
 
 Wants = Callable[[Item, LineKind], bool]
@@ -415,8 +415,8 @@ def capped_sections(view: View, bodies: CappedBodies, before: int, items: Sequen
         unit = np.einsum("nij,nj->ni", bodies.frame[body], normal)
         planes = _Planes(body, unit, dot(point - bodies.centre[body], normal))
         is_round = bodies.is_round[body]
-        found += _of_frusta(bodies, before, records.some(planes, np.flatnonzero(~is_round)), kind)
-        found.append(_of_balls(bodies, before, records.some(planes, np.flatnonzero(is_round)), kind))
+        found += _of_frusta(bodies, before, records.take(planes, np.flatnonzero(~is_round)), kind)
+        found.append(_of_balls(bodies, before, records.take(planes, np.flatnonzero(is_round)), kind))
         found += [_of_caps(bodies, before, planes, end, kind) for end in (BOTTOM, TOP)]
     return found
 
@@ -596,7 +596,7 @@ def _of_balls(bodies: CappedBodies, before: int, planes: _Planes, kind: LineKind
 
 def _of_caps(bodies: CappedBodies, before: int, planes: _Planes, end: int, kind: LineKind) -> Found:
     """The straight sections of the caps at one end."""
-    some = records.some(planes, np.flatnonzero(bodies.has_cap[planes.body, end]))
+    some = records.take(planes, np.flatnonzero(bodies.has_cap[planes.body, end]))
     steep = _snapped(np.hypot(some.normal[:, 0], some.normal[:, 1]), bodies.tolerance)
     reach = bodies.radii[some.body, end] * steep
     distance = some.at(bodies.ends[some.body, end])

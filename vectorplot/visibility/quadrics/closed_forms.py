@@ -32,7 +32,6 @@ from vectorplot.visibility.quadrics.body_lines import (
     capped_sections,
 )
 from vectorplot.visibility.quadrics.conic_arcs import Arcs, ConicArcs, OwnSides, beyond_near, joined_arcs
-from vectorplot.visibility.quadrics.covers import Bodies, own_bodies
 from vectorplot.visibility.quadrics.meetings import (
     are_bodies_apart,
     are_homothetic,
@@ -45,6 +44,7 @@ from vectorplot.visibility.quadrics.meetings import (
     on_one_axis,
     overlapping_balls,
 )
+from vectorplot.visibility.quadrics.occlusion_volumes import Bodies, own_bodies
 from vectorplot.words import FEATURE_KINDS, LineKind
 
 Seen = Callable[[Bodies, Arcs, OwnSides], Visibility]
@@ -122,7 +122,7 @@ def closed_forms(
     parts.append(circles_on_one_axis(bodies, *met.on_axis, wanting))
     arcs, sides = beyond_near(bodies.sight, *joined_arcs(parts))
     found = seen(bodies, arcs, sides)
-    chosen = arcs.some(found.segment)
+    chosen = arcs.take(found.segment)
     span = chosen.high - chosen.low
     low, high = chosen.low + found.low * span, np.where(found.high < 1.0, chosen.low + found.high * span, chosen.high)
     return ClosedForms(bodies, replace(chosen, low=low, high=high), found.hidden_by, met.traced, met.in_faces)
@@ -182,13 +182,13 @@ def _bodies(scene: Scene, view: View, kinds: frozenset[LineKind]) -> Bodies:
     usual = np.array(
         [_is_conic(scene, view, scene.items[number], ball, kinds) for number, ball in found], dtype=np.bool_
     )
-    balls = balls.some(np.flatnonzero(outside & usual))
+    balls = balls.take(np.flatnonzero(outside & usual))
     ends = [(number, body) for number, item in enumerate(scene.items) if (body := capped_quadric_of(item.shape))]
     simple = [(number, body) for number, body in ends if _has_simple_lines(scene, view, scene.items[number], kinds)]
     which = np.array([number for number, _ in simple], dtype=np.intp)
     capped = capped_bodies_of(view, scene.items, which, [body for _, body in simple])
     lit = np.array([_has_isophotes(scene.items[number], kinds) for number, _ in simple], dtype=np.bool_)
-    return Bodies(balls, capped.some(~capped.has_eye_inside & (~lit | are_round(capped))))
+    return Bodies(balls, capped.take(~capped.has_eye_inside & (~lit | are_round(capped))))
 
 
 def _has_simple_lines(scene: Scene, view: View, item: Item, kinds: frozenset[LineKind]) -> bool:
@@ -287,7 +287,7 @@ def _apart(scene: Scene, view: View, bodies: Bodies, wants: Bools, hidden_too: b
         number[traced[~meeting[traced].any(axis=1)]],
         np.stack([number[in_faces[:, 0]], in_faces[:, 1]], axis=1),
     )
-    return bodies.some(~meeting), met
+    return bodies.take(~meeting), met
 
 
 def _meets_others(scene: Scene, view: View, bodies: Bodies, wants: Bools) -> Bools:

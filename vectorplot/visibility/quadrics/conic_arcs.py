@@ -18,7 +18,7 @@ from vectorplot.tolerances import LEAST_DIVISOR, UNION_OF_SEGMENT, WHOLE_TURN
 from vectorplot.visibility.polyhedra.grid import Floats32
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER
 from vectorplot.visibility.quadrics.bodies import EyeCoordinates, eye_coordinates
-from vectorplot.visibility.smooth.families import Along, Chords
+from vectorplot.visibility.smooth.curve_families import Along, Chords
 from vectorplot.visibility.smooth.traced_curves import Curves
 from vectorplot.words import LineKind
 
@@ -73,9 +73,9 @@ class Arcs:
         second = sight.vectors(self.second)
         return replace(self, middle=sight.points_of_view(self.middle), first=first, second=second)
 
-    def some(self, which: Ints | Bools) -> Arcs:
+    def take(self, which: Ints | Bools) -> Arcs:
         """Some of the arcs."""
-        return records.some(self, which)
+        return records.take(self, which)
 
 
 @dataclass(frozen=True, eq=False)
@@ -158,7 +158,7 @@ def beyond_near(sight: EyeCoordinates, arcs: Arcs, sides: OwnSides) -> tuple[Arc
         low.append(begin[there])
         high.append(end[there])
     chosen = np.concatenate(which)
-    cut = replace(arcs.some(chosen), low=np.concatenate(low), high=np.concatenate(high))
+    cut = replace(arcs.take(chosen), low=np.concatenate(low), high=np.concatenate(high))
     order = np.argsort(sides.arc, kind="stable")
     first = np.searchsorted(sides.arc[order], np.arange(len(arcs) + 1))
     count = np.diff(first)[chosen]
@@ -201,9 +201,9 @@ class Pieces:
     def __len__(self) -> int:
         return len(self.arc)
 
-    def some(self, which: Ints | Bools) -> Pieces:
+    def take(self, which: Ints | Bools) -> Pieces:
         """Some of the pieces."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     def parameters(self, arcs: Arcs, which: Ints, t: Floats) -> Floats:
         """(k,) the arcs' parameters at t, 0 to 1 along pieces which (k,)."""

@@ -15,7 +15,13 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances import ROUNDING, ULP
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Progress, Visibility
 from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, Pieces, cut_arcs, packed_box
-from vectorplot.visibility.quadrics.covers import Bodies, Covers, close_pairs, grid_of, typical_size
+from vectorplot.visibility.quadrics.occlusion_volumes import (
+    Bodies,
+    OcclusionVolumes,
+    close_pairs,
+    grid_of,
+    typical_size,
+)
 
 # Polynomials of degree two and four over [0, 1] in Bernstein form, many at once: values and roots.
 
@@ -126,7 +132,7 @@ def _single_roots(c: Floats) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class Zones:
+class OccludedIntervals:
     """Hidden parts of pieces: pair (z,) which one, from low to high (z,), 0 to 1 along the piece."""
 
     pair: Ints
@@ -134,7 +140,9 @@ class Zones:
     high: Floats
 
 
-def hidden_zones(pieces: Pieces, covers: Covers, piece: Ints, cover: Ints, tolerance: float) -> Zones:
+def occluded_intervals(
+    pieces: Pieces, covers: OcclusionVolumes, piece: Ints, cover: Ints, tolerance: float
+) -> OccludedIntervals:
     """The zones of pairs (piece, cover).
 
     A linear form along a piece has degree two, the difference of squares degree four. Where no coefficient is positive
@@ -161,7 +169,7 @@ def hidden_zones(pieces: Pieces, covers: Covers, piece: Ints, cover: Ints, toler
     all_of_it = pair[whole]
     rest = np.flatnonzero(~whole)
     found, low, high = _between_roots(linear[:, :, rest], square[:, rest] if len(square[0]) else square)
-    return Zones(
+    return OccludedIntervals(
         np.concatenate([all_of_it, pair[rest][found]]),
         np.concatenate([np.zeros(len(all_of_it)), low]),
         np.concatenate([np.ones(len(all_of_it)), high]),
@@ -175,7 +183,7 @@ def _along(form: Floats, control: Floats) -> Floats:
     )
 
 
-def _difference(covers: Covers, cover: Ints, control: Floats) -> Floats:
+def _difference(covers: OcclusionVolumes, cover: Ints, control: Floats) -> Floats:
     """(5,n) the square of the first form less those of the others, snapped to zero."""
     first = squares(_along(covers.squares[0][:, cover], control))
     square, size = first.copy(), np.abs(first).max(axis=0)
@@ -212,7 +220,7 @@ def _between_roots(linear: Floats, square: Floats) -> tuple[Ints, Floats, Floats
 
 
 IN_SLAB, FEWEST_SLABS, MOST_SLABS = 1500, 4, 24
-"""Covers are tried front to back in slabs of about so many, so that what is hidden early drops out."""
+"""OcclusionVolumes are tried front to back in slabs of about so many, so that what is hidden early drops out."""
 
 OWN_AT_ONCE = 1 << 16
 """Arcs that their own bodies hide are looked at so many at once: more would need much memory."""
@@ -250,7 +258,7 @@ def visible_arcs(bodies: Bodies, arcs: Arcs, sides: OwnSides, progress: Progress
     pieces = cut_arcs(bodies.sight, arcs, typical_size(covers))
     alive = np.ones(len(pieces), dtype=np.bool_)
     found = []
-    for hidden in _hidden_zones(bodies, covers, pieces, alive, arcs, sides, MOST_SLABS, progress):
+    for hidden in _occluded_intervals(bodies, covers, pieces, alive, arcs, sides, MOST_SLABS, progress):
         alive[hidden.piece[hidden.whole]] = False
         found.append(hidden)
     zones = records.joined(found)
@@ -270,7 +278,7 @@ def counted_arcs(bodies: Bodies, arcs: Arcs, sides: OwnSides, items: int, progre
     sides = OwnSides(sides.arc[side], sides.form[side], body)
     pieces = cut_arcs(bodies.sight, arcs, typical_size(covers))
     alive = np.ones(len(pieces), dtype=np.bool_)
-    zones = records.joined(list(_hidden_zones(bodies, covers, pieces, alive, arcs, sides, 1, progress)))
+    zones = records.joined(list(_occluded_intervals(bodies, covers, pieces, alive, arcs, sides, 1, progress)))
     gap = _gaps(arcs, bodies.tolerance)
     key, owner = np.unique(zones.arc * items + zones.item, return_inverse=True)
     of, low, high = intervals.union(owner.reshape(-1), zones.low, zones.high, gap[key // items])
@@ -292,9 +300,9 @@ def _gaps(arcs: Arcs, tolerance: float) -> Floats:
     return np.minimum(SLIVER * tolerance / np.where(length > 0.0, length, 1.0), 1.0)
 
 
-def _hidden_zones(
+def _occluded_intervals(
     bodies: Bodies,
-    covers: tuple[Covers, ...],
+    covers: tuple[OcclusionVolumes, ...],
     pieces: Pieces,
     alive: Bools,
     arcs: Arcs,
@@ -316,7 +324,7 @@ def _hidden_zones(
         progress((number + 1.0) / len(steps))
 
 
-def _slabs(covers: tuple[Covers, ...], most: int) -> Iterator[tuple[Covers, Ints]]:
+def _slabs(covers: tuple[OcclusionVolumes, ...], most: int) -> Iterator[tuple[OcclusionVolumes, Ints]]:
     """The covers of all kinds front to back, slab by slab."""
     nearest = np.concatenate([np.zeros(0), *(some.nearest for some in covers)])
     if not len(nearest):
@@ -332,7 +340,9 @@ def _slabs(covers: tuple[Covers, ...], most: int) -> Iterator[tuple[Covers, Ints
                 yield some, order[begin:end]
 
 
-def _own_pairs(bodies: Bodies, pieces: Pieces, sides: OwnSides, arcs: int) -> Iterator[tuple[Covers, Ints, Ints]]:
+def _own_pairs(
+    bodies: Bodies, pieces: Pieces, sides: OwnSides, arcs: int
+) -> Iterator[tuple[OcclusionVolumes, Ints, Ints]]:
     """Blocks (covers, piece, cover) of what bodies hide of arcs on themselves."""
     offsets = np.searchsorted(pieces.arc, np.arange(arcs + 1))
     for low in range(0, max(len(sides.arc), 1), OWN_AT_ONCE):
@@ -341,13 +351,15 @@ def _own_pairs(bodies: Bodies, pieces: Pieces, sides: OwnSides, arcs: int) -> It
         size = offsets[arc + 1] - offsets[arc]
         none = np.zeros(len(arc))
         nowhere = packed_box(np.zeros((2, len(arc))), np.zeros((2, len(arc))))
-        turned = Covers(-form.T[None], np.zeros((0, 4, len(arc))), none, body, bodies.item[body], nowhere, none, none)
+        turned = OcclusionVolumes(
+            -form.T[None], np.zeros((0, 4, len(arc))), none, body, bodies.item[body], nowhere, none, none
+        )
         yield turned, ragged.ranges(offsets[arc], size), ragged.owner(size)
 
 
-def _zones(pieces: Pieces, arcs: Arcs, covers: Covers, piece: Ints, cover: Ints, tolerance: float) -> _Hidden:
+def _zones(pieces: Pieces, arcs: Arcs, covers: OcclusionVolumes, piece: Ints, cover: Ints, tolerance: float) -> _Hidden:
     """The zones of pairs as parts of arcs."""
-    zones = hidden_zones(pieces, covers, piece, cover, tolerance)
+    zones = occluded_intervals(pieces, covers, piece, cover, tolerance)
     of, item = piece[zones.pair], covers.item[cover[zones.pair]]
     arc = pieces.arc[of]
     span, start = (arcs.high - arcs.low)[arc], arcs.low[arc]

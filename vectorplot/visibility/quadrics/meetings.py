@@ -18,7 +18,7 @@ from vectorplot.visibility.projected_faces import newell
 from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP, Balls, CappedBodies, EyeCoordinates
 from vectorplot.visibility.quadrics.body_lines import Found, on_balls, own_sides, plane_circles, unit_planes
 from vectorplot.visibility.quadrics.conic_arcs import OwnSides, arcs_on, parts_inside
-from vectorplot.visibility.quadrics.covers import Bodies
+from vectorplot.visibility.quadrics.occlusion_volumes import Bodies
 from vectorplot.words import LineKind
 
 
@@ -168,7 +168,7 @@ class Convex:
     farthest: Farthest
     which: Ints
 
-    def some(self, index: Ints) -> Convex:
+    def take(self, index: Ints) -> Convex:
         """Some of the bodies."""
         return Convex(self.farthest, self.which[index])
 
@@ -189,9 +189,9 @@ def are_apart(one: Convex, other: Convex, guesses: Iterator[Floats], tolerance: 
     for normals in guesses:
         left = np.flatnonzero(~result)
         for sign in (1.0, -1.0):
-            result[left] |= _separates(one.some(left), other.some(left), sign * normals[left], tolerance)
+            result[left] |= _separates(one.take(left), other.take(left), sign * normals[left], tolerance)
     left = np.flatnonzero(~result)
-    one, other = one.some(left), other.some(left)
+    one, other = one.take(left), other.take(left)
     start = np.broadcast_to(np.array([1.0, 0.0, 0.0]), (len(left), 3))
     between = one.at(start) - other.at(-start)
     for _ in range(ROUNDS):
@@ -208,7 +208,7 @@ def are_apart(one: Convex, other: Convex, guesses: Iterator[Floats], tolerance: 
             part = np.clip(np.where(square > 0.0, dot(between, step) / square, 0.0), 0.0, 1.0)
         between = between - part[:, None] * step
         kept = np.flatnonzero(~apart & (length > tolerance))
-        left, between, one, other = left[kept], between[kept], one.some(kept), other.some(kept)
+        left, between, one, other = left[kept], between[kept], one.take(kept), other.take(kept)
     return result
 
 
@@ -374,7 +374,7 @@ def circles_on_one_axis(bodies: Bodies, ball: Ints, capped: Ints, wants: Bools) 
     item_one, item_two = bodies.item[first], bodies.item[second]
     owner = np.where(wants[first] & (~wants[second] | (item_one < item_two)), item_one, item_two)
     arcs.item[:] = owner
-    return arcs.some(kept), _kept(joined(sides), kept, len(arcs))
+    return arcs.take(kept), _kept(joined(sides), kept, len(arcs))
 
 
 def _kept(sides: OwnSides, kept: Ints, count: int) -> OwnSides:

@@ -15,7 +15,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import inverse_matrix, matmul, symmetric_eigen
-from vectorplot.geometry.chord_refinement import HALVINGS, Traces, narrowed, refined, straight_between
+from vectorplot.geometry.chord_refinement import HALVINGS, Traces, bisected, refined, straight_between
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.outline import concat
@@ -36,8 +36,8 @@ from vectorplot.tolerances import (
 from vectorplot.visibility.polyhedra.lines import items_wanting
 from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP
 from vectorplot.visibility.quadrics.closed_forms import ClosedForms
-from vectorplot.visibility.quadrics.covers import Bodies, BodiesMeet
-from vectorplot.visibility.smooth.families import FARTHEST, ROUNDS, Along, Chords, no_longer
+from vectorplot.visibility.quadrics.occlusion_volumes import Bodies, BodiesMeet
+from vectorplot.visibility.smooth.curve_families import FARTHEST, ROUNDS, Along, Chords, no_longer
 from vectorplot.visibility.smooth.meetings import curves_of_pairs, curves_with_mesh
 from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.sheets import ParametricSheet
@@ -376,7 +376,7 @@ def zeros_of(values: Values, low: Floats, high: Floats, goes_round: bool, touchi
 def _between(values: Values, row: Ints, start: Floats, end: Floats) -> Floats:
     """(n,) where functions change their sign between start and end."""
     positive = values(row, start) > 0.0
-    low, high = narrowed(lambda which, t: (values(row[which], t) > 0.0) == positive[which], start, end, HALVINGS)
+    low, high = bisected(lambda which, t: (values(row[which], t) > 0.0) == positive[which], start, end, HALVINGS)
     return 0.5 * (low + high)
 
 
@@ -666,8 +666,8 @@ def pairs_of_parts(bodies: Bodies, pairs: Ints) -> PartPairs:
     (low, high), (below, above) = (_box(bodies, every.body[:, k], every.part[:, k]) for k in range(2))
     slack = bodies.tolerance
     near = ((low <= above + slack) & (below <= high + slack)).all(axis=1)
-    kept = records.some(every, np.flatnonzero(near))
-    return records.some(kept, np.lexsort((kept.part[:, 1], kept.part[:, 0], kept.body[:, 1], kept.body[:, 0])))
+    kept = records.take(every, np.flatnonzero(near))
+    return records.take(kept, np.lexsort((kept.part[:, 1], kept.part[:, 0], kept.body[:, 1], kept.body[:, 0])))
 
 
 def _box(bodies: Bodies, body: Ints, part: Ints) -> tuple[Floats, Floats]:
@@ -769,7 +769,7 @@ def _quadrics(bodies: Bodies, which: Ints) -> Quadrics:
         np.concatenate([-one, np.where(capped.is_round, -1.0, -base * base)]),
         np.concatenate([infinite, capped.ends]),
     )
-    return records.some(every, which)
+    return records.take(every, which)
 
 
 def _caps(bodies: Bodies, which: Ints, end: Ints, met: Quadrics) -> Discs:

@@ -56,9 +56,9 @@ class Cubics:
         way = end - start
         return cls(start, leaving, 3.0 * way - 2.0 * leaving - arriving, leaving + arriving - 2.0 * way)
 
-    def some(self, which: Ints) -> Cubics:
+    def take(self, which: Ints) -> Cubics:
         """Some of the arcs."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     def at(self, part: Floats) -> tuple[Floats, Floats]:
         """(k,3) a point of each arc, and the derivatives there."""
@@ -146,9 +146,9 @@ class Pairs:
     edge: Ints
     edge_part: Floats
 
-    def some(self, which: Bools | Ints) -> Pairs:
+    def take(self, which: Bools | Ints) -> Pairs:
         """Some of the pairs."""
-        return records.some(self, which)
+        return records.take(self, which)
 
 
 def crossings(
@@ -177,13 +177,13 @@ def crossings(
         pairs = Pairs(chord, part, edge, edge_part)
         if hop < HOPS - 1:
             # Those that went over to a neighbour are looked for there.
-            settled.append(pairs.some(~moved))
-            pairs = pairs.some(moved)
+            settled.append(pairs.take(~moved))
+            pairs = pairs.take(moved)
     pairs = records.joined((*settled, pairs))
     inside, part = on_chord(pairs.part)
     edge_inside, edge_part = on_chord(pairs.edge_part)
-    pairs = Pairs(pairs.chord, part, pairs.edge, edge_part).some(inside & edge_inside)
-    pairs = pairs.some(once(curves, pairs.chord, pairs.part, pairs.edge + pairs.edge_part))
+    pairs = Pairs(pairs.chord, part, pairs.edge, edge_part).take(inside & edge_inside)
+    pairs = pairs.take(once(curves, pairs.chord, pairs.part, pairs.edge + pairs.edge_part))
     return _events(view, sheets, curves, edges, edge_on, pairs), short
 
 
@@ -216,7 +216,7 @@ def _close_pairs(
     short = tuple(np.unique(curves.item[curves.owner[one.chord[done:]]]).tolist())
     none = np.zeros(0, dtype=np.intp)
     met = records.joined((Pairs(none, np.zeros(0), none, np.zeros(0)), *found))
-    return met.some(once(curves, met.chord, met.part, met.edge + met.edge_part)), short
+    return met.take(once(curves, met.chord, met.part, met.edge + met.edge_part)), short
 
 
 def _close(
@@ -224,7 +224,7 @@ def _close(
 ) -> tuple[Ints, Ints, Floats, Floats, int]:
     """Chords among rows (k,) and edges that come within a margin of each other, the edge not behind; the parts of both
     at which they do; and how many pairs were looked at."""
-    near, far = one.some(rows).strips(margin).overlapping_strips(edge_boxes)
+    near, far = one.take(rows).strips(margin).overlapping_strips(edge_boxes)
     looked, near = len(near), rows[near]
     # A chord that runs away from the eye may be off its curve in depth by some part of its length.
     not_behind = two.nearest[far] - (two.farthest - two.nearest)[far] <= (2.0 * one.farthest - one.nearest)[near]
@@ -285,9 +285,9 @@ class _Chords:
         a, b = depth[chord], depth[chord + 1]
         return cls(chord, image[chord], image[chord + 1], np.minimum(a, b), np.maximum(a, b))
 
-    def some(self, which: Ints) -> _Chords:
+    def take(self, which: Ints) -> _Chords:
         """Some of the chords."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     def strips(self, margin: float) -> BoxStrips:
         """Their boxes, enlarged by a margin."""
@@ -314,7 +314,7 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
     chord, of_curve = np.unique(pairs.chord, return_inverse=True)
     edge, of_edge = np.unique(pairs.edge, return_inverse=True)
     one, two = cubics(view, [(curves, chord), (edges, edge)])
-    one, two = one.some(of_curve), two.some(of_edge)
+    one, two = one.take(of_curve), two.take(of_edge)
     part, edge_part = pairs.part.copy(), pairs.edge_part.copy()
     off, gap = np.full((2, len(part)), np.inf)
     active = np.arange(len(part))
@@ -329,11 +329,11 @@ def _roughly_met(view: View, curves: Curves, edges: Curves, pairs: Pairs) -> Pai
         edge_part[active] = np.clip(edge_part[active] + t, -0.5, 1.5)
         far = np.flatnonzero((np.abs(s) > CROSSING_SETTLED) | (np.abs(t) > CROSSING_SETTLED))
         if len(far) < len(active):
-            active, one, two = active[far], one.some(far), two.some(far)
+            active, one, two = active[far], one.take(far), two.take(far)
     met = np.flatnonzero(
         (off <= np.minimum(MODEL_RESIDUAL, MODEL_RESIDUAL_OF_GAP * gap**2)) & (gap > TOUCHING * GAP_IN_FRONT)
     )
-    return Pairs(pairs.chord, part, pairs.edge, edge_part).some(met)
+    return Pairs(pairs.chord, part, pairs.edge, edge_part).take(met)
 
 
 def _step(gap: Floats, a: Floats, b: Floats) -> tuple[Floats, Floats]:
@@ -364,7 +364,7 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs, least_gap: Flo
     for begun in range(ROUNDS):
         if not len(active):
             break
-        of = pairs.some(active)
+        of = pairs.take(active)
         one, two = at_once([(curves, of.chord, part[active]), (edges, of.edge, edge_part[active])])
         gap = sight_lines.image(view, two.points) - sight_lines.image(view, one.points)
         off[active] = np.sqrt(dot(gap, gap))
@@ -381,7 +381,7 @@ def _met(view: View, curves: Curves, edges: Curves, pairs: Pairs, least_gap: Flo
     # Beyond the chords' ends the search goes on with the neighbours, whatever the residual.
     beyond = (part < 0.0) | (part > 1.0) | (edge_part < 0.0) | (edge_part > 1.0)
     kept = (off <= 100.0 * max(CROSSING_RESIDUAL, rounding)) | (beyond & (off < np.inf))
-    return Pairs(pairs.chord, part, pairs.edge, edge_part).some(kept)
+    return Pairs(pairs.chord, part, pairs.edge, edge_part).take(kept)
 
 
 def _events(view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: Bools, pairs: Pairs) -> Events:
@@ -396,7 +396,7 @@ def _events(view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: 
     direction = sight_lines.image_slopes(view, one.points, one.slopes)
     along = sight_lines.image_slopes(view, two.points, two.slopes)
     real &= np.abs(turn(along, direction)) > ALONG_EDGE_SINE * np.sqrt(dot(along, along) * dot(direction, direction))
-    pairs, points, places, edge = pairs.some(real), two.points[real], two.places[real], edges.owner[pairs.edge[real]]
+    pairs, points, places, edge = pairs.take(real), two.points[real], two.places[real], edges.owner[pairs.edge[real]]
     direction, along = direction[real], along[real]
     kind = edges.kind[edge]
     covered = covered_sides(view, sheets, edges.sheet[edge], kind, points, places, two.slopes[real])

@@ -13,7 +13,7 @@ from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances import BEYOND_END, EDGE_ON_SINE, ROUNDING, SAME_EVENT
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.families import Along
+from vectorplot.visibility.smooth.curve_families import Along
 from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.visibility.smooth.traced_curves import Curves
 from vectorplot.words import LineKind
@@ -251,7 +251,7 @@ def own_events(view: View, sheets: Sheets, curves: Curves, facing: Floats, edge_
     first, second = np.flatnonzero(hides[curves.sheet] & ~edge_on), np.flatnonzero(hides[curves.second_sheet])
     folds = np.flatnonzero(hides[curves.sheet] & edge_on)
     on_first = facing[ragged.take(curves.offsets, first)[0]]
-    on_second = _facing_on_second(view, sheets, curves.some(second))
+    on_second = _facing_on_second(view, sheets, curves.take(second))
     return all_events(
         [
             _passings(view, sheets, curves, first, curves.sheet, on_first, _first_places),
@@ -288,7 +288,7 @@ def _passings(
 
     sheet (m,): the sheets of all curves, and places of curves on them; values: how their points face the eye.
     """
-    own = curves.some(numbers)
+    own = curves.take(numbers)
 
     def facing(curve: Ints, at: Along) -> Floats:
         return _facing(view, sheets, sheet[numbers[curve]], at.points, places(at))
@@ -319,7 +319,7 @@ def _passed(
 
 def _cusps(view: View, sheets: Sheets, curves: Curves, numbers: Ints) -> Events:
     """Where the sight line is an asymptotic direction: the image of the contour has a cusp, its visibility ends."""
-    own = curves.some(numbers)
+    own = curves.take(numbers)
 
     def bending(curve: Ints, at: Along) -> Floats:
         return sheets.bends(own.sheet[curve], at.places, sight_lines.sight(view, at.points))

@@ -17,12 +17,12 @@ from vectorplot.tolerances import GRAZING_ANGLE, LEAST_DIVISOR, LEAST_PART, SAFE
 from vectorplot.visibility.polyhedra.lines import Lines
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.crossings import crossings
+from vectorplot.visibility.smooth.curve_families import StraightLines
 from vectorplot.visibility.smooth.events import Events, all_events, edge_on_curves, facing_of, own_events
-from vectorplot.visibility.smooth.families import StraightLines
 from vectorplot.visibility.smooth.piercings import piercings
 from vectorplot.visibility.smooth.rays import Cells, Samples, Tally, Targets, all_tallies, counts_in_front, targets_of
+from vectorplot.visibility.smooth.scene_curves import TracedScene
 from vectorplot.visibility.smooth.sheets import Sheets
-from vectorplot.visibility.smooth.traced import TracedScene
 from vectorplot.visibility.smooth.traced_curves import ChordParts, Curves, together
 from vectorplot.words import LineKind
 
@@ -151,7 +151,7 @@ class Pieces:
     def __len__(self) -> int:
         return len(self.curve)
 
-    def some(self, which: Ints) -> Pieces:
+    def take(self, which: Ints) -> Pieces:
         """Some of the pieces."""
         begin, end = (self.begin_chord[which], self.begin_part[which]), (self.end_chord[which], self.end_part[which])
         return Pieces(self.curve[which], *begin, *end, self.change.of_rows(which))
@@ -215,7 +215,7 @@ def counted(
     pairs: what the budget has for all sight lines together.
     """
     long = _seen(view, curves, pieces, shortest)
-    samples, clearance = _safest(view, sheets, curves, edges, edge_on, pieces.some(long), shortest)
+    samples, clearance = _safest(view, sheets, curves, edges, edge_on, pieces.take(long), shortest)
     found, unlooked = counts_in_front(view, sheets, targets, samples, pairs)
     safe, taken = np.zeros(len(pieces), dtype=np.bool_), np.zeros(len(pieces), dtype=np.bool_)
     safe[long], taken[long] = clearance > SAFE_IN_IMAGE, True
@@ -259,7 +259,7 @@ def recounted(pieces: Pieces, counts: Counts, again: Pieces, count: Callable[[Pi
     known[number[: len(pieces)]] = np.arange(len(pieces))
     source = known[number[len(pieces) :]]
     new = np.flatnonzero(source < 0)
-    found, old = count(again.some(new)), np.flatnonzero(source >= 0)
+    found, old = count(again.take(new)), np.flatnonzero(source >= 0)
     in_front = all_tallies([counts.in_front.of_rows(source[old]).in_rows(old), found.in_front.in_rows(new)])
     safe, taken = counts.safe[source], counts.taken[source]
     safe[new], taken[new] = found.safe, found.taken
@@ -334,12 +334,12 @@ def _safest(
     clear, all_pieces = np.full(at.shape, -np.inf), np.arange(len(pieces))
 
     def look(which: Ints) -> None:
-        some = pieces.some(which)
+        some = pieces.take(which)
         clear[1:, which] = _clear(view, curves, edges, edge_on, some, at[1:, which], tolerance)
 
     def best(which: Ints) -> Samples:
         place = at[np.argmax(clear[:, which], axis=0), which]
-        chord = _chords_at(pieces.some(which), place)
+        chord = _chords_at(pieces.take(which), place)
         return samples_at(curves, edge_on, chord, place - chord)
 
     clear[0] = _clear(view, curves, edges, edge_on, pieces, at[:1], tolerance)[0]
@@ -490,7 +490,7 @@ def missed_events(
     # From here on nothing else is looked at than what changes.
     which, column = np.nonzero(change)
     item = columns.items_of(piece[which], column)
-    targets = targets.some(np.isin(sheets.item[targets.sheet], np.unique(item)))
+    targets = targets.take(np.isin(sheets.item[targets.sheet], np.unique(item)))
     for _ in range(ROUNDS):
         if not len(row):
             break
@@ -666,7 +666,7 @@ def _as_lines(traced: TracedScene, lines: Lines, curves: Curves, found: HiddenCu
     """The chords of pieces of curves: those of the scene, and after them the straight lines."""
     start, end, chords, behind = cut_curves(traced.sheets, curves, found)
     long = (start != end).any(axis=1) & (chords.end - chords.begin > LEAST_PART)
-    start, end, chords, behind = start[long], end[long], chords.some(long), behind[long]
+    start, end, chords, behind = start[long], end[long], chords.take(long), behind[long]
     chord, curve = chords.chord, curves.owner[chords.chord]
     smooth = curve < len(traced.curves)
     side = np.zeros(len(chord), dtype=np.intp)

@@ -38,7 +38,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
-from vectorplot.visibility.smooth.families import Family, NearChords, SingularCurves, SpatialCurves
+from vectorplot.visibility.smooth.curve_families import Family, NearChords, SingularCurves, SpatialCurves
 from vectorplot.visibility.smooth.sheets import ImplicitSheet
 from vectorplot.visibility.smooth.traced_curves import Curves
 from vectorplot.words import FEATURE_KINDS, LineKind
@@ -181,5 +181,5 @@ def _borders(found: ImplicitCurves, sheet: ImplicitSheet, number: int) -> list[C
                 (plane.offset - float(matmul(view.centre, plane.normal))) / view.scale,
             )
             own = as_spatial_curves(found, LineKind.BOUNDARY, sheet, SpatialCurves(sheet, number, seen))
-            result.append(own.some(here))
-    return [*result, rims.some(np.flatnonzero(left))]
+            result.append(own.take(here))
+    return [*result, rims.take(np.flatnonzero(left))]

@@ -27,8 +27,7 @@ from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.trimmed import is_embedded
 from vectorplot.tolerances import OUTSIDE_DOMAIN
-from vectorplot.visibility.smooth.events import roots_along
-from vectorplot.visibility.smooth.families import (
+from vectorplot.visibility.smooth.curve_families import (
     Along,
     ConditionCurves,
     FaceCurves,
@@ -36,6 +35,7 @@ from vectorplot.visibility.smooth.families import (
     SheetsMeet,
     SpatialCurves,
 )
+from vectorplot.visibility.smooth.events import roots_along
 from vectorplot.visibility.smooth.implicit_items import as_spatial_curves, tracing_in_world
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, ParametricSheet
 from vectorplot.visibility.smooth.traced_curves import Curves, as_curves, no_curves, together

@@ -53,7 +53,7 @@ from vectorplot.surfaces.splines import line_pieces
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.surfaces.trimmed import covered_once, is_embedded, smooth_parts
 from vectorplot.visibility.polyhedra.lines import kinds_of
-from vectorplot.visibility.smooth.families import ConditionCurves, DirectedCurves, ParameterCurves, RimCurves
+from vectorplot.visibility.smooth.curve_families import ConditionCurves, DirectedCurves, ParameterCurves, RimCurves
 from vectorplot.visibility.smooth.sheets import ParametricSheet, parametric_sheets
 from vectorplot.visibility.smooth.traced_curves import Curves, as_curves
 from vectorplot.words import FEATURE_KINDS, LineKind

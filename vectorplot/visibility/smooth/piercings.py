@@ -172,13 +172,13 @@ def _close(
         chord, triangle = _near_each_other(below, above, chord, targets.corners(all_of_it), within[all_of_it])
         if not len(chord):
             continue
-        target = targets.some(all_of_it.start + triangle)
+        target = targets.take(all_of_it.start + triangle)
 
         def look(rows: Ints, target: Targets = target, number: int = number) -> Block[_Close]:
             chord, part, places, reach, looked = _near_triangles(target, curves, rows, image, depth)
             found = _Close(chord, np.full(len(chord), number), part, places, reach)
             kept = _elsewhere(sheets, found.number, curves, chord, part, places, APART_AT_FIRST)
-            return Block(records.some(found, kept), looked, int(kept.sum()))
+            return Block(records.take(found, kept), looked, int(kept.sum()))
 
         found, done = in_blocks(chord, pairs, len(target), look)
         if done < len(chord):
@@ -300,7 +300,7 @@ def _roughly_met(sheets: Sheets, curves: Curves, near: _Close) -> _Close:
         if not len(active):
             break
         of, before = near.number[active], part[active]
-        points, slopes = arcs.some(of_curve[active]).at(before)
+        points, slopes = arcs.take(of_curve[active]).at(before)
         step, places[active], here = sheets.missed(of, points, slopes, places[active])
         away = points - here
         off[active] = np.sqrt(dot(away, away))
@@ -311,14 +311,14 @@ def _roughly_met(sheets: Sheets, curves: Curves, near: _Close) -> _Close:
         active = active[(off[active] > SETTLED_OF_EXTENT) & np.isfinite(places[active]).all(axis=1) & ~led_away]
     met = np.flatnonzero((off <= MODEL_RESIDUAL) & np.isfinite(places).all(axis=1))
     found = _Close(near.chord[met], near.number[met], part[met], places[met], near.reach[met])
-    slopes = arcs.some(of_curve[met]).at(found.part)[1]
+    slopes = arcs.take(of_curve[met]).at(found.part)[1]
     through = dot(slopes, sheets.normals(found.number, found.places)) / np.linalg.norm(slopes, axis=1).clip(
         LEAST_DIVISOR
     )
     kept = ~(np.abs(through) <= ROUGHLY_ALONG_SHEET_SINE)
     kept &= _elsewhere(sheets, found.number, curves, found.chord, found.part, found.places, APART_OF_DOMAIN)
-    found = records.some(found, kept)
-    return records.some(found, once(curves, found.chord, found.part, found.number.astype(np.float64)))
+    found = records.take(found, kept)
+    return records.take(found, once(curves, found.chord, found.part, found.number.astype(np.float64)))
 
 
 def _met(view: View, sheets: Sheets, curves: Curves, near: _Close) -> tuple[Ints, Ints, Floats, Floats]:

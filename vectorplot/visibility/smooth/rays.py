@@ -71,9 +71,9 @@ class Targets:
         """(t,) the sheet of each."""
         return self.triangles.sheet
 
-    def some(self, which: Ints | Bools) -> Targets:
+    def take(self, which: Ints | Bools) -> Targets:
         """Some of the triangles, in their order."""
-        return Targets(records.some(self.triangles, which), self.vertices)
+        return Targets(records.take(self.triangles, which), self.vertices)
 
     def range_of_sheet(self, number: int) -> slice:
         """Where the triangles of one sheet are."""
@@ -82,7 +82,7 @@ class Targets:
 
     def of_sheet(self, number: int) -> Targets:
         """The triangles of one sheet."""
-        return self.some(np.arange(len(self))[self.range_of_sheet(number)])
+        return self.take(np.arange(len(self))[self.range_of_sheet(number)])
 
     def corners(self, which: Ints | slice) -> Floats:
         """(k,3,3) the corners in space of some of the triangles."""
@@ -331,9 +331,9 @@ class Samples:
     def __len__(self) -> int:
         return len(self.points)
 
-    def some(self, which: Ints) -> Samples:
+    def take(self, which: Ints) -> Samples:
         """Some of the points."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     @property
     def own(self) -> tuple[tuple[Ints, Floats, Bools], ...]:
@@ -355,7 +355,7 @@ def counts_in_front(view: View, sheets: Sheets, targets: Targets, samples: Sampl
         def look(rows: Ints, targets: Targets = targets) -> Block[_Found]:
             sample, triangle = targets.near_boxes(image[rows], image[rows])
             close = np.bincount(targets.sheet[triangle], minlength=len(sheets))
-            found = _in_front(view, sheets, targets, samples.some(rows), (sample, triangle))
+            found = _in_front(view, sheets, targets, samples.take(rows), (sample, triangle))
             return Block((rows[found[0]], found[1], close), len(sample), int(close.max(initial=0)))
 
         found, done = in_blocks(rows, pairs, len(targets), look)
@@ -368,7 +368,7 @@ def counts_in_front(view: View, sheets: Sheets, targets: Targets, samples: Sampl
             mine = (samples.sheet[rows] == number) | (samples.second[rows] == number)
             missed = rows[mine | own.may_reach(image[rows], image[rows])]
             unlooked.append(Tally(missed, np.full(len(missed), sheets.item[number]), np.ones_like(missed)))
-            targets = targets.some(targets.sheet != number)
+            targets = targets.take(targets.sheet != number)
     return all_tallies(counts), all_tallies(unlooked)
 
 
@@ -526,4 +526,4 @@ def _different(sheets: Sheets, way: Floats, met: _Met) -> _Met:
         if not same.any():
             break
         order = order[np.concatenate([[True], ~same])]
-    return records.some(met, order)
+    return records.take(met, order)

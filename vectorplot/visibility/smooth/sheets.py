@@ -15,7 +15,7 @@ from vectorplot.features.conditions import MOST_PARAMETERS, stacks
 from vectorplot.features.hole_rims import cut_at_holes
 from vectorplot.features.holes import along_rims, into_surface, is_known, wrapped
 from vectorplot.features.implicit_meshes import ImplicitMesh, mesh_with_lines
-from vectorplot.features.implicit_singular_lines import CuspidalEdges, singular_lines, usual_gradient
+from vectorplot.features.implicit_singular_lines import CuspidalEdges, default_gradient, singular_lines
 from vectorplot.features.implicit_surfaces import polygonized, sides_of
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
 from vectorplot.geometry.vectors import cross, dot, from_components, norm
@@ -379,7 +379,7 @@ def fineness(surfaces: StackedSurfaces) -> tuple[Ints, Ints, Floats]:
     while len(active):
         for some in alike(columns[active], rows[active]):
             own = active[some]
-            across[own], along[own] = _sags(surfaces.some(own), int(columns[own[0]]), int(rows[own[0]]))
+            across[own], along[own] = _sags(surfaces.take(own), int(columns[own[0]]), int(rows[own[0]]))
         sag[active] = np.maximum(across, along)[active]
         vain[active] += (sag > VAIN * best)[active]
         best[active] = np.minimum(best, sag)[active]
@@ -468,7 +468,7 @@ def parametric_sheets(
         stack = StackedSurfaces.of([surfaces[k] for k in part.tolist()])
         columns, rows, sag = fineness(stack)
         for own in alike(columns, rows):
-            grids = _Grids.of(stack.some(own), int(columns[own[0]]), int(rows[own[0]]), sag[own])
+            grids = _Grids.of(stack.take(own), int(columns[own[0]]), int(rows[own[0]]), sag[own])
             for row, number in enumerate(part[own].tolist()):
                 sheets[number] = grids.sheet(row, surfaces[number], items[number], hides[number])
     return [sheets[number] for number in range(len(surfaces))]
@@ -625,7 +625,7 @@ class ImplicitSheet:
     @cached_property
     def least(self) -> float:
         """The length of gradients that are rounding: at singular points."""
-        return NOISE_OF_GRADIENT * usual_gradient(self.surface, self.vertices)
+        return NOISE_OF_GRADIENT * default_gradient(self.surface, self.vertices)
 
     def moved(self, places: Floats, steps: Floats) -> Floats:
         """(k,3) the places that small tangential steps lead to."""

@@ -14,12 +14,12 @@ from vectorplot.curves.bezier import bernstein, cubic_error, places
 from vectorplot.features.curve_tracing import SurfaceCurves
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, closed_round, joined, some
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, closed_round, joined, take
 from vectorplot.geometry.vectors import all_components, all_finite, any_component, dot, from_components
 from vectorplot.scene.view import View
 from vectorplot.tolerances import BESIDE_STANDSTILL, LEAST_DIVISOR
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.families import (
+from vectorplot.visibility.smooth.curve_families import (
     Along,
     Chords,
     ConditionCurves,
@@ -111,7 +111,7 @@ class Curves:
         inner = np.flatnonzero((part > 0.0) & (part < 1.0))
         if len(inner):
             late = part[inner] > 0.5
-            whole, to = self.chords_from(chord[inner]), found.some(inner)
+            whole, to = self.chords_from(chord[inner]), found.take(inner)
             second = np.where(np.isfinite(to.second_places), to.second_places, whole.second_places[0])
             shorter = Chords(
                 _with_end(whole.places, to.places, late),
@@ -154,9 +154,9 @@ class Curves:
         )
         return Chords(places, points, second, self.level[self.owner[begin]])
 
-    def some(self, which: Ints) -> Curves:
+    def take(self, which: Ints) -> Curves:
         """Some of the curves."""
-        return some(self, which)
+        return take(self, which)
 
 
 def at_once(asked: Sequence[tuple[Curves, Ints, Floats]]) -> list[Along]:
@@ -174,7 +174,7 @@ def at_once(asked: Sequence[tuple[Curves, Ints, Floats]]) -> list[Along]:
     chords = joined_chords([curves.chords_from(chord) for curves, chord, _ in asked])
     found = _between(families, chords, np.concatenate(of), np.concatenate([part for _, _, part in asked]))
     ends = np.cumsum([0, *(len(chord) for _, chord, _ in asked)]).tolist()
-    return [found.some(slice(first, end)) for first, end in pairwise(ends)]
+    return [found.take(slice(first, end)) for first, end in pairwise(ends)]
 
 
 def _between(families: Sequence[Family], chords: Chords, family: Ints, part: Floats) -> Along:
@@ -184,7 +184,7 @@ def _between(families: Sequence[Family], chords: Chords, family: Ints, part: Flo
     numbers = np.flatnonzero(np.bincount(family)).tolist()
     for number in numbers:
         which = np.flatnonzero(family == number) if len(numbers) > 1 else slice(None)
-        found = families[number].between(chords.some(which), part[which])
+        found = families[number].between(chords.take(which), part[which])
         places[which], points[which], slopes[which] = found.places, found.points, found.slopes
         if len(found.second_places):
             second[which] = found.second_places
@@ -289,7 +289,7 @@ class ChordParts:
     begin: Floats
     end: Floats
 
-    def some(self, which: Ints | Bools) -> ChordParts:
+    def take(self, which: Ints | Bools) -> ChordParts:
         """That of some of the lines."""
         return ChordParts(self.sheets, self.curves, self.chord[which], self.begin[which], self.end[which])
 
@@ -317,7 +317,7 @@ class ChordParts:
         one, two = self.curves.sheet[curve], self.curves.second_sheet[curve]
         side = covered_sides(view, self.sheets, one, kind, at.points, at.places, at.slopes)
         rim = np.flatnonzero(two >= 0)
-        edge, both = at.some(rim), (one[rim], two[rim])
+        edge, both = at.take(rim), (one[rim], two[rim])
         places = (edge.places, edge.second_places)
         side[rim] = sides_of_rims(view, self.sheets, both, edge.points, places, edge.slopes)
         result[on] = side

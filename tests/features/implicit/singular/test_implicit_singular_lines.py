@@ -14,7 +14,7 @@ from vectorplot.features.implicit_surfaces import polygonized
 from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.geometry.polylines import Polylines
 from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_slots import Formulas, formula_implicit
+from vectorplot.io.shape_arguments import Formulas, formula_implicit
 from vectorplot.surfaces.placed_surface import PlacedImplicit
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.testing.shapes import rotation

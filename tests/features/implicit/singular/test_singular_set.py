@@ -6,7 +6,7 @@ from vectorplot.features.facets import facets
 from vectorplot.features.implicit_singular_lines import led_into_lines, led_into_singular_set, singular_lines
 from vectorplot.features.implicit_surfaces import polygonized, settled_mesh
 from vectorplot.io.expressions import parse_expression
-from vectorplot.io.scene_slots import Formulas, formula_implicit
+from vectorplot.io.shape_arguments import Formulas, formula_implicit
 from vectorplot.surfaces.implicit import ImplicitFunction
 
 BOX = np.array([[-1.0, -1.0, -1.0], [1.0, 1.0, 1.0]])

@@ -9,7 +9,7 @@ from vectorplot.features.edge_splitting import Within
 from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.fineness import faceted
+from vectorplot.shading.facet_resolution import faceted
 from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
 

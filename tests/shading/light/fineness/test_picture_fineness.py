@@ -22,7 +22,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import allowed_in_space, default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.fineness import SHADE_ERROR, Nearby, picture_fineness
+from vectorplot.shading.facet_resolution import SHADE_ERROR, Nearby, picture_fineness
 from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain

@@ -17,8 +17,8 @@ from vectorplot.testing.shapes import box, numbered, scene_of, torus_mesh
 from vectorplot.textbook.orders import graph_order, graph_triangles, ring_order, sliced_meridian
 from vectorplot.visibility.painter.cuts import cut_into_slices, eye_coordinate, slice_order, sliced_order
 from vectorplot.visibility.painter.image_faces import image_faces, image_points, polygons_of
-from vectorplot.visibility.painter.mikado import Precedence
 from vectorplot.visibility.painter.painters_order import painters_order
+from vectorplot.visibility.painter.topological_order import Precedence
 
 
 def graph_mesh(x, y, heights):

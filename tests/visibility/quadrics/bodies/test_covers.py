@@ -13,7 +13,7 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.capped_bodies import ball_of
 from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
 from vectorplot.visibility.quadrics.bodies import balls_of
-from vectorplot.visibility.quadrics.covers import ball_covers, disc_boxes
+from vectorplot.visibility.quadrics.occlusion_volumes import ball_occlusion_volumes, disc_boxes
 
 
 def balls_at(shapes, camera):
@@ -46,7 +46,7 @@ def test_boxes_of_outlines_are_reached_and_not_left_however_small(camera, size):
 @pytest.mark.parametrize("camera", CAMERAS[:2])
 def test_forms_are_positive_in_what_is_hidden_and_nowhere_else(camera):
     balls = balls_at([Ellipsoid((1.0, 2.0, 0.5), (1, 1, 0)), Sphere(1.5, (-2, 0, 0))], camera)
-    behind, inside = ball_covers(balls, np.arange(2))
+    behind, inside = ball_occlusion_volumes(balls, np.arange(2))
     reach, centre = balls.reach.max(), balls.centre.mean(axis=0)
     points = centre + np.random.default_rng(2).uniform(-4.0, 4.0, (20000, 3)) * reach
     for k in range(2):

@@ -11,7 +11,7 @@ from support.smooth_parts import around, ball_from_above, polylines
 from vectorplot.geometry.budget import USUAL
 from vectorplot.visibility.smooth import crossings as crossings_room
 from vectorplot.visibility.smooth.crossings import crossings
-from vectorplot.visibility.smooth.families import ParameterCurves
+from vectorplot.visibility.smooth.curve_families import ParameterCurves
 from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.words import LineKind
 

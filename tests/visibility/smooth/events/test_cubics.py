@@ -12,7 +12,7 @@ def test_hermites_arc_is_the_cubic_with_these_ends() -> None:
     # p(t) = (t, t^2, t^3) and its derivatives (1, 2t, 3t^2).
     arc = Cubics.between(*(np.array([x]) for x in ([0.0, 0, 0], [1.0, 1, 1], [1.0, 0, 0], [1.0, 2, 3])))
     t = np.array([0.0, 0.3, 1.0, 1.2])
-    points, slopes = arc.some(np.zeros(4, dtype=np.intp)).at(t)
+    points, slopes = arc.take(np.zeros(4, dtype=np.intp)).at(t)
     assert np.allclose(points, np.stack([t, t**2, t**3], axis=1))
     assert np.allclose(slopes, np.stack([np.ones(4), 2.0 * t, 3.0 * t**2], axis=1))
 

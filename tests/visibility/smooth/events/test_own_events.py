@@ -15,11 +15,11 @@ from vectorplot.scene.view import look
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.tori import Torus
+from vectorplot.visibility.smooth.curve_families import ParameterCurves
 from vectorplot.visibility.smooth.events import edge_on_curves, facing_of, own_events
-from vectorplot.visibility.smooth.families import ParameterCurves
 from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
+from vectorplot.visibility.smooth.scene_curves import scene_sheets, traced_scene
 from vectorplot.visibility.smooth.sheets import Sheets
-from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 
@@ -81,7 +81,7 @@ def test_cusps_of_a_torus_come_in_pairs_that_begin_and_end_two_sheets() -> None:
     view = look(scene, Camera((0.0, -12.0, 5.0), (0.0, 0.0, 0.0), parallel=True))
     sheets = scene_sheets(scene, view)
     contour = traced_scene(scene, view, sheets, frozenset(map(LineKind.from_word, DRAWN)), 1e-4).edges
-    contour = contour.some(np.flatnonzero(contour.kind == LineKind.CONTOUR))
+    contour = contour.take(np.flatnonzero(contour.kind == LineKind.CONTOUR))
     facing = facing_of(view, Sheets(sheets), contour)
     found = own_events(view, Sheets(sheets), contour, facing, np.ones(len(contour), dtype=np.bool_))
     assert sorted(found.change.tolist()) == [-1, -1, 1, 1]

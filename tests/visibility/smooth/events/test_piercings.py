@@ -13,8 +13,8 @@ from vectorplot.scene.view import View, look
 from vectorplot.surfaces import Domain, surface_of_function
 from vectorplot.visibility.smooth.piercings import piercings
 from vectorplot.visibility.smooth.rays import targets_of
+from vectorplot.visibility.smooth.scene_curves import TracedScene, scene_sheets, traced_scene
 from vectorplot.visibility.smooth.sheets import Sheets
-from vectorplot.visibility.smooth.traced import TracedScene, scene_sheets, traced_scene
 from vectorplot.visibility.smooth.traced_curves import Curves
 
 

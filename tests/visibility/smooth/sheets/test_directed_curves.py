@@ -6,7 +6,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.surfaces import Domain, Sphere, surface_of_function
-from vectorplot.visibility.smooth.families import Chords, DirectedCurves
+from vectorplot.visibility.smooth.curve_families import Chords, DirectedCurves
 from vectorplot.visibility.smooth.sheets import parametric_sheet
 
 

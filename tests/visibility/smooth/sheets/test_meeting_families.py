@@ -15,7 +15,7 @@ from vectorplot.surfaces.quadrics import Cylinder, Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.smooth.meetings import meetings
-from vectorplot.visibility.smooth.traced import scene_sheets
+from vectorplot.visibility.smooth.scene_curves import scene_sheets
 from vectorplot.visibility.smooth.traced_curves import Curves
 
 CAMERA = Camera((5.0, -7.0, 4.0))

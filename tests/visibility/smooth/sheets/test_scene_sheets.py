@@ -14,8 +14,8 @@ from vectorplot.scene.view import View, look
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import Cylinder, Paraboloid
 from vectorplot.surfaces.tori import ImplicitTorus, Torus
+from vectorplot.visibility.smooth.scene_curves import scene_sheets, traced_scene
 from vectorplot.visibility.smooth.sheets import Sheet, Sheets
-from vectorplot.visibility.smooth.traced import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind
 
 SHAPES = (

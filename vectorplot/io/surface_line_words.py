@@ -114,7 +114,7 @@ def read_level_lines(words: Words, at: int, owner: str, draft: CurveDraft) -> tu
 
 def read_surface_curve(words: Words, at: int, owner: str, draft: CurveDraft) -> tuple[CurveDraft, int]:
     """Two formulas in t, u and v of a curve on the surface, and the range of t."""
-    from vectorplot.io.scene_slots import read_formulas, read_numbers
+    from vectorplot.io.shape_arguments import read_formulas, read_numbers
 
     start = at
     formulas, at = read_formulas(2, "t")(words, at + 1, owner, "surface_curve")
@@ -132,7 +132,7 @@ def read_integral_lines(
     words: Words, at: int, owner: str, draft: CurveDraft, kind: str | None
 ) -> tuple[CurveDraft, int]:
     """Integral curves: of a field of directions, or geodesics; kind: of the item, where that was said already."""
-    from vectorplot.io.scene_integral import read_integral
+    from vectorplot.io.integral_line_words import read_integral
 
     smooth = (kind or _kind_ahead(words, at)) in ("surface", "curve")
     lines, after = read_integral(words, at, owner, draft.lines.integral, ON_SURFACES if smooth else ON_MESHES)

@@ -17,12 +17,12 @@ from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import Floats32, Grid
 from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP, Balls, CappedBodies, EyeCoordinates, across
 from vectorplot.visibility.quadrics.conic_arcs import OwnSides, Pieces, packed_box
-from vectorplot.visibility.smooth.families import Along, Chords, Family
+from vectorplot.visibility.smooth.curve_families import Along, Chords, Family
 from vectorplot.visibility.smooth.traced_curves import Curves
 
 
 @dataclass(frozen=True, eq=False)
-class Covers:
+class OcclusionVolumes:
     """Regions of space in which everything is hidden.
 
     Cover k hides the points X = (x,y,z,1) with linear[j,:,k].X > 0 for all j and, if there are squares, with
@@ -44,7 +44,7 @@ class Covers:
         return len(self.body)
 
 
-def ball_covers(balls: Balls, which: Ints) -> tuple[Covers, Covers]:
+def ball_occlusion_volumes(balls: Balls, which: Ints) -> tuple[OcclusionVolumes, OcclusionVolumes]:
     """What balls hide: all beyond their polar planes inside their outlines, and what is inside of them.
 
     The inside is taken whole, for a curve that pierces the ball near its contour would slip between two halves.
@@ -54,9 +54,9 @@ def ball_covers(balls: Balls, which: Ints) -> tuple[Covers, Covers]:
     return _behind(balls, which, contours, box), _inside(balls, which, box)
 
 
-def _behind(balls: Balls, which: Ints, contours: tuple[Floats, Floats, Floats], box: Floats32) -> Covers:
+def _behind(balls: Balls, which: Ints, contours: tuple[Floats, Floats, Floats], box: Floats32) -> OcclusionVolumes:
     middle, first, second = contours
-    return Covers(
+    return OcclusionVolumes(
         -balls.polar_planes(which).T[None],
         outlines(balls.sight, contours),
         _slack(balls, which),
@@ -80,7 +80,7 @@ def outlines(sight: EyeCoordinates, discs: tuple[Floats, Floats, Floats]) -> Flo
     return squares
 
 
-def _inside(balls: Balls, which: Ints, box: Floats32) -> Covers:
+def _inside(balls: Balls, which: Ints, box: Floats32) -> OcclusionVolumes:
     squares = np.zeros((4, 4, len(which)))
     squares[0, 3] = 1.0
     inverse, centre = balls.inverse[which], balls.centre[which]
@@ -89,7 +89,7 @@ def _inside(balls: Balls, which: Ints, box: Floats32) -> Covers:
     depth, reach = centre[:, 2], balls.reach[which, 2]
     none = np.zeros((0, 4, len(which)))
     item = balls.item[which]
-    return Covers(none, squares, _slack(balls, which), which, item, box, depth - reach, depth + reach)
+    return OcclusionVolumes(none, squares, _slack(balls, which), which, item, box, depth - reach, depth + reach)
 
 
 def _seen(sight: EyeCoordinates, part: Floats, weight: float) -> Floats:
@@ -130,7 +130,7 @@ for it."""
 _ALWAYS = np.array([0.0, 0.0, 0.0, 1.0])
 
 
-def capped_covers(bodies: CappedBodies, which: Ints) -> tuple[Covers, ...]:
+def capped_occlusion_volumes(bodies: CappedBodies, which: Ints) -> tuple[OcclusionVolumes, ...]:
     """What bodies hide: all behind their caps, all behind their sections with their polar planes, and what is inside.
 
     The outline of a body consists of contours, which lie in the polar plane, and of rims: so its image is that of the
@@ -148,7 +148,7 @@ def capped_covers(bodies: CappedBodies, which: Ints) -> tuple[Covers, ...]:
     return tuple(some for some in found if len(some))
 
 
-def _behind_caps(bodies: CappedBodies, which: Ints, end: int) -> Covers:
+def _behind_caps(bodies: CappedBodies, which: Ints, end: int) -> OcclusionVolumes:
     """All that is beyond a cap, seen through it; one that is seen edge-on hides nothing."""
     which = which[bodies.has_cap[which, end]]
     rims = bodies.rims(which, end)
@@ -159,7 +159,7 @@ def _behind_caps(bodies: CappedBodies, which: Ints, end: int) -> Covers:
     out = bodies.outside_of_cap(which, end)
     beyond = np.where(bodies.faces_eye[which, end][:, None], -out, out)
     size = np.minimum(np.sqrt(dot(first, first)), np.sqrt(dot(second, second)))
-    return Covers(
+    return OcclusionVolumes(
         beyond.T[None],
         squares,
         _slack_of_capped(bodies, size),
@@ -212,7 +212,7 @@ def ball_contours(bodies: CappedBodies, which: Ints) -> tuple[Floats, Floats, Fl
     return bodies.centre[which] + middle, p, q
 
 
-def _behind_frusta(bodies: CappedBodies, which: Ints, box: Floats32) -> Covers:
+def _behind_frusta(bodies: CappedBodies, which: Ints, box: Floats32) -> OcclusionVolumes:
     """All behind the quadrilaterals between the two rulings that are the contour."""
     turn, reach = bodies.turn[0][which], bodies.turn[1][which, BOTTOM]
     seen = (reach > 0.0) & (reach < np.pi)
@@ -227,7 +227,7 @@ def _behind_frusta(bodies: CappedBodies, which: Ints, box: Floats32) -> Covers:
     return _cover(bodies, which, box, np.stack(linear).transpose(0, 2, 1), none, np.zeros(len(which)))
 
 
-def _behind_parts(bodies: CappedBodies, which: Ints, box: Floats32) -> Covers:
+def _behind_parts(bodies: CappedBodies, which: Ints, box: Floats32) -> OcclusionVolumes:
     """All behind the parts of discs that the polar planes cut out of parts of balls."""
     contours = ball_contours(bodies, which)
     squares = outlines(bodies.sight, contours)
@@ -264,7 +264,7 @@ def _of_balls(bodies: CappedBodies, which: Ints) -> Floats:
     return forms
 
 
-def _inside_capped(bodies: CappedBodies, which: Ints, box: Floats32, unit: Floats) -> Covers:
+def _inside_capped(bodies: CappedBodies, which: Ints, box: Floats32, unit: Floats) -> OcclusionVolumes:
     """What is inside of bodies, and what lies in a cap that is turned away."""
     linear = []
     for end in (BOTTOM, TOP):
@@ -282,9 +282,13 @@ def _inside_capped(bodies: CappedBodies, which: Ints, box: Floats32, unit: Float
     return replace(found, farthest=bodies.reach[which, 1, 2])
 
 
-def _cover(bodies: CappedBodies, which: Ints, box: Floats32, linear: Floats, squares: Floats, slack: Floats) -> Covers:
+def _cover(
+    bodies: CappedBodies, which: Ints, box: Floats32, linear: Floats, squares: Floats, slack: Floats
+) -> OcclusionVolumes:
     nearest = bodies.reach[which, 0, 2]
-    return Covers(linear, squares, slack, which, bodies.item[which], box, nearest, np.full(len(which), np.inf))
+    return OcclusionVolumes(
+        linear, squares, slack, which, bodies.item[which], box, nearest, np.full(len(which), np.inf)
+    )
 
 
 def _smallest(bodies: CappedBodies, which: Ints) -> Floats:
@@ -349,17 +353,20 @@ class Bodies:
         first, last = (np.searchsorted(self.same[hiding], self.same[which], side) for side in ("left", "right"))
         return ragged.owner(last - first), hiding[ragged.ranges(first, last - first)]
 
-    def covers(self, which: Ints) -> tuple[Covers, ...]:
+    def covers(self, which: Ints) -> tuple[OcclusionVolumes, ...]:
         """What bodies hide, by their kinds; covers of kinds that the scene lacks are not among them."""
         count = len(self.balls)
-        capped = capped_covers(self.capped, which[which >= count] - count)
-        every = [*ball_covers(self.balls, which[which < count]), *(replace(c, body=c.body + count) for c in capped)]
+        capped = capped_occlusion_volumes(self.capped, which[which >= count] - count)
+        every = [
+            *ball_occlusion_volumes(self.balls, which[which < count]),
+            *(replace(c, body=c.body + count) for c in capped),
+        ]
         return tuple(some for some in every if len(some))
 
-    def some(self, which: Bools) -> Bodies:
+    def take(self, which: Bools) -> Bodies:
         """Some of the bodies, those of a mask (n,)."""
         count = len(self.balls)
-        return Bodies(self.balls.some(which[:count]), self.capped.some(which[count:]))
+        return Bodies(self.balls.take(which[:count]), self.capped.take(which[count:]))
 
 
 # Which pieces of arcs could be hidden by which covers: those whose boxes overlap in the image, front to back.
@@ -371,7 +378,7 @@ TOUCHES_AT_ONCE, PAIRS_AT_ONCE = 1 << 16, 1 << 14
 """Cells of pieces looked up at once, and pairs handed over at once: these stay in the processor's cache."""
 
 
-def typical_size(covers: tuple[Covers, ...]) -> float:
+def typical_size(covers: tuple[OcclusionVolumes, ...]) -> float:
     """The size in the image of what hides, the median; 1 where nothing has one."""
     sizes = np.concatenate([np.zeros(0), *(_sizes(some.box) for some in covers)])
     sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]
@@ -393,7 +400,9 @@ def grid_of(pieces: Pieces, typical: float) -> Grid:
     return Grid.over((left, right, bottom, top), max(typical, extent / FINEST))
 
 
-def close_pairs(grid: Grid, pieces: Pieces, alive: Bools, covers: Covers, slab: Ints) -> Iterator[tuple[Ints, Ints]]:
+def close_pairs(
+    grid: Grid, pieces: Pieces, alive: Bools, covers: OcclusionVolumes, slab: Ints
+) -> Iterator[tuple[Ints, Ints]]:
     """Blocks (piece, cover) of pieces that are alive and covers of a slab whose boxes overlap, each pair once.
 
     alive (p,) is looked at anew for each block.

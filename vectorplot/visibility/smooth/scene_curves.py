@@ -14,7 +14,7 @@ from vectorplot.features.curve_tracing import Tracing
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget, unheard
-from vectorplot.geometry.chord_refinement import Traces, narrowed, refined, straight_between, with_standstills
+from vectorplot.geometry.chord_refinement import Traces, bisected, refined, straight_between, with_standstills
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -22,7 +22,7 @@ from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances import SETTLED_ON_SHEET, ZERO_OF_EXTENT
 from vectorplot.visibility.polyhedra.lines import items_wanting, kinds_of
 from vectorplot.visibility.smooth import sight_lines
-from vectorplot.visibility.smooth.families import Along, Chords, ParameterCurves, inner_part
+from vectorplot.visibility.smooth.curve_families import Along, Chords, ParameterCurves, inner_part
 from vectorplot.visibility.smooth.implicit_items import curves_of_implicit
 from vectorplot.visibility.smooth.meetings import SmoothSheet, meetings
 from vectorplot.visibility.smooth.parametric_items import (
@@ -66,12 +66,12 @@ def with_rims(view: View, sheets: tuple[SmoothSheet, ...], number: int, parts: S
         v = part.places[part.offsets[:-1], 1] if len(part) else np.zeros(0)
         along = part.places[part.offsets[1:] - 1, 1] if len(part) else v
         rim = (part.kind == LineKind.BOUNDARY) & (v == along) & np.isin(v, sheet.creases)
-        result.append(part.some(np.flatnonzero(~rim)))
+        result.append(part.take(np.flatnonzero(~rim)))
         own = rim & (v == sheet.surface.domain.v_end)
         if own.any():
             other = sheets[number + 1]
             assert isinstance(other, ParametricSheet)
-            curves = _cut(view, sheet, other, part.some(np.flatnonzero(own)))
+            curves = _cut(view, sheet, other, part.take(np.flatnonzero(own)))
             families = tuple(Rims(sheet, family.sheet, number + 1) for family in curves.families)
             second = np.full(len(curves), number + 1)
             result.append(replace(curves, families=families, second_places=curves.places, second_sheet=second))
@@ -93,7 +93,7 @@ def _cut(view: View, one: ParametricSheet, other: ParametricSheet, curves: Curve
     def goes_on(which: Ints, part: Floats) -> Bools:
         return np.asarray(outline(start[which] + part[:, None] * way[which]) == there[chord[which]])
 
-    last, _ = narrowed(goes_on, np.zeros(len(chord)), np.ones(len(chord)), HALVINGS)
+    last, _ = bisected(goes_on, np.zeros(len(chord)), np.ones(len(chord)), HALVINGS)
     places = start + last[:, None] * way
     points = one.points(places)
     return _pieces(curves, chord, places, points, there)
@@ -122,7 +122,7 @@ def _pieces(curves: Curves, chord: Ints, places: Floats, points: Floats, outline
         return np.insert(values, after, np.repeat(new, 2, axis=0), axis=0)
 
     return replace(
-        curves.some(of),
+        curves.take(of),
         points=put(curves.points, points),
         places=put(curves.places, places),
         second_places=put(curves.second_places, np.full_like(places, np.nan)),
@@ -388,7 +388,7 @@ def _of_kinds(parts: Sequence[Curves], kinds: Collection[LineKind]) -> list[Curv
     among = np.zeros(len(LineKind), dtype=np.bool_)
     among[list(kinds)] = True
     chosen = [(part, among[part.kind]) for part in parts if len(part)]
-    return [part if wanted.all() else part.some(np.flatnonzero(wanted)) for part, wanted in chosen if wanted.any()]
+    return [part if wanted.all() else part.take(np.flatnonzero(wanted)) for part, wanted in chosen if wanted.any()]
 
 
 def tracing_of(view: View, tolerance: float, budget: Budget = USUAL) -> Tracing:
@@ -402,7 +402,7 @@ def _with_images(view: View, curves: Curves) -> Curves:
         return curves
     image, first = _picture(view, curves.points), curves.offsets[:-1]
     extent = np.maximum.reduceat(image, first) - np.minimum.reduceat(image, first)
-    return curves.some(np.flatnonzero((extent > view.tolerance).any(axis=1)))
+    return curves.take(np.flatnonzero((extent > view.tolerance).any(axis=1)))
 
 
 def _picture(view: View, points: Floats) -> Floats:

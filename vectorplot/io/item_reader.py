@@ -10,21 +10,6 @@ import numpy as np
 
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.named_files import NamedFiles
-from vectorplot.io.scene_curves import (
-    CurveDraft,
-    read_detail,
-    read_integral_lines,
-    read_isophote_edges,
-    read_isophotes,
-    read_level_lines,
-    read_parameter_lines,
-    read_sections,
-    read_slices,
-    read_smooth_contours,
-    read_smooth_lines,
-    read_surface_curve,
-    read_terrain_lines,
-)
 from vectorplot.io.scene_item import (
     CAP_WORDS,
     Draft,
@@ -45,6 +30,21 @@ from vectorplot.io.scene_words import (
     SOLID_WORDS,
     TERRAIN_WORDS,
     Words,
+)
+from vectorplot.io.surface_line_words import (
+    CurveDraft,
+    read_detail,
+    read_integral_lines,
+    read_isophote_edges,
+    read_isophotes,
+    read_level_lines,
+    read_parameter_lines,
+    read_sections,
+    read_slices,
+    read_smooth_contours,
+    read_smooth_lines,
+    read_surface_curve,
+    read_terrain_lines,
 )
 from vectorplot.scene.item import Pattern
 from vectorplot.scene.material import FINISH_WORDS, Material
@@ -674,7 +674,7 @@ class ItemReader(ItemCursor):
     def _named_shape(self, draft: Draft, word: str) -> None:
         """An error for a surface or a curve without the word that says which of them it is."""
         # Surfaces and curves are loaded for scenes that name one, and where a word is none that is known.
-        from vectorplot.io.scene_families import CURVES, SURFACES
+        from vectorplot.io.named_shapes import CURVES, SURFACES
 
         if word.lower() in OTHERWISE:
             self.fail(f"there is no '{word}': {OTHERWISE[word.lower()]}", draft)

@@ -24,8 +24,8 @@ from vectorplot.features.tangent_fields import (
     VectorField,
     loxodromes,
 )
-from vectorplot.io.scene_slots import Formulas, read_formulas, read_number, read_numbers
 from vectorplot.io.scene_words import Words
+from vectorplot.io.shape_arguments import Formulas, read_formulas, read_number, read_numbers
 from vectorplot.scene.surface_lines import (
     MOST_STARTS,
     ON_MESHES,

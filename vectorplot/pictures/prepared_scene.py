@@ -14,7 +14,7 @@ from vectorplot.errors import InputWarning
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
-from vectorplot.pictures.pipeline import StageReport, Walk
+from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import plan_cuts
 from vectorplot.scene.annotations import LabelAnchors, label_anchors
 from vectorplot.scene.exploded import shown_apart
@@ -44,7 +44,7 @@ class Paper:
 
 
 @dataclass(frozen=True, eq=False)
-class Subject:
+class PreparedScene:
     """What is seen of a scene, without seams, and from where; what labels name in the scene as it was given; and the
     chart that its colouring and its box make of it, if it has one of these."""
 
@@ -64,7 +64,7 @@ class Subject:
         return placement if self.chart is None else self.chart.around(placement, view, page, border, mm)
 
 
-def subject_of(
+def prepared_scene(
     scene: object,
     camera: Camera | str | None,
     paper: Paper,
@@ -75,7 +75,7 @@ def subject_of(
     exposure: Exposure | None = None,
     background: str | None = None,
     depth_cue: DepthCue | str | None = None,
-) -> Subject:
+) -> PreparedScene:
     """What a picture of anything that has a shape is of. paper: what it goes on; lights, exposure, background,
     depth_cue: in place of those of the scene.
 
@@ -90,7 +90,7 @@ def subject_of(
     seamless = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(seamless)
     anchors, seen_from = label_anchors(given), camera_of(camera, seamless)
-    return Subject(_seen_part(seamless, seen_from, paper, explain, progress), seen_from, anchors, chart)
+    return PreparedScene(_seen_part(seamless, seen_from, paper, explain, progress), seen_from, anchors, chart)
 
 
 def _chart_of(scene: Scene, camera: Camera | str | None, paper: Paper) -> Scaled | None:
@@ -110,15 +110,15 @@ def _seen_part(
     progress: Callable[[str, float], None] | None,
 ) -> Scene:
     """What cuts, and the camera's near and far plane, leave of a scene."""
-    walk = Walk(plan_cuts(scene, camera), explain, progress)
-    if walk.calls_for("cuts"):
+    pipeline = Pipeline(plan_cuts(scene, camera), explain, progress)
+    if pipeline.calls_for("cuts"):
         from vectorplot.effects.cuts import cut_scene
 
-        scene = walk.run("cuts", cut_scene, scene, camera, paper.seen_from(camera))
-    if walk.calls_for("near and far"):
+        scene = pipeline.run("cuts", cut_scene, scene, camera, paper.seen_from(camera))
+    if pipeline.calls_for("near and far"):
         from vectorplot.effects.cuts import between_planes
 
-        scene = walk.run("near and far", between_planes, scene, camera)
+        scene = pipeline.run("near and far", between_planes, scene, camera)
     return scene
 
 

@@ -22,7 +22,7 @@ from vectorplot.features.edge_splitting import (
     NONE,
     Allowed,
     AllSidesAlike,
-    Demand,
+    Criterion,
     Edges,
     off_chords,
     surface_numbers,
@@ -67,7 +67,7 @@ class FacetedScene:
         return cls(scene, tuple(_normals_of(item) for item in scene.items))
 
 
-def faceted(scene: Scene, demand: Callable[[int], Demand], budget: Budget = USUAL) -> FacetedScene:
+def faceted(scene: Scene, demand: Callable[[int], Criterion], budget: Budget = USUAL) -> FacetedScene:
     """The scene with meshes in place of smooth surfaces. demand: how fine the triangles of an item have to be, by its
     number; budget: how many there may be. An InputWarning names the items for which it did not do.
 
@@ -282,7 +282,7 @@ SAMPLES_BETWEEN = 2.0 / 3.0
 @dataclass(frozen=True)
 class Coarse(AllSidesAlike):
     """Triangles that are no farther than a distance from their surface, each of one or several, whatever is seen of
-    them, as features.edge_splitting.Demand."""
+    them, as features.edge_splitting.Criterion."""
 
     distances: tuple[float, ...]
 
@@ -297,7 +297,7 @@ class Coarse(AllSidesAlike):
         return cls(tuple(chain(*(some.distances for some in asked))))
 
     def excess(self, edges: Edges) -> Floats:
-        """(k,n) as Demand."""
+        """(k,n) as Criterion."""
         distance = np.array(self.distances)[surface_numbers(edges.start.places)]
         return np.asarray(off_chords(edges) / (INSIDE * distance))
 
@@ -418,7 +418,7 @@ SHORTEST = 4.0
 @dataclass(frozen=True, eq=False)
 class PictureFineness:
     """What a picture asks of the triangles of one item, or of several of one finish, whose numbers here are those of
-    the surfaces that places are on, as features.edge_splitting.Demand.
+    the surfaces that places are on, as features.edge_splitting.Criterion.
 
     Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance;
     shades along sides within shade_error, a part of their palette. Surfaces fold over where sight rays and light rays
@@ -462,7 +462,7 @@ class PictureFineness:
         return np.stack([np.einsum("ij,ij->i", ways, towards(places, source)) for source in sources])
 
     def excess(self, edges: Edges) -> Floats:
-        """(k,n) as Demand."""
+        """(k,n) as Criterion."""
         allowed = self.allowed(edges.at.points)
         seen = (edges.fold != NONE) & (edges.fold < self.outlines)
         deep = np.where(seen, allowed, self._apart_from_others(edges, allowed, self._deep(edges) * allowed))
@@ -471,7 +471,7 @@ class PictureFineness:
         return np.where(self._long(edges, allowed), found, 0.0)
 
     def too_coarse(self, edges: Edges) -> Floats:
-        """(k,n) as Demand. Other items are far to seek: they are looked for where that tells, as far as it does."""
+        """(k,n) as Criterion. Other items are far to seek: they are looked for where that tells, as far as it does."""
         allowed = self.allowed(edges.at.points)
         seen = (edges.fold != NONE) & (edges.fold < self.outlines)
         long, off, unlike = self._long(edges, allowed), off_chords(edges), self._unlike_surface(edges)
@@ -479,7 +479,7 @@ class PictureFineness:
         unsure = np.flatnonzero((long & ~seen & (needed > allowed)).any(axis=0))
         deep, least = allowed.copy(), allowed[:, unsure]
         # Twice as far as would do: rounding must not make a side too coarse.
-        some = edges.some(unsure)
+        some = edges.take(unsure)
         most = np.clip(2.0 * needed[:, unsure].max(axis=0, initial=0.0), least, self._deep(some) * least)
         apart = self._apart_from_others(some, least, most)
         deep[:, unsure] = np.where(seen[:, unsure], least, apart)
@@ -489,8 +489,8 @@ class PictureFineness:
         """(k,n) by how many times shades and normals differ too much from those of the surface."""
         return np.asarray(np.maximum(self._shade_errors(edges) / self.shade_error, turning(edges) / TURN))
 
-    def border_excess(self, edges: Edges) -> Floats:
-        """(k,n) as Demand."""
+    def border_error_ratio(self, edges: Edges) -> Floats:
+        """(k,n) as Criterion."""
         allowed = self.allowed(edges.at.points)
         return np.where(self._long(edges, allowed), off_chords(edges) / (INSIDE * allowed), 0.0)
 

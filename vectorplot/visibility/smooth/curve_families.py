@@ -41,7 +41,7 @@ class Chords:
     second_places: tuple[Floats, Floats]
     level: Floats
 
-    def some(self, which: Ints | slice) -> Chords:
+    def take(self, which: Ints | slice) -> Chords:
         """Some of the chords."""
         if isinstance(which, slice):
             return self._chosen(lambda values: values[which])
@@ -76,7 +76,7 @@ class Along:
     slopes: Floats
     second_places: Floats = field(default_factory=lambda: np.zeros((0, 3)))
 
-    def some(self, which: Ints | slice) -> Along:
+    def take(self, which: Ints | slice) -> Along:
         """Some of the points, of those that have second places."""
         return Along(self.places[which], self.points[which], self.slopes[which], self.second_places[which])
 
@@ -399,9 +399,9 @@ class SheetsMeet:
         found, known = Along(at, p, tangent, there), np.isfinite(tangent).all(axis=1)
         rough = np.flatnonzero(~(met & known))
         if len(rough):
-            other, lost = self._roughly(chords.some(rough), part[rough]), ~met[rough]
+            other, lost = self._roughly(chords.take(rough), part[rough]), ~met[rough]
             found.slopes[rough] = other.slopes
-            rough, other = rough[lost], other.some(np.flatnonzero(lost))
+            rough, other = rough[lost], other.take(np.flatnonzero(lost))
             at[rough], p[rough], there[rough] = other.places, other.points, other.second_places
         return found
 
@@ -410,7 +410,7 @@ class SheetsMeet:
         if self.other is not self.surface:
             return self.surface.planes(places), self.other.planes(second_places)
         both, half = self.surface.planes(np.concatenate([places, second_places])), len(places)
-        return records.some(both, np.arange(half)), records.some(both, np.arange(half, 2 * half))
+        return records.take(both, np.arange(half)), records.take(both, np.arange(half, 2 * half))
 
     def _points(self, places: Floats, second_places: Floats) -> tuple[Floats, Floats]:
         """The points of both sheets, likewise."""

@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.shadow_casters import Casters, FacePlanes, LightSystem, Receivers, turned_to_light
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.columns import cross
+from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
 from vectorplot.geometry.regions import POLYGON, polygons_of, unions

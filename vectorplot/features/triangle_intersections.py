@@ -283,7 +283,7 @@ class Contacts:
 
     def of(self, which: Ints | Bools) -> Contacts:
         """Some of them."""
-        return records.some(self, which)
+        return records.take(self, which)
 
     def __len__(self) -> int:
         return len(self.one)

@@ -24,7 +24,8 @@ from vectorplot.curves.splines import (
     spline_curve,
 )
 from vectorplot.errors import InputError
-from vectorplot.io.scene_slots import (
+from vectorplot.io.scene_words import Words
+from vectorplot.io.shape_arguments import (
     Family,
     Formulas,
     Slot,
@@ -43,7 +44,6 @@ from vectorplot.io.scene_slots import (
     read_numbers,
     read_whole,
 )
-from vectorplot.io.scene_words import Words
 from vectorplot.surfaces.capped_bodies import Capped, Frustum, rod
 from vectorplot.surfaces.graphs import Disc
 from vectorplot.surfaces.minimal import MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface

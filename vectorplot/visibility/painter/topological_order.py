@@ -13,7 +13,7 @@ from vectorplot.visibility.painter.image_faces import ImageFaces
 
 
 @dataclass(frozen=True, eq=False)
-class Mikado:
+class TopologicalSort:
     """An order of things, and what has none.
 
     Parameters
@@ -37,7 +37,7 @@ class Mikado:
     knot: Ints
 
 
-def mikado(count: int, before: Ints, after: Ints) -> Mikado:
+def topological_order(count: int, before: Ints, after: Ints) -> TopologicalSort:
     """The order of things that have to be drawn before one another, as in the game of mikado.
 
     Parameters
@@ -49,7 +49,7 @@ def mikado(count: int, before: Ints, after: Ints) -> Mikado:
 
     Returns
     -------
-    Mikado
+    TopologicalSort
         The order, and what lies on one another in circles.
 
     Notes
@@ -86,7 +86,7 @@ def mikado(count: int, before: Ints, after: Ints) -> Mikado:
         highest = _ready(freed[1], above, left)
         left[lowest] = True
     knot = np.flatnonzero(left)
-    return Mikado(np.concatenate([*back, knot, *front[::-1]]).astype(np.intp), knot)
+    return TopologicalSort(np.concatenate([*back, knot, *front[::-1]]).astype(np.intp), knot)
 
 
 def _ready(things: Ints, waiting_for: Ints, left: Bools) -> Ints:
@@ -131,7 +131,7 @@ def component_ranks(count: int, before: Ints, after: Ints) -> Ints:
         return np.asarray(label, dtype=np.intp)
     if (start[across] > end[across]).all():
         return np.asarray(components - 1 - label, dtype=np.intp)
-    order = mikado(components, start[across], end[across]).order
+    order = topological_order(components, start[across], end[across]).order
     rank = np.empty(components, dtype=np.intp)
     rank[order] = np.arange(components)
     return np.asarray(rank[label], dtype=np.intp)
