@@ -13,21 +13,22 @@ import pytest
 from support.sources import statements_of, tree_of
 
 import vectorplot
+from vectorplot.cli.verbs import COMMANDS
 from vectorplot.save import _BACKENDS
 
 PACKAGE = Path(vectorplot.__file__).parent
 
 ORDER = [
-    *("errors", "spelling", "words", "arrays", "tolerances"),
+    *("errors", "words", "arrays", "tolerances"),
     *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
-    *("drawing", "charts", "effects", "animation", "textbook", "backends"),
-    *("verbs", "testing", "accuracy", "speed", "viewer", "cli"),
+    *("drawing", "effects", "animation", "textbook", "backends", "pictures"),
+    *("testing", "accuracy", "speed", "viewer", "cli"),
 ]
-VERBS = {"animate", "draw", "film", "paint", "panorama", "plan", "read", "render", "save", "save_frames"}
-STAGES = {"linework", "painting", "rendering", "stages", "technical", "batch"}
+WITH_PICTURES = {"read", "save", "save_frames", "batch"}
+"""What reads, saves and makes many of them stands with the verbs."""
 
 # Pictures show themselves in a notebook and save themselves; the import happens when they are asked to.
-ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "verbs"), ("shading/image.py", "verbs")}
+ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "pictures"), ("shading/image.py", "pictures")}
 
 FOR_PROGRAMS = {
     "features/implicit_cusps.py",
@@ -56,7 +57,7 @@ FILES = sorted(path.relative_to(PACKAGE).as_posix() for path in PACKAGE.rglob("*
 
 def room(parts: tuple[str, ...]) -> str:
     name = parts[0].removesuffix(".py")
-    return "verbs" if name in VERBS | STAGES else "cli" if name == "__main__" else name
+    return "pictures" if name in WITH_PICTURES else "cli" if name == "__main__" else name
 
 
 def imported_modules(tree: ast.Module, package: tuple[str, ...]) -> set[tuple[str, ...]]:
@@ -133,8 +134,12 @@ def exported(stub: Path) -> set[str]:
     return {(room / (module.replace(".", "/") + ".py")).as_posix() for module in modules}
 
 
-# Backends are found by the suffix of a file's name, and by nothing else.
-STARTS = {"__main__.py", *(f"backends/{module.replace('.', '/')}.py" for module, _ in _BACKENDS.values())}
+# Backends are found by the suffix of a file's name, commands by theirs, and by nothing else.
+STARTS = {
+    "__main__.py",
+    *(f"backends/{module}.py" for module, _ in _BACKENDS.values()),
+    *(f"cli/commands/{module}.py" for module in COMMANDS.values()),
+}
 
 
 def unreached_from(stubs: Iterable[Path]) -> set[str]:

@@ -8,8 +8,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.cli.main import run
-from vectorplot.cli.verbs import meant_option
-from vectorplot.cli.verbs import vectorplot as verbs
+from vectorplot.cli.verbs import every_command, meant_option
 from vectorplot.geometry.solids import box
 from vectorplot.io.reserved_words import RESERVED
 from vectorplot.io.scene_language import parse_scene
@@ -162,7 +161,7 @@ def test_the_command_says_what_may_be_meant(arguments, hint, capsys):
 
 ALL_OPTIONS = {
     name: [text for option in command.params for text in option.opts + option.secondary_opts if text[:2] == "--"]
-    for name, command in verbs.commands.items()
+    for name, command in every_command().items()
 }
 
 
@@ -193,7 +192,7 @@ def test_an_option_with_one_slip_is_known_again(verb):
     for option in known:
         slips = sorted(misspelled(option[2:]) - {name[2:] for name in known})
         for typed in slips[:: 1 if tried_first[option] == verb else 6]:
-            error = click.NoSuchOption(f"--{typed}", ctx=click.Context(verbs.commands[verb]))
+            error = click.NoSuchOption(f"--{typed}", ctx=click.Context(every_command()[verb]))
             hint = meant_option(error).removeprefix(" Did you mean '--").removesuffix("'?")
             assert f"--{hint}" in [*known, "--help"] and one_slip_apart(typed, hint), (option, typed, hint)
 

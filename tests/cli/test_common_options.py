@@ -25,11 +25,9 @@ from vectorplot.cli.picture_options import (
     lines_option,
     picture_verb,
 )
-from vectorplot.cli.verbs import vectorplot
+from vectorplot.cli.verbs import every_command
 
-VERBS = [
-    verb for verb in vectorplot.commands.values() if {"scene_file", "out"} <= {param.name for param in verb.params}
-]
+VERBS = [verb for verb in every_command().values() if {"scene_file", "out"} <= {param.name for param in verb.params}]
 PARAMS = {verb.name: {param.name: param for param in verb.params} for verb in VERBS}
 CAMERA_VERBS = [verb for verb in VERBS if "eye" in PARAMS[verb.name]]
 SHARED = sorted(name for name in set(chain(*PARAMS.values())) if sum(name in params for params in PARAMS.values()) > 1)

@@ -2,33 +2,51 @@
 
 from __future__ import annotations
 
+from importlib import import_module
+
 import click
 
 from vectorplot import __version__
-from vectorplot.cli.commands.accuracy import accuracy
-from vectorplot.cli.commands.animate import animate
-from vectorplot.cli.commands.contact_sheet import contact_sheet
-from vectorplot.cli.commands.draw import draw
-from vectorplot.cli.commands.info import info
-from vectorplot.cli.commands.paint import paint
-from vectorplot.cli.commands.render import render
-from vectorplot.cli.commands.replay import replay
-from vectorplot.cli.commands.sheet import sheet
-from vectorplot.cli.commands.speed import speed
-from vectorplot.cli.commands.try_ import try_
 from vectorplot.errors import printable
 from vectorplot.words import nearest
+
+COMMANDS = {
+    "draw": "draw",
+    "paint": "paint",
+    "info": "info",
+    "render": "render",
+    "sheet": "sheet",
+    "contact-sheet": "contact_sheet",
+    "animate": "animate",
+    "replay": "replay",
+    "accuracy": "accuracy",
+    "speed": "speed",
+    "try": "try_",
+}
+"""The commands by their names, each in a file of its own in `commands`, which is loaded where it is asked for."""
 
 
 class Verbs(click.Group):
     """The commands; an unknown one is told with the nearest that is known."""
 
+    def list_commands(self, ctx: click.Context) -> list[str]:
+        """The names, in the order of the alphabet."""
+        return sorted(COMMANDS)
+
+    def get_command(self, ctx: click.Context, cmd_name: str) -> click.Command | None:
+        """The command of a name; None where there is none."""
+        name = COMMANDS.get(cmd_name)
+        if name is None:
+            return None
+        command: click.Command = getattr(import_module(f"vectorplot.cli.commands.{name}"), name)
+        return command
+
     def resolve_command(
         self, ctx: click.Context, args: list[str]
     ) -> tuple[str | None, click.Command | None, list[str]]:
         """The command that is named. Errors: UsageError for an unknown one."""
-        if args and self.get_command(ctx, args[0]) is None and not args[0].startswith("-"):
-            near = nearest(args[0].lower(), self.commands)
+        if args and args[0] not in COMMANDS and not args[0].startswith("-"):
+            near = nearest(args[0].lower(), COMMANDS)
             ctx.fail(f"No such command {args[0]!r}." + (f" Did you mean {near!r}?" if near else ""))
         return super().resolve_command(ctx, args)
 
@@ -39,17 +57,10 @@ def vectorplot() -> None:
     """3-D scenes as exact line drawings: hidden lines by geometry, never by pixels."""
 
 
-vectorplot.add_command(draw)
-vectorplot.add_command(paint)
-vectorplot.add_command(info)
-vectorplot.add_command(render)
-vectorplot.add_command(sheet)
-vectorplot.add_command(contact_sheet)
-vectorplot.add_command(animate)
-vectorplot.add_command(replay)
-vectorplot.add_command(accuracy)
-vectorplot.add_command(speed)
-vectorplot.add_command(try_)
+def every_command() -> dict[str, click.Command]:
+    """All commands by their names."""
+    context = click.Context(vectorplot)
+    return {name: command for name in COMMANDS if (command := vectorplot.get_command(context, name)) is not None}
 
 
 def say_usage(error: click.UsageError, cause: str) -> None:
@@ -71,7 +82,7 @@ def meant_option(error: click.NoSuchOption) -> str:
         return f" Did you mean '--{near}'?"
     others = [
         name
-        for name, command in vectorplot.commands.items()
+        for name, command in every_command().items()
         if any(error.option_name in (*option.opts, *option.secondary_opts) for option in command.params)
     ]
     return f" It is an option of {', '.join(others)}." if others else ""
