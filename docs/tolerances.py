@@ -1,4 +1,4 @@
-"""Writes docs/tolerances.md: the table of tolerances, from the files that hold it.
+"""Writes docs/tolerances.md: the table of tolerances, from the file that holds it.
 
 Run it after changing a tolerance: ``python docs/tolerances.py``. A test compares the file with what this would write.
 """
@@ -14,9 +14,9 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 PACKAGE = ROOT / "vectorplot"
-TABLE = PACKAGE / "tolerances"
+TABLE = PACKAGE / "tolerances.py"
 PAGE = ROOT / "docs" / "tolerances.md"
-IMPORT = re.compile(r"^from vectorplot\.tolerances\.\w+ import (?:\([^)]*\)|.*$)", re.MULTILINE)
+IMPORT = re.compile(r"^from vectorplot\.tolerances import (?:\([^)]*\)|.*$)", re.MULTILINE)
 
 
 @dataclass(frozen=True)
@@ -28,9 +28,8 @@ class Tolerance:
     reason: str
 
 
-def tolerances(path: Path) -> Iterator[Tolerance]:
-    """The tolerances of one file of the table, in its order; reason is empty where none is given."""
-    text = path.read_text(encoding="utf-8")
+def tolerances(text: str) -> Iterator[Tolerance]:
+    """The tolerances of one section of the table, in its order; reason is empty where none is given."""
     body, lines = ast.parse(text).body, text.splitlines()
     for node, after in zip(body, [*body[1:], None], strict=True):
         if not isinstance(node, ast.Assign):
@@ -47,6 +46,14 @@ def tolerances(path: Path) -> Iterator[Tolerance]:
             yield Tolerance(ast.unparse(name), written, reason)
 
 
+def sections() -> Iterator[tuple[str, str]]:
+    """The sections of the table: what its comment says, and its statements."""
+    text = TABLE.read_text(encoding="utf-8")
+    for part in re.split(r"\n\n(?=# )", text)[1:]:
+        comment, _, body = part.partition("\n\n")
+        yield "\n".join(line.lstrip("# ") for line in comment.splitlines()), body
+
+
 @cache
 def uses() -> dict[str, list[str]]:
     """The files of the package that import each name of the table."""
@@ -61,25 +68,23 @@ def uses() -> dict[str, list[str]]:
 
 def page() -> str:
     """The text of docs/tolerances.md."""
-    files = sorted(TABLE.glob("of_*.py"))
     used = uses()
-    intro = " ".join((ast.get_docstring(ast.parse((TABLE / "__init__.py").read_text(encoding="utf-8"))) or "").split())
+    intro = " ".join((ast.get_docstring(ast.parse(TABLE.read_text(encoding="utf-8"))) or "").split())
     lines = [
         "# Tolerances",
         "",
-        "Written by docs/tolerances.py from vectorplot/tolerances.",
+        "Written by docs/tolerances.py from vectorplot/tolerances.py.",
         "",
         intro,
         "",
     ]
-    for path in files:
-        heading = ast.get_docstring(ast.parse(path.read_text(encoding="utf-8"))) or ""
+    for heading, body in sections():
         first, _, rest = heading.partition("\n")
         lines += [f"## {first.rstrip('.')}", ""]
         if rest.strip():
             lines += [" ".join(rest.split()), ""]
         lines += ["| name | value | why | used by |", "|---|---|---|---|"]
-        for entry in tolerances(path):
+        for entry in tolerances(body):
             where = ", ".join(f"[{Path(file).stem}](../{file})" for file in used.get(entry.name, []))
             lines.append(f"| `{entry.name}` | `{entry.value}` | {entry.reason} | {where} |")
         lines.append("")

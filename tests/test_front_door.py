@@ -180,17 +180,23 @@ def test_what_no_room_exports_is_an_attribute_error():
 
 
 VERBS = ["draw", "paint", "read", "render", "save"]
+HOMES = {verb: f"vectorplot.pictures.{verb}" for verb in ("draw", "paint", "render")}
+
+
+def home(verb):
+    """The module of a verb."""
+    return HOMES.get(verb, f"vectorplot.{verb}")
 
 
 @cache
 def verbs_that_stay():
     """Those that the package gives after their modules were imported; and after they were taken from their modules.
     For the latter package and module are loaded anew for each verb, all others once."""
-    script = "import sys\nimport vectorplot as vp\n" + "".join(f"import vectorplot.{verb}\n" for verb in VERBS)
+    script = "import sys\nimport vectorplot as vp\n" + "".join(f"import {home(verb)}\n" for verb in VERBS)
     script += f"import vectorplot.cli.main\nprint(*(verb for verb in {VERBS} if callable(getattr(vp, verb))))\n"
-    script += f"for verb in {VERBS}:\n"
-    script += "    for name in ('vectorplot', f'vectorplot.{verb}'): sys.modules.pop(name, None)\n"
-    script += "    exec(f'from vectorplot.{verb} import {verb} as taken; import vectorplot as vp')\n"
+    script += f"for verb, home in {[(verb, home(verb)) for verb in VERBS]}:\n"
+    script += "    for name in ('vectorplot', home): sys.modules.pop(name, None)\n"
+    script += "    exec(f'from {home} import {verb} as taken; import vectorplot as vp')\n"
     script += "    if getattr(vp, verb) is taken: print(verb, end=' ')\n"
     result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     imported, taken = result.stdout.splitlines()

@@ -14,11 +14,10 @@ from support.paths import DOCS
 from support.sources import nodes_of, numbers_in, text_of, tree_of
 
 import vectorplot
-from vectorplot import tolerances as of_extent
-from vectorplot import tolerances as of_numbers
+from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
 
 PACKAGE = Path(vectorplot.__file__).parent
-TABLE = sorted((PACKAGE / "tolerances").glob("of_*.py"))
+TABLE = PACKAGE / "tolerances.py"
 SMALL = 1e-3
 """A number no larger is no size of anything and no coefficient: it decides what counts as nothing."""
 
@@ -83,15 +82,15 @@ def test_no_small_number_stands_outside_the_table():
     bare = []
     for path in sorted(PACKAGE.rglob("*.py")):
         name = path.relative_to(PACKAGE).as_posix()
-        if path not in TABLE and name not in SHAPES:
+        if path != TABLE and name not in SHAPES:
             if may_have_small_numbers(text_of(path)):
                 bare += [f"vectorplot/{name}:{line}" for line in small_numbers(tree_of(path))]
-    assert not bare, "give it a name and a reason in vectorplot/tolerances: " + ", ".join(bare)
+    assert not bare, "give it a name and a reason in vectorplot/tolerances.py: " + ", ".join(bare)
 
 
 @pytest.mark.capability("G1.1-convention")
 def test_every_tolerance_has_a_reason_and_one_home(table):
-    entries = [entry for path in TABLE for entry in table.tolerances(path)]
+    entries = list(table.tolerances(text_of(TABLE)))
     assert not [entry.name for entry in entries if len(entry.reason) < 30 or not entry.name.isupper()]
     assert not [name for name, count in Counter(entry.name for entry in entries).items() if count > 1]
 
@@ -99,9 +98,9 @@ def test_every_tolerance_has_a_reason_and_one_home(table):
 @pytest.mark.slow
 @pytest.mark.capability("G1.1-convention")
 def test_nobody_gives_a_name_of_the_table_another_meaning(table):
-    names = {entry.name for path in TABLE for entry in table.tolerances(path)}
+    names = {entry.name for entry in table.tolerances(text_of(TABLE))}
     again = []
-    for path in sorted(set(PACKAGE.rglob("*.py")) - set(TABLE)):
+    for path in sorted(set(PACKAGE.rglob("*.py")) - {TABLE}):
         bindings = " ".join(BINDING.findall(text_of(path)))
         if names.isdisjoint(re.findall(r"\w+", bindings)):
             continue
@@ -117,9 +116,8 @@ def test_every_tolerance_is_used(table):
     used = table.uses()
     assert not [
         entry.name
-        for path in TABLE
-        for entry in table.tolerances(path)
-        if not used.get(entry.name) and path.read_text(encoding="utf-8").count(entry.name) < 2
+        for entry in table.tolerances(text_of(TABLE))
+        if not used.get(entry.name) and text_of(TABLE).count(entry.name) < 2
     ]
 
 
@@ -131,4 +129,4 @@ def test_the_page_of_tolerances_is_fresh(table):
 @pytest.mark.capability("G1.1-convention")
 def test_zero_is_far_below_what_it_is_added_to_and_not_absorbed_by_it():
     """In double precision (erratum G1-06)."""
-    assert 2.0 + of_extent.ZERO_OF_EXTENT > 2.0 and 2.0 + of_numbers.ROUNDING > 2.0
+    assert 2.0 + ZERO_OF_EXTENT > 2.0 and 2.0 + ROUNDING > 2.0
