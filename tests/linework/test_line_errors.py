@@ -8,10 +8,15 @@ import numpy as np
 import pytest
 import shapely
 
+import vectorplot as vp
+from vectorplot.arrays import Floats
 from vectorplot.curves.bezier import bezier_points
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.stroke_curves import curved_strokes
+from vectorplot.geometry.rotations import rotation_about
 from vectorplot.pictures.lines import chord_error_mm, fit_error_mm
+from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.tori import Torus
 
 
 def circle(count: int, radius: float = 50.0, closed: bool = True) -> Paths:
@@ -48,3 +53,15 @@ def test_fits_are_off_by_what_they_pass_their_points() -> None:
         nearest = shapely.distance(shapely.points(wave.points), shapely.linestrings(line)).max()
         assert off == pytest.approx(nearest, rel=0.5)
     assert fit_error_mm([Layer("waves", Pen(), (wave,))]) is None
+
+
+TILTED = rotation_about((1, 0, 0), 0.3)
+
+
+@pytest.mark.parametrize(("turn", "centre"), [(np.eye(3), (2.0, 0.0, 0.0)), (TILTED, (0.0, 0.0, 0.0))])
+def test_curves_that_cross_where_surfaces_touch_are_off_by_no_more_than_others(turn: Floats, centre: Floats) -> None:
+    tori = (Torus(2.0, 0.6), PlacedSurface(Torus(2.0, 0.6), turn, centre))
+    scene, reports = vp.Scene(tuple(vp.Item(name, one) for name, one in zip("AB", tori, strict=True))), []
+    vp.draw(scene, vp.Camera(eye=(6, -9, 7)), explain=reports.append)
+    (off,) = [report.error for report in reports if report.name == "curves" and report.error is not None]
+    assert 0.0 < off < 0.01

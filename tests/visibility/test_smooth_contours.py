@@ -106,3 +106,20 @@ def test_scene_files_have_the_word():
     scene = parse_scene("B box 1 1 1 smooth_contours")
     assert scene.items[0].curves.smooth_contours
     assert parse_scene(write_scene(scene)).items[0].curves.smooth_contours
+
+
+@pytest.mark.parametrize("count", [32, 128])
+@pytest.mark.parametrize("length", [1.0, 100.0])
+def test_contours_leave_long_thin_faces_no_farther_than_these_leave_the_shape(count, length):
+    turn = np.arange(count) * 2 * np.pi / count
+    rims = np.stack(np.broadcast_arrays(np.cos(turn)[:, None], np.sin(turn)[:, None], [0.0, length]), axis=-1)
+    faces = np.arange(2 * count).reshape(count, 2)
+    quads = np.concatenate([faces, np.roll(faces, -1, axis=0)[:, ::-1]], axis=1)
+    can = vp.Mesh.from_polygons(
+        rims.reshape(-1, 3), np.concatenate([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]]).tolist()
+    )
+    eye = np.array([20.0, 3.0, 8.0])
+    found = smooth_contours(can, Sight(eye, eye / np.linalg.norm(eye)), 60.0)
+    sag, away = 1.0 - np.cos(np.pi / count), np.linalg.norm(found.aside, axis=1)
+    assert len(found.start) and away.max() < 5.0 * sag
+    assert (np.linalg.norm((found.start + found.aside)[:, :2], axis=1) > 1.0 - 1e-12).all(), "aside leads out"

@@ -58,8 +58,19 @@ def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Place
     straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
     given, line = chosen(paths, straight), seen.segment.take(straight)
     once = without_duplicates(given, rank.take(straight, axis=1), COINCIDENT_MM, world, line)
-    curve_rank = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
+    importance = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
+    run = _runs(smooth)
+    curve_rank = importance * (run.max(initial=0) + 1) + run
     return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
+
+
+def _runs(chords: Paths) -> Ints:
+    """(n,) numbers of the parts of curves that chords (n,) belong to: one ends where its curve does, or turns back, as
+    a border does that lies on itself."""
+    along = chords.points[1::2] - chords.points[::2]
+    back = (along[1:] * along[:-1]).sum(axis=1) < 0.0
+    new = (chords.curve[1:] != chords.curve[:-1]) | (back & (chords.curve[1:] >= 0))
+    return np.concatenate([[0], np.cumsum(new)])[: len(along)]
 
 
 def _as_cubics(view: View, lines: Lines, seen: Visibility, scale: float) -> tuple[Visibility, Lines, Floats]:

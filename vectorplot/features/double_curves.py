@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Picture
-from vectorplot.features.patches import Patch, SurfacePatch
+from vectorplot.features.patches import OnSurfaces, Patch, SurfacePatch
 from vectorplot.features.tessellation import FREE
 from vectorplot.features.triangle_intersections import Contacts
 from vectorplot.geometry.algebra import least_squares, matmul
@@ -659,15 +659,40 @@ def _inside(patch: SurfacePatch, place: Floats) -> bool:
     )
 
 
-def at_border(patch: SurfacePatch, *places: Floats) -> Bools:
-    """(k,) whether one of the places (k,2) of a point is on an open border of the domain, or all but there."""
-    domain = patch.surface.domain
+def at_border(patch: OnSurfaces, *places: Floats) -> Bools:
+    """(k,) whether one of the places (k,d) of a point is on an open border of its domain, or all but there."""
     found = np.zeros(len(places[0]), dtype=np.bool_)
-    ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
-    for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
-        for place in () if closed else places:
-            found |= (np.abs(place[:, axis, None] - ends[axis]) <= ON_BORDER_OF_CELL * patch.cell[axis]).any(axis=1)
+    for place in places:
+        domain = patch.surface_at(place).domain
+        ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
+        for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
+            low, high = ends[axis]
+            near = ON_BORDER_OF_CELL * (high - low) / patch.grid[axis]
+            if not closed:
+                found |= np.minimum(np.abs(place[:, axis] - low), np.abs(place[:, axis] - high)) <= near
     return found
+
+
+def without_common_borders(one: Patch, two: Patch, courses: list[Course]) -> list[Course]:
+    """The courses of two patches without those parts that run along borders of both: there the one goes on as the
+    other, and its border is a curve already."""
+    if not courses or not isinstance(one, OnSurfaces) or not isinstance(two, OnSurfaces):
+        return courses
+    whole = put_together(courses, (courses[0].one.shape[1], courses[0].two.shape[1]))
+    both = at_border(one, whole.one) & at_border(two, whole.two)
+    if not both.any():
+        return courses
+    result = []
+    for course, on in zip(courses, np.split(both, np.flatnonzero(whole.last)[:-1] + 1), strict=True):
+        along = on & np.append(True, on[:-1]) & np.append(on[1:], True)
+        if course.closed and along.any() and not along.all():
+            first = int(along.argmax())
+            course = starting_at(one, two, course, first)
+            along = np.append(np.roll(along[:-1], -first), True)
+        left = np.flatnonzero(~along)
+        runs = np.split(left, np.flatnonzero(np.diff(left) > 1) + 1) if len(left) else []
+        result += [course] if not along.any() else [course.part(int(r[0]), int(r[-1]) + 1) for r in runs if len(r) > 1]
+    return result
 
 
 def without_copies(one: Patch, two: Patch, courses: list[Course], *, same: bool) -> list[Course]:

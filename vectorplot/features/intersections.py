@@ -25,6 +25,7 @@ from vectorplot.features.double_curves import (
     starting_at,
     stitched,
     through_nodes,
+    without_common_borders,
     without_copies,
     zero_between,
 )
@@ -65,8 +66,8 @@ class Part:
     """Some pairs, by their numbers, as two patches."""
 
     numbers: Sequence[int]
-    one: Patch
-    two: Patch
+    one: SurfacePatch | StackedPatches
+    two: SurfacePatch | StackedPatches
 
 
 def alike(pairs: Sequence[tuple[Surface, Surface]]) -> list[list[int]]:
@@ -378,6 +379,7 @@ def each_joined(
     zero = zero_between(one, two)
     size = np.minimum(one.sizes[0], two.sizes[0])
     courses = _of_segments(one, two, traced(one, two, found, zero, same=same))
+    courses = courses if same else without_common_borders(one, two, courses)
     led = _led_through(one, two, courses, touching, same=same)
     kept, dots = _without_dots(one, [own.courses for own in led], size)
     dimensions = found.one.shape[1], found.two.shape[1]
@@ -607,9 +609,11 @@ def intersections_of_grids(pairs: Sequence[GridPair], tracing: Tracing) -> list[
     return result
 
 
-def _joined(one: Patch, two: Patch, tracing: Tracing) -> list[Joined]:
-    found = piercings(one.tessellation, two.tessellation, overlapping_triangles(one, two))
-    return each_joined(one, two, found, contacts(one, two), tracing, same=False)
+def _joined(one: SurfacePatch | StackedPatches, two: SurfacePatch | StackedPatches, tracing: Tracing) -> list[Joined]:
+    found, touching = piercings(one.tessellation, two.tessellation, overlapping_triangles(one, two)), contacts(one, two)
+    # Where the one goes on as the other beyond a common border they touch all along it; at poles they do in a point.
+    common = at_border(one, touching.one) & at_border(two, touching.two) & (touching.bends == 0.0).any(axis=1)
+    return each_joined(one, two, found, touching.of(~common), tracing, same=False)
 
 
 def double_curves(one: SurfacePatch, all_: Joined) -> DoubleCurves:

@@ -264,9 +264,9 @@ def enclosed(mesh: Mesh) -> float | None:
 
 # The contour of a mesh that is taken for a smooth shape: it runs across faces.
 
-REACH = 0.7
-"""The faces around a contour rise above the shape by less than this part of their longest side times the sine of the
-angle by which they turn from it; on a ball, of triangles of equal sides, by 0.3 of it."""
+REACH = 0.8
+"""The faces around a contour rise above the shape by less than this part of the height of their sides above its tangent
+planes; on a ball, of triangles of equal sides, by 0.35 of it."""
 
 CONTOUR_ROUNDS = 2
 """So many times points of contours are made even."""
@@ -328,16 +328,14 @@ def _contour_evened(points: Floats, pairs: Ints) -> Floats:
 
 
 def _reach(vertices: Floats, triangles: Ints, normals: Floats) -> Floats:
-    """(v,) how far faces around each vertex rise above the shape."""
-    corners = vertices[triangles]
-    flat = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    size = norm(flat)
-    flat = flat / np.where(size > 0.0, size, np.inf)[:, None]
-    longest = norm(corners - np.roll(corners, 1, axis=1)).max(axis=1)
+    """(v,) how far faces around each vertex rise above the shape: as far as its normals say that their sides leave it,
+    which those along a straight line of it do not, however long they are."""
+    corners, own = vertices[triangles], normals[triangles]
+    sides = np.roll(corners, -1, axis=1) - corners
+    rise = np.maximum(np.abs(dot(sides, own)), np.abs(dot(sides, np.roll(own, -1, axis=1)))).max(axis=1, initial=0.0)
     reach = np.zeros(len(vertices))
     for k in range(3):
-        turned = norm(cross(flat, normals[triangles[:, k]]))
-        np.maximum.at(reach, triangles[:, k], REACH * longest * turned)
+        np.maximum.at(reach, triangles[:, k], REACH * rise)
     return reach
 
 

@@ -209,3 +209,33 @@ def test_a_surface_that_all_but_covers_itself_says_so_at_once():
     scene = parse_scene("S surface rotoidal 3.9 -0.7 loxodrome 3.2 course 90")
     found = self_intersections(scene.items[0].shape)
     assert len(found.points) == 0 and any("very many curves" in doubt for doubt in found.doubts)
+
+
+def knot(u):
+    """A trefoil on a torus, and its two derivatives."""
+    arm, slope, bend = 3 + np.cos(3 * u), -3 * np.sin(3 * u), -9 * np.cos(3 * u)
+    c, s = np.cos(2 * u), np.sin(2 * u)
+    at = np.stack([arm * c, arm * s, np.sin(3 * u)], axis=-1)
+    way = np.stack([slope * c - 2 * arm * s, slope * s + 2 * arm * c, 3 * np.cos(3 * u)], axis=-1)
+    turn = np.stack(
+        [(bend - 4 * arm) * c - 4 * slope * s, (bend - 4 * arm) * s + 4 * slope * c, -9 * np.sin(3 * u)], axis=-1
+    )
+    return at, way, turn
+
+
+def tube(u, v):
+    """Of radius 0.4 about the trefoil, which comes no nearer to itself than 1.5."""
+    u, v = np.broadcast_arrays(u, v)
+    at, way, turn = knot(u)
+    beside = np.cross(way, turn)
+    beside /= np.linalg.norm(beside, axis=-1, keepdims=True)
+    out = np.cross(beside, way / np.linalg.norm(way, axis=-1, keepdims=True))
+    return at + 0.4 * (np.cos(v)[..., None] * out + np.sin(v)[..., None] * beside)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(("closed_u", "closed_v"), [(True, True), (False, True), (False, False)])
+def test_a_tube_about_a_knot_does_not_meet_itself_a_period_apart(closed_u, closed_v):
+    domain = Domain(0.4, 0.4 + TURN, 0.4, 0.4 + TURN, closed_u=closed_u, closed_v=closed_v)
+    curves = self_intersections(surface_of_function(tube, domain), tracing=Tracing(columns=48, rows=12))
+    assert len(curves) == 0 and len(curves.isolated) == 0 and not curves.doubts

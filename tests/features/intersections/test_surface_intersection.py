@@ -162,6 +162,62 @@ def test_coincident_patches_are_reported_without_noise(one, two):
     assert len(curves.doubts) == 1 and "coincide in an area" in curves.doubts[0]
 
 
+def _bent(u, v):
+    return np.stack([u, v, np.sin(u) * np.cos(v)], axis=-1)
+
+
+def _tube(u, v):
+    return np.stack([np.cos(u), np.sin(u), v], axis=-1)
+
+
+def _ring(u, v):
+    return np.stack([(2 + np.cos(v)) * np.cos(u), (2 + np.cos(v)) * np.sin(u), np.sin(v)], axis=-1)
+
+
+def _roof(u, v):
+    return np.stack([u, v, -np.abs(u)], axis=-1)
+
+
+def _rolled(u, v):
+    """Meets itself where u = 1 and u = -1."""
+    return np.stack([u**2, u**3 - u, v], axis=-1)
+
+
+def _part(points, *domain, closed_v=False):
+    return surface_of_function(lambda u, v: points(*np.broadcast_arrays(u, v)), Domain(*domain, closed_v=closed_v))
+
+
+@pytest.mark.parametrize(
+    ("one", "two"),
+    [
+        (_part(_tube, 0, np.pi, -1, 1), _part(_tube, np.pi, 2 * np.pi, -1, 1)),
+        (_part(_tube, 0, np.pi, -1, 1), _part(_tube, np.pi, 5, -1, 1)),
+        (_part(_bent, -1, 0.3, -1, 1), _part(_bent, 0.3, 1, -1, 1)),
+        (_part(_bent, -1, 0.3, -1, 1), _part(_bent, 0.3, 1, -0.5, 1.5)),
+        (_part(_bent, -1, 1, 0.3, 1), _part(_bent, -1, 1, -1, 0.3)),
+        (_part(_ring, 0, np.pi, 0, 2 * np.pi, closed_v=True), _part(_ring, np.pi, 2 * np.pi, 0, 2 * np.pi)),
+        (_part(_roof, -1, 0, -1, 1), _part(_roof, 0, 1, -1, 1)),
+    ],
+)
+def test_patches_with_a_common_border_meet_nowhere_else(one, two):
+    curves = surface_intersection(one, two)
+    assert len(curves) == 0 and not curves.doubts
+    assert len(curves.touching) == 0 and len(curves.isolated) == 0
+
+
+def test_patches_with_a_common_border_that_cross_elsewhere_meet_there():
+    curves = surface_intersection(_part(_rolled, -1.5, 0.2, 0, 1), _part(_rolled, 0.2, 1.5, 0, 1))
+    assert len(curves) == 1 and not curves.doubts
+    assert abs(length(curves) - 1.0) < 1e-9 and np.abs(curves.points[:, :2] - (1.0, 0.0)).max() < 1e-9
+
+
+@pytest.mark.hard(44)
+@pytest.mark.parametrize("overlap", [0.1, 0.001])
+def test_patches_that_overlap_in_a_strip_are_reported(overlap):
+    curves = surface_intersection(_part(_bent, -1, 0.3, -1, 1), _part(_bent, 0.3 - overlap, 1, -1, 1))
+    assert len(curves) == 0 and any("coincide in an area" in text for text in curves.doubts)
+
+
 @pytest.mark.hard(44)
 def test_touching_along_a_line_is_reported_without_noise():
     curves = surface_intersection(Sphere(1.0), Cylinder(1.0, -2.0, 2.0))

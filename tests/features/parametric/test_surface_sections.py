@@ -154,3 +154,17 @@ def test_level_lines_of_the_saddle_are_hyperbolas_and_at_zero_two_lines():
 def test_coinciding_surfaces_say_so():
     curves = section_by_implicit(Sphere(2.0), implicit_sphere(2.0))
     assert len(curves) == 0 and len(curves.doubts) == 1
+
+
+@pytest.mark.parametrize("turn", [0.0, 0.7])
+def test_a_plane_that_touches_a_torus_inside_cuts_it_in_a_figure_eight(turn):
+    normal = np.array([np.cos(turn), 0.0, np.sin(turn)])
+    touched = np.array([2.0 - np.cos(turn), 0.0, -np.sin(turn)])
+    curves = plane_sections(Torus(2.0, 1.0), normal, [normal @ touched])
+    assert len(curves.nodes) == 1 and len(curves.isolated) == 0 and not curves.doubts
+    found = np.concatenate([curves[k] for k in range(len(curves))])
+    assert np.abs(found @ normal - normal @ touched).max() < 1e-11
+    if turn == 0.0:
+        # Bernoulli's lemniscate with foci at +-2.
+        square = (found[:, 1:] ** 2).sum(axis=1)
+        assert np.abs(square**2 - 8 * (found[:, 1] ** 2 - found[:, 2] ** 2)).max() < 1e-9

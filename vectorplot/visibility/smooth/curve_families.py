@@ -18,7 +18,7 @@ from vectorplot.geometry.vectors import all_finite, cross, dot, from_components
 from vectorplot.surfaces.splines import SplineSurface
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Surface, first_jets
-from vectorplot.tolerances import FAMILY_SETTLED, JUST_BEFORE, LEAST_DIVISOR, MISSED_OF_CHORD
+from vectorplot.tolerances import FAMILY_SETTLED, JUST_BEFORE, LEAST_DIVISOR, MISSED_OF_CHORD, TOUCHING_SHEETS_SINE
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, OnParametrised, TangentPlanes, inside
 
 ROUNDS, RENEWED = 8, 4
@@ -393,7 +393,10 @@ class SheetsMeet:
                 last[active] = np.sqrt(np.fmax(dot(steps[0], steps[0]), dot(steps[1], steps[1])))
                 active = active[last[active] > FAMILY_SETTLED * long[active]]
             tangent = cross(n, m)
+            # Where the sheets touch, and curves cross, it is rounding: nothing is known but the chord.
+            touching = dot(tangent, tangent) <= TOUCHING_SHEETS_SINE**2
             tangent *= (dot(way, way) / dot(tangent, way))[:, None]
+            tangent[touching] = way[touching]
         p, q = self._points(at, there)
         met = (last <= MISSED_OF_CHORD * long) & (np.sqrt(dot(p - q, p - q)) <= MISSED_OF_CHORD * long)
         found, known = Along(at, p, tangent, there), np.isfinite(tangent).all(axis=1)

@@ -237,9 +237,10 @@ def edge_on_curves(curves: Curves, facing: Floats) -> Bools:
 
 
 def _facing(view: View, sheets: Sheets, number: Ints, points: Floats, places: Floats) -> Floats:
-    """(k,) cosines of the angles between normals and sight lines."""
+    """(k,) cosines of the angles between normals and sight lines; NaN at the eye itself."""
     way = sight_lines.sight(view, points)
-    return np.asarray(dot(sheets.normals(number, places), way) / norm(way))
+    with np.errstate(invalid="ignore"):
+        return np.asarray(dot(sheets.normals(number, places), way) / norm(way))
 
 
 def own_events(view: View, sheets: Sheets, curves: Curves, facing: Floats, edge_on: Bools) -> Events:

@@ -24,6 +24,7 @@ from vectorplot.visibility.polyhedra.lines import items_wanting, kinds_of
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.curve_families import Along, Chords, ParameterCurves, inner_part
 from vectorplot.visibility.smooth.implicit_items import curves_of_implicit
+from vectorplot.visibility.smooth.lines_on_two_sheets import with_second_sheets
 from vectorplot.visibility.smooth.meetings import SmoothSheet, meetings
 from vectorplot.visibility.smooth.parametric_items import (
     contours_of_parametrised,
@@ -179,7 +180,7 @@ class SpaceCurve:
         here = self.view.points_of(self.curve.points(t)).T
         slopes = matmul(self.curve.tangents(self._inside(chords, part, t)), (self.view.axes / self.view.scale).T)
         if self.surface is not None:
-            at[:, :2] = _onto(self.surface, here, at)[0][:, :2]
+            at[:, :2] = onto_sheet(self.surface, here, at)[0][:, :2]
         return Along(at, here, slopes * (end - start)[:, 2:])
 
     def _inside(self, chords: Chords, part: Floats, t: Floats) -> Floats:
@@ -277,7 +278,7 @@ def _placed(sheet: ParametricSheet, points: Floats) -> tuple[Floats, float]:
     side = norm(np.ptp(sheet.vertices[finite], axis=0)) / 8.0
     if float(distance.max()) > side:
         return np.zeros((len(points), 2)), np.inf
-    places, off = _onto(sheet, points, sheet.vertex_places[finite[nearest]])
+    places, off = onto_sheet(sheet, points, sheet.vertex_places[finite[nearest]])
     domain, found = sheet.surface.domain, places[:, :2].copy()
     for axis, closed in enumerate((domain.closed_u, domain.closed_v)):
         if closed:
@@ -286,7 +287,7 @@ def _placed(sheet: ParametricSheet, points: Floats) -> tuple[Floats, float]:
     return found, float(off.max())
 
 
-def _onto(sheet: SmoothSheet, points: Floats, places: Floats) -> tuple[Floats, Floats]:
+def onto_sheet(sheet: SmoothSheet, points: Floats, places: Floats) -> tuple[Floats, Floats]:
     """Places (k,3) of the points of a sheet nearest to points, from places near them, and the distances (k,)."""
     away = points - sheet.points(places)
     for _ in range(ROUNDS):
@@ -303,6 +304,9 @@ def _onto(sheet: SmoothSheet, points: Floats, places: Floats) -> tuple[Floats, F
 
 WIDEST_IMAGE = 4.0
 """Images further than so many focal lengths from the principal point are not looked at closely."""
+
+EYE_BESIDE = 8.0
+"""An eye farther from the points of a sheet than this part of its size is not on it."""
 
 HIDING = (LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE)
 """Kinds of curves behind which sheets begin."""
@@ -365,6 +369,8 @@ def traced_scene(
         else:
             parts, unsure = curves_of_implicit(scene, view, sheet, number, wanted, tracing)
         doubts += [(item.name, text) for text in unsure]
+        if _holds_eye(view, sheet):
+            doubts.append((item.name, "the eye is on the surface: what this hides cannot be told"))
         done((1.0 + (number + 1) / (len(sheets) + 1)) / 2.0)
         lines = with_rims(view, sheets, number, parts)
         drawn += _of_kinds(lines, wanted)
@@ -380,7 +386,20 @@ def traced_scene(
     all_sheets = Sheets(sheets)
     seen = [_with_images(view, together(parts)) for parts in ([*drawn, met.curves], edges)]
     curves, hiding = with_merged_families(seen, all_sheets)
+    curves = with_second_sheets(curves, hiding, all_sheets)
     return TracedScene(all_sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
+
+
+def _holds_eye(view: View, sheet: SmoothSheet) -> bool:
+    """Whether the eye lies on a parametrised sheet."""
+    if view.eye is None or not isinstance(sheet, ParametricSheet) or not len(sheet.vertices):
+        return False
+    away = norm(sheet.vertices - view.eye)
+    nearest = int(np.nan_to_num(away, nan=np.inf).argmin())
+    if not away[nearest] <= norm(np.nanmax(sheet.vertices, axis=0) - np.nanmin(sheet.vertices, axis=0)) / EYE_BESIDE:
+        return False
+    _, off = onto_sheet(sheet, np.asarray(view.eye)[None], sheet.vertex_places[[nearest]])
+    return bool(off[0] <= ZERO_OF_EXTENT)
 
 
 def _of_kinds(parts: Sequence[Curves], kinds: Collection[LineKind]) -> list[Curves]:

@@ -15,9 +15,9 @@ from vectorplot.features.curve_tracing import SurfaceCurves
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, closed_round, joined, take
-from vectorplot.geometry.vectors import all_components, all_finite, any_component, dot, from_components
+from vectorplot.geometry.vectors import all_components, all_finite, any_component, dot, from_components, norm
 from vectorplot.scene.view import View
-from vectorplot.tolerances import BESIDE_STANDSTILL, LEAST_DIVISOR
+from vectorplot.tolerances import BESIDE_STANDSTILL, LEAST_DIVISOR, SAME_DIRECTION_SINE
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.curve_families import (
     Along,
@@ -249,7 +249,9 @@ def sides_of_rims(
     """
     inwards = [sheets.inwards(*of) for of in zip(number, places, strict=True)]
     one, two = (way / np.linalg.norm(way, axis=1, keepdims=True).clip(LEAST_DIVISOR) for way in inwards)
-    return _sides(view, points, slopes, one + two)
+    # Where the one sheet goes on as the other there is no side, but for rounding.
+    both = np.where(norm(one + two)[:, None] > SAME_DIRECTION_SINE, one + two, 0.0)
+    return _sides(view, points, slopes, both)
 
 
 def _sides(view: View, points: Floats, slopes: Floats, covered: Floats) -> Ints:

@@ -1,0 +1,52 @@
+"""Lines that lie on a sheet twice: seams that the domain does not know of, and lines in double curves."""
+
+import numpy as np
+import pytest
+from support.smooth_seen import ALL, chords_seen
+
+import vectorplot as vp
+from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.surface import Domain
+from vectorplot.words import LineKind
+
+TURN = 2 * np.pi
+EYES = ((4.75, 0.79, -3.58), (-11.6, -16.4, 15.7), (8.8, 23.8, 2.3))
+
+
+def ball(u, v):
+    return np.cos(u) * np.cos(v), np.sin(u) * np.cos(v), np.sin(v)
+
+
+def klein_bottle(u, v):
+    r = 3 + np.cos(u / 2) * np.sin(v) - np.sin(u / 2) * np.sin(2 * v)
+    return r * np.cos(u), r * np.sin(u), np.sin(u / 2) * np.sin(v) + np.cos(u / 2) * np.sin(2 * v)
+
+
+def ring(u, v):
+    return (2 + np.cos(v)) * np.cos(u), (2 + np.cos(v)) * np.sin(u), np.sin(v)
+
+
+def seen(points, domain, eye, kind, **lines):
+    """Visible chords of a kind in the half plane y = 0, x > 0."""
+    item = vp.Item("IT", surface_of_function(points, domain), curves=SurfaceLines(**lines))
+    found = chords_seen(vp.Scene((item,)), vp.Camera(eye=eye, target=(0, 0, 0)), kinds=ALL | {LineKind.PARAMETER})
+    there = (np.abs(found.start[:, 1]) < 1e-9) & (np.abs(found.end[:, 1]) < 1e-9) & (found.start[:, 0] > 0)
+    return found.length[there & (found.kind == kind) & (found.hidden_by == 0)].sum()
+
+
+@pytest.mark.parametrize("eye", EYES)
+def test_the_seam_of_a_ball_is_seen_where_it_faces_the_eye(eye):
+    v = np.linspace(-np.pi / 2, np.pi / 2, 100_001)
+    true = np.pi * np.mean(np.stack(ball(0 * v, v), axis=1) @ np.array(eye) > 1.0)
+    found = seen(ball, Domain(0, TURN, -np.pi / 2, np.pi / 2), eye, LineKind.BOUNDARY) / 2
+    assert abs(found - true) < 2e-3
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("eye", EYES)
+@pytest.mark.parametrize(("points", "start"), [(ring, 0.3), (klein_bottle, -np.pi)])
+def test_a_seam_is_seen_as_the_same_line_amid_the_surface(points, start, eye):
+    true = seen(points, Domain(-np.pi, np.pi, start, start + TURN), eye, LineKind.PARAMETER, columns=2)
+    found = seen(points, Domain(0, TURN, start, start + TURN), eye, LineKind.BOUNDARY) / 2
+    assert true > 0.01 and abs(found - true) < 2e-3
