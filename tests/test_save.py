@@ -14,7 +14,7 @@ from support.paths import DATA
 import vectorplot as vp
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.errors import InputError
-from vectorplot.save import FORMATS, save, write, write_whole
+from vectorplot.save import FORMATS, save, write, write_together, write_whole
 from vectorplot.surfaces import Domain, surface_of_function
 from vectorplot.testing import assert_drawings_equal
 
@@ -194,3 +194,68 @@ def test_a_private_file_is_private_while_it_is_replaced(drawing, tmp_path, monke
     monkeypatch.setattr(os, "fdopen", lambda fd, *how: modes.append(os.fstat(fd).st_mode & 0o777) or real(fd, *how))
     save(drawing, target)
     assert modes == [0o600] and target.stat().st_mode & 0o777 == 0o600
+
+
+@pytest.mark.parametrize("before", [(), ("a",), ("b",), ("a", "b")])
+@pytest.mark.parametrize("links", [True, False])
+@pytest.mark.parametrize("error", [KeyboardInterrupt(), OSError(28, "No space left on device"), MemoryError()])
+def test_files_that_belong_together_are_all_new_or_all_as_they_were(tmp_path, monkeypatch, before, links, error):
+    """Whatever call of the system something stops, before it is done or just after it."""
+    names = ["a", "b"]
+    contents = {tmp_path / name: f"new {name}".encode() for name in names}
+    if not links:
+        monkeypatch.setattr(os, "link", lambda *_: (_ for _ in ()).throw(OSError(95, "Operation not supported")))
+    calls = ["open", "fdopen", "chmod", "replace"] + (["link"] if links else [])
+    stopped = 0
+    for where in range(1, 14):
+        for after in (False, True):
+            for name in names:
+                (tmp_path / name).unlink(missing_ok=True)
+            for name in before:
+                (tmp_path / name).write_text(f"old {name}")
+            old = {path.name: path.read_text() for path in tmp_path.iterdir()}
+            left = [where]
+            with monkeypatch.context() as patch:
+                for call in calls:
+                    # A file that is open already would be one that nobody closes.
+                    done = after and call not in ("open", "fdopen")
+                    patch.setattr(os, call, stopping(getattr(os, call), left, done, error))
+                try:
+                    write_together(contents)
+                    new = {name: f"new {name}" for name in names}
+                except type(error):
+                    new, stopped = old, stopped + 1
+            assert {path.name: path.read_text() for path in tmp_path.iterdir()} == new
+    assert stopped >= 6
+
+
+def stopping(real, left, after, error):
+    """A function that raises an error at its so many-th call, instead of its work or after it."""
+
+    def called(*given, **named):
+        left[0] -= 1
+        if left[0] != 0:
+            return real(*given, **named)
+        if after:
+            real(*given, **named)
+        raise error
+
+    return called
+
+
+@pytest.mark.parametrize("bad", ["vd1", "vd2"])
+def test_a_movie_of_which_one_file_cannot_be_written_stays_as_it_was(drawing, tmp_path, monkeypatch, bad):
+    vp.save_frames([drawing], tmp_path / "m.vd1")
+    old = {path.name: path.read_bytes() for path in tmp_path.iterdir()}
+    real = os.replace
+
+    def replace_others(source, target):
+        if str(target).endswith(bad):
+            raise PermissionError(13, "no")
+        real(source, target)
+
+    monkeypatch.setattr(os, "replace", replace_others)
+    with pytest.raises(PermissionError) as error:
+        vp.save_frames([drawing, replace(drawing, layers=())], tmp_path / "m.vd1")
+    assert error.value.filename == str(tmp_path / f"m.{bad}")
+    assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == old

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Sequence
+import shutil
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import ExitStack, contextmanager, suppress
 from importlib import import_module
 from pathlib import Path
 from typing import Protocol, runtime_checkable
@@ -144,8 +146,7 @@ def save_for_latex(drawing: Drawing, path: str | os.PathLike[str]) -> None:
     if name.suffix[1:].lower() not in OVERLAID:
         raise InputError("texts are set by LaTeX over a .pdf or .eps", file=os.fspath(path))
     picture, letters = write_for_latex(drawing, name.suffix[1:], name.name)
-    write_whole(path, picture)
-    write_whole(name.with_suffix(".tex"), letters)
+    write_together({path: picture, name.with_suffix(".tex"): letters})
 
 
 def write_for_latex(drawing: Drawing, format: str, name: str) -> tuple[bytes, bytes]:
@@ -194,29 +195,78 @@ def write_whole(path: str | os.PathLike[str], content: bytes) -> None:
     The mode bits of a file that is replaced are kept; a link is followed; devices and pipes are written directly.
     Errors: OSError that names the path.
     """
+    write_together({path: content})
+
+
+def write_together(contents: Mapping[str | os.PathLike[str], bytes]) -> None:
+    """The same for files that belong together, whatever stops it: all of them are new, or all are as they were.
+
+    Errors: OSError that names the path of the one that cannot be written.
+    """
+    placed: list[tuple[str | os.PathLike[str], Path, Path]] = []
+    # What stands here is called in the opposite order: files get back their contents, then what lies beside them goes.
+    with ExitStack() as leftovers, ExitStack() as undoing:
+        for path, content in contents.items():
+            with _naming(path):
+                # A pipe behind a link, such as /dev/stdout, has a name of its own that nobody can open.
+                if os.path.exists(path) and not os.path.isfile(path):
+                    Path(path).write_bytes(content)
+                    continue
+                target = Path(os.path.realpath(path))
+                beside = _beside(target, leftovers)
+                _write(beside, target, content)
+                placed.append((path, target, beside))
+        for path, target, beside in placed:
+            with _naming(path):
+                if len(placed) > 1:
+                    undoing.callback(_put_back, _kept(target, leftovers), target)
+                os.replace(beside, target)
+        undoing.pop_all()
+
+
+@contextmanager
+def _naming(path: str | os.PathLike[str]) -> Iterator[None]:
+    """In the errors of the system: this path. The name of a file beside it, which is never seen, would only puzzle."""
     try:
-        # A pipe behind a link, such as /dev/stdout, has a name of its own that nobody can open.
-        if os.path.exists(path) and not os.path.isfile(path):
-            Path(path).write_bytes(content)
-        else:
-            _replace(Path(os.path.realpath(path)), content)
+        yield
     except OSError as error:
-        # The name of the file beside it, which is never seen, would only puzzle the reader.
         raise type(error)(error.errno, error.strerror, os.fspath(path)) from None
 
 
-def _replace(target: Path, content: bytes) -> None:
-    # Its name is known before it is there, so that whatever stops the work leaves none behind.
+def _beside(target: Path, leftovers: ExitStack) -> Path:
+    """A new name in the folder of a file: known before it is there, so that whatever stops the work leaves none."""
     beside = target.parent / f".vectorplot-{os.urandom(8).hex()}.part"
+    leftovers.callback(beside.unlink, missing_ok=True)
+    return beside
+
+
+def _write(beside: Path, target: Path, content: bytes) -> None:
+    # As private as what is replaced, from the start; of a new file the system takes off what it may not have.
+    mode = target.stat().st_mode & 0o7777 if target.exists() else None
+    bits = 0o666 if mode is None else mode & 0o666
+    with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, bits), "wb") as file:
+        file.write(content)
+    if mode is not None:
+        os.chmod(beside, mode)
+
+
+def _kept(target: Path, leftovers: ExitStack) -> Path | None:
+    """A second name of a file, by which it can be put back; None where there is none yet."""
+    if not target.exists():
+        return None
+    old = _beside(target, leftovers)
     try:
-        # As private as what is replaced, from the start; of a new file the system takes off what it may not have.
-        mode = target.stat().st_mode & 0o7777 if target.exists() else None
-        bits = 0o666 if mode is None else mode & 0o666
-        with os.fdopen(os.open(beside, os.O_WRONLY | os.O_CREAT | os.O_EXCL | _BINARY, bits), "wb") as file:
-            file.write(content)
-        if mode is not None:
-            os.chmod(beside, mode)
-        os.replace(beside, target)
-    except BaseException:
-        beside.unlink(missing_ok=True)
-        raise
+        os.link(target, old)
+    except OSError:
+        # Not every file system knows links.
+        shutil.copy2(target, old)
+    return old
+
+
+def _put_back(old: Path | None, target: Path) -> None:
+    # What could not be replaced need not be put back either: the first error is told.
+    with suppress(OSError):
+        if old is None:
+            target.unlink(missing_ok=True)
+        else:
+            os.replace(old, target)

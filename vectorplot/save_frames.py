@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from vectorplot.animation.animation import check_fps
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
-from vectorplot.save import FORMATS, write, write_whole
+from vectorplot.save import FORMATS, write, write_together, write_whole
 from vectorplot.shading.image import Bytes, Image
 
 if TYPE_CHECKING:
@@ -63,7 +63,8 @@ def save_frames(
 
     Notes
     -----
-    A file is written whole or not at all; of a folder each file is. Videos have 150 dots per inch.
+    A file is written whole or not at all, and so are the two of a movie; of a folder each file is. Videos have 150 dots
+    per inch.
 
     Examples
     --------
@@ -88,13 +89,12 @@ def save_frames(
 
 
 def save_movie(movie: Movie, path: Path) -> None:
-    """Write the two files of a movie, whose name without suffix is given."""
+    """Write the two files of a movie, whose name without suffix is given: both, or none."""
     from vectorplot.animation.movies import encoded
 
     first, second = encoded(movie)
     # The first one is what a movie is found by.
-    write_whole(path.with_name(path.name + ".vd2"), second)
-    write_whole(path.with_name(path.name + ".vd1"), first)
+    write_together({path.with_name(path.name + ".vd2"): second, path.with_name(path.name + ".vd1"): first})
 
 
 def recorded(pictures: Iterable[Picture], path: Path) -> Iterator[Drawing]:

@@ -177,6 +177,10 @@ AROUND_OF_EXTENT = 1e-6
 """A point lies on the border of what hides it where that does not hide all places so far beside it: ten times as far as
 what counts as touching."""
 
+NEAR_SURFACE_OF_EXTENT = 1e-4
+"""A point no farther than this from a surface, inside of a body too, belongs to the place of it that is nearest: what
+users write of points on surfaces has four digits, and on a sheet of paper it is as far as strokes may be off."""
+
 ON_SURFACE = 1e-7
 """A ray test takes a point no further from a surface than this part of the extent for one on it."""
 

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import os
+import random
 import signal
 import subprocess
 import sys
 import threading
+import time
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import cache
@@ -207,6 +209,25 @@ def test_a_signal_while_the_command_loads_is_one_line(place):
     result = limited(code, arguments)
     assert (result.returncode, result.stderr) == (143, b"vectorplot: terminated\n")
     assert_untouched(out, place)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("latest", [0.02, 0.3])
+def test_ctrl_c_at_any_moment_after_the_first_line_is_one_line(place, latest):
+    # Python tells what it has imported: when the package has told Ctrl-C what to do, lazy_loader comes.
+    arguments, out = command(place, ["draw"])
+    moments = random.Random(7)
+    for _ in range(several(8, long=80)):
+        command(place, ["draw"])
+        words = [sys.executable, "-X", "importtime", "-m", "vectorplot", *arguments]
+        with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
+            assert process.stderr is not None
+            next(line for line in process.stderr if line.rstrip().endswith(b"lazy_loader"))
+            time.sleep(moments.uniform(0.0, latest))
+            process.send_signal(signal.SIGINT)
+            said = [line for line in process.stderr if not line.startswith(b"import time:")]
+        assert (process.returncode, said) == (130, [b"vectorplot: interrupted\n"])
+        assert_untouched(out, place)
 
 
 def test_a_signal_that_was_ignored_stays_so():

@@ -140,8 +140,8 @@ def test_unreadable_file(tmp_path: Path) -> None:
 def test_info_says_counts_closedness_convexity_and_size(tmp_path: Path) -> None:
     lines = describe(read(written(tmp_path, "cube.obj", CUBE + faces(FACES))))
     assert lines == [
-        "cube: 8 vertices, 12 edges, 6 faces, closed, convex, size 1 x 1 x 1",
-        "1 item, 8 vertices, 12 edges, 6 faces, 0 lights, size 1 x 1 x 1",
+        "cube: 8 vertices, 12 edges, 6 faces, closed, convex, size 1 x 1 x 1, from 0,0,0 to 1,1,1",
+        "1 item, 8 vertices, 12 edges, 6 faces, 0 lights, size 1 x 1 x 1, from 0,0,0 to 1,1,1",
     ]
 
 

@@ -271,8 +271,8 @@ def test_curves_have_no_common_part():
 
 def test_a_scene_with_curves_is_described():
     *items, whole = describe(parse_scene('A curve circle 2 B curve "t" 0 0 t 0 1 C box 1 1 1 D surface torus'))
-    assert items[0] == "A: curve (circle), closed, size 4 x 4 x 0"
-    assert items[1] == "B: curve, open, size 1 x 0 x 0"
+    assert items[0] == "A: curve (circle), closed, size 4 x 4 x 0, from -2,-2,0 to 2,2,0"
+    assert items[1] == "B: curve, open, size 1 x 0 x 0, from 0,0,0 to 1,0,0"
     assert whole.startswith("4 items, 1 surface, 2 curves, 8 vertices, 12 edges, 6 faces, 0 lights")
 
 

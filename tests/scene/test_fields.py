@@ -124,5 +124,5 @@ def test_info_tells_of_cuts_and_of_parts_that_are_moved_apart():
     assert describe(parse_scene(text))[2:5] == [
         "cut 0.5x + y > 1.5, ghost, of A",
         "cut y = 0, gone",
-        "parts moved apart by 2, then size 2 x 2 x 7.5",
+        "parts moved apart by 2, then size 2 x 2 x 7.5, from 0,0,0 to 2,2,7.5",
     ]

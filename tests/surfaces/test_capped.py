@@ -164,8 +164,8 @@ def test_bodies_have_words_and_are_written_with_them():
         u, v = np.meshgrid(*domain.grid(7, 9), indexing="ij")
         assert two.shape.points(u, v) == pytest.approx(one.shape.points(u, v), abs=1e-12)
     told = describe(scene)
-    assert told[0] == "CAN: surface (cylinder), 2 caps, 12 + 4 parameter lines, size 2 x 2 x 2"
-    assert told[1] == "HAT: surface (cone), 1 cap, size 2 x 2 x 2"
+    assert told[0] == "CAN: surface (cylinder), 2 caps, 12 + 4 parameter lines, size 2 x 2 x 2, from -1,-1,0 to 1,1,2"
+    assert told[1] == "HAT: surface (cone), 1 cap, size 2 x 2 x 2, from 2,-1,0 to 4,1,2"
     assert "closed in u" in told[6]
 
 

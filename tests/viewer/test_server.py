@@ -199,6 +199,110 @@ def test_the_end_stops_what_is_running():
     asyncio.run(all_of_it())
 
 
+WRONG = [
+    None,
+    True,
+    -1,
+    0,
+    1.5,
+    1e308,
+    10**40,
+    "",
+    "x",
+    "\x00",
+    [],
+    [1],
+    [[]],
+    [None] * 4,
+    ["a", "b", "c"],
+    {},
+    {"a": [{}]},
+]
+"""Of every type that JSON has, alone and in each other."""
+
+
+@pytest.mark.slow
+def test_whatever_a_page_says_the_answer_is_none_of_a_broken_server(source, caplog):
+    state = first_state(source.scene(None)).values()
+    good = {
+        "start": {},
+        "scene": {},
+        "keys": {"state": state, "keys": ["a"]},
+        "fit": {"state": state},
+        "picture": {"state": state},
+        "frame": {"state": state, "frame": 1},
+        "save": {"state": state, "format": "svg"},
+        "command": {"state": state, "format": "svg"},
+        "movie": {"frames": [state, {}], "fps": 10, "format": "svg"},
+    }
+
+    async def conversation(server, address, session):
+        found = []
+
+        async def say(what, values):
+            found.append((what, values, *await asked(session, address, what, **values)))
+
+        for what, values in good.items():
+            await say(what, values)
+            for name in ("page", "text", *values):
+                for wrong in WRONG:
+                    await say(what, {**values, name: wrong})
+        for what in ("keys", "fit", "command"):
+            for name in state:
+                for wrong in WRONG:
+                    await say(what, {**good[what], "state": {**state, name: wrong}})
+        return found
+
+    found = talk(source, conversation, lambda scene: animate(Animation(lambda _: scene, frames=3)))
+    for what, values, status, kind, content in found:
+        assert status in (200, 422), (what, values)
+        if status == 422 or kind == "application/json":
+            answer = json.loads(content, parse_constant=pytest.fail)
+            assert status == 200 or "\n" not in answer["cause"]
+    assert [status for what, values, status, _, _ in found if values is good[what]] == [200] * len(good)
+    assert not caplog.records
+
+
+def test_questions_while_the_server_ends_are_refused(source, caplog):
+    async def conversation(server, address, session):
+        server.stop.set()
+        server.jobs.close()
+        server.movies.close()
+        return [(await asked(session, address, what))[0] for what in ("start", "picture", "movie", "save")]
+
+    assert talk(source, conversation) == [409] * 4 and not caplog.records
+
+
+def test_questions_that_wait_when_the_server_ends_are_refused(source, caplog, monkeypatch):
+    began = threading.Event()
+
+    def long(self, asked, job):
+        began.set()
+        job.stopped.wait(30.0)
+        job.progress("lines", 0.5)
+
+    monkeypatch.setattr(Answers, "picture", long)
+    monkeypatch.setattr(Answers, "movie", long)
+
+    async def conversation(server, address, session):
+        # Of each kind one that is worked on, and one that waits.
+        asking = [asyncio.create_task(asked(session, address, what, page=page)) for page, what in QUESTIONS]
+        await asyncio.to_thread(began.wait)
+        while len(server.jobs.latest) + len(server.movies.latest) < len(QUESTIONS):
+            await asyncio.sleep(0.01)
+        server.jobs.close()
+        server.movies.close()
+        return [(status, content) for status, _, content in await asyncio.gather(*asking)]
+
+    answers = talk(source, conversation)
+    assert [status for status, _ in answers] == [409, 409, 200, 200]
+    assert all(json.loads(content.splitlines()[-1]) == {"superseded": True} for _, content in answers[2:])
+    assert not caplog.records
+
+
+QUESTIONS = [("one", "picture"), ("two", "picture"), ("one", "movie"), ("two", "movie")]
+
+
 def test_scenes_are_kept_and_files_read_anew_when_they_change(source):
     first = source.scene(None)
     assert source.scene(None) is first

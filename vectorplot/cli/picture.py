@@ -204,9 +204,7 @@ def make_picture(
         with progress_bar(quiet=quiet) as progress:
             report = Report(progress, reports.append if explain else None)
             contents = picture_contents(source, Path(out).name, format_, picture, report, jobs, overlaid=overlaid)
-            write_out(out, contents[0])
-            for letters in contents[1:]:
-                write_out(os.fspath(Path(out).with_suffix(".tex")), letters)
+            write_out(out, *contents)
     if explain:
         click.echo(table(reports), err=True)
 
@@ -267,7 +265,6 @@ def picture_contents(
     scene = pipeline.run("read", source.read)
     with located(scene):
         made = picture(scene, report)
-    warn_of_nothing(source, made)
     if overlaid and isinstance(made, Drawing):
         return pipeline.run("write", write_for_latex, made, format_, name)
     return (pipeline.run("write", write, made, format_),)
@@ -276,18 +273,16 @@ def picture_contents(
 def picture_made(
     source: Source, picture: Callable[[Scene, Report], Drawing | Image], report: Report
 ) -> Drawing | Image:
-    """Read a scene and make a picture of it; an InputWarning says where there is nothing in it."""
+    """Read a scene and make a picture of it."""
     scene = source.read()
     with located(scene):
-        made = picture(scene, report)
-    warn_of_nothing(source, made)
-    return made
+        return picture(scene, report)
 
 
-def warn_of_nothing(source: Source, made: Drawing | Image) -> None:
-    """An InputWarning for a picture that shows nothing."""
+def warn_of_nothing(source: Source, made: Drawing | Image, why: Callable[[], str]) -> None:
+    """An InputWarning for a picture that shows nothing; why: what says why."""
     if is_empty(made):
-        warnings.warn(f"{source.name}: nothing to draw: the picture is empty", InputWarning, stacklevel=3)
+        warnings.warn(f"{source.name}: the picture is empty: {why()}", InputWarning, stacklevel=3)
 
 
 @contextmanager
@@ -331,14 +326,14 @@ def check_place(out: str) -> None:
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(folder))
 
 
-def write_out(out: str, content: bytes) -> None:
-    """Write to a file, whole or not at all, or to stdout for ``-``."""
+def write_out(out: str, content: bytes, *letters: bytes) -> None:
+    """Write to a file, whole or not at all, or to stdout for ``-``; letters: to a .tex beside it, together with it."""
     if out == "-":
         if sys.stdout is None:
             raise OSError(errno.EBADF, "standard output is closed")
         sys.stdout.buffer.write(content)
         sys.stdout.buffer.flush()
         return
-    from vectorplot.save import write_whole
+    from vectorplot.save import write_together
 
-    write_whole(out, content)
+    write_together({out: content, **{Path(out).with_suffix(".tex"): one for one in letters}})

@@ -37,7 +37,7 @@ from vectorplot.cli.options import (
     style,
     upwards,
 )
-from vectorplot.cli.picture import Report, Source, make_picture, picture_contents, picture_made
+from vectorplot.cli.picture import Report, Source, make_picture, picture_contents, picture_made, warn_of_nothing
 from vectorplot.errors import InputError
 
 if TYPE_CHECKING:
@@ -711,6 +711,17 @@ def check_overlaid(out: str, format_: str) -> None:
         raise click.UsageError("--text latex needs a name that ends in .pdf or .eps")
 
 
+def _why_nothing(verb: str, scene: Scene, keywords: Mapping[str, Any]) -> str:
+    """Why the picture of a scene is empty that a verb made with these keywords."""
+    from vectorplot.pictures.nothing_seen import why_nothing
+    from vectorplot.scene.page import Page
+
+    size = keywords.get("size", (1, 1))
+    page = keywords.get("page") or Page(size[0], size[1], 0.0)
+    lines = keywords["lines"] if verb == "draw" else None
+    return why_nothing(scene, keywords["camera"], page, fit=keywords["fit"], lines=lines)
+
+
 def with_options(*options: Option) -> Callable[[Command], Command]:
     """A decorator that gives a command these options, in this order."""
     return lambda command: reduce(lambda inner, option: option(inner), reversed(options), command)
@@ -738,7 +749,9 @@ def picture_verb(
 
             def picture(scene: Scene, report: Report) -> Drawing | Image:
                 lined, keywords = told.with_lines(scene)
-                return verb(lined, **keywords, progress=report.progress, explain=report.explain)
+                made = verb(lined, **keywords, progress=report.progress, explain=report.explain)
+                warn_of_nothing(source, made, lambda: _why_nothing(verb.__name__, lined, keywords))
+                return made
 
             source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
             return {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}

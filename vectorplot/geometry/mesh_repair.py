@@ -239,15 +239,15 @@ class MeshReport:
         Neighbours agree about the outside.
     convex : bool
         Closed, oriented and convex within 1e-9 of its extent.
-    size : (float, float, float)
-        Extents along x, y and z.
+    bounds : ((float, float, float), (float, float, float))
+        Smallest and largest coordinates.
 
     Examples
     --------
     >>> from vectorplot import geometry
     >>> report = geometry.mesh_report(geometry.box((1, 2, 3)))
-    >>> report.edges, report.closed, report.convex, report.size
-    (12, True, True, (1.0, 2.0, 3.0))
+    >>> report.edges, report.closed, report.convex, report.bounds
+    (12, True, True, ((0.0, 0.0, 0.0), (1.0, 2.0, 3.0)))
     """
 
     vertices: int
@@ -259,7 +259,7 @@ class MeshReport:
     closed: bool
     oriented: bool
     convex: bool
-    size: tuple[float, float, float]
+    bounds: tuple[tuple[float, float, float], tuple[float, float, float]]
 
 
 def mesh_report(mesh: Mesh) -> MeshReport:
@@ -304,7 +304,7 @@ def mesh_report(mesh: Mesh) -> MeshReport:
         closed=boundary == 0,
         oriented=oriented,
         convex=manifold and number == 1 and _is_convex(mesh, uses),
-        size=(float(high[0] - low[0]), float(high[1] - low[1]), float(high[2] - low[2])),
+        bounds=(tuple(low.tolist()), tuple(high.tolist())),
     )
 
 

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from json import dumps
 
+import numpy as np
+
+from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
@@ -34,8 +36,9 @@ def describe(scene: object) -> list[str]:
     Returns
     -------
     list of str
-        One line for every item: counts, closedness, convexity and size of a mesh, or which surface it is and which
-        lines there are on it, or which curve; then lines on fields, cuts and moved parts; then one line on the whole.
+        One line for every item: counts, closedness and convexity of a mesh, or which surface it is and which lines
+        there are on it, or which curve, how large it is, and where it lies; then lines on fields, cuts and moved parts;
+        then one line on the whole.
 
     Raises
     ------
@@ -46,15 +49,15 @@ def describe(scene: object) -> list[str]:
 
     Notes
     -----
-    Meshes are counted with their seams joined. Sizes are those of boxes along the axes, in world units.
+    Meshes are counted with their seams joined. Sizes and places are those of boxes along the axes, in world units.
 
     Examples
     --------
     >>> import vectorplot as vp
     >>> from vectorplot import io, surfaces
     >>> print("\n".join(io.describe(vp.Scene((vp.Item("ball", surfaces.Sphere(2.0)),)))))
-    ball: surface (sphere), closed in u, size 4 x 4 x 4
-    1 item, 1 surface, 0 vertices, 0 edges, 0 faces, 0 lights, size 4 x 4 x 4
+    ball: surface (sphere), closed in u, size 4 x 4 x 4, from -2,-2,-2 to 2,2,2
+    1 item, 1 surface, 0 vertices, 0 edges, 0 faces, 0 lights, size 4 x 4 x 4, from -2,-2,-2 to 2,2,2
     """
     scene = scene_of(scene)
     low, high = scene.bounds
@@ -79,7 +82,7 @@ def describe(scene: object) -> list[str]:
         counts.insert(1, _number(curves, "curve"))
     if surfaces:
         counts.insert(1, _number(surfaces, "surface"))
-    lines.append(f"{', '.join(counts)}, {_size(high - low)}")
+    lines.append(f"{', '.join(counts)}, {_box(low, high)}")
     return lines
 
 
@@ -97,7 +100,7 @@ def _changes(scene: Scene) -> list[str]:
         lines.append(f"cut {planes}, {cut.away}" + ("" if cut.items is None else f", of {', '.join(cut.items)}"))
     if scene.explosion is not None:
         low, high = shown_apart(scene).bounds
-        lines.append(f"parts moved apart by {scene.explosion.factor:g}, then {_size(high - low)}")
+        lines.append(f"parts moved apart by {scene.explosion.factor:g}, then {_box(low, high)}")
     return lines
 
 
@@ -120,8 +123,11 @@ def _number(count: int, word: str) -> str:
     return f"{count} {word if count == 1 else several}"
 
 
-def _size(extents: Iterable[float]) -> str:
-    return "size " + " x ".join(f"{extent:.6g}" for extent in extents)
+def _box(low: Floats, high: Floats) -> str:
+    """How large a box is, and where it lies, its corners as options take them."""
+    size = " x ".join(f"{extent:.6g}" for extent in (high - low).tolist())
+    corners = [",".join(f"{x:.6g}" for x in (corner + 0.0).tolist()) for corner in (low, high)]
+    return f"size {size}, from {corners[0]} to {corners[1]}"
 
 
 def _told(item: Item, report: MeshReport | None) -> str:
@@ -142,7 +148,7 @@ def _curve(curve: Curve) -> str:
         name = type(curve).__name__
     named = "" if name.startswith('"') else f" ({name})"
     low, high = smooth_bounds(curve)
-    return f"curve{named}, {'closed' if curve.closed else 'open'}, {_size(high - low)}"
+    return f"curve{named}, {'closed' if curve.closed else 'open'}, {_box(low, high)}"
 
 
 def _surface(shape: Surface | ImplicitSurface, curves: SurfaceLines) -> str:
@@ -169,7 +175,7 @@ def _surface(shape: Surface | ImplicitSurface, curves: SurfaceLines) -> str:
     if curves.integral:
         words.append(f"integral curves of {_number(len(curves.integral), 'kind')}")
     low, high = smooth_bounds(shape)
-    return ", ".join(words) + ", " + ("" if is_parametrised(shape) else "box of ") + _size(high - low)
+    return ", ".join(words) + ", " + ("" if is_parametrised(shape) else "box of ") + _box(low, high)
 
 
 def _counts(mesh: Mesh, report: MeshReport) -> str:
@@ -186,4 +192,4 @@ def _counts(mesh: Mesh, report: MeshReport) -> str:
     if not report.oriented:
         words.append("faces disagree about the outside")
     words.append("convex" if report.convex else "not convex")
-    return ", ".join(words) + ", " + _size(report.size)
+    return ", ".join(words) + ", " + _box(*np.array(report.bounds))

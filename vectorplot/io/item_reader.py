@@ -9,6 +9,7 @@ from typing import NoReturn
 import numpy as np
 
 from vectorplot.errors import InputError, InputWarning
+from vectorplot.geometry.camera import VIEWS
 from vectorplot.io.named_files import NamedFiles
 from vectorplot.io.scene_item import (
     CAP_WORDS,
@@ -21,7 +22,10 @@ from vectorplot.io.scene_item import (
     read_scale,
     turned,
 )
+from vectorplot.io.scene_statements import CAMERA_WORDS
 from vectorplot.io.scene_words import (
+    COMMENTS,
+    FOREIGN_COMMENTS,
     FORM_WORDS,
     INTEGRAL_WORDS,
     ITEM_WORDS,
@@ -210,7 +214,9 @@ def _read_form(reader: ItemCursor, draft: Draft) -> None:
     word = reader.words[reader.at]
     if word == "hollow":
         draft.hollow = True
-    elif word not in SOLID_WORDS:
+    elif word in SOLID_WORDS:
+        draft.solid = True
+    else:
         draft.form = word
     reader.at += 1
 
@@ -608,6 +614,11 @@ OTHERWISE = {
 }
 """What is said in other words than those that other programs have for it."""
 
+LISTS = ("vertices", "revolution", "translation")
+"""Kinds of items that are made of lists of points."""
+
+PARTED = " (points are parted by commas)"
+
 CODE = len("#rrggbb")
 """The length of a colour by its numbers."""
 
@@ -621,6 +632,10 @@ class ItemReader(ItemCursor):
         name = words[self.at]
         if name in handlers or name == "," or self.source.is_number(self.at):
             self.fail(f"expected the name of an item, got {self.source.shown(self.at)}")
+        if name.startswith(FOREIGN_COMMENTS):
+            self.fail(f"{COMMENTS}, not with {name[: 1 + (name[0] == '/')]!r}")
+        if name in CAMERA_WORDS and (words[self.at + 1] in VIEWS or self.source.is_number(self.at + 1)):
+            self.fail(f"'{name}' is said of the camera: expected 'camera {name} {words[self.at + 1]}'")
         draft = Draft(self.source.string(self.at) if name[0] == '"' else name, self.at)
         self.at += 1
         while True:
@@ -636,11 +651,12 @@ class ItemReader(ItemCursor):
         missing = draft.missing()
         if draft.kind is not None and missing is None:
             if word == "," or source.is_number(self.at):
-                self.fail(f"expected a word or the name of the next item, got {source.shown(self.at)}", draft)
+                hint = PARTED if draft.kind in LISTS and source.is_number(self.at) else ""
+                self.fail(f"expected a word or the name of the next item, got {source.shown(self.at)}{hint}", draft)
             return True
         if draft.kind is not None:
             expected = f"'{missing}'" if draft.kind != "box" else "three lengths"
-            hint = " (points are parted by commas)" if draft.kind != "box" and source.is_number(self.at) else ""
+            hint = PARTED if draft.kind in LISTS and source.is_number(self.at) else ""
             self.fail(f"expected {expected}, got {source.shown(self.at)}{hint}", draft)
         plain = word and word not in SCENE_WORDS and word[0] not in '",' and not source.is_number(self.at)
         if plain:
@@ -650,8 +666,6 @@ class ItemReader(ItemCursor):
         if plain and not near and draft.colour is not None:
             near = nearest_material(word)
         if near:
-            if draft.name.startswith("//"):
-                self.fail("comments begin with #", draft)
             self.fail(f"unknown word '{word}', expected '{near}'", draft)
         named = not is_alike(draft.name, HANDLERS)
         if plain and draft.colour is None and named:

@@ -14,6 +14,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.io.mesh_file import check_announced, check_file, file_bytes, shown
 from vectorplot.scene.extent import check_range
 from vectorplot.scene.item import Item
@@ -153,6 +154,10 @@ STICK_RADIUS = 0.12
 WITHIN_BALL = 0.8
 """Where a stick begins, as a part of its ball's radius: its rim is inside, and it meets no other stick of the ball."""
 
+SAME_PLACE = 0.01
+"""In angstrom: atoms no farther apart are one, and an atom so near to a bond is on it. Files have three digits, and
+copies of cells that overlap repeat their atoms."""
+
 
 def molecule_scene(molecule: Molecule, style: str = "ball-and-stick") -> Scene:
     """The scene that shows a molecule.
@@ -168,7 +173,8 @@ def molecule_scene(molecule: Molecule, style: str = "ball-and-stick") -> Scene:
     -------
     Scene
         An item for every atom, as C12, in the colour that chemists give its element, and one for every bond, as
-        C12_N13. Numbers count from 1, in the order of the file.
+        C12_N13. Numbers count from 1, in the order of the file. Of atoms in one place the largest is shown, the first
+        of these; of bonds from an atom in one direction the shortest.
 
     Raises
     ------
@@ -189,18 +195,57 @@ def molecule_scene(molecule: Molecule, style: str = "ball-and-stick") -> Scene:
     names = [f"{symbol}{number}" for number, symbol in enumerate(molecule.symbols, start=1)]
     with_rods = style == "ball-and-stick"
     radii = elements_of(molecule.symbols).van_der_waals * (BALL_OF_RADIUS if with_rods else 1.0)
+    one = _in_their_places(molecule.places, radii)
     items = [
         Item(name, Sphere(radius, tuple(place)), COLOURS.get(symbol, OTHER))
-        for name, symbol, radius, place in zip(
-            names, molecule.symbols, radii.tolist(), np.asarray(molecule.places).tolist(), strict=True
+        for name, symbol, radius, place, shown in zip(
+            names,
+            molecule.symbols,
+            radii.tolist(),
+            np.asarray(molecule.places).tolist(),
+            (one == np.arange(len(names))).tolist(),
+            strict=True,
         )
+        if shown
     ]
-    return Scene((*items, *(_sticks(molecule, names, radii) if with_rods else ())), title=molecule.name)
+    return Scene((*items, *(_sticks(molecule, names, radii, one) if with_rods else ())), title=molecule.name)
 
 
-def _sticks(molecule: Molecule, names: list[str], radii: Floats) -> list[Item]:
-    """The bonds, from ball to ball."""
-    one, two = molecule.bonds.T
+def _in_their_places(places: Floats, radii: Floats) -> Ints:
+    """(n,) the atom that is shown in the place of each: the largest there, the first of these."""
+    from scipy.spatial import cKDTree
+
+    shown = np.arange(len(places))
+    pairs = cKDTree(places).query_pairs(SAME_PLACE, output_type="ndarray") if len(places) else np.zeros((0, 2), np.intp)
+    both = np.sort(pairs, axis=1)
+    larger = radii[both[:, 1]] > radii[both[:, 0]]
+    better, other = np.where(larger, both[:, 1], both[:, 0]), np.where(larger, both[:, 0], both[:, 1])
+    # The best one is written last.
+    order = np.lexsort([-better, radii[better]])
+    shown[other[order]] = better[order]
+    return shown[shown]
+
+
+def _seen_once(bonds: Ints, places: Floats) -> Ints:
+    """Bonds (b,2) without repetitions, and without those in which a shorter one of the same atom lies."""
+    bonds = np.unique(np.sort(bonds[bonds[:, 0] != bonds[:, 1]], axis=1), axis=0)
+    atom, other = np.concatenate([bonds, bonds[:, ::-1]]).T
+    order = np.argsort(atom, kind="stable")
+    count = np.bincount(atom, minlength=len(places))[atom[order]]
+    long = np.repeat(order, count)
+    short = order[ragged.ranges(np.searchsorted(atom[order], atom[order]), count)]
+    way, beside = places[other[long]] - places[atom[long]], places[other[short]] - places[atom[short]]
+    length = (way * way).sum(axis=1)
+    along = (way * beside).sum(axis=1)
+    off = (beside * beside).sum(axis=1) - along * along / length
+    within = (other[long] != other[short]) & (along > 0.0) & (along < length) & (off < SAME_PLACE**2)
+    return np.delete(bonds, long[within] % max(len(bonds), 1), axis=0)
+
+
+def _sticks(molecule: Molecule, names: list[str], radii: Floats, shown: Ints) -> list[Item]:
+    """The bonds, from ball to ball; shown: the atom in the place of each."""
+    bonds = _seen_once(shown[molecule.bonds], molecule.places)
+    one, two = bonds.T
     start, end = molecule.places[one], molecule.places[two]
     way = end - start
     unit = way / np.linalg.norm(way, axis=1, keepdims=True)
@@ -208,9 +253,7 @@ def _sticks(molecule: Molecule, names: list[str], radii: Floats) -> list[Item]:
     apart = ((end - start) * way).sum(axis=1) > 0.0
     return [
         Item(f"{names[a]}_{names[b]}", rod(begin, stop, STICK_RADIUS), "gray")
-        for (a, b), begin, stop in zip(
-            molecule.bonds[apart].tolist(), start[apart].tolist(), end[apart].tolist(), strict=True
-        )
+        for (a, b), begin, stop in zip(bonds[apart].tolist(), start[apart].tolist(), end[apart].tolist(), strict=True)
     ]
 
 

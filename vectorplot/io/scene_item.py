@@ -37,6 +37,7 @@ from vectorplot.geometry.solids import (
     swept_polygon,
     turned_outwards,
 )
+from vectorplot.geometry.winding import edge_uses
 from vectorplot.io.scene_words import Words
 from vectorplot.io.surface_line_words import CurveDraft
 from vectorplot.scene.hatching import HATCHED_ALONG, HATCHED_BY, Hatching
@@ -167,6 +168,7 @@ class Draft:
     kind: str | None = None
     kind_index = 0
     hollow = False
+    solid = False
     shown_caps: frozenset[str] = frozenset()
     angle_deg = FULL_TURN
     lengths: tuple[float, ...] | list[float] | None = None
@@ -339,6 +341,10 @@ def _material(draft: Draft) -> Material:
 
 
 def _box(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
+    if min(draft.lengths or (0.0,)) < 0.0:
+        said = " ".join(f"{length:g}" for length in draft.lengths or ())
+        back = " ".join(f"{min(length, 0.0):g}" for length in draft.lengths or ())
+        raise InputError(f"box {said}: lengths are positive; 'translation {back}' moves the box")
     return box(draft.lengths or (), caps=draft.caps, placement=draft.placement)
 
 
@@ -380,6 +386,7 @@ def _intersection(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
 
 def _from_file(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
     assert draft.mesh is not None
+    _check_solid(draft, words, draft.mesh)
     return placed(draft.mesh, draft.placement)
 
 
@@ -394,6 +401,7 @@ def _general(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
     mesh = Mesh.from_polygons(vertices, [[vertex - 1 for vertex in face] for face in draft.faces or ()])
     if draft.edges is not None:
         _check_edges(draft.edges, mesh)
+    _check_solid(draft, words, mesh)
     if draft.form not in ("general", "concave"):
         outwards = turned_outwards(mesh)
         if has_convex_outline(outwards):
@@ -401,6 +409,13 @@ def _general(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
         elif draft.form == "convex":
             _warn(draft, words, "is not convex; its faces are taken as they are listed")
     return placed(mesh, draft.placement)
+
+
+def _check_solid(draft: Draft, words: Words, mesh: Mesh) -> None:
+    """An InputWarning for what is called solid and has open edges."""
+    if draft.solid and (open_edges := int((edge_uses(mesh).count == 1).sum())):
+        several = "edge has" if open_edges == 1 else "edges have"
+        _warn(draft, words, f"is no solid: {open_edges} {several} a face on one side only; it is taken as it is, open")
 
 
 def _warn(draft: Draft, words: Words, cause: str) -> None:

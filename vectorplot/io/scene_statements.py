@@ -34,7 +34,7 @@ from vectorplot.words import COLOURS, STYLE_WORDS, is_colour, nearest
 
 _CAMERA_POINTS = ("eye", "target", "up")
 _CAMERA_NUMBERS = {"twist": "twist_deg", "field_of_vision": "fov_deg", "height": "height", "near": "near", "far": "far"}
-_CAMERA_WORDS = (*_CAMERA_POINTS, *_CAMERA_NUMBERS, "parallel", "view")
+CAMERA_WORDS = (*_CAMERA_POINTS, *_CAMERA_NUMBERS, "parallel", "view")
 
 
 def read_camera(words: Words, at: int) -> tuple[Camera, int]:
@@ -45,7 +45,7 @@ def read_camera(words: Words, at: int) -> tuple[Camera, int]:
     view: str | None = None
     if words.words[at] in VIEWS:
         view, at = words.words[at], at + 1
-    while (word := words.words[at]) in _CAMERA_WORDS:
+    while (word := words.words[at]) in CAMERA_WORDS:
         if word in _CAMERA_POINTS:
             point, at = words.numbers(at + 1, 3, "camera: ", word)
             given[word] = tuple(point)
@@ -62,9 +62,9 @@ def read_camera(words: Words, at: int) -> tuple[Camera, int]:
             if view not in VIEWS:
                 words.fail(at + 1, f"camera: expected a view ({', '.join(VIEWS)}), got {words.shown(at + 1)}")
             at += 2
-    _check_spelling(words, start, at, _CAMERA_WORDS)
+    _check_spelling(words, start, at, CAMERA_WORDS)
     if "eye" not in given and view is None:
-        words.fail(at, f"camera: expected 'eye' (words: {', '.join(_CAMERA_WORDS)}), got {words.shown(at)}")
+        words.fail(at, f"camera: expected 'eye' (words: {', '.join(CAMERA_WORDS)}), got {words.shown(at)}")
     if "eye" in given and view is not None:
         words.fail(start, "camera: 'eye' and 'view' exclude each other")
     try:

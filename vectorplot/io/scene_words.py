@@ -76,6 +76,11 @@ SCENE_WORDS = (
 FORMULA = re.compile(r"\$[^$]*\$")
 """What is between dollars: a formula of TeX, whose words begin with backslashes."""
 
+FOREIGN_COMMENTS = ("//", "/*", ";", "%")
+"""What comments begin with in other languages."""
+
+COMMENTS = "comments begin with #"
+
 # A string that is not closed is one word too, up to the end of its line. Nothing is tried twice: what these patterns
 # have taken they keep (++ and *+), so that the time grows with the text, whatever the text.
 _STRING = re.compile(r'"(?:[^"\\\n]++|\\.)*+"')
@@ -141,9 +146,10 @@ class Words:
         raise InputError(cause, file=self.name, line=self.line(index))
 
     def shown(self, index: int) -> str:
-        """A word as messages quote it."""
+        """A word as messages quote it, and what is wrong with it where it begins a comment elsewhere."""
         word = self.words[index]
-        return "the end of the file" if not word else word[:40] if word[0] == '"' else f"'{word[:40]}'"
+        hint = f" ({COMMENTS})" if word.startswith(FOREIGN_COMMENTS) else ""
+        return "the end of the file" if not word else word[:40] if word[0] == '"' else f"'{word[:40]}'{hint}"
 
     def misspelled(self, start: int, index: int, known: Collection[str]) -> str | None:
         """The known word of the statement that begins at start which a word behind it seems to be meant for, or None.

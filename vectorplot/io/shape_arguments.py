@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -13,7 +14,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, at_once
 from vectorplot.curves.placed_curves import FunctionCurve, curve_of_function
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.expressions import Expression, Nodes, Program, parse_expression
 from vectorplot.io.scene_statements import begins_annotation
 from vectorplot.io.scene_words import Words
@@ -46,6 +47,26 @@ class Formulas:
     def derivative(self, variable: str) -> Formulas:
         """The derivatives of all components."""
         return Formulas(tuple(expression.derivative(variable) for expression in self.expressions))
+
+    def degrees_in(self, ranges: Mapping[str, tuple[float, float]]) -> list[str]:
+        """What to say of variables that run over quarters of turns in degrees, and stand in sines as they are."""
+        return [
+            f"{name} runs from {low:g} to {high:g}, but angles in formulas are in radians: "
+            f'did you mean {name} "{low:g}*pi/180" "{high:g}*pi/180"?'
+            for name, (low, high) in ranges.items()
+            if high - low >= 90.0 and low % 45.0 == (high - low) % 90.0 == 0.0 and self._turns_with(name)
+        ]
+
+    def _turns_with(self, variable: str) -> bool:
+        """Whether a variable, or a whole multiple of it, is the angle of a sine, a cosine or a tangent."""
+        for expression in self.expressions:
+            nodes = expression.nodes
+            for angle in (nodes[node.operands[0]] for node in nodes if node.operation in ("sin", "cos", "tan")):
+                parts = [nodes[k] for k in angle.operands] if angle.operation in ("multiply", "negative") else [angle]
+                numbers = [part.number for part in parts if part.operation == "number"]
+                if sum(part.name == variable for part in parts) == 1 == len(parts) - len(numbers):
+                    return all(number == round(number) for number in numbers)
+        return False
 
     def gradient(self) -> Formulas:
         """The derivatives of a single formula by all its variables."""
@@ -163,6 +184,11 @@ def read_family(words: Words, at: int, owner: str, name: str, families: Mapping[
             expected = [f"'{other}'" for other, one in family.slots.items() if (one.into or other) == key]
             words.fail(at, f"{owner}{name}: expected {' or '.join(expected)}, got {words.shown(at)}")
         given.setdefault(key, slot.default)
+    for formulas in (value for value in given.values() if isinstance(value, Formulas)):
+        ranges = {name: given.get(name) for name in formulas.expressions[0].variables}
+        for told in formulas.degrees_in({name: ends for name, ends in ranges.items() if isinstance(ends, tuple)}):
+            where = f"{words.name}:{words.line(start)}: {owner}"
+            warnings.warn(f"{where}{told}", InputWarning, stacklevel=2)
     try:
         return family.build(**given), at
     except InputError as error:

@@ -409,6 +409,13 @@ def movie_formats() -> tuple[str, ...]:
     return tuple(word for word in MOVIES if word != "mp4" or find_spec("av") is not None)
 
 
+def word_of(format_: object, known: Iterable[str]) -> str:
+    """The format that a page names, one of some. Errors: InputError for another one, and for what is no text."""
+    if not isinstance(format_, str) or format_ not in known:
+        raise InputError(f"viewer: expected one of {', '.join(known)}")
+    return format_
+
+
 def recorded_states(frames: object) -> tuple[ViewerState, ...]:
     """The states of frames: the first one whole, of each other one what is new in it.
 
@@ -459,8 +466,8 @@ def write_recorded(asked: Mapping[str, Any], scene: Scene, stem: str, file: Path
     if not isinstance(fps, int | float) or isinstance(fps, bool):
         raise InputError("viewer: fps must be a number")
     check_fps(fps)
-    if file is None and format_ not in MOVIES:
-        raise InputError(f"viewer: expected one of {', '.join(MOVIES)}")
+    if file is None:
+        format_ = word_of(format_, MOVIES)
     pictures = recorded_pictures(states, scene, job)
     if file is not None:
         file.parent.mkdir(exist_ok=True)
@@ -593,18 +600,14 @@ class Answers:
 
     def save(self, asked: Asked, job: Job) -> tuple[bytes, str]:
         """The picture as a file. Shaded pixels become painted polygons where the format has none."""
-        format_ = asked.get("format")
-        if format_ not in SAVED:
-            raise InputError(f"viewer: expected one of {', '.join(SAVED)}")
+        format_ = word_of(asked.get("format"), SAVED)
         state = _state(asked)
         made = picture(as_written(state, format_), self._scene(asked), progress=job.progress)
         return write(made, format_), SAVED[format_]
 
     def command(self, asked: Asked, job: Job) -> dict[str, Any]:
         """The command that makes the picture."""
-        format_ = asked.get("format")
-        if format_ not in SAVED:
-            raise InputError(f"viewer: expected one of {', '.join(SAVED)}")
+        format_ = word_of(asked.get("format"), SAVED)
         name, scene = str(self.source.path), self._scene(asked)
         return {"line": command_line(as_written(_state(asked), format_), scene, name, f"picture.{format_}")}
 

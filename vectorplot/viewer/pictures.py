@@ -161,35 +161,43 @@ class Jobs:
     def __init__(self) -> None:
         self.latest: dict[str, Job] = {}
         self.lock = threading.Lock()
+        self.closed = False
         self.pool = ThreadPoolExecutor(max_workers=1, thread_name_prefix="picture")
 
     def submit(
         self, page: str, work: Callable[[Job], Made], heard: Callable[[int, int], None] | None = None
     ) -> tuple[Job, Future[Made]]:
-        """The job of a page's work, and what will come of it: SupersededError where it is stopped.
+        """The job of a page's work, and what will come of it: SupersededError where it is stopped; at once where the
+        program ends.
 
         What the page has asked for before is stopped. heard: is told how many frames are done.
         """
         job = Job(heard=heard)
         with self.lock:
+            if self.closed:
+                raise SupersededError("the program ends")
             if page not in self.latest and len(self.latest) >= MOST_PAGES:
                 page = next(iter(self.latest))
             before = self.latest.pop(page, None)
             self.latest[page] = job
-        if before is not None:
-            before.stopped.set()
+            if before is not None:
+                before.stopped.set()
 
-        def working() -> Made:
-            job.progress("begin", 0.0)
-            return work(job)
+            def working() -> Made:
+                job.progress("begin", 0.0)
+                return work(job)
 
-        return job, self.pool.submit(working)
+            return job, self.pool.submit(working)
 
     async def run(self, page: str, work: Callable[[Job], Made]) -> Made:
         """What the work makes. Errors: SupersededError where the page asks for something newer first."""
         job, made = self.submit(page, work)
         try:
             return await asyncio.wrap_future(made)
+        except asyncio.CancelledError:
+            if self.closed:
+                raise SupersededError("the program ends") from None
+            raise
         finally:
             self.end(job)
 
@@ -201,8 +209,10 @@ class Jobs:
 
     def close(self) -> None:
         """Stop all work; waits for what is running to notice."""
-        for job in list(self.latest.values()):
-            job.stopped.set()
+        with self.lock:
+            self.closed = True
+            for job in self.latest.values():
+                job.stopped.set()
         self.pool.shutdown(wait=True, cancel_futures=True)
 
 

@@ -145,14 +145,19 @@ class Server:
         """Lines of JSON, how many frames are drawn, and behind the last one the movie. It stops where the page goes."""
         asked = await _asked(request)
         response = web.StreamResponse(headers={**HEADERS, "Content-Type": "application/octet-stream"})
-        await response.prepare(request)
-        job, made = self.movies.submit(_page(asked), lambda job: answers.movie(asked, job))
+        try:
+            job, made = self.movies.submit(_page(asked), lambda job: answers.movie(asked, job))
+        except SupersededError:
+            return web.Response(status=409, text="superseded")
         waiting = asyncio.wrap_future(made)
         try:
+            await response.prepare(request)
             while not waiting.done():
                 await asyncio.wait([waiting], timeout=TOLD_S)
                 done, of = job.frames
                 await response.write(_line({"done": done, "of": of or 1}))
+            if waiting.cancelled():
+                raise SupersededError("the program ends")
             name, content, kind = waiting.result()
             await response.write(_line({"name": name, "kind": kind, "bytes": len(content)}) + content)
         except SupersededError:

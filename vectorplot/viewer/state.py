@@ -19,7 +19,7 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import camera_of, default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.tolerances import NO_AZIMUTH_SINE
+from vectorplot.tolerances import LARGEST_VIEW, NO_AZIMUTH_SINE
 from vectorplot.words import check_word
 
 WIDEST_DEG = 150.0
@@ -173,9 +173,9 @@ def _checked(name: str, kind: str, value: Any) -> Any:
 
 
 def _number(name: str, value: Any) -> float:
-    if isinstance(value, int | float) and not isinstance(value, bool) and math.isfinite(value):
+    if isinstance(value, int | float) and not isinstance(value, bool) and abs(value) < LARGEST_VIEW:
         return float(value)
-    raise InputError(f"viewer: {name} must be a finite number")
+    raise InputError(f"viewer: {name} must be a number below {LARGEST_VIEW:g}")
 
 
 def axes_of(state: ViewerState) -> tuple[Floats, Floats, Floats]:

@@ -113,7 +113,11 @@ class ViewerWidget(anywidget.AnyWidget):
         def heard(done: int, count: int) -> None:
             self.send({"id": number, "done": done, "of": count})
 
-        job, made = jobs.submit(page, lambda job: answer(asked, job), heard)
+        try:
+            job, made = jobs.submit(page, lambda job: answer(asked, job), heard)
+        except SupersededError:
+            self.send({"id": number, "superseded": True})
+            return
 
         def tell(done: Future[Any]) -> None:
             jobs.end(job)

@@ -12,12 +12,18 @@ from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.placement import box_corners
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.tolerances import AROUND_OF_EXTENT, TOUCHING_OF_EXTENT
+from vectorplot.tolerances import AROUND_OF_EXTENT, NEAR_SURFACE_OF_EXTENT, TOUCHING_OF_EXTENT
 from vectorplot.visibility.polyhedra.occluders import face_occluders
 from vectorplot.visibility.projected_faces import ProjectedFaces
 
 AROUND, ASKEW = 16, 0.1
 """What hides a point hides so many around it in the image, the first of them in a direction that few edges have."""
+
+_DIRECTIONS = np.array([way for way in np.ndindex(3, 3, 3) if way != (1, 1, 1)], dtype=np.float64).T - 1.0
+
+NEARBY = 2.5 * NEAR_SURFACE_OF_EXTENT * _DIRECTIONS / np.sqrt((_DIRECTIONS**2).sum(axis=0))
+"""(3,26) steps in the view, where the scene is 2 wide: of a point that is so near to a surface one of them leads to its
+other side, for no direction is more than 28 degrees off all of them."""
 
 
 def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Floats) -> Ints:
@@ -42,7 +48,9 @@ def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Fl
     Notes
     -----
     What touches a point does not hide it, and neither does an item on the border of which it lies in the image, as of
-    lines; edges between faces are no border where the item goes on on both sides: nothing is seen through them.
+    lines; edges between faces are no border where the item goes on on both sides: nothing is seen through them. A point
+    that lies no more than 1e-4 of the extent off a surface (NEAR_SURFACE_OF_EXTENT), be it inside of a body, is as
+    visible as the place of the surface that is nearest to it.
 
     Examples
     --------
@@ -60,8 +68,9 @@ def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Fl
     if len(covered):
         angle = ASKEW + np.arange(AROUND) * (2.0 * np.pi / AROUND)
         ring = AROUND_OF_EXTENT * np.stack([np.cos(angle), np.sin(angle), np.zeros(AROUND)])
-        around = (points[:, covered, None] + ring[:, None]).reshape(3, -1)
-        beside = _by_items(scene, view, faces, around).reshape(len(covered), AROUND, -1)
+        near = np.concatenate([ring, NEARBY], axis=1)
+        around = (points[:, covered, None] + near[:, None]).reshape(3, -1)
+        beside = _by_items(scene, view, faces, around).reshape(len(covered), near.shape[1], -1)
         hides[covered] &= beside.all(axis=1)
     return np.asarray(hides.sum(axis=1), dtype=np.intp)
 

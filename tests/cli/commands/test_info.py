@@ -46,9 +46,10 @@ def test_info_tells_which_surfaces_there_are_and_what_is_drawn_on_them(tmp_path,
     )
     assert run(["info", str(scene)]) == 0
     assert capsys.readouterr().out.splitlines() == [
-        "RING: surface (torus), closed in u and v, 24 + 12 parameter lines, 9 isophotes, 3 sections, size 8 x 8 x 2",
-        "BLOB: implicit surface, box of size 4 x 4 x 4",
-        "SHEET: implicit surface (quadric), box of size 2 x 2 x 2",
-        "CUBE: 8 vertices, 12 edges, 6 faces, closed, convex, size 1 x 1 x 1",
-        "4 items, 3 surfaces, 8 vertices, 12 edges, 6 faces, 0 lights, size 8 x 8 x 4",
+        "RING: surface (torus), closed in u and v, 24 + 12 parameter lines, 9 isophotes, 3 sections, "
+        "size 8 x 8 x 2, from -4,-4,-1 to 4,4,1",
+        "BLOB: implicit surface, box of size 4 x 4 x 4, from -2,-2,-2 to 2,2,2",
+        "SHEET: implicit surface (quadric), box of size 2 x 2 x 2, from -1,-1,-1 to 1,1,1",
+        "CUBE: 8 vertices, 12 edges, 6 faces, closed, convex, size 1 x 1 x 1, from 0,0,0 to 1,1,1",
+        "4 items, 3 surfaces, 8 vertices, 12 edges, 6 faces, 0 lights, size 8 x 8 x 4, from -4,-4,-2 to 4,4,2",
     ]

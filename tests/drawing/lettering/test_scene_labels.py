@@ -16,8 +16,9 @@ from vectorplot.drawing.text_along import grown, outside_boxes, outside_others
 from vectorplot.geometry import box
 from vectorplot.save import FORMATS, write
 from vectorplot.scene import look
-from vectorplot.surfaces import Cylinder, Sphere, Torus
+from vectorplot.surfaces import Cylinder, ImplicitTorus, Sphere, Torus
 from vectorplot.testing.rays import visible_by_rays
+from vectorplot.tolerances import NEAR_SURFACE_OF_EXTENT
 from vectorplot.visibility import points_hidden_by, project_faces
 
 NAMES = "ABCDEFGH"
@@ -196,8 +197,45 @@ def test_hidden_points_agree_with_rays(parallel: bool) -> None:
     view = look(scene, camera)
     found = points_hidden_by(scene, view, project_faces(view), view.points_of(points))
     truth = visible_by_rays(scene, camera, points)
-    sure = truth.clearance > 1e-5
+    sure = truth.clearance > 1e-3
     assert sure.sum() > 250 and (found[sure] == truth.hidden_by[sure]).all() and 0 < (found > 0).sum() < 300
+
+
+@pytest.mark.parametrize("away", [0.0, 2.0**17])
+@pytest.mark.parametrize("shape", ["cube", "sphere", "torus", "implicit torus"])
+def test_what_is_written_beside_a_surface_by_rounding_lies_on_it(shape: str, away: float) -> None:
+    body, points, normals = places_on(shape, np.random.default_rng(4))
+    scene = vp.Scene((vp.Item("BODY", body).moved(away, 0, 0),))
+    eye, there = np.array([8.0, -5.0, 6.0]), np.array([away, 0.0, 0.0])
+    view = look(scene, vp.Camera(tuple(eye + there), tuple(there)))
+    faces, extent = project_faces(view), float(np.ptp(scene.bounds, axis=0).max())
+
+    def hidden(off: float) -> np.ndarray:
+        off_it = points + off * extent * normals + there
+        return points_hidden_by(scene, view, faces, view.points_of(off_it)) > 0
+
+    sight = eye - points
+    facing = (normals * sight).sum(axis=1) / np.linalg.norm(sight, axis=1)
+    seen = ~hidden(1e-3) & (facing > 0.05)
+    assert seen.sum() > 30
+    for off in (0.0, -1e-9, -3e-6, -3e-5, -NEAR_SURFACE_OF_EXTENT, 3e-6):
+        assert not hidden(off)[seen].any() and hidden(off)[facing < -0.05].all()
+    assert hidden(-10 * NEAR_SURFACE_OF_EXTENT)[seen].all()
+
+
+def places_on(shape: str, rng: np.random.Generator) -> tuple[object, np.ndarray, np.ndarray]:
+    """A body, places on it (100,3), and the normals there."""
+    u, v = rng.uniform(0.0, 2.0 * np.pi, (2, 100))
+    round_ = np.stack([np.cos(v) * np.cos(u), np.cos(v) * np.sin(u), np.sin(v)], axis=1)
+    if shape == "sphere":
+        return Sphere(2.0), 2.0 * round_, round_
+    if shape == "cube":
+        side, axis = rng.integers(0, 2, 100), rng.integers(0, 3, 100)
+        normals = np.zeros((100, 3))
+        normals[np.arange(100), axis] = 2.0 * side - 1.0
+        return box((2, 2, 2)), np.where(normals != 0.0, 1.0 + normals, rng.uniform(0.1, 1.9, (100, 3))), normals
+    ring = 3.0 * np.stack([np.cos(u), np.sin(u), np.zeros(100)], axis=1)
+    return (Torus if shape == "torus" else ImplicitTorus)(3.0, 1.0), ring + round_, round_
 
 
 def test_vertices_seen_exactly_through_edges_are_hidden() -> None:

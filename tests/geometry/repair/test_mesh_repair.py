@@ -125,7 +125,7 @@ def test_report_of_a_cube() -> None:
     report = mesh_report(Mesh.from_polygons(UNIT * [1, 2, 3], CUBE))
     assert (report.vertices, report.edges, report.faces, report.components) == (8, 12, 6, 1)
     assert report.closed and report.oriented and report.convex
-    assert report.size == (1.0, 2.0, 3.0)
+    assert report.bounds == ((0.0, 0.0, 0.0), (1.0, 2.0, 3.0))
 
 
 @pytest.mark.parametrize("scale", [1e-6, 1e6])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import builtins
+import warnings
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +11,10 @@ import pytest
 from support.paths import ROOT
 
 import vectorplot as vp
+from vectorplot.geometry import rotation_about
 from vectorplot.io import Molecule, molecule_scene, read_molecule
-from vectorplot.io.molecules import elements_of
+from vectorplot.io.molecules import bonds_between, elements_of
+from vectorplot.save import write
 
 WATER = "3\nwater\nO 0 0 0\nH 0.757 0.586 0\nH -0.757 0.586 0\n"
 
@@ -224,3 +227,31 @@ def test_crystals_ligands_and_files_with_numbered_lines_have_atoms(tmp_path, nam
     found = read_molecule(tmp_path / name)
     assert found.symbols == symbols
     assert np.allclose(found.places[0], place)
+
+
+@pytest.mark.parametrize("off", [0.0, 1e-7, 1e-4])
+def test_atoms_that_a_file_has_twice_are_drawn_once(off: float) -> None:
+    """The cells of a lattice that overlap: every bond between two of them would lie on another one."""
+    cube = np.array(list(np.ndindex(2, 2, 2))) @ rotation_about((1, 2, 3), 0.7) * 1.5
+    again = cube[:4] + off * np.random.default_rng(5).normal(size=(4, 3))
+    one, two = (carbons(places) for places in (cube, np.concatenate([cube, again])))
+    assert [item.name for item in molecule_scene(two).items] == [item.name for item in molecule_scene(one).items]
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        assert write(vp.draw(molecule_scene(two)), "svg") == write(vp.draw(molecule_scene(one)), "svg")
+
+
+def test_of_bonds_on_one_line_the_shortest_are_drawn() -> None:
+    row = np.array([(0.0, 0, 0), (1.5, 0, 0), (0.8, 0, 0), (3.0, 0, 0)]) @ rotation_about((3, 1, 2), 0.4)
+    assert [item.name for item in molecule_scene(carbons(row)).items[4:]] == ["C1_C3", "C2_C3", "C2_C4"]
+
+
+def test_of_atoms_in_one_place_the_largest_is_shown() -> None:
+    places = np.array([(0.0, 0, 0), (1.4, 0, 0), (1.4, 0, 0), (1.4, 0, 0)])
+    molecule = Molecule("mixed", ("C", "O", "S", "S"), places, np.array([(0, 1), (0, 2), (0, 3)]))
+    assert [item.name for item in molecule_scene(molecule).items] == ["C1", "S3", "C1_S3"]
+
+
+def carbons(places: np.ndarray) -> Molecule:
+    symbols = ("C",) * len(places)
+    return Molecule("carbons", symbols, places, bonds_between(elements_of(symbols), places))

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from vectorplot.cli.options import format_of, upwards
-from vectorplot.cli.picture import Source, make_pages, make_picture
+from vectorplot.cli.picture import Source, make_pages, make_picture, warn_of_nothing
 from vectorplot.cli.picture_options import (
     CUT_SPACING,
     DRAWING_FORMATS,
@@ -94,7 +94,9 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     A named page lies on the side that gives the views more room. Several INPUTs become a sheet each, the pages of one
     PDF.
     """
+    from vectorplot.pictures.nothing_seen import why_nothing
     from vectorplot.pictures.technical_sheet import technical_sheet
+    from vectorplot.scene.page import Page
 
     if told.pop("landscape"):
         told["page"] = f"{told['page'].split(' ')[0]} landscape"
@@ -105,7 +107,9 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
         usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
         said = usual if asked is None else asked
         named = replace(scene, title=scene.title or _name_of_mesh(scene_file[number]))
-        return technical_sheet(named, **told, sheet=said, progress=report.progress, explain=report.explain)
+        made = technical_sheet(named, **told, sheet=said, progress=report.progress, explain=report.explain)
+        warn_of_nothing(Source((scene_file[number],)), made, lambda: why_nothing(scene, None, Page()))
+        return made
 
     written = format_of(out, format_, DRAWING_FORMATS)
     if len(scene_file) > 1:
