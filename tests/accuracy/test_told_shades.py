@@ -37,3 +37,12 @@ def test_shades_are_off_by_no_more_than_told(name, tolerance_mm):
     truth, _ = _colours(SURFACES[name], 0.001, places)
     off = np.abs(seen - truth).max(axis=1)
     assert np.nanquantile(off, 0.998) <= told + STEP
+
+
+def test_shades_are_near_the_true_ones_where_sight_rays_come_in_flat():
+    places = np.random.default_rng(1).random((20000, 2)) * 120.0
+    seen, _ = _colours(SURFACES["torus"], 0.02, places)
+    truth, _ = _colours(SURFACES["torus"], 0.001, places)
+    off = np.abs(seen - truth).max(axis=1)
+    assert np.nanquantile(off, 0.998) <= 16.0
+    assert np.nanquantile(off, 0.99) <= 12.0

@@ -113,7 +113,7 @@ def test_the_box_of_an_eps_under_letters_is_the_page(tmp_path):
     drawing = vp.draw(vp.Scene((vp.Item("b", box((1, 1, 1))),), labels=(vp.Label("A", (0, 0, 1)),)), text="real")
     vp.save_for_latex(drawing, tmp_path / "a.eps")
     assert b"%%BoundingBox: 0 0 596 842" in (tmp_path / "a.eps").read_bytes()
-    assert "\\includegraphics{\\detokenize{a.eps}}" in (tmp_path / "a.tex").read_text()
+    assert "\\includegraphics[hiresbb]{\\detokenize{a.eps}}" in (tmp_path / "a.tex").read_text()
     with pytest.raises(InputError, match="set by LaTeX"):
         vp.save_for_latex(drawing, tmp_path / "a.svg")
 

@@ -57,3 +57,25 @@ def test_curves_that_are_not_drawn_take_no_room():
     alone = vp.Scene(scene.items[:1])
     one, two = (_corners(vp.paint(some, camera, page="100x80")) for some in (scene, alone))
     assert np.abs(one - two).max() < 1e-6
+
+
+ANNOTATIONS = {
+    "axes": "axes 4",
+    "numbered axes": "axes 4 5 6 ticks 1",
+    "arrow": 'arrow "F" from 0 0 1 to 0 0 5',
+    "dimension": "dimension from 0 0 0 to 1 0 0 offset 0 -3 0",
+    "leader": 'leader "text" at 1 1 1 to 4 4 4',
+    "centre line": "centre_line from 0 0 -3 to 0 0 4",
+    "centre mark": "centre_mark at 0 0 0 radius 5",
+    "label": 'label L "text" at 1 1 6',
+}
+
+
+@pytest.mark.parametrize("page", ["100x80", "fit"])
+@pytest.mark.parametrize("note", list(ANNOTATIONS))
+def test_paintings_and_drawings_have_the_same_place_beside_annotations(tmp_path, note, page):
+    (tmp_path / "a.scene").write_text(f"A gray box 1 1 1\n{ANNOTATIONS[note]}\n")
+    scene = vp.read(tmp_path / "a.scene")
+    drawn, painted = vp.draw(scene, page=page), vp.paint(scene, page=page)
+    assert (drawn.width_mm, drawn.height_mm) == pytest.approx((painted.width_mm, painted.height_mm), abs=0.01)
+    assert np.abs(_corners(drawn) - _corners(painted)).max() < 0.01

@@ -490,6 +490,9 @@ LARGEST_SIDE_PIXELS = 32767
 LARGEST_PICTURE_PIXELS = 100_000_000
 """400 MB in memory."""
 
+BOX_UNITS, LARGEST_BOX_UNITS = 64.0, float(1 << 22)
+"""In a point, when the exact box of the ink is measured; and on a side of the page at most, which cairo can hold."""
+
 _STROKES_AT_ONCE = 1000  # one huge path makes the rasterisers of all readers slow
 _TITLE_LENGTH = 200  # cairo refuses comments of more than 255 characters
 
@@ -706,8 +709,9 @@ def _postscript(page: PageMarks, *, eps: bool) -> bytes:
     surface.finish()
     text = with_triangles_in_postscript(re.sub(rb"(?m)^%%CreationDate:.*\n", b"", stream.getvalue(), count=1))
     if not any(len(part) for ink in page.inks for part in ink.parts):
-        text = _with_page_box(text, page)
-    return text
+        return _with_page_box(text, page)
+    text = _with_exact_box(text, _ink_box(page, height))
+    return text if eps else _with_exact_paper(text, page)
 
 
 def postscript_string(text: str) -> str:
@@ -719,14 +723,46 @@ def postscript_string(text: str) -> str:
 
 def _with_page_box(text: bytes, page: PageMarks) -> bytes:
     """The file with the page as bounding box. (Around an empty drawing cairo writes a box turned inside out.)"""
-    width, height = _whole_points(page)
-    # What is closer than whole points is left out.
+    whole = rb"%%\1BoundingBox: 0 0 " + b"%d %d" % _whole_points(page)
+    text = re.sub(rb"(?m)^%%(Page)?BoundingBox:.*$", whole, text)
+    return _with_exact_paper(_with_exact_box(text, (0.0, 0.0, *_points(page))), page)
+
+
+def _with_exact_box(text: bytes, box: tuple[float, ...]) -> bytes:
+    """The file with the box that its BoundingBox, in whole points, is around."""
     text = re.sub(rb"(?m)^%%HiResBoundingBox:.*\n", b"", text)
-    return re.sub(rb"(?m)^%%(Page)?BoundingBox:.*$", rb"%%\1BoundingBox: 0 0 " + b"%d %d" % (width, height), text)
+    exact = b"%%HiResBoundingBox: " + b" ".join(b"%.6f" % side for side in box)
+    return re.sub(rb"(?m)^%%BoundingBox:.*$", lambda found: found[0] + b"\n" + exact, text, count=1)
+
+
+def _with_exact_paper(text: bytes, page: PageMarks) -> bytes:
+    """The file with the size of the page in fractions of points, which cairo rounds up."""
+    exact = b"%.6f %.6f" % _points(page)
+    text = re.sub(rb"(?m)^(%%DocumentMedia: \S+) \d+ \d+", lambda found: found[1] + b" " + exact, text, count=1)
+    return re.sub(rb"(?m)^\d+ \d+( cairo_set_page_size)$", lambda found: exact + found[1], text, count=1)
+
+
+def _ink_box(page: PageMarks, height: float) -> tuple[float, ...]:
+    """Left, lower, right and upper end of all that is drawn on the page, in points; height: as of draw_page."""
+    import cairo
+
+    wide, high = _points(page)
+    # Cairo tells whole units.
+    finer = min(BOX_UNITS, LARGEST_BOX_UNITS / max(wide, high))
+    surface = cairo.RecordingSurface(cairo.CONTENT_COLOR_ALPHA, None)
+    scale = finer * POINTS_PER_MICRON
+    _ink(cairo.Context(surface), page, scale, finer * height, SEAM_MM * 1000.0 * scale)
+    left, top, across, down = (side / finer for side in surface.ink_extents())
+    return max(left, 0.0), max(height - top - down, 0.0), min(left + across, wide), min(height - top, high)
+
+
+def _points(page: PageMarks) -> tuple[float, float]:
+    return page.width * POINTS_PER_MICRON, page.height * POINTS_PER_MICRON
 
 
 def _whole_points(page: PageMarks) -> tuple[int, int]:
-    return math.ceil(page.width * POINTS_PER_MICRON), math.ceil(page.height * POINTS_PER_MICRON)
+    wide, high = _points(page)
+    return math.ceil(wide), math.ceil(high)
 
 
 def draw_page(surface: cairo.Surface, page: PageMarks, height: float) -> None:

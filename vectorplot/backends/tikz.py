@@ -150,7 +150,7 @@ def overlay_bytes(drawing: Drawing, picture: str) -> bytes:
         "\\begin{tikzpicture}[x=1mm,y=1mm]\n"
         f"\\useasboundingbox (0,0) rectangle ({page.width / 1000.0:.10g},{page.height / 1000.0:.10g});\n"
         "\\node[inner sep=0pt,outer sep=0pt,anchor=south west] at (0,0)"
-        f" {{\\includegraphics{{\\detokenize{{{picture}}}}}}};\n"
+        f" {{\\includegraphics{'[hiresbb]' if picture.endswith('.eps') else ''}{{\\detokenize{{{picture}}}}}}};\n"
     )
     nodes = b"".join(text_nodes(part) for ink in page.inks for part in ink.parts if isinstance(part, PageTexts))
     return head.encode("utf-8") + nodes + b"\\end{tikzpicture}\n"

@@ -204,7 +204,8 @@ def make_picture(
         with progress_bar(quiet=quiet) as progress:
             report = Report(progress, reports.append if explain else None)
             contents = picture_contents(source, Path(out).name, format_, picture, report, jobs, overlaid=overlaid)
-            write_out(out, *contents)
+    # What is wrong with a picture is said before there is a file of it.
+    write_out(out, *contents)
     if explain:
         click.echo(table(reports), err=True)
 
@@ -228,7 +229,8 @@ def make_pages(
         with progress_bar(quiet=quiet) as progress:
             report = Report(progress, reports.append if explain else None)
             made = [_page(source, partial(page, number), report) for number, source in enumerate(sources)]
-            write_out(out, write_frames(made, "pdf", 1.0))
+            contents = write_frames(made, "pdf", 1.0)
+    write_out(out, contents)
     if explain:
         click.echo(table(reports), err=True)
 

@@ -402,6 +402,10 @@ sight rays: apart from outlines, borders and other items; fewer where borders of
 DEEPEST_MM, LEAST_DEEP = 1.0, 5.0
 """They are never farther off than this on the page, or so many tolerances: coarse nets take many cuts at outlines."""
 
+STEEP, FLATTEST = 0.2, 0.35
+"""Where sight rays come in with a smaller cosine than this, triangles may be off by less, in proportion, down to this
+part: along such rays the same gap leads to places farther away, which have other shades."""
+
 TURN = np.radians(40.0)
 """By so much normals may turn along a side at most, however little light there is to show it."""
 
@@ -495,8 +499,13 @@ class PictureFineness:
         return np.where(self._long(edges, allowed), off_chords(edges) / (INSIDE * allowed), 0.0)
 
     def _deep(self, edges: Edges) -> Floats:
-        """(n,) those of the items of sides."""
-        return np.asarray(self.deep[surface_numbers(edges.start.places)])
+        """(k,n) by how many times the tolerance triangles may be off at the vertices over sides, less where sight rays
+        come in flat: along these they are off by more."""
+        deep, shape = self.deep[surface_numbers(edges.start.places)], edges.t.shape
+        places, ways = self._in_view(edges.at.points.reshape(-1, 3), edges.at.normals.reshape(-1, 3))
+        cosine = np.abs(np.einsum("ij,ij->i", ways, towards(places, view_eye(self.view)))).reshape(shape)
+        share = np.clip(np.nan_to_num(cosine) / STEEP, FLATTEST, 1.0)
+        return np.asarray(np.maximum(share * deep, np.minimum(deep, DEEP_IN_LIGHT)))
 
     def _long(self, edges: Edges, allowed: Floats) -> Bools:
         length = norm(edges.end.points - edges.start.points)

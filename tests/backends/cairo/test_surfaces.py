@@ -13,8 +13,8 @@ from hypothesis import strategies as st
 from support.backend_samples import drawing_of, grey_of_png, paths_of, program, run
 from support.effort import examples
 
-from vectorplot.backends.cairo import eps_bytes, pdf_bytes, png_bytes, ps_bytes
-from vectorplot.drawing.drawing import Pen
+from vectorplot.backends.cairo import eps_bytes, pdf_bytes, png_bytes, ps_bytes, whole_eps_bytes
+from vectorplot.drawing.drawing import Drawing, Pen
 from vectorplot.errors import InputError
 from vectorplot.save import save
 
@@ -37,6 +37,27 @@ def test_the_bounding_box_is_that_of_the_ink(backend):
     assert np.abs(np.array(box) - [*low, *high]).max() <= 1
     assert all(a <= b * POINTS for a, b in zip(box[:2], expected[:2], strict=True))
     assert all(a >= b * POINTS for a, b in zip(box[2:], expected[2:], strict=True))
+
+
+@pytest.mark.capability("G4.X-postscript")
+@pytest.mark.parametrize("backend", [ps_bytes, eps_bytes])
+def test_the_exact_box_of_the_ink_is_in_fractions_of_points(backend):
+    pen_mm = 0.5
+    text = backend(drawing_of(paths_of([(20, 10), (70, 45)])))
+    (box,) = re.findall(rb"(?m)^%%HiResBoundingBox: (.*)$", text)
+    found = np.array([float(word) for word in box.split()])
+    expected = POINTS * np.array([20 - pen_mm / 2, 10 - pen_mm / 2, 70 + pen_mm / 2, 45 + pen_mm / 2])
+    assert np.abs(found - expected).max() < 0.02
+
+
+@pytest.mark.capability("G4.X-postscript")
+def test_the_size_of_the_page_is_not_rounded():
+    drawing = Drawing(123.4, 98.7, drawing_of(paths_of([(20, 10), (70, 45)])).layers)
+    size = b"%.6f %.6f" % (123.4 * POINTS, 98.7 * POINTS)
+    assert size + b" cairo_set_page_size" in ps_bytes(drawing)
+    for text in (whole_eps_bytes(drawing), eps_bytes(Drawing(123.4, 98.7, ()))):
+        assert b"%%HiResBoundingBox: 0.000000 0.000000 " + size in text
+        assert b"%%BoundingBox: 0 0 350 280" in text
 
 
 @pytest.mark.capability("G4.X-postscript")
