@@ -31,6 +31,7 @@ LOOK_AT = {
     "curvature_lines": "They cross at right angles, close, and bend round the umbilics, of which one is in front.",
     "cyclide": "A torus inverted in a sphere; all parameter lines are circles, before and after.",
     "cylinder": "One looks in at the open top: inside the faces show their back, and the near rim hides the bottom.",
+    "face_looks": "Faces have colours and materials of their own; an end of the house mirrors and lights the floor.",
     "geodesics": "Straightest lines: those that start steeply wind round the tube, the flat one stays outside.",
     "house": "The scene of the first page: a body and a ball, whose contour is a circle, not a polygon.",
     "implicit": "Surfaces by their equations alone: level lines on a rounded cube, isophotes on a pretzel.",
@@ -60,7 +61,9 @@ LOOK_AT = {
 }
 """What a scene shows, in a sentence."""
 
-PAINTED = {*"capped cubes interpenetrating mirror patterns pencil plate pool shadows table three_bars town".split()}
+PAINTED = {
+    *"capped cubes face_looks interpenetrating mirror patterns pencil plate pool shadows table three_bars town".split()
+}
 """The scenes that are painted as well."""
 
 TOLERANCE_MM = 0.2

@@ -412,6 +412,7 @@ def _pieces(view: View, parts: ImageFaces) -> ImageFaces:
         face_item=np.zeros(len(parts), dtype=np.intp),
         item_vertices=np.array([0, len(corners)]),
         occludes=np.ones(1, dtype=np.bool_),
+        face_look=None,
     )
     found = painters_order(double).faces
     return replace(found, source=parts.source[found.source])
@@ -503,7 +504,7 @@ class _Cover:
 
 def _cover(glass: _Glass, inside: SeenThrough, scene: Scene) -> _Cover:
     """What opaque things in a solid hide, to the tolerance of bent sides."""
-    hides = opacities(scene.items)[glass.view.face_item[inside.source]] >= 1.0
+    hides = opacities(scene.items)[glass.view.shown_item[inside.source]] >= 1.0
     some = inside.take(np.flatnonzero(hides & (inside.decal < 0)))
     window, of = np.unique(some.window, return_inverse=True)
     polygons = regions.polygons_of(some.points, some.offsets)

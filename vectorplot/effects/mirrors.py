@@ -63,7 +63,7 @@ def mirrors(scene: Scene, view: View, projected: ProjectedFaces) -> Mirrors:
 def mirror_faces(scene: Scene, view: View) -> Ints:
     """(n,) the faces of the view of items of the material mirror."""
     shines = np.array([item.material.is_mirror for item in scene.items], dtype=np.bool_)
-    return np.flatnonzero(shines[view.face_item]) if len(shines) else np.zeros(0, dtype=np.intp)
+    return np.flatnonzero(shines[view.shown_item]) if len(shines) else np.zeros(0, dtype=np.intp)
 
 
 def mirrors_of(view: View, face: Ints) -> Mirrors:
@@ -215,6 +215,7 @@ def _with_cut_faces(view: View, whole: Ints, cut: Ints, height: Floats) -> tuple
         face_item=np.concatenate([view.face_item[whole], np.full(len(full), items)]),
         item_vertices=np.append(view.item_vertices, count + len(parts.points)),
         occludes=np.append(view.occludes, True),
+        face_look=None,
     )
     return new, source
 
@@ -372,4 +373,5 @@ def joined_views(one: View, two: View) -> View:
         face_item=np.concatenate([one.face_item, two.face_item + len(one.item_vertices) - 1]),
         item_vertices=np.concatenate([one.item_vertices, two.item_vertices[1:] + one.item_vertices[-1]]),
         occludes=np.concatenate([one.occludes, two.occludes]),
+        face_look=None,
     )

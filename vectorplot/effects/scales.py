@@ -524,7 +524,7 @@ def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
                 name = f"{item.name} {k + 1}"
                 group = item.group or item.name
                 band = replace(item, name=name, shape=mesh, colour=colours[k], patterns=(), curves=lines, group=group)
-                items.append(replace(band, fields=None, normals=whole.normals))
+                items.append(replace(band, fields=None, face_looks=None, normals=whole.normals))
                 own.append(name)
                 pens.extend(PenRule(kind, name, colour=colours[k]) for kind in IN_COLOURS)
                 pens.append(PenRule("boundary", name, width_mm=LINE_MM))

@@ -50,7 +50,7 @@ def scene_shadows(
 
     # Light goes through what is transparent: there patterns show shadows, and nothing else.
     shows = np.array([item.material.opacity >= 1.0 or bool(item.patterns) for item in items], dtype=np.bool_)
-    shown = shows[view.face_item] if receivers is None else receivers & shows[view.face_item]
+    shown = shows[view.shown_item] if receivers is None else receivers & shows[view.shown_item]
     cast = cast_within(view, lights, budget.pairs, receivers=shown, projected=projected, off=off)
     tell_missing_shadows(items, lights, cast.left_out)
     # Borders are made of the regions that cells are made of.
@@ -114,7 +114,7 @@ def decal_fills(
 
 def shown_decals(view: View, lighting: Lighting, decals: Decals) -> Decals:
     """Those of decals that show, as convex polygons: on transparent faces there are patterns only."""
-    opaque = opacities(lighting.items)[view.face_item[decals.face]] >= 1.0
+    opaque = opacities(lighting.items)[view.shown_item[decals.face]] >= 1.0
     decals = decals.of(np.flatnonzero(opaque | (decals.kind == FillKind.PATTERN)))
     return convex_decals(view, decals, smooth_faces(view, lighting.normals))
 

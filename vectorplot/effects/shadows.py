@@ -578,7 +578,7 @@ def transparent_shadows(
     projected = project_faces(view) if projected is None else projected
     dark = no_decals() if shadows is None else shadows.of(np.flatnonzero(shadows.kind == FillKind.SHADOW))
     # Light goes through what is transparent, and leaves no shadow on it.
-    opaque = np.array([item.material.opacity >= 1.0 for item in scene.items], dtype=np.bool_)[view.face_item]
+    opaque = np.array([item.material.opacity >= 1.0 for item in scene.items], dtype=np.bool_)[view.shown_item]
     shown = opaque if receivers is None else receivers & opaque
     found = []
     for (colour, opacity), items in groups.items():

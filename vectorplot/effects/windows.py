@@ -282,7 +282,7 @@ def seen_fills(view: View, lighting: Lighting, seen: SeenThrough, placement: Pla
         seen.offsets,
         placement,
         colours=colours_of(view, lighting, source, shades.total),
-        opacity=opacities(lighting.items)[view.face_item[seen.source]],
+        opacity=opacities(lighting.items)[view.shown_item[seen.source]],
         item=view.face_item[seen.source],
         kind=np.full(len(seen), int(kind)),
     )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import warnings
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -35,7 +36,11 @@ from vectorplot.features.curve_tracing import (
     samples_of_each,
     together,
 )
+from vectorplot.features.parameter_curves import borders
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.polylines import take
+from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.tolerances import ROUNDING_OF_TERMS
 
@@ -394,6 +399,26 @@ def plane_sections(
     plane = PlaneSection(surface, normal, 0.0)
     found = curves_on_levels(surface, plane, levels, size=size, roundings=roundings, tracing=tracing)
     return together([_warned(curves) for curves in found])
+
+
+def border_sections(
+    surface: Surface, normal: ArrayLike, offsets: ArrayLike, *, tracing: Tracing = DEFAULT
+) -> SurfaceCurves:
+    """Those borders of a surface that lie in one of the planes n.x = d, with d as level: plane_sections looks for where
+    the surface goes through, and there are none of these at a border."""
+    levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
+    large = extent(surface)[1]
+    lines = borders(surface, tracing=tracing)
+    if not len(lines) or not len(levels):
+        return no_curves()
+    heights = matmul(lines.points, normalize(vector("plane sections: normal", normal)))
+    starts = lines.offsets[:-1]
+    low, high = np.minimum.reduceat(heights, starts), np.maximum.reduceat(heights, starts)
+    nearest = np.argmin(np.abs(levels[:, None] - low), axis=0)
+    level = levels[nearest]
+    rounding = ROUNDING_OF_TERMS * (large + np.abs(level))
+    lies = np.flatnonzero((np.abs(low - level) <= rounding) & (np.abs(high - level) <= rounding))
+    return replace(take(lines, lies), levels=level[lies])
 
 
 def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

@@ -296,8 +296,8 @@ def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> Me
 
     Notes
     -----
-    Degenerate: a vertex in the plane counts as above it. A face in the plane gives its outline where the mesh goes on
-    below.
+    Degenerate: a vertex in the plane counts as above it, but on a border that lies in the plane with the mesh above:
+    such borders are sections as well. A face in the plane gives its outline where the mesh goes on below.
 
     Source: Glaeser, section 9.3, example 3, figure 7.
 
@@ -313,8 +313,11 @@ def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> Me
     faces = face_triangles(mesh)
     height = matmul(mesh.vertices - faces.centre, n)
     middle = float(matmul(faces.centre, n))
-    found = curves_of_values(faces, levels, lambda d: _snapped(height - (d - middle), faces.rounding))
-    return without_inner(found, faces.extent)
+
+    def above(offset: Floats) -> Floats:
+        return _with_lowest_borders(faces.triangles, _snapped(height - (offset - middle), faces.rounding))
+
+    return without_inner(curves_of_values(faces, levels, above), faces.extent)
 
 
 def mesh_level_lines(mesh: Mesh, heights: ArrayLike) -> MeshCurves:
@@ -651,6 +654,27 @@ def _towards(points: Floats, place: Floats, normals: Floats) -> Floats:
     way = place - points
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray((way * normals).sum(axis=1) / np.linalg.norm(way, axis=1))
+
+
+def _with_lowest_borders(triangles: Ints, values: Floats) -> Floats:
+    """Values (n,) or (c,n) in which the ends of border edges at 0, with the triangle above, count as below: what is
+    traced between them and the rest runs along these edges."""
+    zero = values == 0.0
+    corners = zero[..., triangles]
+    flat = corners & np.roll(corners, -1, axis=-1)
+    if not flat.any():
+        return values
+    curve, triangle, side = np.nonzero(flat.reshape(-1, *triangles.shape))
+    start, end, other = (triangles[triangle, (side + k) % 3] for k in range(3))
+    count = values.shape[-1]
+    key = (curve * count + np.minimum(start, end)) * count + np.maximum(start, end)
+    _, which, uses = np.unique(key, return_inverse=True, return_counts=True)
+    own = values.reshape(-1, count)
+    low = (uses[which.ravel()] == 1) & (own[curve, other] > 0.0)
+    result = own.copy()
+    for corner in (start, end):
+        result[curve[low], corner[low]] = -np.finfo(np.float64).tiny
+    return result.reshape(values.shape)
 
 
 def _snapped(values: Floats, rounding: float) -> Floats:

@@ -15,6 +15,7 @@ from vectorplot.io.scene_item import (
     CAP_WORDS,
     Draft,
     Placement,
+    material_of,
     moved,
     read_hatch,
     read_matrix,
@@ -50,6 +51,7 @@ from vectorplot.io.surface_line_words import (
     read_surface_curve,
     read_terrain_lines,
 )
+from vectorplot.scene.face_looks import FaceLook
 from vectorplot.scene.item import Pattern
 from vectorplot.scene.material import FINISH_WORDS, Material
 from vectorplot.words import (
@@ -210,6 +212,23 @@ def _read_named_material(reader: ItemCursor, draft: Draft) -> None:
         reader.fail(unknown_material(reader.source.string(reader.at)).cause, draft)
 
 
+def read_face_look(reader: ItemCursor, draft: Draft) -> FaceLook | None:
+    """The look of a face, in words as of items: a colour, a material and its numbers, opacity; None where none stands
+    here."""
+    own = Draft(draft.name, draft.index)
+    own.owner = f"{draft.owner}a face: "
+    begin = reader.at
+    while (read := _OF_FACES.get(reader.words[reader.at])) is not None:
+        is_colour = read in (_read_colour, _read_named_colour)
+        if (is_colour and own.colour is not None) or (read is _read_material and own.material is not None):
+            break
+        read(reader, own)
+    if reader.at == begin:
+        return None
+    plain = own.material is None and own.opacity is None
+    return FaceLook(own.colour, None if plain else material_of(own))
+
+
 def _read_form(reader: ItemCursor, draft: Draft) -> None:
     word = reader.words[reader.at]
     if word == "hollow":
@@ -329,6 +348,11 @@ LOOK_WORDS: dict[str, Callable[[ItemCursor, Draft], None]] = {
     "hatch": _read_hatch,
 }
 """What reads words about the look of an item."""
+
+_OF_FACES = {
+    word: read for word, read in LOOK_WORDS.items() if word in (*COLOURS, *MATERIALS, "colour", "material", "opacity")
+}
+"""The same of a face."""
 
 BEFORE_LENGTHS = frozenset([*COLOURS, *MATERIALS, *FORM_WORDS, *CAP_WORDS])
 """Words that may stand between the word box and its lengths."""
@@ -510,7 +534,7 @@ def _read_mesh(reader: ItemCursor, draft: Draft) -> None:
     if reader.files is None:
         reader.fail("a text without a file names no files", draft)
     path = reader.files.named(reader.source, reader.at, draft.owner, MESH_SUFFIXES)
-    draft.mesh, draft.fields = whole_mesh(path)
+    draft.mesh, draft.fields, draft.mesh_looks = whole_mesh(path)
     reader.at += 1
 
 
@@ -538,13 +562,42 @@ def _read_faces(reader: ItemCursor, draft: Draft) -> None:
     if reader.none():
         draft.faces = []
     else:
-        draft.faces, reader.at = reader.source.groups(reader.at, draft.owner, "a vertex of a face")
+        draft.faces = []
+        while True:
+            found, reader.at = reader.source.groups(reader.at, draft.owner, "a vertex of a face")
+            draft.faces += found
+            start, look = reader.at, read_face_look(reader, draft)
+            # Behind the last face stands the look of the item, unless that has its own.
+            if look is None or (reader.words[reader.at] != "," and draft.colour is None and draft.material is None):
+                reader.at = start
+                break
+            draft.looks[len(draft.faces) - 1] = look
+            if reader.words[reader.at] != ",":
+                break
+            reader.at += 1
 
 
 def _read_removed(reader: ItemCursor, draft: Draft) -> None:
     reader.once(draft, "removed")
     groups, reader.at = reader.source.groups(reader.at, draft.owner, "a face")
     draft.removed = [number for group in groups for number in group]
+
+
+def _read_face_looks(reader: ItemCursor, draft: Draft) -> None:
+    """Faces by number, and the look of these; more after commas."""
+    while True:
+        reader.at += 1
+        faces = list[int]()
+        while reader.source.is_number(reader.at):
+            faces.append(reader.source.whole(reader.at, draft.owner, "a face") - 1)
+            reader.at += 1
+        look = read_face_look(reader, draft) if faces else None
+        if look is None:
+            what = "a colour or a material" if faces else "the number of a face"
+            reader.fail(f"face_looks: expected {what}, got {reader.source.shown(reader.at)}", draft)
+        draft.looks |= dict.fromkeys(faces, look)
+        if reader.words[reader.at] != ",":
+            return
 
 
 def _read_intersection(reader: ItemCursor, draft: Draft) -> None:
@@ -569,6 +622,7 @@ SHAPE_WORDS: dict[str, Callable[[ItemCursor, Draft], None]] = {
     "edges": _read_edges,
     "faces": _read_faces,
     "removed_faces": _read_removed,
+    "face_looks": _read_face_looks,
     "revolution": _read_revolution,
     "rot_angle": _read_angle,
     "meridian": _read_meridian,

@@ -16,6 +16,7 @@ from vectorplot.errors import InputError, printable
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import upright_turn
 from vectorplot.geometry.vectors import norm
+from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene
 
@@ -165,8 +166,13 @@ def _one_by_one(text: Bytes, starts: Ints, ends: Ints, odd: Ints) -> Floats:
     columns = np.arange(width)
     inside = columns < lengths[:, None]
     characters = np.where(inside, text[np.minimum(starts[odd][:, None] + columns, len(text) - 1)], 0).astype(np.uint8)
-    strange = ~(_ALLOWED[characters] | ~inside).all(axis=1)
+    strange = np.asarray(~(_ALLOWED[characters] | ~inside).all(axis=1), dtype=np.bool_)
     words = characters.view(f"S{width}").ravel()
+    # As Mathematica writes exponents: 2.7*^-4.
+    for k in np.flatnonzero(strange).tolist():
+        number = words[k].replace(b"*^", b"e", 1)
+        if number != words[k] and _ALLOWED[np.frombuffer(number, dtype=np.uint8)].all():
+            words[k], strange[k] = number, False
     values = np.full(len(odd), np.nan)
     if not strange.any():
         try:
@@ -206,13 +212,14 @@ Value = TypeVar("Value")
 @dataclass(frozen=True, eq=False)
 class MeshFile:
     """The content of a mesh file: one mesh; its parts by name and the first face (k,) of each; the relative spacing of
-    its coordinates; and numbers at its vertices and on its faces, if it has any."""
+    its coordinates; and numbers at its vertices and on its faces, and looks of faces, if it has any."""
 
     mesh: Mesh
     names: tuple[str, ...]
     first_faces: tuple[int, ...]
     precision: float
     fields: Fields | None = None
+    looks: FaceLooks | None = None
 
 
 def shown(path: Path) -> str:
@@ -308,8 +315,11 @@ class TextFile:
 
     def fail(self, position: int, cause: str) -> NoReturn:
         """An InputError that names the line of the position."""
-        line = 1 + self.data.count(b"\n", 0, position) + self.data.count(JOINT, 0, position)
-        raise InputError(cause, file=self.name, line=line)
+        raise InputError(cause, file=self.name, line=self.line(position))
+
+    def line(self, position: int) -> int:
+        """The line of a position, from 1."""
+        return 1 + self.data.count(b"\n", 0, position) + self.data.count(JOINT, 0, position)
 
     def fail_at_end(self, cause: str) -> NoReturn:
         """An InputError that names the last line."""

@@ -326,7 +326,7 @@ def _places(rows: list[list[str]], name: str) -> Floats:
 
 def _number(word: str) -> float:
     try:
-        return float(word)
+        return float(word.replace("*^", "e", 1))
     except ValueError:
         return np.nan
 

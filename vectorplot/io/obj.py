@@ -1,4 +1,4 @@
-"""Wavefront OBJ files: vertices, polygons and the names of objects; everything else is passed over."""
+"""Wavefront OBJ files: vertices, polygons, the names of objects, materials; everything else is passed over."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.io.mesh_file import JOINT, MeshFile, TextFile, TextLines, joined, polygon_mesh, text_file
+from vectorplot.io.meshes.material_library import looks_of_materials
 from vectorplot.tolerances import ULP
 
 
@@ -21,6 +22,8 @@ class _Found:
     corners: list[Ints] = field(default_factory=list)
     sizes: list[Ints] = field(default_factory=list)
     objects: list[tuple[str, int]] = field(default_factory=list)
+    materials: list[tuple[str, int]] = field(default_factory=list)
+    libraries: list[tuple[str, int]] = field(default_factory=list)
     vertex_count: int = 0
     face_count: int = 0
 
@@ -28,6 +31,7 @@ class _Found:
 def read_obj(path: Path) -> MeshFile:
     """The polygons of an OBJ file; a part for every object (o).
 
+    Materials (usemtl) of the libraries (mtllib) beside it give faces their looks.
     Faces of the forms v, v/vt, v//vn, v/vt/vn, with indices from 1 or negative ones that count back from the last
     vertex read; comments; lines continued by a backslash. z is not turned: the format does not say which way is up.
     Errors: InputError with the line for a word that is no number, a coordinate that is not finite, an index out of
@@ -43,7 +47,9 @@ def read_obj(path: Path) -> MeshFile:
     vertices = joined(found.vertices, 3)
     _check_indices(text, found)
     names, first_faces = _parts(path, found)
-    return MeshFile(polygon_mesh(vertices, found.corners, found.sizes), names, first_faces, ULP)
+    mesh = polygon_mesh(vertices, found.corners, found.sizes)
+    looks = looks_of_materials(path, text, mesh, found.materials, found.libraries)
+    return MeshFile(mesh, names, first_faces, ULP, looks=looks)
 
 
 def _with_joined_lines(text: TextFile) -> TextFile:
@@ -59,9 +65,17 @@ def _read_lines(lines: TextLines, found: _Found) -> None:
     single = lines.ends[lines.first] - lines.starts[lines.first] == 1
     is_vertex, is_face = single & (letters == ord("v")), single & (letters == ord("f"))
     objects = np.flatnonzero(single & (letters == ord("o")))
-    faces_before = found.face_count + ragged.offsets(is_face)[objects]
+    faces_so_far = ragged.offsets(is_face)
+    faces_before = found.face_count + faces_so_far[objects]
     for line, first_face in zip(objects.tolist(), faces_before.tolist(), strict=True):
         found.objects.append((_rest_of_line(lines, int(lines.first[line])), first_face))
+    for line in np.flatnonzero(lines.ends[lines.first] - lines.starts[lines.first] == len("usemtl")).tolist():
+        word = int(lines.first[line])
+        if lines.word(word) == "usemtl":
+            first_face = found.face_count + int(faces_so_far[line])
+            found.materials.append((_rest_of_line(lines, word), first_face))
+        elif lines.word(word) == "mtllib":
+            found.libraries.append((_rest_of_line(lines, word), int(lines.starts[word]) + lines.offset))
     _read_faces(lines, is_vertex, is_face, found)
     _read_vertices(lines, is_vertex, found)
 

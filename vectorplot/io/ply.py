@@ -23,7 +23,9 @@ from vectorplot.io.mesh_file import (
     polygon_mesh,
     shown,
 )
+from vectorplot.io.meshes.material_library import looks_of_colours
 from vectorplot.io.off import face_corners
+from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.scales import Fields
 from vectorplot.tolerances import SINGLE_ULP, ULP
 
@@ -155,6 +157,7 @@ def _least_bytes(form: str, element: Element) -> int:
 # The numbers that a PLY file has at vertices and on faces, besides coordinates and corners.
 
 COORDINATES = ("x", "y", "z")
+COLOUR = ("red", "green", "blue")
 
 
 def ply_fields(text: TextFile, header: Header, mesh: Mesh) -> Fields | None:
@@ -170,6 +173,17 @@ def ply_fields(text: TextFile, header: Header, mesh: Mesh) -> Fields | None:
     return Fields.of(mesh, found.get("vertex", {}), found.get("face", {}))
 
 
+def coloured_faces(mesh: Mesh, fields: Fields, face: Element) -> FaceLooks | None:
+    """The looks of faces that have the properties red, green and blue, and may have alpha: whole numbers to 255, or 0
+    to 1; a face without one of these looks like the item."""
+    kinds = {entry.name: entry.kind for entry in face.properties}
+    if not all(name in fields.on_faces for name in COLOUR):
+        return None
+    names = [*COLOUR, *(["alpha"] if "alpha" in fields.on_faces else [])]
+    most = [1.0 if kinds[name].startswith("f") else float(np.iinfo(kinds[name]).max) for name in names]
+    return looks_of_colours(mesh, np.stack([fields.on_faces[name] for name in names], axis=1) / most)
+
+
 def _wanted(element: Element) -> list[int]:
     """The places of the properties that are fields."""
     if sum(bool(entry.count_kind) for entry in element.properties) > 1:
@@ -179,7 +193,7 @@ def _wanted(element: Element) -> list[int]:
     return [single[k] for k, name in names if element.name == "face" or name not in COORDINATES]
 
 
-def _list_place(element: Element) -> int:
+def list_place(element: Element) -> int:
     """Where the only list stands; behind all properties if there is none."""
     return next((k for k, entry in enumerate(element.properties) if entry.count_kind), len(element.properties))
 
@@ -191,11 +205,11 @@ def _text_numbers(text: TextFile, header: Header, wanted: dict[str, list[int]]) 
     counts, names = [e.count for e in elements], [e.name for e in elements]
     for section, lines in body.sections(counts, names, comment=b""):
         element, own = elements[section], found.setdefault(elements[section].name, {})
-        listed = _list_place(element)
+        listed = list_place(element)
         polygons, longer = np.ones(len(lines.first), dtype=np.bool_), np.zeros(len(lines.first), dtype=np.intp)
-        if element.name == "face":
+        if element.name in wanted and listed < len(element.properties):
             longer = lines.integers(lines.first + listed)
-            polygons = longer >= TRIANGLE
+            polygons = longer >= TRIANGLE if element.name == "face" else polygons
         for k in wanted.get(element.name, []):
             words = lines.first + k + (longer if k > listed else 0)
             if (words >= lines.first + lines.count).any():
@@ -225,19 +239,25 @@ def _binary_numbers(text: TextFile, header: Header, wanted: dict[str, list[int]]
     for element in header.elements:
         if sum(bool(entry.count_kind) for entry in element.properties) > 1:
             break
-        starts, lengths, position = _records(text, order, element, position)
-        listed = _list_place(element)
+        starts, lengths, position = records_of(text, order, element, position)
         polygons = lengths >= TRIANGLE if element.name == "face" else np.ones(element.count, dtype=np.bool_)
         own = {}
         for k in wanted.get(element.name, []):
-            entry = element.properties[k]
-            at = starts + sum(p.size for p in element.properties[:k])
-            if k > listed:
-                at = at + lengths * np.dtype(element.properties[listed].kind).itemsize
-            kind = np.dtype(order + entry.kind)
-            own[entry.name] = _at(text.data, kind, at)[polygons].astype(np.float64)
+            values = property_values(text, order, element, starts, lengths, k)
+            own[element.properties[k].name] = values[polygons].astype(np.float64)
         found[element.name] = own
     return found
+
+
+def property_values(
+    text: TextFile, order: str, element: Element, starts: Ints, lengths: Ints, place: int
+) -> NDArray[Any]:
+    """(n,) the numbers of a property, by its place, of records that begin at some bytes and have lists so long."""
+    listed = list_place(element)
+    at = starts + sum(entry.size for entry in element.properties[:place])
+    if place > listed:
+        at = at + lengths * np.dtype(element.properties[listed].kind).itemsize
+    return _at(text.data, np.dtype(order + element.properties[place].kind), at)
 
 
 def _at(data: bytes, kind: np.dtype[Any], at: Ints) -> NDArray[Any]:
@@ -249,10 +269,10 @@ def _at(data: bytes, kind: np.dtype[Any], at: Ints) -> NDArray[Any]:
     return np.asarray(raw[at[:, None] + np.arange(kind.itemsize)].view(kind).reshape(-1))
 
 
-def _records(text: TextFile, order: str, element: Element, position: int) -> tuple[Ints, Ints, int]:
+def records_of(text: TextFile, order: str, element: Element, position: int) -> tuple[Ints, Ints, int]:
     """Where records begin, how long their list is, and where they end; the file holds them, as was seen before."""
     fixed = sum(entry.size for entry in element.properties)
-    number, listed = np.arange(element.count), _list_place(element)
+    number, listed = np.arange(element.count), list_place(element)
     if listed == len(element.properties):
         return position + fixed * number, np.zeros(element.count, dtype=np.intp), position + fixed * element.count
     entry = element.properties[listed]
@@ -293,8 +313,10 @@ def read_ply(path: Path) -> MeshFile:
     header = read_header(text)
     vertex, face = (_element(text, header, name) for name in ("vertex", "face"))
     axes = [vertex.place(axis) for axis in "xyz"]
-    if min(axes) < 0 or any(entry.count_kind for entry in vertex.properties):
-        raise InputError("a vertex needs the properties x, y, z, and no list", file=text.name)
+    if min(axes) < 0 or any(vertex.properties[axis].count_kind for axis in axes):
+        raise InputError("a vertex needs the properties x, y, z", file=text.name)
+    if sum(bool(entry.count_kind) for entry in vertex.properties) > 1:
+        text.fail(text.data.index(b"element vertex"), "a vertex that has more than one list is not read")
     if header.form == "ascii":
         vertices, corners, sizes = _text_body(text, header, axes, _indices_place(text, face))
     else:
@@ -304,7 +326,8 @@ def read_ply(path: Path) -> MeshFile:
     single = all(vertex.properties[axis].kind == "f4" for axis in axes)
     mesh = polygon_mesh(vertices, corners, sizes)
     fields = ply_fields(text, header, mesh)
-    return MeshFile(mesh, (path.stem,), (0,), SINGLE_ULP if single else ULP, fields)
+    looks = None if fields is None else coloured_faces(mesh, fields, face)
+    return MeshFile(mesh, (path.stem,), (0,), SINGLE_ULP if single else ULP, fields, looks)
 
 
 def _element(text: TextFile, header: Header, name: str) -> Element:
@@ -337,7 +360,15 @@ def _text_body(text: TextFile, header: Header, axes: list[int], place: int) -> t
         if short.any():
             lines.fail(int(lines.first[short][0]), f"a {element.name} needs {element.least_words} words or more")
         if element.name == "vertex":
-            pieces.append(lines.decimals(lines.first[:, None] + np.array(axes)))
+            words = lines.first[:, None] + np.array(axes)
+            listed = list_place(element)
+            if listed < len(element.properties):
+                longer = lines.integers(lines.first + listed)
+                wrong = (longer < 0) | (lines.count < element.least_words + longer)
+                if wrong.any():
+                    lines.fail(int(lines.first[wrong][0]), f"the list {element.properties[listed].name} does not fit")
+                words = words + np.where(np.array(axes) > listed, longer[:, None], 0)
+            pieces.append(lines.decimals(words))
         elif element.name == "face":
             if any(entry.count_kind for entry in element.properties[:place]):
                 lines.fail(int(lines.first[0]), "a list before vertex_indices is not read")
@@ -356,12 +387,18 @@ def _binary_body(text: TextFile, header: Header, axes: list[int], place: int) ->
     lists: tuple[Ints, Ints] | None = None
     face_start = position
     for element in header.elements:
-        if any(entry.count_kind for entry in element.properties):
+        if element.name != "vertex" and any(entry.count_kind for entry in element.properties):
             wanted = place if element.name == "face" else -1
             if wanted >= 0:
                 face_start = position
             found, position = _list_records(text, order, element, position, wanted)
             lists = found if wanted >= 0 else lists
+            continue
+        if any(entry.count_kind for entry in element.properties):
+            # The walk over the records tells where the file ends before them.
+            _, position_behind = _list_records(text, order, element, position, -1)
+            vertices = _listed_vertices(text, order, element, position, axes)
+            position = position_behind
             continue
         starts = list(accumulate((np.dtype(entry.kind).itemsize for entry in element.properties), initial=0))
         step = starts[-1]
@@ -376,6 +413,18 @@ def _binary_body(text: TextFile, header: Header, axes: list[int], place: int) ->
         position += step * element.count
     assert lists is not None
     return vertices, *_checked_faces(text, lists, len(vertices), face_start)
+
+
+def _listed_vertices(text: TextFile, order: str, element: Element, position: int, axes: list[int]) -> Floats:
+    """(n,3) the coordinates of vertices that have a list besides."""
+    starts, lengths, _ = records_of(text, order, element, position)
+    found = [property_values(text, order, element, starts, lengths, axis) for axis in axes]
+    vertices = np.stack(found, axis=1).astype(np.float64)
+    bad = np.flatnonzero(~np.isfinite(vertices).all(axis=1))
+    if len(bad):
+        where = f"vertex {bad[0]} (byte {starts[bad[0]]})"
+        raise InputError(f"{where} has a coordinate that is not a finite number", file=text.name)
+    return vertices
 
 
 def _check_end(text: TextFile, element: Element, end: int) -> None:

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +16,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_repair import Mending, is_closed_oriented, repaired, sound_parts
 from vectorplot.io.mesh_file import MeshFile, shown
 from vectorplot.scene.extent import check_range
+from vectorplot.scene.face_looks import FaceLook, FaceLooks
 from vectorplot.scene.item import Item
 from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene
@@ -39,17 +41,31 @@ def mesh_scene(path: Path) -> Scene:
         raise InputError(error.strerror or "cannot be read", file=shown(path)) from None
 
 
-def whole_mesh(path: Path) -> tuple[Mesh, Fields | None]:
-    """All parts of a mesh file in one mesh, and its fields. Errors and warnings as of mesh_scene."""
+def whole_mesh(path: Path) -> tuple[Mesh, Fields | None, FaceLooks | None]:
+    """All parts of a mesh file in one mesh, its fields, and looks of its faces. Errors, warnings: as of mesh_scene."""
     items = mesh_scene(path).items
     meshes = [item.mesh for item in items]
     if len(meshes) == 1:
-        return meshes[0], items[0].fields
+        return meshes[0], items[0].fields, _looks(items, meshes[0])
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     corners = np.concatenate([mesh.corners + begin for mesh, begin in zip(meshes, first, strict=False)])
     sizes = np.concatenate([mesh.face_sizes for mesh in meshes])
     whole = Mesh(np.concatenate([mesh.vertices for mesh in meshes]), corners, ragged.offsets(sizes))
-    return whole, items[0].fields
+    return whole, items[0].fields, _looks(items, whole)
+
+
+def _looks(items: Sequence[Item], whole: Mesh) -> FaceLooks | None:
+    """The looks of the faces of some items in one mesh."""
+    plain, looks, of_face = Item("", whole), list[FaceLook](), []
+    for item in items:
+        own = item.face_looks
+        number = np.full(item.mesh.face_count, -1, dtype=np.intp) if own is None else own.of_face
+        of_face.append(np.where(number >= 0, number + len(looks), -1))
+        looks += [] if own is None else own.looks
+        if item.colour != plain.colour or item.material != plain.material:
+            of_face[-1] = np.where(number >= 0, of_face[-1], len(looks))
+            looks.append(FaceLook(item.colour, item.material))
+    return FaceLooks(whole, tuple(looks), np.concatenate(of_face)) if looks else None
 
 
 def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
@@ -80,12 +96,28 @@ def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
 def _mesh_scene(path: Path, content: MeshFile) -> Scene:
     check_range(content.mesh.bounds)
     parts, mending = _mended_parts(path.stem, content)
-    items = tuple(Item(name, mesh, fields=content.fields) for name, mesh in parts if mesh.face_count)
+    items = tuple(_item(name, mesh, content) for name, mesh in parts if mesh.face_count)
     if not items:
         raise InputError(f"no face with an area ({mending})", file=shown(path))
     if str(mending):
         warnings.warn(f"{shown(path)}: {mending}", InputWarning, stacklevel=3)
     return Scene(items)
+
+
+def _item(name: str, mesh: Mesh, content: MeshFile) -> Item:
+    """A part in its colours: those of all of its faces, if they are the same."""
+    item = Item(name, mesh, fields=content.fields)
+    if content.looks is None:
+        return item
+    of_face = content.looks.at(mesh)
+    used, own = np.unique(of_face, return_inverse=True)
+    looks = content.looks.looks
+    if len(used) == 1 and used[0] >= 0:
+        look = looks[int(used[0])]
+        colour = item.colour if look.colour is None else look.colour
+        return replace(item, colour=colour, material=item.material if look.material is None else look.material)
+    kept = tuple(looks[k] for k in used.tolist() if k >= 0)
+    return replace(item, face_looks=FaceLooks(mesh, kept, own.ravel() - int(used[0] < 0))) if kept else item
 
 
 def _mended_parts(stem: str, content: MeshFile) -> tuple[list[tuple[str, Mesh]], Mending]:

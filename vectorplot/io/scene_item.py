@@ -40,6 +40,7 @@ from vectorplot.geometry.solids import (
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.io.scene_words import Words
 from vectorplot.io.surface_line_words import CurveDraft
+from vectorplot.scene.face_looks import FaceLook, FaceLooks
 from vectorplot.scene.hatching import HATCHED_ALONG, HATCHED_BY, Hatching
 from vectorplot.scene.item import Item, Pattern
 from vectorplot.scene.material import Material
@@ -189,6 +190,7 @@ class Draft:
     hatch: Hatching | None = None
     mesh: Mesh | None = None
     fields: Fields | None = None
+    mesh_looks: FaceLooks | None = None
     surface: Surface | ImplicitSurface | None = None
     curve: Curve | None = None
     terrain: Mesh | None = None
@@ -199,6 +201,7 @@ class Draft:
         self.index = index
         self.owner = name + ": "
         self.patterns: list[Pattern] = []
+        self.looks: dict[int, FaceLook] = {}
         self.places: list[Placement] = [IDENTITY]
 
     def at(self, number: int) -> Draft:
@@ -233,7 +236,7 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
     Errors: InputError with file, line and the item's name for anything that makes no shape.
     """
     shape: Mesh | Surface | ImplicitSurface | Curve
-    curves = NO_LINES
+    curves, looks = NO_LINES, None
     try:
         if draft.surface is not None:
             shape, curves = _surface(draft, draft.surface)
@@ -245,15 +248,17 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
                 from vectorplot.io.scene_surfaces import curves_of
 
                 curves = curves_of(draft.curves, shape, shape.bounds)
+            looks = _face_looks(draft, shape)
     except InputError as error:
         if error.file is not None:
             raise
         words.fail(draft.kind_index, draft.owner + error.cause)
+    drawn, added = _listed_edges(draft, shape)
     return Item(
         draft.name,
         shape,
         "gray" if draft.colour is None else draft.colour,
-        _material(draft),
+        material_of(draft),
         tuple(draft.patterns),
         draft.lines,
         draft.occludes,
@@ -262,15 +267,35 @@ def finished(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Item:
         draft.hatch,
         (words.name, words.line(draft.index)),
         fields=None if draft.fields is None else draft.fields.transformed(_matrix(draft.placement)),
-        drawn_edges=_drawn_edges(draft, shape),
+        drawn_edges=drawn,
+        added_edges=added,
+        face_looks=looks,
     )
 
 
-def _drawn_edges(draft: Draft, shape: object) -> Floats | None:
-    """(e,2,3) the ends of the listed edges; None where all edges are drawn."""
+def _face_looks(draft: Draft, shape: Mesh) -> FaceLooks | None:
+    """The looks of faces that the file of a mesh gives, and over them those of the scene."""
+    given, own = draft.mesh_looks, FaceLooks.of(shape, draft.looks) if draft.looks else None
+    if given is None:
+        return own
+    if own is None:
+        return FaceLooks(shape, given.looks, given.of_face)
+    of_face = np.where(own.of_face >= 0, own.of_face + len(given.looks), given.of_face)
+    return FaceLooks(shape, (*given.looks, *own.looks), of_face)
+
+
+def _listed_edges(draft: Draft, shape: object) -> tuple[Floats | None, Floats | None]:
+    """(e,2,3) the ends of the listed edges that are sides of faces, and of those that are not; None where all edges are
+    drawn, and where there are none of the others."""
     if draft.edges is None or not isinstance(shape, Mesh):
-        return None
-    return shape.vertices[np.array(draft.edges, dtype=np.intp).reshape(-1, 2) - 1]
+        return None, None
+    listed = np.array(draft.edges, dtype=np.intp).reshape(-1, 2) - 1
+    count = len(shape.vertices)
+    low, high = np.sort(listed, axis=1).T
+    least, most = mesh_edges(shape).T
+    known = np.isin(low * count + high, least * count + most)
+    ends = shape.vertices[listed]
+    return ends[known], None if known.all() else ends[~known]
 
 
 def _matrix(placement: Sequence[float]) -> Floats:
@@ -308,8 +333,8 @@ def _space_curve(draft: Draft, words: Words, curve: Curve) -> Curve:
 
 
 def _check_faceless(draft: Draft, what: str) -> None:
-    if draft.removed is not None or draft.patterns:
-        raise InputError(f"a {what} has no faces for 'removed_faces' and 'patterns'")
+    if draft.removed is not None or draft.patterns or draft.looks:
+        raise InputError(f"a {what} has no faces for 'removed_faces', 'face_looks' and 'patterns'")
 
 
 def _check_lineless(draft: Draft, words: Words) -> None:
@@ -334,7 +359,8 @@ def _polyhedron(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
     return mesh
 
 
-def _material(draft: Draft) -> Material:
+def material_of(draft: Draft) -> Material:
+    """The material that the words of a draft describe."""
     if draft.material is None and draft.opacity is None and draft.refraction == 1.0:
         return _NORMAL
     return Material(draft.material or "normal", draft.opacity, draft.refraction, **draft.finish)
@@ -400,7 +426,7 @@ def _general(draft: Draft, words: Words, parts: Sequence[Mesh]) -> Mesh:
                 raise InputError(f"{what} {number} names vertex {bad}, there are {len(vertices)}, counted from 1")
     mesh = Mesh.from_polygons(vertices, [[vertex - 1 for vertex in face] for face in draft.faces or ()])
     if draft.edges is not None:
-        _check_edges(draft.edges, mesh)
+        _check_edges(draft.edges)
     _check_solid(draft, words, mesh)
     if draft.form not in ("general", "concave"):
         outwards = turned_outwards(mesh)
@@ -423,20 +449,11 @@ def _warn(draft: Draft, words: Words, cause: str) -> None:
     warnings.warn(f"{words.name}:{line}: {draft.owner}{cause}", InputWarning, stacklevel=3)
 
 
-def _check_edges(edges: list[list[int]], mesh: Mesh) -> None:
-    """Every listed edge must be a side of a face."""
+def _check_edges(edges: list[list[int]]) -> None:
+    """Every listed edge must join two vertices."""
     for number, edge in enumerate(edges, 1):
         if len(edge) != 2 or edge[0] == edge[1]:
             raise InputError(f"edge {number}: expected two different vertices")
-    count = len(mesh.vertices)
-    low, high = mesh_edges(mesh).T
-    sides = low * count + high
-    low, high = np.sort(np.array(edges).reshape(-1, 2) - 1, axis=1).T
-    listed = low * count + high
-    known = np.isin(listed, sides)
-    if not known.all():
-        first = int(np.argmin(known))
-        raise InputError(f"edge {first + 1} ({edges[first][0]} {edges[first][1]}) is no side of a face")
 
 
 def _without_faces(mesh: Mesh, removed: list[int]) -> Mesh:

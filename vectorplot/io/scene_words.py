@@ -36,6 +36,7 @@ ITEM_WORDS = (
         "edges",
         "faces",
         "removed_faces",
+        "face_looks",
         "revolution",
         "rot_angle",
     ),

@@ -500,7 +500,7 @@ def _label(label: Label) -> str:
 
 
 def _item(item: Item, lights: tuple[Light, ...]) -> str:
-    colour = item.colour if item.colour in COLOURS else f"colour {dumps(item.colour)}"
+    colour = _colour_words(item.colour)
     form = ["general"] if isinstance(item.shape, Mesh) else []
     words = [_name(item.name), colour, *form, *_material(item.material)]
     words.append(f"occludes {'yes' if item.hides else 'no'}")
@@ -511,7 +511,11 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
     lines = item.usual_lines if item.lines is None else item.lines
     if lines is not None:
         words.append(f"lines {', '.join(lines) or 'none'}")
-    return " ".join(words) + _shape(item, lights) + _edges(item) + _patterns(item.patterns)
+    return " ".join(words) + _shape(item, lights) + _edges(item) + _face_looks(item) + _patterns(item.patterns)
+
+
+def _colour_words(colour: str) -> str:
+    return colour if colour in COLOURS else f"colour {dumps(colour)}"
 
 
 def _edges(item: Item) -> str:
@@ -519,8 +523,22 @@ def _edges(item: Item) -> str:
     if item.drawn_edges is None or not isinstance(item.shape, Mesh):
         return ""
     number = {tuple(vertex): k + 1 for k, vertex in enumerate(item.shape.vertices.tolist())}
-    ends = [[number.get(tuple(end)) for end in edge] for edge in item.drawn_edges.tolist()]
+    listed = [*item.drawn_edges.tolist(), *([] if item.added_edges is None else item.added_edges.tolist())]
+    ends = [[number.get(tuple(end)) for end in edge] for edge in listed]
     return "\nedges " + (" , ".join(f"{one} {two}" for one, two in ends if one and two) or "none")
+
+
+def _face_looks(item: Item) -> str:
+    """The looks of single faces."""
+    if item.face_looks is None or not isinstance(item.shape, Mesh):
+        return ""
+    own, rows = item.face_looks.at(item.shape), []
+    for number, look in enumerate(item.face_looks.looks):
+        faces = " ".join(str(face + 1) for face in np.flatnonzero(own == number).tolist())
+        words = [] if look.colour is None else [_colour_words(look.colour)]
+        words += [] if look.material is None else _material(look.material)
+        rows += [f"{faces} {' '.join(words)}"] if faces and words else []
+    return "\nface_looks " + " ,\n  ".join(rows) if rows else ""
 
 
 def _shape(item: Item, lights: tuple[Light, ...]) -> str:

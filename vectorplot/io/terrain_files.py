@@ -200,7 +200,7 @@ def is_points(beginning: bytes) -> bool:
 
 def _is_number(word: bytes) -> bool:
     try:
-        float(word)
+        float(word.replace(b"*^", b"e", 1))
     except ValueError:
         return False
     return True

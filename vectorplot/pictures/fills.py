@@ -425,7 +425,7 @@ def _fills(
     """The polygons of the picture on the page, with what lies on them and what is painted between them."""
     view, faces = seen.view, seen.faces
     item = view.face_item[faces.source]
-    opacity = opacities(seen.scene.items)[item]
+    opacity = opacities(seen.scene.items)[view.shown_item[faces.source]]
     fills = fills_on_page(
         view,
         faces.points,
@@ -909,7 +909,7 @@ def seen_on_page(
         from vectorplot.visibility.painter.transparent_sheets import connected_parts, in_sheets
 
         item = view.face_item[faces.source]
-        opacity = opacities(facets.scene.items)[item]
+        opacity = opacities(facets.scene.items)[view.shown_item[faces.source]]
         sheet, width = np.where(opacity < 1.0, item, -1), SIDE_BY_SIDE_MM / placement.scale
         if pipeline.calls_for("refraction"):
             from vectorplot.effects.glass import refracting_items
@@ -951,7 +951,7 @@ def _with_clear_items(scene: Scene) -> Scene:
 
 def _planes_of(scene: Scene, view: View, faces: ImageFaces, plane: Ints) -> Ints:
     """(n,) the planes of painted polygons, -1 for those of transparent items, which stand together as sheets."""
-    clear = opacities(scene.items)[view.face_item[faces.source]] < 1.0
+    clear = opacities(scene.items)[view.shown_item[faces.source]] < 1.0
     return np.where(clear, -1, plane[faces.source])
 
 

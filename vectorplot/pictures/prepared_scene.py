@@ -18,6 +18,7 @@ from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import plan_cuts
 from vectorplot.scene.annotations import LabelAnchors, label_anchors
 from vectorplot.scene.exploded import shown_apart
+from vectorplot.scene.items_of_looks import with_face_looks
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, depth_cue_of
@@ -90,7 +91,8 @@ def prepared_scene(
     seamless = without_seams(given if lights is None else replace(given, lights=tuple(lights)))
     tell_what_is_cut_off(seamless)
     anchors, seen_from = label_anchors(given), camera_of(camera, seamless)
-    return PreparedScene(_seen_part(seamless, seen_from, paper, explain, progress), seen_from, anchors, chart)
+    seen = with_face_looks(_seen_part(seamless, seen_from, paper, explain, progress))
+    return PreparedScene(seen, seen_from, anchors, chart)
 
 
 def _chart_of(scene: Scene, camera: Camera | str | None, paper: Paper) -> Scaled | None:

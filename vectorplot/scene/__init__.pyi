@@ -1,5 +1,6 @@
 from .added_lines import even_sections, round_sections, with_lines, without_level_lines
 from .cuts import Cut, CutPlane, Explosion
+from .face_looks import FaceLook, FaceLooks
 from .hatching import Hatching, Stippling
 from .item import Item, Pattern, SurfaceNormals
 from .labels import Along, AtVertex, Label, OnCurve, OnPage
@@ -39,6 +40,8 @@ __all__ = [
     "CutPlane",
     "DepthCue",
     "Explosion",
+    "FaceLook",
+    "FaceLooks",
     "FieldLines",
     "Fields",
     "GeodesicLines",

@@ -16,6 +16,7 @@ from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.geometry.rotations import Movable
 from vectorplot.geometry.triangles import PlacedTriangles
 from vectorplot.geometry.vectors import norm
+from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.material import Material
 from vectorplot.scene.scales import Fields
@@ -155,6 +156,10 @@ class Item(Movable["Item"]):
         The words of the kinds to draw where neither lines nor the drawing say any (None: those of all things).
     drawn_edges : (e, 2, 3) array of float, optional
         The ends of those edges of a polyhedron that are drawn, none of the others (None: all).
+    added_edges : (e, 2, 3) array of float, optional
+        The ends of segments that are drawn as creases of a polyhedron besides its edges.
+    face_looks : FaceLooks, optional
+        Colours and materials of single faces (None: all have those of the item).
 
     Raises
     ------
@@ -187,6 +192,8 @@ class Item(Movable["Item"]):
     normals: SurfaceNormals | None = None
     usual_lines: tuple[str, ...] | None = None
     drawn_edges: Floats | None = None
+    added_edges: Floats | None = None
+    face_looks: FaceLooks | None = None
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
@@ -235,7 +242,9 @@ class Item(Movable["Item"]):
         patterns = self.patterns if patterns is None else patterns
         fields = None if self.fields is None else self.fields.transformed(m)
         normals = None if self.normals is None else self.normals.transformed(m)
-        edges = None if self.drawn_edges is None else matmul(self.drawn_edges, m[:3, :3].T) + m[:3, 3]
+        looks = None if self.face_looks is None else self.face_looks.transformed(m)
+        listed = (self.drawn_edges, self.added_edges)
+        edges, added = (None if ends is None else matmul(ends, m[:3, :3].T) + m[:3, 3] for ends in listed)
         return replace(
             self,
             shape=shape,
@@ -245,6 +254,8 @@ class Item(Movable["Item"]):
             fields=fields,
             normals=normals,
             drawn_edges=edges,
+            added_edges=added,
+            face_looks=looks,
         )
 
     @property

@@ -113,6 +113,8 @@ class View(Projection):
         Item k has the points item_vertices[k] to item_vertices[k+1], none if it is a smooth surface.
     occludes : (i,) array of bool
         Whether each item hides what is behind it.
+    face_look : (f,) array of int, optional
+        Which item each face looks like, where faces have looks of their own (None: the one it is of).
 
     Notes
     -----
@@ -139,6 +141,12 @@ class View(Projection):
     face_item: Ints
     item_vertices: Ints
     occludes: Bools
+    face_look: Ints | None = None
+
+    @property
+    def shown_item(self) -> Ints:
+        """(f,) the item whose colour and material each face has."""
+        return self.face_item if self.face_look is None else self.face_look
 
     def __len__(self) -> int:
         return self.face_count
@@ -259,7 +267,25 @@ def view_of(scene: Scene, projection: Projection) -> View:
         face_item=pool.face_item[faces.source],
         item_vertices=pool.item_vertices,
         occludes=np.array([item.hides for item in scene.items], dtype=np.bool_),
+        face_look=_face_looks(scene, pool.face_item)[faces.source] if _has_looks(scene) else None,
     )
+
+
+def _has_looks(scene: Scene) -> bool:
+    return any(item.face_looks is not None and item.face_looks.first >= 0 for item in scene.items)
+
+
+def _face_looks(scene: Scene, face_item: Ints) -> Ints:
+    """(f,) the item that every face of the pool looks like."""
+    found = face_item.copy()
+    ends = np.searchsorted(face_item, np.arange(len(scene.items) + 1))
+    for number, item in enumerate(scene.items):
+        looks, mesh = item.face_looks, item.mesh
+        if looks is None or looks.first < 0 or not mesh.face_count:
+            continue
+        own = looks.at(mesh) if mesh.present is None else looks.at(mesh)[mesh.present]
+        found[ends[number] : ends[number + 1]] = np.where(own >= 0, looks.first + own, number)
+    return found
 
 
 # Surfaces that are made of the same points, however they are turned in themselves, whatever their parameters are.

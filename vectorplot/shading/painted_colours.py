@@ -97,7 +97,7 @@ def corner_shades_of(view: View, lighting: Lighting, points: Floats, offsets: In
         at = every[some]
         normals = _normals_on(view, lighting.normals, flat_normals[:, face[at]], points[:, at], face[at])
         turned = np.where(inside[face[at]], -normals, normals)
-        own = point_shades(view, lighting.items, lighting.lights, points[:, at].T, turned.T, view.face_item[face[at]])
+        own = point_shades(view, lighting.items, lighting.lights, points[:, at].T, turned.T, view.shown_item[face[at]])
         found.shares[:, at], found.matt[:, at] = own.shares, own.matt
         found.backlit[:, at], found.cue[at] = own.backlit, own.cue
 
@@ -114,7 +114,7 @@ def _with_ambient(found: Shades, lighting: Lighting) -> Shades:
 def colours_of(view: View, lighting: Lighting, source: Ints, shade: Floats) -> Colours:
     """(n,3) the colours of points on faces (n,) at shades (n,) or (3,n): on smooth surfaces without steps
     unless the lighting has such."""
-    item = view.face_item[source]
+    item = view.shown_item[source]
     found = item_colours(lighting.items, item, shade, lighting.size)
     at = np.flatnonzero(smooth_faces(view, lighting.normals)[source])
     if len(at):

@@ -349,4 +349,4 @@ def scene_triangles(view: View, normals: Sequence[TrueNormals | None], crease_an
     fans, face = ragged.fans(view.offsets)
     points = np.ascontiguousarray(view.points.T)
     corner_normals = view_normals(view, normals, crease_angle_deg)
-    return SceneTriangles(points, view.corners[fans], face, view.face_item[face], corner_normals)
+    return SceneTriangles(points, view.corners[fans], face, view.shown_item[face], corner_normals)

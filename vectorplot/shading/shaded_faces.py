@@ -216,14 +216,14 @@ def corner_shades(view: View, items: Sequence[Item], lights: Sequence[Light], no
     points = view.points[:, view.corners]
     face = ragged.owner(view.face_sizes)
     inside = shows_inside(view)[face]
-    return point_shades(view, items, lights, points.T, np.where(inside, -normals, normals).T, view.face_item[face])
+    return point_shades(view, items, lights, points.T, np.where(inside, -normals, normals).T, view.shown_item[face])
 
 
 def decal_shades(view: View, items: Sequence[Item], lights: Sequence[Light], points: Floats, face: Ints) -> Shades:
     """The shades of points (3,n) that lie on some faces (n,) of a view; arguments as of face_shades."""
     normals = face_normals(view)[:, face]
     outer = facing(normals.T, towards(points.T, view_eye(view)))
-    return point_shades(view, items, lights, points.T, outer, view.face_item[face])
+    return point_shades(view, items, lights, points.T, outer, view.shown_item[face])
 
 
 def point_shades(
@@ -372,7 +372,7 @@ def face_colours(view: View, items: Sequence[Item], shade: Floats, count: int = 
     >>> shading.face_colours(view, cube.items, np.array([0, 0, 0, 0, 0, 1.0]))[4:].tolist()
     [[0, 0, 0], [255, 255, 255]]
     """
-    return item_colours(items, view.face_item, shade, count)
+    return item_colours(items, view.shown_item, shade, count)
 
 
 def item_colours(items: Sequence[Item], item: Ints, shade: Floats, count: int = PALETTE_SIZE) -> Colours:
@@ -380,9 +380,9 @@ def item_colours(items: Sequence[Item], item: Ints, shade: Floats, count: int = 
 
     Errors: InputError that names the colour, where there is none of that name.
     """
-    names = list(dict.fromkeys(some.colour for some in items))
-    which = np.array([names.index(some.colour) for some in items], dtype=np.intp)
-    return shaded_colours(names, which[item], shade, count)
+    number = {name: k for k, name in enumerate(dict.fromkeys(some.colour for some in items))}
+    which = np.array([number[some.colour] for some in items], dtype=np.intp)
+    return shaded_colours(list(number), which[item], shade, count)
 
 
 def _in_view(view: View, light: Light) -> tuple[float, float, float]:

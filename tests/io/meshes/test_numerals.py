@@ -1,10 +1,14 @@
+from pathlib import Path
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.effort import examples
 
+from vectorplot.errors import InputError
 from vectorplot.io.mesh_file import PAD, NumeralError, decimals, integers, padded
+from vectorplot.io.obj import read_obj
 
 
 def placed(words: list[str]) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -98,3 +102,12 @@ def test_what_is_no_integer_is_refused(word: str) -> None:
 def test_nothing() -> None:
     none = np.zeros(0, dtype=np.intp)
     assert len(decimals(padded(b""), none, none)) == len(integers(padded(b""), none, none)) == 0
+
+
+def test_exponents_of_mathematica_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "a.obj"
+    path.write_text("v 2.7*^-4 0 0\nv 1 -3.*^+1 0\nv 0 1.5*^2 1e-3\nf 1 2 3\n")
+    assert read_obj(path).mesh.vertices.tolist() == [[2.7e-4, 0.0, 0.0], [1.0, -30.0, 0.0], [0.0, 150.0, 1e-3]]
+    path.write_text("v 0 0 0\nv 2*^*^3 0 0\nv 0 1 0\nf 1 2 3\n")
+    with pytest.raises(InputError, match=r"a\.obj:2: expected a finite number, got '2\*\^\*\^3'"):
+        read_obj(path)

@@ -110,3 +110,46 @@ def test_nan_in_binary_ply_names_vertex_and_byte(tmp_path: Path) -> None:
 def test_bad_files(tmp_path: Path, content: bytes, cause: str) -> None:
     with pytest.raises(InputError, match=cause):
         read_ply(ply(tmp_path, content))
+
+
+@pytest.mark.parametrize("place", [0, 2, 4])
+@pytest.mark.parametrize("form", ["ascii", "binary_little_endian", "binary_big_endian"])
+@pytest.mark.parametrize("equal", [False, True])
+def test_lists_of_vertices_are_read_past(tmp_path: Path, form: str, place: int, equal: bool) -> None:
+    corners = [(0.0, 0.0, 0.5), (1.0, 0.0, 0.25), (0.0, 1.0, 0.125)]
+    heat = [1.0, 2.0, 3.0]
+    order = ">" if form == "binary_big_endian" else "<"
+    header = [f"property float {name}" for name in ("x", "y", "z", "heat")]
+    header.insert(place, "property list uchar short own")
+    lines = ["ply", f"format {form} 1.0", "element vertex 3", *header]
+    lines += ["element face 1", "property list uchar int vertex_indices", "end_header", ""]
+    data = "\n".join(lines).encode()
+    for k, (corner, number) in enumerate(zip(corners, heat, strict=True)):
+        own = [7] * (2 if equal else k)
+        if form == "ascii":
+            words = [str(value) for value in (*corner, number)]
+            words[place:place] = [str(len(own)), *map(str, own)]
+            data += (" ".join(words) + "\n").encode()
+        else:
+            parts = [struct.pack(order + "f", value) for value in (*corner, number)]
+            parts.insert(place, struct.pack(f"{order}B{len(own)}h", len(own), *own))
+            data += b"".join(parts)
+    data += b"3 0 1 2\n" if form == "ascii" else struct.pack(order + "B3i", 3, 0, 1, 2)
+    path = tmp_path / "a.ply"
+    path.write_bytes(data)
+    found = read_ply(path)
+    assert found.mesh.vertices.tolist() == [list(corner) for corner in corners]
+    assert found.fields is not None
+    assert found.fields.at_vertices["heat"].tolist() == heat
+
+
+def test_several_lists_of_a_vertex_are_told_with_their_line(tmp_path: Path) -> None:
+    lists = "property list uchar int a\nproperty list uchar int b\n"
+    axes = "".join(f"property float {axis}\n" for axis in "xyz")
+    path = tmp_path / "a.ply"
+    path.write_text(
+        f"ply\nformat ascii 1.0\nelement vertex 3\n{axes}{lists}element face 1\n"
+        "property list uchar int vertex_indices\nend_header\n" + 3 * "0 0 0 0 0\n" + "3 0 1 2\n"
+    )
+    with pytest.raises(InputError, match=r"a.ply:3: a vertex that has more than one list"):
+        read_ply(path)

@@ -71,10 +71,7 @@ CONE = "CONE green revolution solid meridian 4 0 0 , 0 0 7 order 30"
         ("A vertices 0 0 0, 1 0 0, 0 1 nan faces 1 2 3", "a vertex: 'nan' is not a finite number"),
         ("A vertices 0 0 0, 1 0 0, 0 1 0", "A: expected 'faces', got the end of the file"),
         ("A vertices 0 0 0, 1 0 0, 0 1 0 edges 1 5 faces 1 2 3", "A: edge 1 names vertex 5"),
-        (
-            "A vertices 0 0 0, 1 0 0, 1 1 0, 0 1 0 edges 1 2, 1 3 faces 1 2 3 4",
-            r"A: edge 2 \(1 3\) is no side of a face",
-        ),
+        ("A box 1 1 1 face_looks 7 red", "there is no face 7, faces run from 1 to 6"),
         ("T translation base_points 0 0 0, 1 0 0, 0 1 0 trans_vector 1 1 0", "T: trans_vector lies in the plane"),
         ("T translation base_points 0 0 0, 1 0 0, 0 1 0", "T: expected 'trans_vector', got the end"),
         (f"{SLAB} bore 5 5 0", "T: expected a number for a centre and a radius of the bore, got the end"),

@@ -72,3 +72,32 @@ def test_lists_are_written_as_they_were_read() -> None:
         once = cube(edges)
         again = parse_scene(write_scene(once))
         assert np.array_equal(once.items[0].drawn_edges, again.items[0].drawn_edges)
+
+
+DIAGONALS = "5 7, 1 3, 1 7, 2 7"
+"""On the top, on the bottom, in space, and on the side x = 2, of which the camera sees the first and the last."""
+
+
+@pytest.mark.capability("G3.3-edge-list")
+@pytest.mark.parametrize("form", ["general", "solid"])
+@pytest.mark.parametrize("verb", ["draw", "paint"])
+def test_listed_segments_that_are_no_edges_are_drawn_and_hidden_too(verb: str, form: str) -> None:
+    scene = cube(DIAGONALS, form)
+    found = drawn(getattr(vp, verb)(scene, CAMERA, lines=("contour", "crease")))
+    assert np.isclose(found.length, 2 * 8.0**0.5)
+    every = drawn(vp.draw(scene, CAMERA, hidden="solid"))
+    assert np.isclose(every.length, 3 * 8.0**0.5 + 12.0**0.5)
+    again = parse_scene(write_scene(scene))
+    assert np.array_equal(scene.items[0].added_edges, again.items[0].added_edges)
+
+
+def test_listed_segments_are_cut_with_their_bodies() -> None:
+    whole = cube("5 7")
+    half = vp.cut(whole, "x > 0.5, y > 0.5")
+    found = drawn(vp.draw(half, CAMERA, lines=("crease",), hidden="solid"))
+    level = np.ptp(found.world[:, :, 2], axis=1) < 1e-9
+    along = np.abs(found.world[:, :, 0] - found.world[:, :, 1]).max(axis=1) < 1e-9
+    ends = found.world[level & along]
+    assert np.isclose(np.hypot(*(ends[:, 1] - ends[:, 0]).T[:2]).sum(), 0.5 * 2.0**0.5)
+    moved = drawn(vp.draw(whole.moved(3, 1, 0), CAMERA, lines=("crease",), hidden="solid"))
+    assert np.isclose(moved.length, 8.0**0.5)

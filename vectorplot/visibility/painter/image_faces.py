@@ -119,6 +119,8 @@ def outer_sides(view: View) -> Ints:
     if view.eye is not None:
         behind = np.flatnonzero(view.depth <= view.near)
         side[np.searchsorted(view.item_vertices, behind, side="right") - 1] = 0
+    # What stands for the look of faces is wound as the item that these are of.
+    side[view.shown_item] = side[view.face_item]
     return side
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -255,7 +255,8 @@ def edge_lines(
 
     Notes
     -----
-    Of items that list the edges to be drawn (drawn_edges) these are drawn, flat ones as creases, and no others.
+    Of items that list the edges to be drawn (drawn_edges) these are drawn, flat ones as creases, and no others;
+    segments that are no edges (added_edges) are creases too, less what is cut away.
 
     Source: Glaeser, sections 3.3, 4.4 and 7.2.
 
@@ -294,11 +295,42 @@ def edge_lines(
         start, end = edges.start[kept], edges.end[kept]
         ends = view.points.take(start, axis=1), view.points.take(end, axis=1)
         parts.append(straight_lines(*ends, edges.kind[kept], item[kept], edges.side[kept]))
-    return joined_lines(parts)
+    return joined_lines([*parts, *_added_edges(scene, view, kinds)])
 
 
 def _all_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
     return mesh_edges(faces, {*kinds, LineKind.EDGES}, crease_angle_deg)
+
+
+def _added_edges(scene: Scene, view: View, kinds: frozenset[LineKind]) -> list[Lines]:
+    """The segments of items that are no edges of theirs, as creases."""
+    parts = []
+    for number, item in enumerate(scene.items):
+        if item.added_edges is None or not {LineKind.CREASE, LineKind.EDGES} & kinds_of(item, kinds):
+            continue
+        start, end = _outside(item.added_edges[:, 0], item.added_edges[:, 1], item.cut_by)
+        none = np.zeros(len(start), dtype=np.intp)
+        ends = view.points_of(start), view.points_of(end)
+        parts.append(straight_lines(*ends, np.full(len(start), int(LineKind.CREASE)), none + number, none))
+    return parts
+
+
+def _outside(start: Floats, end: Floats, regions: Sequence[HalfSpaces]) -> tuple[Floats, Floats]:
+    """What of segments from start to end (n,3) lies in none of some convex regions."""
+    for region in regions:
+        here, there = region.heights(start), region.heights(end)
+        rise = there - here
+        with np.errstate(divide="ignore", invalid="ignore"):
+            met = -here / rise
+        first = np.where(rise > 0.0, met, np.where((rise == 0.0) & (here < 0.0), np.inf, -np.inf)).max(axis=0)
+        last = np.where(rise < 0.0, met, np.inf).min(axis=0)
+        gone = first < last
+        low, high = np.where(gone, np.clip(first, 0.0, 1.0), 1.0), np.where(gone, np.clip(last, 0.0, 1.0), 1.0)
+        way = end - start
+        ends = [(start, start + low[:, None] * way), (start + high[:, None] * way, end)]
+        some = [low > 0.0, high < 1.0]
+        start, end = (np.concatenate([ends[k][side][some[k]] for k in (0, 1)]) for side in (0, 1))
+    return start, end
 
 
 def _listed_edges(

@@ -20,7 +20,14 @@ from vectorplot.features.conditions import (
     stacked,
     stacks,
 )
-from vectorplot.features.contours import contours, isophotes, parallel_contours, plane_sections, point_light_isophotes
+from vectorplot.features.contours import (
+    border_sections,
+    contours,
+    isophotes,
+    parallel_contours,
+    plane_sections,
+    point_light_isophotes,
+)
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, together
 from vectorplot.features.cusps import contours_with_cusps, singular_lines
 from vectorplot.features.feature_lines import Detail, Sight, surface_feature_lines
@@ -265,6 +272,9 @@ def _asked_for(
             plane = PlaneSection(surface, normal, 0.0)
             found = plane_sections(surface, normal, offsets, tracing=tracing)
             result.append((section.kind, ConditionCurves(sheet, number, plane), found))
+            ends = border_sections(surface, normal, offsets, tracing=tracing)
+            if len(ends):
+                result.append((section.kind, ParameterCurves(sheet, number), ends))
     if LineKind.CURVE in wanted:
         for path in lines.paths:
             found = surface_path(surface, path.function.values, path.start, path.end, tracing=tracing)

@@ -1,0 +1,123 @@
+"""Colours of the faces of mesh files: the materials of MTL libraries, and red, green and blue."""
+
+from __future__ import annotations
+
+import warnings
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from vectorplot.arrays import Floats
+from vectorplot.errors import InputError, InputWarning, printable
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.mesh_file import TextFile, shown, text_file
+from vectorplot.scene.face_looks import FaceLook, FaceLooks
+from vectorplot.scene.material import Material
+
+if TYPE_CHECKING:
+    from collections.abc import Sequence
+
+
+MANY_COLOURS = 1 << 12
+"""Files with more colours of faces than this have them rounded to FEW_STEPS of red, green and blue."""
+
+FEW_STEPS = 15.0
+
+
+def looks_of_materials(
+    path: Path, text: TextFile, mesh: Mesh, used: Sequence[tuple[str, int]], libraries: Sequence[tuple[str, int]]
+) -> FaceLooks | None:
+    """The looks of the faces of an OBJ file. used: names of materials, and the first face of each; libraries: names of
+    files, and where the text names them.
+
+    Warns: InputWarning, one, with file and line, for what gives no colours: libraries that are missing, cannot be read
+    or lie elsewhere; materials that are in none.
+    """
+    if not used or not libraries:
+        return None
+    known: dict[str, FaceLook] = {}
+    wrong: list[str] = []
+    for name, position in libraries:
+        try:
+            known |= _library(path, name)
+        except InputError as error:
+            where = f"{text.name}:{text.line(position)}" if error.line is None else f"{error.file}:{error.line}"
+            wrong.append(f"{where}: mtllib {printable(name)}: {error.cause}")
+    if not wrong and (missing := [name for name, _ in used if name not in known]):
+        wrong.append(f"{text.name}: material {printable(missing[0])} is in no library")
+    if wrong:
+        warnings.warn(f"{wrong[0]}; its faces have no colours of their own", InputWarning, stacklevel=3)
+    names = list(known)
+    number = {name: k for k, name in enumerate(names)}
+    of_face = np.full(mesh.face_count, -1, dtype=np.intp)
+    ends = [first for _, first in used[1:]] + [mesh.face_count]
+    for (name, first), end in zip(used, ends, strict=True):
+        of_face[first:end] = number.get(name, -1)
+    return _only_used(mesh, [known[name] for name in names], of_face)
+
+
+def _only_used(mesh: Mesh, looks: list[FaceLook], of_face: np.ndarray) -> FaceLooks | None:
+    kept, of = np.unique(of_face, return_inverse=True)
+    has = int(kept[0] >= 0) - 1 if len(kept) else 0
+    own = tuple(looks[k] for k in kept.tolist() if k >= 0)
+    return FaceLooks(mesh, own, of.ravel() + has) if own else None
+
+
+def _library(path: Path, name: str) -> dict[str, FaceLook]:
+    """The materials of a library. Errors: InputError for one outside of the folder of the file that names it."""
+    folder = path.parent.resolve()
+    try:
+        place = (folder / name).resolve()
+    except (OSError, ValueError):
+        raise InputError("is not a file name") from None
+    if not place.is_relative_to(folder):
+        raise InputError("lies outside of the folder of this file")
+    found: dict[str, FaceLook] = {}
+    colour, opacity, current = None, 1.0, None
+    text = text_file(place)
+    for number, line in enumerate(text.data.decode("utf-8", "replace").split("\n"), 1):
+        words = line.partition("#")[0].split()
+        if not words:
+            continue
+        try:
+            if words[0] == "newmtl":
+                current, colour, opacity = " ".join(words[1:]), None, 1.0
+            elif words[0] == "Kd" and len(words) == 4:
+                colour = hex_colour(np.array([float(word) for word in words[1:]]))
+            elif words[0] in ("d", "Tr") and len(words) > 1:
+                share = float(words[-1])
+                opacity = min(max(share if words[0] == "d" else 1.0 - share, 0.0), 1.0)
+            if not opacity == opacity:
+                raise ValueError
+        except ValueError:
+            raise InputError(f"{words[0]} needs numbers", file=shown(place), line=number) from None
+        if current is not None:
+            found[current] = FaceLook(colour, None if opacity >= 1.0 else Material("normal", opacity=opacity))
+    return found
+
+
+def hex_colour(shares: Floats) -> str:
+    """The colour #rrggbb of red, green and blue (3,) from 0 to 1. Errors: ValueError for what is no number."""
+    if not np.isfinite(shares).all():
+        raise ValueError
+    red, green, blue = np.rint(255.0 * np.clip(shares, 0.0, 1.0)).astype(int).tolist()
+    return f"#{red:02x}{green:02x}{blue:02x}"
+
+
+def looks_of_colours(mesh: Mesh, shares: Floats) -> FaceLooks | None:
+    """The looks of faces with red, green, blue and perhaps opacity (f,3 or 4) from 0 to 1; NaN: none of their own."""
+    known = np.flatnonzero(np.isfinite(shares).all(axis=1))
+    steps = np.rint(255.0 * np.clip(shares[known], 0.0, 1.0))
+    rows, which = np.unique(steps, axis=0, return_inverse=True)
+    if len(rows) > MANY_COLOURS:
+        steps = np.rint(np.rint(steps * (FEW_STEPS / 255.0)) * (255.0 / FEW_STEPS))
+        rows, which = np.unique(steps, axis=0, return_inverse=True)
+    looks = []
+    for row in rows:
+        opaque = len(row) < 4 or row[3] == 255.0
+        material = None if opaque else Material("normal", opacity=float(row[3]) / 255.0)
+        looks.append(FaceLook(hex_colour(row[:3] / 255.0), material))
+    of_face = np.full(mesh.face_count, -1, dtype=np.intp)
+    of_face[known] = which.ravel()
+    return FaceLooks(mesh, tuple(looks), of_face) if looks else None
