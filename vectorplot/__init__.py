@@ -5,35 +5,7 @@ first used, and so it is in the rooms (``from vectorplot.surfaces import Torus``
 never the module it lies in.
 """
 
-import sys
-
-
-def _is_command() -> bool:
-    """Whether Python was started for the command: as ``python -m vectorplot``, or by the script of that name."""
-    words = sys.orig_argv[1:]
-    if sys.argv[:1] == ["-m"]:
-        return words[words.index("-m") + 1 :][:1] == ["vectorplot"] if "-m" in words else False
-    return words[:1] == sys.argv[:1] and sys.argv[0].endswith(("/vectorplot", "\\vectorplot.exe"))
-
-
-def _end_by_ctrl_c() -> None:
-    """From here on Ctrl-C ends the process in one line, until the command has loaded what catches it (cli.stopping),
-    and after it is done."""
-    import os
-    import signal
-
-    def end(number: int, frame: object) -> None:
-        os.write(2, b"vectorplot: interrupted\n")
-        os._exit(128 + number)
-
-    if signal.getsignal(signal.SIGINT) is signal.default_int_handler:
-        signal.signal(signal.SIGINT, end)
-
-
-if _is_command():
-    _end_by_ctrl_c()
-
-import lazy_loader  # noqa: E402
+import lazy_loader
 
 __version__ = "0.1.0"
 

@@ -214,7 +214,7 @@ def test_a_signal_while_the_command_loads_is_one_line(place):
 @pytest.mark.slow
 @pytest.mark.parametrize("latest", [0.02, 0.3])
 def test_ctrl_c_at_any_moment_after_the_first_line_is_one_line(place, latest):
-    # Python tells what it has imported: when the package has told Ctrl-C what to do, lazy_loader comes.
+    # Python tells what it has imported: when Ctrl-C has been told what to do, the rest of the command comes.
     arguments, out = command(place, ["draw"])
     moments = random.Random(7)
     for _ in range(several(8, long=80)):
@@ -222,7 +222,7 @@ def test_ctrl_c_at_any_moment_after_the_first_line_is_one_line(place, latest):
         words = [sys.executable, "-X", "importtime", "-m", "vectorplot", *arguments]
         with subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE) as process:
             assert process.stderr is not None
-            next(line for line in process.stderr if line.rstrip().endswith(b"lazy_loader"))
+            next(line for line in process.stderr if line.rstrip().endswith(b"vectorplot.cli"))
             time.sleep(moments.uniform(0.0, latest))
             process.send_signal(signal.SIGINT)
             said = [line for line in process.stderr if not line.startswith(b"import time:")]

@@ -143,7 +143,3 @@ def say(text: str) -> None:
         sys.stderr.flush()
     except OSError:
         pass
-
-
-if __name__ == "__main__":
-    main()
