@@ -705,6 +705,10 @@ differences."""
 CUSP_SETTLED = 1e-15
 """The same when no further step can help."""
 
+PINCH_SETTLED = 1e-9
+"""A pinch point has been found when the last step to it is shorter than this part of the domain: second derivatives of
+a user's function have no more digits."""
+
 PLACE_SETTLED = 1e-13
 """Steps in cells of a grid to the end of a double curve that are shorter are rounding."""
 
@@ -886,6 +890,10 @@ is symmetric is cut everywhere the same way."""
 SINGULAR_PRODUCT = 1e-9
 """Part of the size of the cross product of the partials, or of what the second derivatives allow, below which it
 vanishes: at a pole or a singular point."""
+
+RANK_OF_PINCH = 1e-3
+"""Sine, about, of the angle between the derivatives of the cross product of the partials below which it does not turn
+round: along cuspidal edges and at poles it keeps its direction."""
 
 SUSPECT_PRODUCT = 1e-6
 """Below this part of the squared size of the surface a cross product is looked at closely: it may be that of a pole."""

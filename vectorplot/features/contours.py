@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import warnings
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -14,12 +15,14 @@ from vectorplot.curves.curve import number, vector
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.conditions import (
     CentralContour,
+    Contour,
     ImplicitSection,
     Isophote,
     ParallelContour,
     PlaneSection,
     PointIsophote,
     StackedConditions,
+    alone,
     check_cosine,
     for_each,
     stacked,
@@ -37,6 +40,7 @@ from vectorplot.features.curve_tracing import (
     together,
 )
 from vectorplot.features.parameter_curves import borders
+from vectorplot.features.pinch_points import ThroughPinchPoints, through_pinch_points
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.polylines import take
@@ -92,13 +96,26 @@ def contours(surfaces: Sequence[Surface], eye: ArrayLike, *, tracing: Tracing = 
     """The contours of many surfaces for one eye, as of `contour`: those of placed surfaces traced at once."""
     centre = vector("contour: eye", eye)
 
-    def found(stack: tuple[Surface, ...]) -> list[SurfaceCurves]:
-        return _contours(stacked(stack, CentralContour(stack[0], centre)), centre, tracing)
+    def found(conditions: StackedConditions[Any]) -> list[SurfaceCurves]:
+        return _contours(conditions, centre, tracing)
 
-    return for_each(surfaces, tracing.nodes, found)
+    return _of_each(surfaces, lambda surface: CentralContour(surface, centre), found, tracing)
 
 
-def _contours(conditions: StackedConditions[CentralContour], centre: Floats, tracing: Tracing) -> list[SurfaceCurves]:
+def _of_each(
+    surfaces: Sequence[Surface],
+    condition: Callable[[Surface], Contour],
+    found: Callable[[StackedConditions[Any]], list[SurfaceCurves]],
+    tracing: Tracing,
+) -> list[SurfaceCurves]:
+    """What is found of the condition on each of the surfaces; those with pinch points stand alone."""
+    each = [through_pinch_points(condition(surface)) for surface in surfaces]
+    plain = [surface for surface, own in zip(surfaces, each, strict=True) if not isinstance(own, ThroughPinchPoints)]
+    others = iter(for_each(plain, tracing.nodes, lambda stack: found(stacked(stack, condition(stack[0])))))
+    return [found(alone(own.surface, own))[0] if isinstance(own, ThroughPinchPoints) else next(others) for own in each]
+
+
+def _contours(conditions: StackedConditions[Any], centre: Floats, tracing: Tracing) -> list[SurfaceCurves]:
     points = samples_of_each(conditions)
     # Of what has no points f has no size.
     far = [float(np.linalg.norm(own - centre, axis=1).max(initial=0.0)) for own in points]
@@ -153,11 +170,10 @@ def parallel_contours(
     """The contours of many surfaces for one direction, as of `parallel_contour`: those of placed surfaces traced at
     once."""
 
-    def found(stack: tuple[Surface, ...]) -> list[SurfaceCurves]:
-        conditions = stacked(stack, ParallelContour(stack[0], direction))
-        return curves_on_each(conditions, [1.0] * len(stack), [ROUNDING_OF_TERMS] * len(stack), tracing)
+    def found(conditions: StackedConditions[Any]) -> list[SurfaceCurves]:
+        return curves_on_each(conditions, [1.0] * len(conditions), [ROUNDING_OF_TERMS] * len(conditions), tracing)
 
-    return for_each(surfaces, tracing.nodes, found)
+    return _of_each(surfaces, lambda surface: ParallelContour(surface, direction), found, tracing)
 
 
 def contour_in_view(surface: Surface, camera: Camera, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

@@ -9,6 +9,7 @@ from support.effort import several
 import vectorplot as vp
 from vectorplot import curves, features, surfaces
 from vectorplot.features.holes import wrapped
+from vectorplot.features.pinch_points import pinch_points
 from vectorplot.surfaces.stacked import unit_normals
 
 ROUND = 'u 0 "2*pi" v 0 "2*pi" closed_u closed_v'
@@ -27,6 +28,16 @@ SURFACES = {
     "cross-cap": (
         '"sin(u)*sin(2*v)/2" "sin(2*u)*cos(v)^2" "cos(2*u)*cos(v)^2" u 0 "pi" v "-pi/2" "pi/2"',
         (3.0, -4.0, 2.0),
+    ),
+}
+PINCHED = {
+    **{name: SURFACES[name] for name in ("crossed tubes", "Roman", "Bohemian dome", "sine surface", "conoid")},
+    "Whitney's umbrella": SURFACES["Whitney's umbrella"],
+    "ruled conoid": ('"u*cos(v)" "u*sin(v)" "sin(2*v)" u -1 1 v 0 "pi"', (3.0, -4.0, 2.0)),
+    "Pisot triaxial": (
+        '"0.655866*cos(1.03002+u)*(2+cos(v))" "0.754878*cos(1.40772-u)*(2+0.868837*cos(2.43773+v))" '
+        '"0.868837*cos(2.43773+u)*(2+0.495098*cos(0.377696-v))" ' + ROUND,
+        (6.0, -8.0, 5.0),
     ),
 }
 FACING = 0.1
@@ -92,3 +103,84 @@ def test_contours_do_not_depend_on_the_parametrisation(seed):
     same = (points, points.swapaxes(0, 1), points[::-1], points[:, ::-1])
     lengths = [wrong_part(surfaces.spline_surface(grid, kind), eye, False)[1] for grid in same]
     assert np.ptp(lengths) < 0.01 * max(lengths), lengths
+
+
+def changed(surface, swap, u_scale, v_scale):
+    """The surface over parameters that are swapped, and divided by these numbers."""
+    domain = surface.domain
+
+    def old(a, b):
+        u, v = (b, a) if swap else (a, b)
+        return u * u_scale, v * v_scale
+
+    ends_u, ends_v = (
+        sorted((low / scale, high / scale))
+        for low, high, scale in (
+            (domain.u_start, domain.u_end, u_scale),
+            (domain.v_start, domain.v_end, v_scale),
+        )
+    )
+    closed = (domain.closed_u, domain.closed_v)
+    ranges = (*ends_v, *ends_u, *closed[::-1]) if swap else (*ends_u, *ends_v, *closed)
+    first = [lambda a, b, k=k, scale=(u_scale, v_scale)[k]: scale * surface.partials(*old(a, b))[k] for k in (0, 1)]
+    scales = (u_scale * u_scale, u_scale * v_scale, v_scale * v_scale)
+    second = [lambda a, b, k=k, scale=scales[k]: scale * surface.second_partials(*old(a, b))[k] for k in (0, 1, 2)]
+    return surfaces.surface_of_function(
+        lambda a, b: surface.points(*old(a, b)),
+        surfaces.Domain(*ranges),
+        partials=first[::-1] if swap else first,
+        second_partials=second[::-1] if swap else second,
+    )
+
+
+def found_contour(surface, eye, parallel):
+    return (features.parallel_contour if parallel else features.contour)(surface, np.array(eye) * (1, 3)[not parallel])
+
+
+def ends_inside(surface, found):
+    """How many ends of curves lie inside the domain."""
+    domain, open_ones = surface.domain, np.flatnonzero(~found.closed)
+    ends = np.concatenate([found.offsets[open_ones], found.offsets[open_ones + 1] - 1])
+    u, v = wrapped(domain, found.u[ends], found.v[ends])
+    on_border = np.zeros(len(u), dtype=bool)
+    for t, closed, low, high in (
+        (u, domain.closed_u, domain.u_start, domain.u_end),
+        (v, domain.closed_v, domain.v_start, domain.v_end),
+    ):
+        on_border |= (not closed) & (np.minimum(t - low, high - t) <= 1e-6 * (high - low))
+    return int((~on_border).sum())
+
+
+def along(line):
+    """Points on the chords of a polyline."""
+    return (line[:-1, None] + np.linspace(0.0, 1.0, 60)[:, None] * np.diff(line, axis=0)[:, None]).reshape(-1, 3)
+
+
+@pytest.mark.parametrize("parallel", [False, True])
+@pytest.mark.parametrize("name", PINCHED)
+def test_a_contour_passes_every_pinch_point_as_one_stroke(name, parallel, tmp_path):
+    text, eye = PINCHED[name]
+    surface = read_surface(text, tmp_path)
+    found = found_contour(surface, eye, parallel)
+    assert ends_inside(surface, found) == 0 and not found.doubts
+    pinches = pinch_points(surface).at
+    assert len(pinches)
+    points = surface.points(*pinches.T)
+    extent = np.ptp(found.points, axis=0).max()
+    apart = [np.linalg.norm(points[:, None] - along(found[k]), axis=-1).min(axis=1) for k in range(len(found))]
+    assert np.min(apart, axis=0).max() < 2e-3 * extent
+
+
+@pytest.mark.parametrize("swap", [False, True])
+@pytest.mark.parametrize(("u_scale", "v_scale"), [(-1.0, 1.0), (3.0, -0.7)])
+@pytest.mark.parametrize("name", PINCHED)
+def test_contours_through_pinch_points_do_not_depend_on_the_parametrisation(name, swap, u_scale, v_scale, tmp_path):
+    text, eye = PINCHED[name]
+    surface = read_surface(text, tmp_path)
+    before, after = (found_contour(one, eye, False) for one in (surface, changed(surface, swap, u_scale, v_scale)))
+    assert sorted(before.closed) == sorted(after.closed)
+    lengths = [
+        sorted(np.linalg.norm(np.diff(own[k], axis=0), axis=1).sum() for k in range(len(own)))
+        for own in (before, after)
+    ]
+    assert np.allclose(*lengths, rtol=0.0, atol=2e-3 * max(lengths[0])), lengths

@@ -102,6 +102,10 @@ class Roots:
     part: Floats
     falls: Bools
 
+    def take(self, which: Bools) -> Roots:
+        """Some of the roots."""
+        return Roots(self.chord[which], self.part[which], self.falls[which])
+
 
 def roots_along(curves: Curves, function: OnCurve, values: Floats) -> Roots:
     """The roots of a function along curves; values (n,): of it at the points of the curves, NaN where there is none.
@@ -212,6 +216,9 @@ def _dips(curves: Curves, function: OnCurve, values: Floats) -> tuple[Ints, Floa
 
 
 # Where a curve passes the contour of a sheet that it lies on, and the cusps of contours.
+
+ASIDE = 1e-3
+"""Part of a chord before and after a place of a curve at which normals are compared."""
 
 
 def facing_of(view: View, sheets: Sheets, curves: Curves) -> Floats:
@@ -327,8 +334,16 @@ def _cusps(view: View, sheets: Sheets, curves: Curves, numbers: Ints) -> Events:
 
     values = sheets.bends(own.sheet[own.owner], own.places, sight_lines.sight(view, own.points))
     roots = roots_along(own, bending, values)
+    roots = roots.take(~_turns_over(sheets, own, roots))
     at = own.at(roots.chord, roots.part)
     leaving = dot(at.slopes, sight_lines.sight(view, at.points)) > 0.0
     change = np.where(leaving, -1, 1)
     chord = _chords(own, numbers, curves, roots.chord)
     return Events(chord, roots.part, sheets.item[own.sheet[own.owner[roots.chord]]], change)
+
+
+def _turns_over(sheets: Sheets, own: Curves, roots: Roots) -> Bools:
+    """(k,) roots at which the unit normal jumps to its opposite, as at a pinch point, and the bending with it."""
+    number = own.sheet[own.owner[roots.chord]]
+    one, two = (sheets.normals(number, own.at(roots.chord, roots.part + side).places) for side in (-ASIDE, ASIDE))
+    return np.asarray(dot(one, two) < 0.0)

@@ -34,6 +34,7 @@ from vectorplot.features.feature_lines import Detail, Sight, surface_feature_lin
 from vectorplot.features.geodesic_curves import geodesics_between
 from vectorplot.features.hole_rims import hole_rims
 from vectorplot.features.parameter_curves import domain_borders, parameter_lines_of_each, surface_path
+from vectorplot.features.pinch_points import through_pinch_points
 from vectorplot.features.streamlines import DRAWN, evenly_spaced_curves
 from vectorplot.features.surface_integration import geodesics, integral_curves
 from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, SteepestSlope
@@ -221,7 +222,8 @@ def curves_of_parametrised(
     item = scene.items[sheet.item]
     # Of a surface that is all seen edge-on, as a cylinder from the top, the borders are the whole picture.
     seen = replace(contour, doubts=tuple(text for text in contour.doubts if text != EVERYWHERE))
-    found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet, number, _turn(view, sheet.surface)), seen)]
+    turn = through_pinch_points(_turn(view, sheet.surface))
+    found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet, number, turn), seen)]
     found += _edges(view, sheet, number, tracing)
     if lines is not None:
         found.append((LineKind.PARAMETER, _lines_of_parameters(view, sheet, number), lines))

@@ -12,6 +12,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import bernstein, cubic_error, places
 from vectorplot.features.curve_tracing import SurfaceCurves
+from vectorplot.features.pinch_points import ThroughPinchPoints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, closed_round, joined, take
@@ -487,6 +488,8 @@ def _merged(family: Family, sheets: Sheets) -> _Merged | None:
     if group == NONE or not isinstance(surface, StackedSheets):
         return None
     if isinstance(family, ParameterCurves) and family.weighted is not None:
+        return None
+    if isinstance(family, ConditionCurves) and isinstance(family.condition, ThroughPinchPoints):
         return None
     degrees = family.degrees_along if isinstance(family, ParameterCurves) else ()
     key = (type(family), group, _said(family) if isinstance(family, ConditionCurves) else degrees)
