@@ -157,7 +157,7 @@ def test_a_video_is_read_back(suffix, tmp_path):
         frames = [frame.to_ndarray(format="rgb24") for frame in video.decode(video=0)]
         assert float(video.streams.video[0].average_rate) == pytest.approx(10.0)
     still = film(page="61x41").picture(0)
-    wanted = vp.backends.cairo.surfaces.drawing_pixels(still)
+    wanted = vp.backends.cairo.drawing_pixels(still)
     assert len(frames) == 4
     assert np.abs(frames[0][: len(wanted), : wanted.shape[1]].astype(int) - wanted).mean() < 4.0
 

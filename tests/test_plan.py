@@ -212,14 +212,14 @@ def test_a_single_body_needs_nothing_heavy() -> None:
 
 
 EFFECTS = {
-    "shadows": ("", "(vp.Light((1, -2, 3)),)", "shadows.shadow_decals"),
+    "shadows": ("", "(vp.Light((1, -2, 3)),)", "shadows"),
     "patterns": (
         ", patterns=(vp.Pattern('P', 'red', 1, np.array([(0, 0), (1, 0), (0, 1)])),)",
         "()",
-        "decals.pattern_decals",
+        "patterns",
     ),
-    "mirrors": (", material=vp.Material('mirror')", "()", "mirrors.reflection_fills"),
-    "glass": (", material=vp.Material('transparent', 0.5, 1.4), occludes=False", "()", "glass.glass_fills"),
+    "mirrors": (", material=vp.Material('mirror')", "()", "reflection_fills"),
+    "glass": (", material=vp.Material('transparent', 0.5, 1.4), occludes=False", "()", "glass"),
 }
 SCENES = {
     "pencil": f"from vectorplot.io.read_file import read\nscene = read({str(DATA / 'pencil.scene')!r})",

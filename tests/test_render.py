@@ -12,8 +12,8 @@ import pytest
 from support.rendered import SIZE, SUN, coloured_boxes, grown, levels, sphere
 
 import vectorplot as vp
+from vectorplot import render as render_verb
 from vectorplot.errors import InputError
-from vectorplot.pictures import render as render_verb
 from vectorplot.pictures.pipeline import StageReport
 from vectorplot.pictures.render import render
 from vectorplot.save import write

@@ -125,8 +125,8 @@ import vectorplot as vp
 from vectorplot.testing.shapes import box
 vp.render(vp.Scene((vp.Item("A", box((0, 0, 0), (1, 1, 1))),), (vp.Light((1, -2, 3)),)), size=(20, 20), shadows="none")
 print(*(name for name in sys.modules if name.split(".")[0] in ("cairo", "scipy", "shapely", "svgwrite", "skimage")
-        or name.startswith(("vectorplot.effects", "vectorplot.backends", "vectorplot.shading.shadows.shadow",
-                            "vectorplot.shading.shadows.trapezoid", "vectorplot.shading.shadows.seen"))))
+        or name.startswith(("vectorplot.effects", "vectorplot.backends", "vectorplot.shading.shadow",
+                            "vectorplot.shading.trapezoids", "vectorplot.shading.seen_region"))))
 """
     result = subprocess.run([sys.executable, "-c", script], capture_output=True, text=True, check=True)
     assert result.stdout.split() == []

@@ -548,6 +548,9 @@ PLAIN_NUMBER = 1e-3
 
 # Numbers that come from how doubles and singles are stored: their steps, and the ends of their range.
 
+LEAST_VALUE = 2.0**-1022
+"""The smallest normal double: a value of it stands on one side of zero, where a line meets zero at its own end."""
+
 ULP = 2.0**-52
 """The step of doubles at one: all rounding of doubles is counted in it."""
 

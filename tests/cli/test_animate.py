@@ -119,7 +119,7 @@ def test_what_is_wrong_is_one_line_and_nothing_is_written(arguments, status, cau
 @pytest.mark.slow
 def test_a_stop_leaves_no_half_file(workplace):
     script = (
-        "import os, signal, sys, vectorplot.film as film\n"
+        "import os, signal, sys, vectorplot.pictures.film as film\n"
         "made = film.Film.picture\n"
         "def stopping(self, frame, progress=None):\n"
         "    if frame == 2: os.kill(os.getpid(), signal.SIGTERM)\n"

@@ -12,7 +12,7 @@ from vectorplot.scene.light import Light
 from vectorplot.shading import scene_pixels
 from vectorplot.shading import shadow_maps as shadow_buffer
 from vectorplot.shading import shadow_maps as shadow_map
-from vectorplot.shading.shadow_maps import MapSettings
+from vectorplot.shading.map_settings import MapSettings
 
 FLOOR = vp.Item("FLOOR", box((8, 8, 0.5)))
 

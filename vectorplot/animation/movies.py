@@ -256,7 +256,7 @@ class MovieFrame:
         >>> import numpy as np
         >>> from vectorplot import animation
         >>> line = animation.MovieFrame(np.array([(0, 0), (9, 9)]), np.array([0, 2]), np.array([0]), np.array([5, 5]))
-        >>> len(line.some(np.array([0, 0]))), len(line.some(np.array([False])))
+        >>> len(line.take(np.array([0, 0]))), len(line.take(np.array([False])))
         (2, 0)
         """
         return take(self, which)

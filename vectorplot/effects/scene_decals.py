@@ -2,34 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-from dataclasses import replace
+from collections.abc import Sequence
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.drawing.fill_visibility import flattened
-from vectorplot.drawing.fills import Colours as Colours_of_fills
-from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.drawing.painted_fills import Overlay, fills_on_page
-from vectorplot.effects.decals import Decals, Laid, convex_decals, joined_decals, laid
-from vectorplot.effects.mirrors import DIMMED, Mirrors, backwards, doubled, reflections
-from vectorplot.effects.shadows import LEVELS, shadow_shades
-from vectorplot.effects.windows import SeenThrough, mixed, seen_fills
-from vectorplot.geometry import ragged
-from vectorplot.geometry.algebra import matmul
+from vectorplot.arrays import Bools, Floats
+from vectorplot.drawing.fills import FillKind
+from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
-from vectorplot.scene.placement import Placement
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.shading.facet_resolution import SHORTEST_MM, refined
-from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities, smooth_faces
-from vectorplot.shading.palettes import COLOUR_MAP, Colours, shaded_colours
-from vectorplot.shading.shaded_faces import Shades, face_shades, view_lights
-from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
-from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
+from vectorplot.shading.painted_colours import Lighting
+from vectorplot.shading.shaded_faces import face_shades, view_lights
+from vectorplot.visibility.projected_faces import ProjectedFaces
 
 
 def scene_shadows(
@@ -64,8 +51,10 @@ def scene_mirror_light(
     scene: Scene, view: View, projected: ProjectedFaces, lighting: Lighting, shadows: Decals
 ) -> tuple[Decals, tuple[Light, ...]]:
     """Where light falls by way of mirrors, and the doubles of lights that it comes from, in the view."""
-    from vectorplot.effects.decals import patterns_in_shadows, united_decals
-    from vectorplot.effects.mirrors import light_doubles, mirror_faces, mirror_light, mirrors_of
+    from vectorplot.effects.decals import united_decals
+    from vectorplot.effects.mirror_lights import light_doubles, mirror_light
+    from vectorplot.effects.mirrors import mirror_faces, mirrors_of
+    from vectorplot.effects.patterns import patterns_in_shadows
 
     mirrors = mirrors_of(view, mirror_faces(scene, view))
     doubles = light_doubles(view, mirrors, scene.lights)
@@ -81,252 +70,16 @@ def scene_mirror_light(
 
 def scene_patterns(scene: Scene, view: View, lighting: Lighting, shadows: Decals) -> Decals:
     """The patterns of all items, dark where shadows fall on them."""
-    from vectorplot.effects.decals import pattern_decals
+    from vectorplot.effects.patterns import pattern_decals
 
     return shadowed_patterns(scene, view, lighting, pattern_decals(scene, view), shadows)
 
 
 def shadowed_patterns(scene: Scene, view: View, lighting: Lighting, patterns: Decals, shadows: Decals) -> Decals:
     """Patterns on faces of a view, dark where shadows fall on them."""
-    from vectorplot.effects.decals import patterns_in_shadows
+    from vectorplot.effects.patterns import patterns_in_shadows
 
     found = face_shades(view, lighting.items, lighting.lights)
     lights = len(scene.lights)
     dark: Bools = np.asarray(found.backlit.all(axis=0) & (lights > 0), dtype=np.bool_)
     return patterns_in_shadows(view, patterns, shadows, dark, lights)
-
-
-# Decals as filled polygons on the page, each painted after the polygon it lies on.
-
-
-def decal_fills(
-    view: View, lighting: Lighting, decals: Decals, faces: ImageFaces | SeenThrough, placement: Placement
-) -> Overlay:
-    """Decals on what is painted of their faces, in the shades of their faces, those that lack lights darker.
-
-    faces: the painted polygons. On transparent faces there are patterns only: light goes through them.
-    Source: Glaeser, sections 6.3, 6.5 and 6.6.
-    """
-    decals = shown_decals(view, lighting, decals)
-    parts = laid(view, decals, faces.points, faces.offsets, faces.source)
-    return Overlay(laid_fills(view, lighting, decals, parts, placement), parts.piece)
-
-
-def shown_decals(view: View, lighting: Lighting, decals: Decals) -> Decals:
-    """Those of decals that show, as convex polygons: on transparent faces there are patterns only."""
-    opaque = opacities(lighting.items)[view.shown_item[decals.face]] >= 1.0
-    decals = decals.of(np.flatnonzero(opaque | (decals.kind == FillKind.PATTERN)))
-    return convex_decals(view, decals, smooth_faces(view, lighting.normals))
-
-
-def laid_fills(view: View, lighting: Lighting, decals: Decals, parts: Laid, placement: Placement) -> Fills:
-    """Parts of decals in the shades of their faces, those that lack lights darker."""
-    points = view_points(view, parts.points)
-    shades = corner_shades_of(view, lighting, points, parts.offsets, decals.face[parts.decal])
-    shade = _shades(decals, parts, shades)
-    for number in np.unique(decals.light[(decals.kind == FillKind.LIGHT) & (decals.light >= 0)]).tolist():
-        corner, brighter = _with_double(view, lighting, decals, parts, points, shades, number)
-        shade[..., corner] = brighter
-    return fills_on_page(
-        view,
-        parts.points,
-        parts.offsets,
-        placement,
-        colours=_colours(view, lighting, decals, parts, shade),
-        opacity=decals.opacities[parts.decal],
-        item=view.face_item[decals.face[parts.decal]],
-        kind=decals.kind[parts.decal],
-    )
-
-
-def _shades(decals: Decals, parts: Laid, shades: Shades) -> Floats:
-    """(c,) the shades at the corners of parts of decals; in coloured light (3,c)."""
-    sizes = np.diff(parts.offsets)
-    lacking = np.repeat(decals.lights_lacking[parts.decal], sizes)
-    border = decals.kind[parts.decal] == FillKind.SHADOW_BORDER
-    dimmed = np.repeat(np.where(border, decals.light[parts.decal], -1), sizes)
-    step = np.repeat(np.where(border, decals.level[parts.decal] % LEVELS, 1), sizes)
-    dark = shadow_shades(
-        _without_highlights(shades, lacking), shades.intensity, lacking, shades.cue, dimmed=dimmed, step=step
-    )
-    return np.where((lacking > 0) | (dimmed >= 0), dark, shades.total)
-
-
-def _without_highlights(shades: Shades, lacking: Ints) -> Floats:
-    """(l,n) the shares of points, without highlights of the lights that do not get there."""
-    number = np.arange(len(shades.shares))[:, None]
-    return np.where((lacking[None] >> number) & 1 == 1, shades.matt, shades.shares)
-
-
-def _with_double(
-    view: View, lighting: Lighting, decals: Decals, parts: Laid, points: Floats, shades: Shades, number: int
-) -> tuple[Ints, Floats]:
-    """The corners (n,) where the double of a light in a mirror shines too, and their shades (n,) or (3,n)."""
-    kind, of = decals.kind[parts.decal], decals.light[parts.decal]
-    lit = np.flatnonzero((kind == FillKind.LIGHT) & (of == number))
-    corner, offsets = ragged.take(parts.offsets, lit)
-    only = replace(lighting, lights=(lighting.doubles[number],))
-    own = corner_shades_of(view, only, points[:, corner], offsets, decals.face[parts.decal[lit]])
-    lacking = np.repeat(decals.lights_lacking[parts.decal[lit]], np.diff(offsets))
-    here = replace(shades, shares=shades.shares[:, corner], matt=shades.matt[:, corner])
-    shares = np.concatenate([_without_highlights(here, lacking), own.shares])
-    # White lights beside coloured ones send as much of red, green and blue.
-    one, other = shades.intensity, own.intensity
-    if one.ndim != other.ndim:
-        one, other = (np.tile(some[:, None], 3) if some.ndim == 1 else some for some in (one, other))
-    intensity = np.concatenate([one, other])
-    return corner, shadow_shades(shares, intensity, lacking, shades.cue[corner])
-
-
-def _colours(view: View, lighting: Lighting, decals: Decals, parts: Laid, shade: Floats) -> Colours:
-    """(c,3) the colours at the corners of parts of decals: their own, or those of their faces; in the soft borders of
-    shadows without steps of palettes."""
-    sizes = np.diff(parts.offsets)
-    colour = np.repeat(decals.colour[parts.decal], sizes)
-    face = np.repeat(decals.face[parts.decal], sizes)
-    found = colours_of(view, lighting, face, shade)
-    soft = np.flatnonzero(np.repeat(decals.kind[parts.decal] == FillKind.SHADOW_BORDER, sizes))
-    if len(soft):
-        found[soft] = colours_of(view, replace(lighting, size=COLOUR_MAP), face[soft], shade[..., soft])
-    own = np.flatnonzero(colour >= 0)
-    if len(own):
-        found[own] = shaded_colours(decals.colours, colour[own], shade[..., own], lighting.size)
-    return found
-
-
-# The polygons that lie on the faces that a mirror shows: shadows on sides that the eye does not see are among them.
-
-
-def double_decals(
-    scene: Scene,
-    view: View,
-    mirrors: Mirrors,
-    number: int,
-    lighting: Lighting,
-    shown: Bools,
-    aura: float | None,
-    off: Floats,
-    budget: Budget = USUAL,
-) -> tuple[Decals, ...]:
-    """The decals on the doubles of faces shown (f,), in the double of the view: those of a mirrored scene in mirrored
-    light, of which the same holds as of the scene.
-
-    lighting: as it is in the mirror; aura: the width of soft borders in the image, None where lights cast no shadows;
-    off (i,) as of scene_shadows; budget: of the work on these.
-    Source: Glaeser, section 6.4.
-    """
-    mirrored = doubled(view, mirrors, number)
-    lights = () if aura is None else tuple(_in_world(view, light) for light in lighting.lights[: len(scene.lights)])
-    projected = project_faces(mirrored)
-    found: list[Decals] = []
-    if lights and aura is not None:
-        found.append(scene_shadows(mirrored, scene.items, lights, projected, aura, off, budget, shown))
-    if any(item.patterns for item in scene.items):
-        from vectorplot.effects.decals import pattern_decals
-
-        patterns = pattern_decals(scene, view)
-        patterns = replace(patterns, points=mirrors.reflected(number, patterns.points))
-        found.append(shadowed_patterns(scene, mirrored, lighting, patterns, joined_decals(*found)))
-    if lights and any(item.material.opacity < 1.0 for item in scene.items):
-        from vectorplot.effects.shadows import transparent_shadows
-
-        found.append(
-            transparent_shadows(mirrored, scene, lights, found[0], receivers=shown, projected=projected, budget=budget)
-        )
-    return tuple(found)
-
-
-def _in_world(view: View, light: Light) -> Light:
-    """A light of the view in the world's coordinates."""
-    place: Floats = np.array(light.position, dtype=np.float64)
-    x, y, z = (matmul(view.axes.T, place) if light.parallel else view.world_of(place[:, None])[0]).tolist()
-    return replace(light, position=(x, y, z))
-
-
-# What mirrors show, as filled polygons on the page.
-
-DecalsOf = Callable[[int, Lighting, Bools], Sequence[Decals]]
-"""The decals, in the double of a view, on what the mirror with a number shows; the light there; (f,) the faces."""
-
-
-WEAK_ON_MIRRORS = (FillKind.SHADOW, FillKind.SHADOW_BORDER, FillKind.CLEAR_SHADOW, FillKind.LIGHT)
-"""What hardly shows on mirrors."""
-
-
-def reflection_fills(
-    view: View, lighting: Lighting, mirrors: Mirrors, decals_of: DecalsOf, faces: ImageFaces, placement: Placement
-) -> Overlay:
-    """The doubles of all faces in mirrors, with the decals that lie on them, dimmed.
-
-    The doubles are the faces of a mirrored scene in mirrored light: what holds for the scene holds for them. Other
-    shadows fall on them than the eye sees, where it does not see the same sides.
-    Source: Glaeser, section 6.4, figures 7 and 8.
-    """
-    seen = reflections(view, mirrors, faces)
-    plane_of = np.full(view.face_count, -1, dtype=np.intp)
-    plane_of[mirrors.face] = mirrors.plane
-    parts = []
-    for number in range(len(mirrors)):
-        here = seen.take(np.flatnonzero(plane_of[seen.pane] == number))
-        if len(here):
-            there = _mirrored_light(view, lighting, mirrors, number)
-            shown = np.isin(np.arange(view.face_count), here.source)
-            decals = decals_of(number, there, shown)
-            parts.append(_of_double(doubled(view, mirrors, number), there, decals, here, placement))
-    if not parts:
-        return Overlay(Fills.empty(), np.zeros(0, dtype=np.intp))
-    return Overlay(Fills.joined(*(part.fills for part in parts)), np.concatenate([part.after for part in parts]))
-
-
-def silvered(
-    fills: Fills, pane: Bools, paper: Colours_of_fills, overlays: Sequence[Overlay]
-) -> tuple[Fills, tuple[Overlay, ...]]:
-    """Painted polygons, those of mirrors (m,) as they show the paper, and overlays, shadows and light on mirrors as
-    weak as their own colours are: where a mirror shows nothing else it shows the paper, DIMMED."""
-    base = mixed(fills, np.broadcast_to(paper, (len(fills), 3)), np.where(pane, DIMMED, 0.0))
-    return base, tuple(_on_mirrors(overlay, pane, paper) for overlay in overlays)
-
-
-def _on_mirrors(overlay: Overlay, pane: Bools, paper: Colours_of_fills) -> Overlay:
-    fills = overlay.fills
-    weak = pane[overlay.after] & np.isin(fills.kind, WEAK_ON_MIRRORS)
-    found = mixed(fills, np.broadcast_to(paper, (len(fills), 3)), np.where(weak & (fills.opacity == 1.0), DIMMED, 0.0))
-    veil = np.where(weak & (fills.opacity < 1.0), 1.0 - DIMMED, 1.0)
-    return replace(overlay, fills=replace(found, opacity=veil * fills.opacity))
-
-
-def _of_double(
-    mirrored: View, lighting: Lighting, decals: Sequence[Decals], seen: SeenThrough, placement: Placement
-) -> Overlay:
-    points, offsets, parent = refined(
-        mirrored, lighting, seen.points, seen.offsets, seen.source, SHORTEST_MM / placement.scale, USUAL.facets
-    )
-    seen = replace(seen.take(parent), points=points, offsets=offsets)
-    shown = seen_fills(mirrored, lighting, seen, placement, FillKind.REFLECTION)
-    laid = [decal_fills(mirrored, lighting, some, seen, placement) for some in decals]
-    whole = shown
-    if laid:
-        flat = flattened(shown.fills, laid, placement.page_from_world)
-        whole = Overlay(flat.fills, shown.after[flat.after])
-    count = len(whole.fills)
-    dimmed = np.rint(DIMMED * whole.fills.colours).astype(np.uint8)
-    return replace(whole, fills=replace(whole.fills, colours=dimmed, kind=np.full(count, int(FillKind.REFLECTION))))
-
-
-def _mirrored_light(view: View, lighting: Lighting, mirrors: Mirrors, number: int) -> Lighting:
-    """Lights and normals as they are in the mirror."""
-    lights = tuple(replace(light, position=_reflected(light, mirrors, number)) for light in lighting.lights)
-    return replace(lighting, lights=lights, normals=_turned(lighting.normals[:, backwards(view)], mirrors, number))
-
-
-def _reflected(light: Light, mirrors: Mirrors, number: int) -> tuple[float, float, float]:
-    place = np.array(light.position, dtype=np.float64)[:, None]
-    found = _turned(place, mirrors, number) if light.parallel else mirrors.reflected(number, place)
-    x, y, z = found[:, 0].tolist()
-    return (x, y, z)
-
-
-def _turned(directions: Floats, mirrors: Mirrors, number: int) -> Floats:
-    """(3,n) directions as they are in the mirror."""
-    normal = mirrors.normal[:, number]
-    return np.asarray(directions - 2.0 * normal[:, None] * (matmul(normal, directions)))

@@ -9,12 +9,13 @@ import numpy as np
 from vectorplot.arrays import Ints
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import Decals, FaceFrames, joined_decals, no_decals
-from vectorplot.effects.shadows import LEVELS, Shadows, joined_shadows
+from vectorplot.effects.shadows import Shadows, joined_shadows
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.view import View
+from vectorplot.shading.illumination import LEVELS
 from vectorplot.visibility.painter.image_faces import image_faces, view_points
 
 BEVEL = 1.0

@@ -33,7 +33,7 @@ from vectorplot.geometry.polylines import (
 )
 from vectorplot.geometry.vectors import all_components, any_component, component_sum, cross, norm, normalize
 from vectorplot.geometry.winding import edge_uses
-from vectorplot.tolerances import LEAST_DIVISOR, NO_NORMAL, ROUNDING, ROUNDING_OF_TERMS, ZERO_OF_EXTENT
+from vectorplot.tolerances import LEAST_DIVISOR, LEAST_VALUE, NO_NORMAL, ROUNDING, ROUNDING_OF_TERMS, ZERO_OF_EXTENT
 from vectorplot.words import LineKind
 
 
@@ -673,7 +673,7 @@ def _with_lowest_borders(triangles: Ints, values: Floats) -> Floats:
     low = (uses[which.ravel()] == 1) & (own[curve, other] > 0.0)
     result = own.copy()
     for corner in (start, end):
-        result[curve[low], corner[low]] = -np.finfo(np.float64).tiny
+        result[curve[low], corner[low]] = -LEAST_VALUE
     return result.reshape(values.shape)
 
 

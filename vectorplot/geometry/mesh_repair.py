@@ -175,7 +175,7 @@ class Mending:
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
     >>> flat = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 1)])
-    >>> mesh, done = geometry.mended(flat, precision=2.0**-52)
+    >>> mesh, done = geometry.repaired(flat, precision=2.0**-52)
     >>> str(done)
     'dropped 1 degenerate face; open mesh (3 boundary edges)'
     """
@@ -376,7 +376,7 @@ def repaired(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
     >>> from vectorplot import geometry
     >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
     >>> soup = vp.Mesh.from_triangles(corners, [(0, 1, 2), (3, 5, 4)])
-    >>> mesh, done = geometry.mended(soup, precision=2.0**-23)
+    >>> mesh, done = geometry.repaired(soup, precision=2.0**-23)
     >>> len(mesh.vertices), done.welded, done.turned
     (4, 2, 1)
     """

@@ -9,8 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.io.material_library import looks_of_materials
 from vectorplot.io.mesh_file import JOINT, MeshFile, TextFile, TextLines, joined, polygon_mesh, text_file
-from vectorplot.io.meshes.material_library import looks_of_materials
 from vectorplot.tolerances import ULP
 
 

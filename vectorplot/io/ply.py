@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
+from vectorplot.io.material_library import looks_of_colours
 from vectorplot.io.mesh_file import (
     MeshFile,
     TextFile,
@@ -23,7 +24,6 @@ from vectorplot.io.mesh_file import (
     polygon_mesh,
     shown,
 )
-from vectorplot.io.meshes.material_library import looks_of_colours
 from vectorplot.io.off import face_corners
 from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.scales import Fields

@@ -358,7 +358,7 @@ def _laid(seen: VisiblePolygons, lighting: Lighting, decals: tuple[Decals, ...])
     """What lies on the polygons of the picture."""
     if not decals:
         return ()
-    from vectorplot.effects.scene_decals import decal_fills
+    from vectorplot.effects.decal_fills import decal_fills
 
     return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placement) for some in decals)
 
@@ -379,7 +379,7 @@ def _overlays(
     found = []
     if pipeline.calls_for("reflections"):
         from vectorplot.effects.mirrors import mirrors
-        from vectorplot.effects.scene_decals import double_decals, reflection_fills
+        from vectorplot.effects.reflection_fills import double_decals, reflection_fills
 
         shown = mirrors(seen.scene, seen.view, seen.projected)
         borders = aura if pipeline.calls_for("shadows") else None
@@ -438,7 +438,7 @@ def _fills(
     )
     if pipeline.calls_for("reflections"):
         from vectorplot.effects.mirrors import mirrors
-        from vectorplot.effects.scene_decals import silvered
+        from vectorplot.effects.reflection_fills import silvered
 
         panes = np.isin(faces.source, mirrors(seen.scene, view, seen.projected).face)
         fills, laid = silvered(fills, panes, paper(seen.scene)[0], laid)

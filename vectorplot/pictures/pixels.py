@@ -1,4 +1,4 @@
-"""Lines and blank places over a picture of pixels."""
+"""The stages of render: pixels in bands, the light on them, and lines and a colour bar over and beside them."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.backends.raster import painted
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.finishing import long_strokes
@@ -23,10 +22,9 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.image import Bytes, averaged
 from vectorplot.shading.lighting import Blocked, Lighting, lighting_of
+from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.scene_pixels import Picture, opaque_buffer, shaded, with_glass, with_mirrors
 from vectorplot.shading.screen import LARGEST_RASTER_PIXELS, LARGEST_SIDE_PIXELS, SceneTriangles, raster_size
-from vectorplot.shading.shadow_maps import MapSettings
-from vectorplot.shading.shadow_rays import exact_shadows
 from vectorplot.tolerances import LARGEST_VIEW
 from vectorplot.words import check_word
 
@@ -47,6 +45,8 @@ def with_lines(pixels: Bytes, found: Paths, pen: Pen) -> Bytes:
 
 def with_layers(pixels: Bytes, layers: tuple[Layer, ...]) -> Bytes:
     """The picture with layers over it."""
+    from vectorplot.backends.raster import painted
+
     rows, columns = pixels.shape[:2]
     return painted(pixels, Drawing(float(columns), float(rows), layers))
 
@@ -258,6 +258,8 @@ def wrong_shadows(scene: Scene, triangles: SceneTriangles, lighting: Lighting) -
     normals = cross(b - a, c - a)[which] / area[which, None]
     casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)[triangles.item]
     number = np.where(casts, np.cumsum(casts) - 1, -1)
+    from vectorplot.shading.shadow_rays import exact_shadows
+
     true = exact_shadows(lighting.lights, points, corners[casts], number)
     wrong = [
         (says(places, normals, which) != is_so(places, normals, which)).mean()

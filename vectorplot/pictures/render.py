@@ -48,11 +48,11 @@ from vectorplot.scene.view import view_of, without_coincident
 from vectorplot.shading.depth import coplanar_faces
 from vectorplot.shading.facet_resolution import FacetedScene, faceted
 from vectorplot.shading.image import Image, averaged_light
+from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.palettes import palette
 from vectorplot.shading.scene_pixels import picture_of
 from vectorplot.shading.screen import picture_placement, pixel_system, scene_triangles
 from vectorplot.shading.shaded_faces import exposed_scene
-from vectorplot.shading.shadow_maps import MapSettings
 from vectorplot.visibility.painter.image_faces import outer_sides
 from vectorplot.words import LineKind, line_kinds
 

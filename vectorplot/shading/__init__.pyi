@@ -12,12 +12,12 @@ from .illumination import (
     shades,
 )
 from .image import Image, png_bytes
+from .map_settings import MapSettings
 from .palettes import COLOUR_MAP, PALETTE_LIMITS, PALETTE_SIZE, ColourMap, colour_map, palette, shaded_colours, spectrum
 from .screen import HalfSpace, ScreenTriangles, raster_size, raster_system, screen_triangles
 from .seen_region import SeenRegion, region_in_picture
 from .shaded_faces import Shades, face_colours, face_middles, face_shades, view_lights
 from .shadow_maps import (
-    MapSettings,
     ShadowBuffer,
     ShadowMap,
     SquareMap,

@@ -24,6 +24,7 @@ from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
 from vectorplot.shading.depth import DepthCode, depth_codes
+from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.screen import HalfSpace, front_facing, screen_triangles
 from vectorplot.shading.seen_region import SeenRegion
 from vectorplot.shading.trapezoids import (
@@ -37,7 +38,6 @@ from vectorplot.shading.trapezoids import (
     tapered_map,
 )
 from vectorplot.tolerances import INFINITE, LEAST_DIVISOR, MAP_BIAS, NEAR_OF_DISTANCE, PARALLEL_SINE, ZERO_OF_EXTENT
-from vectorplot.words import check_word
 
 LARGEST_SHIFT = 1e4
 """Sides that meet farther away than this, in widths, run parallel: the map is affine."""
@@ -639,47 +639,6 @@ def texels_per_unit(found: ShadowMap, points: ArrayLike) -> Floats:
     m = found.texel_from_light
     weight = matmul(p, m[2, :2]) + m[2, 2]
     return np.asarray(np.abs(determinant(m)) / power(np.abs(weight), 3))
-
-
-# How the shadow maps of a picture are made.
-
-
-@dataclass(frozen=True)
-class MapSettings:
-    """How shadow maps are made.
-
-    Parameters
-    ----------
-    size : int
-        Texels along the side of a map, were it a square.
-    bits : int
-        Of a depth: 8, 16 or 32.
-    casting : {"all", "away"}
-        Which faces the map is made of, all or those that turn away from the light.
-    wanted_focus : float, optional
-        The part of the texels that what is in focus should get of a trapezoidal map; None: as it comes.
-
-    Raises
-    ------
-    InputError
-        For other words, and for a part that is not between 0 and 1.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import MapSettings
-    >>> MapSettings(size=2048, casting="away")
-    MapSettings(size=2048, bits=32, casting='away', wanted_focus=None)
-    """
-
-    size: int = 1024
-    bits: int = 32
-    casting: Literal["all", "away"] = "all"
-    wanted_focus: float | None = None
-
-    def __post_init__(self) -> None:
-        check_word("shadow casters", self.casting, ("all", "away"))
-        if self.wanted_focus is not None and not 0.0 < self.wanted_focus < 1.0:
-            raise InputError(f"a shadow focus of {self.wanted_focus:g}: expected a part of the map, between 0 and 1")
 
 
 # Shadow buffers: for every light of a scene the maps of what it sees.

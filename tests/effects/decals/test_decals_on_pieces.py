@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from support.seen_rays import topmost
 
-from vectorplot.effects.decals import joined_decals, laid, no_decals, pattern_decals
+from vectorplot.effects.decals import joined_decals, laid, no_decals
 from vectorplot.effects.mirrors import mirrors, reflections
+from vectorplot.effects.patterns import pattern_decals
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item, Pattern

@@ -3,7 +3,8 @@ import pytest
 import shapely
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.decals import Decals, joined_decals, no_decals, pattern_decals, patterns_in_shadows
+from vectorplot.effects.decals import Decals, joined_decals, no_decals
+from vectorplot.effects.patterns import pattern_decals, patterns_in_shadows
 from vectorplot.errors import InputError
 from vectorplot.features.mesh_lines import face_frames
 from vectorplot.geometry.camera import Camera

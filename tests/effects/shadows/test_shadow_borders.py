@@ -8,13 +8,14 @@ from support.blocked_lights import FacePoints, face_points, highest_grade
 
 from vectorplot.drawing.fills import FillKind
 from vectorplot.effects.decals import joined_decals
-from vectorplot.effects.shadows import LEVELS, cast_shadows, graded, shadow_decals_of
+from vectorplot.effects.shadows import cast_shadows, graded, shadow_decals_of
 from vectorplot.effects.soft_shadows import shadow_borders
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View, look
+from vectorplot.shading.illumination import LEVELS
 from vectorplot.testing.shapes import box, numbered
 
 FLOOR = box((-3, -3, -1), (3, 3, 0))

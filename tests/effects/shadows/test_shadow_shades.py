@@ -11,11 +11,10 @@ from hypothesis import strategies as st
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.shadows import LEVELS, shadow_shades
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.illumination import DIRECT_SHARE, shades
+from vectorplot.shading.illumination import DIRECT_SHARE, LEVELS, shades, shadow_shades
 from vectorplot.testing.shapes import box
 
 SHARES = st.lists(st.floats(0.0, 3.0), min_size=3, max_size=3)

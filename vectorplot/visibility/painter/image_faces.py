@@ -50,7 +50,7 @@ class ImageFaces:
     >>> from vectorplot import geometry, scene, visibility
     >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
     >>> faces = visibility.image_faces(view, np.arange(6))
-    >>> len(faces), faces.some(np.array([0, 1])).offsets.tolist()
+    >>> len(faces), faces.take(np.array([0, 1])).offsets.tolist()
     (6, [0, 4, 8])
     """
 

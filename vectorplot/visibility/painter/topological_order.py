@@ -28,7 +28,7 @@ class TopologicalSort:
     --------
     >>> import numpy as np
     >>> from vectorplot import visibility
-    >>> found = visibility.mikado(4, before=np.array([0, 1, 2]), after=np.array([1, 2, 1]))
+    >>> found = visibility.topological_order(4, before=np.array([0, 1, 2]), after=np.array([1, 2, 1]))
     >>> found.order.tolist(), found.knot.tolist()
     ([0, 3, 1, 2], [1, 2])
     """
@@ -63,7 +63,7 @@ def topological_order(count: int, before: Ints, after: Ints) -> TopologicalSort:
     --------
     >>> import numpy as np
     >>> from vectorplot import visibility
-    >>> visibility.mikado(3, before=np.array([2, 0]), after=np.array([0, 1])).order.tolist()
+    >>> visibility.topological_order(3, before=np.array([2, 0]), after=np.array([0, 1])).order.tolist()
     [2, 0, 1]
     """
     later = Links(count, before, after)

@@ -84,7 +84,7 @@ class Lines:
     >>> wanted = frozenset({vp.LineKind.BOUNDARY})
     >>> faces = visibility.project_faces(view)
     >>> lines = visibility.edge_lines(scene, view, faces, wanted, 25.0, np.zeros(1, dtype=bool))
-    >>> len(lines), lines.some(np.array([0])).item.tolist()
+    >>> len(lines), lines.take(np.array([0])).item.tolist()
     (3, [0])
     """
 

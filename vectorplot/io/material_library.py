@@ -23,6 +23,7 @@ MANY_COLOURS = 1 << 12
 """Files with more colours of faces than this have them rounded to FEW_STEPS of red, green and blue."""
 
 FEW_STEPS = 15.0
+"""So few steps of each are 4,096 colours in all."""
 
 
 def looks_of_materials(

@@ -1,0 +1,47 @@
+"""How the shadow maps of a picture are made."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+from vectorplot.errors import InputError
+from vectorplot.words import check_word
+
+
+@dataclass(frozen=True)
+class MapSettings:
+    """How shadow maps are made.
+
+    Parameters
+    ----------
+    size : int
+        Texels along the side of a map, were it a square.
+    bits : int
+        Of a depth: 8, 16 or 32.
+    casting : {"all", "away"}
+        Which faces the map is made of, all or those that turn away from the light.
+    wanted_focus : float, optional
+        The part of the texels that what is in focus should get of a trapezoidal map; None: as it comes.
+
+    Raises
+    ------
+    InputError
+        For other words, and for a part that is not between 0 and 1.
+
+    Examples
+    --------
+    >>> from vectorplot.shading import MapSettings
+    >>> MapSettings(size=2048, casting="away")
+    MapSettings(size=2048, bits=32, casting='away', wanted_focus=None)
+    """
+
+    size: int = 1024
+    bits: int = 32
+    casting: Literal["all", "away"] = "all"
+    wanted_focus: float | None = None
+
+    def __post_init__(self) -> None:
+        check_word("shadow casters", self.casting, ("all", "away"))
+        if self.wanted_focus is not None and not 0.0 < self.wanted_focus < 1.0:
+            raise InputError(f"a shadow focus of {self.wanted_focus:g}: expected a part of the map, between 0 and 1")
