@@ -61,9 +61,8 @@ LOOK_AT = {
 }
 """What a scene shows, in a sentence."""
 
-PAINTED = {
-    *"capped cubes face_looks interpenetrating mirror patterns pencil plate pool shadows table three_bars town".split()
-}
+PAINTED = set("capped cubes face_looks interpenetrating mirror patterns pencil plate pool shadows table".split())
+PAINTED |= {"three_bars", "town"}
 """The scenes that are painted as well."""
 
 TOLERANCE_MM = 0.2
@@ -134,12 +133,7 @@ def page(pictures: dict[Path, list[str]]) -> str:
     lines += ["`vectorplot paint data/NAME.scene -o NAME.svg` paints those with a second picture.", ""]
     for path in scenes():
         lines += entry(vp.read(path).title, path, pictures[path], LOOK_AT[path.stem])
-    lines += [
-        "## Scripts",
-        "",
-        "`python examples/NAME.py FOLDER` makes each of them, and checks what it claims.",
-        "",
-    ]
+    lines += ["## Scripts", "", "`python examples/NAME.py FOLDER` makes each of them, and checks what it claims.", ""]
     for path in examples():
         title, text = text_of(path)
         lines += entry(title.rstrip("."), path, pictures[path], text)

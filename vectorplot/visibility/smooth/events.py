@@ -217,7 +217,7 @@ def _dips(curves: Curves, function: OnCurve, values: Floats) -> tuple[Ints, Floa
 
 # Where a curve passes the contour of a sheet that it lies on, and the cusps of contours.
 
-ASIDE = 1e-3
+ASIDE = 1.0 / 1024.0
 """Part of a chord before and after a place of a curve at which normals are compared."""
 
 
