@@ -1,4 +1,4 @@
-"""What an approximation is: a knob, ways that depend on it, and an error that can be measured."""
+"""Approximations and studies of them: knobs, ways, errors, and the distances that errors are measured with."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from vectorplot.geometry.projections import projection_of
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import box_corners, fitted_picture
 from vectorplot.testing.curves import Curves, Segments, Tree
+
+# What an approximation is: a knob, ways that depend on it, and an error that can be measured.
 
 
 def decades(first: float, last: float, count: int) -> tuple[float, ...]:

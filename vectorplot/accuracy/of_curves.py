@@ -1,4 +1,4 @@
-"""Arcs of ellipses as cubic segments."""
+"""Approximations of curves, measured: arcs by cubics, chords, contours, integral curves, splines, zero curves."""
 
 from __future__ import annotations
 
@@ -53,6 +53,8 @@ from vectorplot.tolerances import (
     TRUE_CONTOUR,
     TRUE_ISOPHOTE_MM,
 )
+
+# Arcs of ellipses as cubic segments.
 
 RADIUS_MM = 75.0
 """Of the circle: half the width of a drawing."""

@@ -1,4 +1,4 @@
-"""Where in the water an eye sees a point: Newton's iteration for the angle, and for its tangent."""
+"""Approximations of refraction and of shadows in pixels, measured: Newton's iteration, and kinds of shadow maps."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.image import Image
 from vectorplot.testing.shapes import box
+
+# Where in the water an eye sees a point: Newton's iteration for the angle, and for its tangent.
 
 WATER = 4.0 / 3.0
 

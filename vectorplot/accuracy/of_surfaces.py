@@ -1,4 +1,4 @@
-"""Contours of meshes that stand for a smooth surface."""
+"""Approximations of smooth surfaces by triangles, measured: contours of meshes, painted polygons, implicit surfaces."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.testing.curves import hausdorff
 from vectorplot.tolerances import CONTOUR_ACCURACY_MM, OUTLINE_ACCURACY_MM, TRUE_CONTOUR
+
+# Contours of meshes that stand for a smooth surface.
 
 TORUS, EYE = Torus(3.0, 1.2), np.array([7.0, -5.0, 14.0])
 

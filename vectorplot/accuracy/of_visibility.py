@@ -1,4 +1,4 @@
-"""Hidden lines by a depth buffer, beside those by geometry."""
+"""Approximations of visibility, measured: depth buffers, samples along curves, tolerances for tessellated bodies."""
 
 from __future__ import annotations
 
@@ -34,6 +34,8 @@ from vectorplot.visibility.polyhedra.hidden_lines import Segments as Segments_of
 from vectorplot.visibility.polyhedra.hidden_lines import visible_parts
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces
+
+# Hidden lines by a depth buffer, beside those by geometry.
 
 BOXES, CAMERA = 60, Camera(eye=(12.0, -9.0, 8.0), fov_deg=50.0)
 

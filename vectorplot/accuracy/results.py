@@ -1,4 +1,4 @@
-"""What was measured of an approximation: error and time over its knob."""
+"""What was measured of an approximation, error and time over its knob: as drawings, text, CSV, JSON and folders."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from vectorplot.drawing.charts import Curve, Panel, chart
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.elementary import log
 from vectorplot.save import write, write_whole
+
+# What was measured of an approximation: error and time over its knob.
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""The verb accuracy: approximations by their names become curves of error against time."""
+"""The verb accuracy: all approximations that are measured, by name, run over their knobs."""
 
 from __future__ import annotations
 

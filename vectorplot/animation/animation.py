@@ -1,4 +1,4 @@
-"""The value Animation: a scene for every moment, and how many frames there are of it."""
+"""The value Animation: a scene for every moment, modes of frames, and cameras, lights and items moved along keys."""
 
 from __future__ import annotations
 

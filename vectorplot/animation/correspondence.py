@@ -1,4 +1,4 @@
-"""Strokes in correspondence from frame to frame: the same order, and the same ends first."""
+"""Strokes in correspondence from frame to frame of a film, and one fit to the page for all frames."""
 
 from __future__ import annotations
 
@@ -24,6 +24,8 @@ from vectorplot.scene.placement import box_corners
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.surface import is_parametrised
 from vectorplot.tolerances import COINCIDENT_MM
+
+# Strokes in correspondence from frame to frame: the same order, and the same ends first.
 
 
 def corresponding(drawing: Drawing, scene: Scene) -> Drawing:

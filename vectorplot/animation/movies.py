@@ -1,4 +1,4 @@
-"""Twelve-bit numbers in bytes, eight of them in a block of twelve."""
+"""Movies: polygons and lines on a grid of 4096 in the colours of palettes, written as two files and read back."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ from vectorplot.geometry.clipping import Polygons, Window, clip_lines_2d, clip_p
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, Polylines, joined, segments, take
 from vectorplot.geometry.regions import corners_of, polygons_of, triangles_of, unions
 from vectorplot.shading.palettes import PALETTE_LIMITS
+
+# Twelve-bit numbers in bytes, eight of them in a block of twelve.
 
 LARGEST_12_BIT = 4095
 """The largest number that twelve bits hold."""

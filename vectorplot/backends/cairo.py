@@ -1,8 +1,4 @@
-"""Small flat polygons among shaded triangles, as triangles of the same mesh.
-
-A mesh that ends at every polygon of one colour has as many borders as there are such polygons: where a fine surface is
-painted, the lines, skirts and clips along these would be most of the file.
-"""
+"""PostScript, EPS, PDF and PNG through cairo: filled and shaded polygons, texts, and PDF files of several pages."""
 
 from __future__ import annotations
 
@@ -41,6 +37,10 @@ from vectorplot.shading.image import DPI, Bytes, with_meaning
 if TYPE_CHECKING:
     import cairo
 
+# Small flat polygons among shaded triangles, as triangles of the same mesh.
+#
+# A mesh that ends at every polygon of one colour has as many borders as there are such polygons: where a fine surface
+# is painted, the lines, skirts and clips along these would be most of the file.
 
 SMALL_MICRONS = 1500
 """Wider and higher polygons keep their own borders, which are smoothed one by one; smaller ones hardly have any."""

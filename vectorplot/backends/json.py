@@ -1,4 +1,4 @@
-"""Arrays of numbers in JSON."""
+"""Drawings as JSON, written and read: strokes, filled polygons and texts with their numbers in full."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.weld import distinct_points
 from vectorplot.words import LineKind
+
+# Arrays of numbers in JSON.
 
 
 def plain(numbers: Floats) -> Any:

@@ -1,4 +1,4 @@
-"""Texts as every backend sees them: one line each, without control characters, in thousandths of a millimetre."""
+"""What every backend that makes a page draws: strokes, texts, filled polygons and their borders, in groups."""
 
 from __future__ import annotations
 
@@ -29,6 +29,8 @@ from vectorplot.geometry.polygon_cuts import clipped_by_convex
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.geometry.vectors import all_components, any_component
 from vectorplot.scene.labels import TYPE_SIZE
+
+# Texts as every backend sees them: one line each, without control characters, in thousandths of a millimetre.
 
 FONTS = "Helvetica, Arial, sans-serif"
 """What text is set in where the format asks for a font by its name: the first one that the reader has."""

@@ -1,4 +1,4 @@
-"""Shaded triangles as larger polygons with one gradient each."""
+"""Shaded triangles as larger polygons with one gradient each, and polygons that reach under their neighbours."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.tolerances import LEAST_DIVISOR
+
+# Shaded triangles as larger polygons with one gradient each.
 
 ROUNDS = 5
 """Neighbours are taken together two and two, so many times."""

@@ -1,4 +1,4 @@
-"""Coordinates as text, whole arrays at once."""
+"""SVG: one layer for each pen, filled and shaded polygons, gradients, texts, and drawings that move."""
 
 from __future__ import annotations
 
@@ -37,6 +37,8 @@ from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.tolerances import ABOVE_WHOLE, ARC_DECIMAL_MM, LEAST_DIVISOR, NARROW_OF_LENGTH
+
+# Coordinates as text, whole arrays at once.
 
 
 def formatted(first: NDArray[np.uint8], x: Ints, y: Ints, last: NDArray[np.uint8]) -> bytes:

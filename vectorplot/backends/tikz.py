@@ -1,4 +1,4 @@
-"""Colours in the words of PGF/TikZ."""
+"""Pictures for LaTeX: PGF/TikZ, and files with texts that LaTeX sets over them."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.scene.page import MM_PER_POINT
+
+# Colours in the words of PGF/TikZ.
 
 
 def colour_of(packed: int) -> str:

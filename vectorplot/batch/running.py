@@ -1,4 +1,4 @@
-"""Running tasks: files that are up to date stay, the others are made by workers and written here."""
+"""Running tasks: records of what is finished, files made by workers, and the frames of films as tasks."""
 
 from __future__ import annotations
 

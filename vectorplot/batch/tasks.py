@@ -1,4 +1,4 @@
-"""The value Task: a file and how its content is made; and fingerprints, by which a file is known to be up to date."""
+"""Tasks, which are files and how they are made, their fingerprints, and the workers that run them."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from typing import Any, Generic, Protocol, TypeVar
 
 from vectorplot import __version__
 from vectorplot.errors import InputError
+
+# The value Task: a file and how its content is made; and fingerprints, by which a file is known to be up to date.
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Options that say who makes many pictures, and what is said while they are made."""
+"""Pictures of many files into a folder: the options for workers, the input files, and the names of the output."""
 
 from __future__ import annotations
 
@@ -27,6 +27,7 @@ if TYPE_CHECKING:
     from vectorplot.batch.tasks import Submits, Task
     from vectorplot.cli.picture import Progress
 
+# Options that say who makes many pictures, and what is said while they are made.
 
 FOR_EACH = 2
 """Tasks that are with the executor at once for each worker: while one is made, the next one is on its way."""

@@ -1,4 +1,4 @@
-"""Options that cut what is shown, or move its parts apart."""
+"""The options that the verbs which make pictures share: cuts, lines, camera, page, shading, hatching, pens."""
 
 from __future__ import annotations
 
@@ -49,6 +49,9 @@ if TYPE_CHECKING:
     from vectorplot.scene.scene import Scene
     from vectorplot.scene.surface_lines import Section, SurfaceLines
     from vectorplot.shading.image import Image
+
+
+# Options that cut what is shown, or move its parts apart.
 
 
 def cut_text(text: str) -> str:

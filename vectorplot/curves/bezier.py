@@ -1,4 +1,4 @@
-"""Cubic Bézier paths: evaluated, split, flattened, measured."""
+"""Cubic Bézier paths: evaluated, split, flattened, measured, clipped; how far they are off rational curves."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from vectorplot.geometry.algebra import least_squares, linear_solution, matmul
 from vectorplot.geometry.elementary import power
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.tolerances import ABOVE_WHOLE, LENGTH_SETTLED, ROUNDING
+
+# Cubic Bézier paths: evaluated, split, flattened, measured.
 
 MAX_FLAT_POINTS = 10_000_000
 """Flattening refuses to make more points than this."""

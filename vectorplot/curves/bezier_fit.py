@@ -1,4 +1,4 @@
-"""Corners and tangents of polylines."""
+"""Smooth Bézier paths fitted to polylines and curves within a tolerance, corners kept."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from vectorplot.tolerances import (
     SLACK_OF_LENGTH,
     ZERO_OF_EXTENT,
 )
+
+# Corners and tangents of polylines.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""What every parametrised curve can do."""
+"""The interface of parametrised curves, checks of their numbers, and second derivatives of any curve."""
 
 from __future__ import annotations
 
@@ -13,6 +13,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import determinant
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import ROUNDING, SINGULAR_DETERMINANT
+
+# What every parametrised curve can do.
 
 
 class Curve(Protocol):

@@ -1,4 +1,4 @@
-"""Curves in space of which parts are cut away by planes."""
+"""Curves in space of which parts are cut away by planes, and where curves pass from one piece to the next."""
 
 from __future__ import annotations
 

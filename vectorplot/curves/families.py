@@ -1,4 +1,4 @@
-"""Circles in space, and arcs of them."""
+"""Families of curves in space: circles, helices, straight lines, loxodromes, intersections of cylinders."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.elementary import exp, tanh
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.tolerances import PARALLEL_SINE, ROUNDING
+
+# Circles in space, and arcs of them.
 
 
 @dataclass(frozen=True, eq=False)

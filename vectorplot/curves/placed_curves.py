@@ -1,4 +1,4 @@
-"""Curves moved to where they are wanted: turned, mirrored, scaled, shifted."""
+"""Curves moved, turned, mirrored and scaled, and curves of functions that users write."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from vectorplot.curves.curve import Curve, invertible, parameter_range, second_d
 from vectorplot.curves.derivatives import NumericFunction, Range, numeric_function
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.rotations import Movable
+
+# Curves moved to where they are wanted: turned, mirrored, scaled, shifted.
 
 
 class Placed:

@@ -1,4 +1,4 @@
-"""Akima's rule: tangents that are local, so that straight data stay straight and an outlier is felt nearby only."""
+"""Splines as curves in space: their kinds, bases and knots, Akima's rule, and rational splines with weights."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import banded_solution
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import EVEN_BENDS, LEAST_DIVISOR, ROUNDING, UNSOLVED, ZERO_OF_EXTENT
+
+# Akima's rule: tangents that are local, so that straight data stay straight and an outlier is felt nearby only.
 
 
 def slopes_beside(values: Floats, steps: Floats, closed: bool, reach: int = 0) -> Floats:

@@ -1,4 +1,4 @@
-"""Logarithmic axes: their ends, and where they are marked and how."""
+"""Charts as drawings: panels of curves over logarithmic axes, with letters of single strokes."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import log
 from vectorplot.tolerances import PLAIN_NUMBER
 from vectorplot.words import LineKind
+
+# Logarithmic axes: their ends, and where they are marked and how.
 
 LARGEST_PLAIN = 1e4
 """Up to this size numbers at an axis are written out, from PLAIN_NUMBER on; others as powers of ten."""

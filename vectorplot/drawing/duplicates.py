@@ -1,4 +1,4 @@
-"""Lines that lie on each other are drawn once."""
+"""Lines that lie on each other, polylines and smooth curves: drawn once, and of one kind."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import Entries, Floats32, Grid
 from vectorplot.visibility.polyhedra.lines import Lines, joined_lines
 from vectorplot.words import LineKind
+
+# Lines that lie on each other are drawn once.
 
 PAIRS_AT_ONCE = 1 << 18
 

@@ -1,4 +1,4 @@
-"""Ends of strokes where many of them run into one point, as in the apex of a cone: there ink would make a blot."""
+"""Strokes made ready for the pen: long strokes in a good order, chain lines, dashes, and trimmed ends."""
 
 from __future__ import annotations
 
@@ -30,6 +30,8 @@ from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import split, with_points
 from vectorplot.tolerances import COINCIDENT_MM, COLLINEAR_MM, ROUNDING
 from vectorplot.words import LineKind
+
+# Ends of strokes where many of them run into one point, as in the apex of a cone: there ink would make a blot.
 
 FEWEST = 8
 """So many lines that end in one point converge; fewer make a corner, as of a mesh."""

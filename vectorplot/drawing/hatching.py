@@ -1,4 +1,4 @@
-"""How dense strokes are for a darkness: so that the ink covers the share of the paper that is asked."""
+"""Hatching and stippling by tone: filled polygons as strokes or dots that lie as densely as they are dark."""
 
 from __future__ import annotations
 
@@ -27,6 +27,8 @@ from vectorplot.tolerances import (
     SAME_PLANE_SINE,
 )
 from vectorplot.words import LineKind
+
+# How dense strokes are for a darkness: so that the ink covers the share of the paper that is asked.
 
 CROSSED_FROM = 0.5
 """From this darkness on strokes cross."""

@@ -1,4 +1,4 @@
-"""How long the strokes in rectangles of the page are, by a grid over the page."""
+"""Labels, dimensions and numbers of level lines on the page: places apart from lines and each other, and marks."""
 
 from __future__ import annotations
 
@@ -44,6 +44,8 @@ from vectorplot.tolerances import COINCIDENT_MM
 from vectorplot.visibility.hidden_points import points_hidden_by
 from vectorplot.visibility.projected_faces import ProjectedFaces
 from vectorplot.words import LineKind
+
+# How long the strokes in rectangles of the page are, by a grid over the page.
 
 MOST_CELLS = 1 << 22
 """A finer grid would take more memory than the strokes."""

@@ -1,8 +1,4 @@
-"""What the alphabets lack: accents, signs that are put together, and letters that others resemble.
-
-Points are in the units of Hershey's letters: capitals are 21 high, small ones 14, and y runs upwards from the line that
-letters stand on.
-"""
+"""Letters of single strokes: Hershey's alphabets with accents, set in rows, as polylines on the page."""
 
 from __future__ import annotations
 
@@ -23,6 +19,11 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import Polylines
+
+# What the alphabets lack: accents, signs that are put together, and letters that others resemble.
+#
+# Points are in the units of Hershey's letters: capitals are 21 high, small ones 14, and y runs upwards from the line
+# that letters stand on.
 
 SMALL, CAPITAL = 14.0, 21.0
 """The heights of small letters and of capitals."""

@@ -1,4 +1,4 @@
-"""Strokes sorted into layers, each drawn with one pen."""
+"""Strokes sorted into layers with one pen each, pens over painted faces, and the paper under the lines."""
 
 from __future__ import annotations
 
@@ -40,6 +40,8 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.pens import PenOverrides
 from vectorplot.shading.palettes import palette
 from vectorplot.words import LineKind, check_word, unknown
+
+# Strokes sorted into layers, each drawn with one pen.
 
 _HATCH = KIND_LAYER[LineKind.HATCH]
 

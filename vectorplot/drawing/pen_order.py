@@ -1,4 +1,4 @@
-"""Places of the ends of strokes, curves through them, and which of them are each other's nearest."""
+"""The order in which a pen draws strokes, with little travel: trails, a greedy tour, and moves that shorten it."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from vectorplot.geometry.budget import mapped, slices, threads, workers
 from vectorplot.geometry.elementary import modulus
 from vectorplot.geometry.polylines import with_points
 from vectorplot.tolerances import DRAWN_TOGETHER_OF_EXTENT, LEAST_GAIN_OF_TRAVEL, SPREAD_OF_EXTENT, ZERO_OF_EXTENT
+
+# Places of the ends of strokes, curves through them, and which of them are each other's nearest.
 
 Places = NDArray[np.complex128]
 Curves = tuple[Ints, ...]

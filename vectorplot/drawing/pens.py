@@ -1,4 +1,4 @@
-"""Which pen draws what: rules by kind of line, by item and by both, as people write them."""
+"""Pens and styles: which pen draws what, styles by name and in TOML files, and those a scene asks for."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.page import LENGTH, length_mm
 from vectorplot.scene.pens import FINEST_MM, FRAME, HIDDEN, LONGEST_MM, WIDEST_MM, PenOverrides, target_of, unknown_item
 from vectorplot.words import COLOURS, LineKind, check_colour, check_word, is_colour, nearest, unknown
+
+# Which pen draws what: rules by kind of line, by item and by both, as people write them.
 
 _NEXT = re.compile(r",(?=[^,=]*=)")
 """The commas between rules, where a rule has commas of its own."""

@@ -1,4 +1,4 @@
-"""Several drawings on one sheet of paper."""
+"""Sheets of paper: drawings side by side, frames, scales and title blocks of technical drawings."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.words import LineKind
+
+# Several drawings on one sheet of paper.
 
 NO_ITEM = -1
 

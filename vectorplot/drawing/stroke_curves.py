@@ -1,4 +1,4 @@
-"""Strokes of which every chord is known to be a Bézier curve, as few such curves."""
+"""Strokes as Bézier paths and arcs of ellipses: exact cubics, as few as a tolerance allows."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import joined, segments, take
 from vectorplot.tolerances import ARC_OF_TOLERANCE, CUBIC_OF_TOLERANCE
+
+# Strokes of which every chord is known to be a Bézier curve, as few such curves.
 
 
 def exact_cubics(paths: Paths, tolerance: float) -> tuple[Ints, BezierPaths]:

@@ -1,4 +1,4 @@
-"""Choosing, reordering and cutting polylines, all at once."""
+"""Polylines on the page, many at once: chosen, cut, reordered, joined where they touch, and cut off at rectangles."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.geometry.polylines import joined as joined_of_polylines
 from vectorplot.geometry.polylines import take, with_points
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import SUM_OF_LENGTHS
+
+# Choosing, reordering and cutting polylines, all at once.
 
 
 def world_per_mm(paths: Paths) -> float:

@@ -1,4 +1,4 @@
-"""Texts whose letters stand along curves."""
+"""Texts whose letters stand along curves, and strokes that stop before letters."""
 
 from __future__ import annotations
 
@@ -36,6 +36,8 @@ from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.tolerances import UNION_OF_SEGMENT
+
+# Texts whose letters stand along curves.
 
 BACK = 6
 """How many letters before each one along a curve may be in its way."""

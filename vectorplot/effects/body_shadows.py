@@ -1,4 +1,4 @@
-"""Outlines that closed bodies have in a light: of the faces that they turn to it."""
+"""Closed bodies that keep light away as wholes: their outlines in a light, and what is lit beyond them."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
 from vectorplot.geometry.regions import POLYGON, polygons_of, unions
 from vectorplot.scene.view import View
+
+# Outlines that closed bodies have in a light: of the faces that they turn to it.
 
 LEAST_COSINE = 0.1
 """Of the angle between the rays through a body's middle and through its corners: images of what is seen at a wider one

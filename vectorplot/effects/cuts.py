@@ -1,4 +1,4 @@
-"""Scenes between the near and the far plane of a camera: what is nearer or farther is not there."""
+"""Scenes cut by planes: the faces of cuts and their hatching, parts of smooth surfaces, and near and far planes."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The beams of sight rays that enter a transparent convex solid by one face and leave it by another."""
+"""Transparent convex solids: what is in them and behind them, displaced by refraction, as painted polygons."""
 
 from __future__ import annotations
 
@@ -49,6 +49,8 @@ from vectorplot.visibility.painter.pairs import (
 from vectorplot.visibility.painter.topological_order import component_ranks
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell
+
+# The beams of sight rays that enter a transparent convex solid by one face and leave it by another.
 
 TOUCHING = 1.25
 """What is so many tolerances outside of a solid is still in it: the floor of a pool is the bottom of its water."""

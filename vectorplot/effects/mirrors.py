@@ -1,4 +1,4 @@
-"""Plane mirrors: the doubles of the scene behind them, and those of its lights."""
+"""Plane mirrors: doubles of the scene behind them, and doubles of its lights, with where their light falls."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, v
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell, project_faces
+
+# Plane mirrors: the doubles of the scene behind them, and those of its lights.
 
 DIMMED = 0.85
 """How bright doubles are against what they are doubles of: they appear slightly darker."""

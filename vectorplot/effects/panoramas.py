@@ -1,4 +1,4 @@
-"""The lines that are seen from a place all round, by bearing and elevation."""
+"""Panoramas: lines by bearing and elevation, the place of the eye on a terrain, and strips on the page."""
 
 from __future__ import annotations
 
@@ -26,6 +26,8 @@ from vectorplot.scene.placement import Placement, fitted_picture
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances import LEAST_DIVISOR
 from vectorplot.words import LineKind
+
+# The lines that are seen from a place all round, by bearing and elevation.
 
 WIDEST_DEG = 90.0
 """Of one camera: from its middle to its sides 45 degrees, and no line is larger there than twice."""

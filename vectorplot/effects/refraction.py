@@ -1,7 +1,5 @@
-"""Light that enters and leaves transparent material: Snell's law in the plane and in space, and its inversion.
+"""Refraction at plane surfaces: Snell's law, sight rays, virtual points, and polygons seen through them.
 
-The constant c of a refraction is sin(alpha) / sin(beta), alpha the angle between ray and normal on the side the ray
-comes from, beta on the other side: about 4/3 for a ray that enters water, 3/4 for one that leaves it.
 Source: Glaeser, section 6.6, figure 11.
 """
 
@@ -32,6 +30,11 @@ from vectorplot.tolerances import (
     ULP,
 )
 from vectorplot.visibility.painter.image_faces import over_corners
+
+# Light that enters and leaves transparent material: Snell's law in the plane and in space, and its inversion.
+#
+# The constant c of a refraction is sin(alpha) / sin(beta), alpha the angle between ray and normal on the side the ray
+# comes from, beta on the other side: about 4/3 for a ray that enters water, 3/4 for one that leaves it.
 
 MOST_STEPS = 100
 """Newton's iteration for a ray from point to point ends after so many steps; it has never been seen to take 40."""

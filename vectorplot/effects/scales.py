@@ -1,4 +1,4 @@
-"""The numbers along an axis: round ones, with what is common to them said once."""
+"""Colours by numbers and boxes with axes: round numbers, colour bars, and bodies cut into bands of one colour."""
 
 from __future__ import annotations
 
@@ -48,6 +48,8 @@ from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances import COLOURED_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.words import LineKind, unknown
+
+# The numbers along an axis: round ones, with what is common to them said once.
 
 TICKS = 5
 """About so many on every axis."""

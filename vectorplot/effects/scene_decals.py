@@ -1,4 +1,4 @@
-"""The polygons that lie on the faces of a scene: shadows with their borders, patterns, light by way of mirrors."""
+"""Shadows, patterns and light by way of mirrors on the faces of a scene and in mirrors, as filled polygons."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting
 from vectorplot.shading.shaded_faces import face_shades, view_lights
 from vectorplot.visibility.projected_faces import ProjectedFaces
+
+# The polygons that lie on the faces of a scene: shadows with their borders, patterns, light by way of mirrors.
 
 
 def scene_shadows(

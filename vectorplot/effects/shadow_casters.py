@@ -1,8 +1,4 @@
-"""A view from a light: which faces are lit, and what lies before what on the rays of light.
-
-A light system is a camera without twist; but a light may stand in the midst of the scene. Then it has six images, one
-on each side of a cube about it. They only say which pairs of faces share rays; what is dark, is decided in the view.
-"""
+"""Shadow casters: a view from a light, what keeps its light away, and which things may shadow which faces."""
 
 from __future__ import annotations
 
@@ -22,6 +18,11 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.unseen import body_sides
 from vectorplot.visibility.projected_faces import newell
+
+# A view from a light: which faces are lit, and what lies before what on the rays of light.
+#
+# A light system is a camera without twist; but a light may stand in the midst of the scene. Then it has six images, one
+# on each side of a cube about it. They only say which pairs of faces share rays; what is dark, is decided in the view.
 
 FAR = 1e12
 """A light this many times the scene's extent away has parallel rays: they turn by less than what counts as zero."""

@@ -1,4 +1,4 @@
-"""Thin transparent faces: real opacity where a format has it, sparse strokes and pixels where it has not."""
+"""Thin transparent faces by sparse strokes and pixels, and what is seen through mirrors and transparent faces."""
 
 from __future__ import annotations
 
@@ -26,6 +26,8 @@ from vectorplot.shading.screen import every_nth
 from vectorplot.tolerances import LEAST_DIVISOR
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 from vectorplot.visibility.projected_faces import Floats32
+
+# Thin transparent faces: real opacity where a format has it, sparse strokes and pixels where it has not.
 
 FEWEST, MOST = 2, 4
 """Of transparent faces every second, third or fourth line or pixel is set."""

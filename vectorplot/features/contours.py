@@ -1,4 +1,4 @@
-"""The contour of a surface: where it turns away from the eye."""
+"""Contours, isophotes, plane sections, implicit sections and level lines of a parametrised surface."""
 
 from __future__ import annotations
 
@@ -47,6 +47,8 @@ from vectorplot.geometry.polylines import take
 from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.tolerances import ROUNDING_OF_TERMS
+
+# The contour of a surface: where it turns away from the eye.
 
 DEFAULT = Tracing()
 

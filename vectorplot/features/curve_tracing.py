@@ -1,4 +1,4 @@
-"""Traced curves at the poles of a surface: borders of the domain that are a single point in space."""
+"""Curves on a parametrised surface where a condition holds: traced, led through poles, and measured in space."""
 
 from __future__ import annotations
 
@@ -35,6 +35,8 @@ from vectorplot.tolerances import (
     RESOLUTION,
     ZERO_OF_EXTENT,
 )
+
+# Traced curves at the poles of a surface: borders of the domain that are a single point in space.
 
 STRAIGHT = -0.9999
 """Cosine of the directions of two curves into a pole from which on they are one curve."""

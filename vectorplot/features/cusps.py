@@ -1,4 +1,4 @@
-"""Lines of a surface on which it has no tangent plane: cuspidal edges."""
+"""Cusps of apparent contours, and the lines of a surface on which it has no tangent plane: cuspidal edges."""
 
 from __future__ import annotations
 
@@ -30,6 +30,8 @@ from vectorplot.tolerances import (
     SINGULAR_PRODUCT,
     ZERO_OF_EXTENT,
 )
+
+# Lines of a surface on which it has no tangent plane: cuspidal edges.
 
 DEFAULT = Tracing()
 

@@ -1,4 +1,4 @@
-"""Points brought onto two patches at once."""
+"""Curves that lie on two patches at once: points brought onto both, curves led through nodes, and where they end."""
 
 from __future__ import annotations
 
@@ -30,6 +30,8 @@ from vectorplot.tolerances import (
     SAME_DIRECTION_SINE,
     ZERO_OF_EXTENT,
 )
+
+# Points brought onto two patches at once.
 
 MOST_STEPS = 40
 """Newton steps; at a tangency each only halves the distance."""

@@ -1,4 +1,4 @@
-"""The lines that a polygon mesh draws by itself: contours, boundaries, creases, edges."""
+"""The lines that a polygon mesh draws by itself, also where it stands for a smooth shape."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.tolerances import COSINE_OF_SINGLES, ZERO_OF_EXTENT
 from vectorplot.words import LineKind
+
+# The lines that a polygon mesh draws by itself: contours, boundaries, creases, edges.
 
 BLOCK = 1 << 16
 """Faces handled at once: few enough for the processor's cache."""

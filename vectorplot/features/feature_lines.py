@@ -1,4 +1,4 @@
-"""How a shape bends at points of it: its curvatures, and how these change."""
+"""Feature lines of smooth surfaces: curvatures, the zeros of their derivatives, and which lines are drawn."""
 
 from __future__ import annotations
 
@@ -27,6 +27,8 @@ from vectorplot.tolerances import (
     ZERO_OF_EXTENT,
 )
 from vectorplot.words import LineKind
+
+# How a shape bends at points of it: its curvatures, and how these change.
 
 
 @dataclass(frozen=True, eq=False)

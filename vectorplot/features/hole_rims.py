@@ -1,4 +1,4 @@
-"""Triangles in the domain of a surface divided where they meet holes, until one straight rim runs through each."""
+"""The rims of the holes of a surface as lines, and triangles in its domain cut along them."""
 
 from __future__ import annotations
 
@@ -27,6 +27,8 @@ from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import all_components, any_component
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances import CHORD_OF_EXTENT, REPEATED_OF_DOMAIN
+
+# Triangles in the domain of a surface divided where they meet holes, until one straight rim runs through each.
 
 ROUNDS = 12
 """Times that triangles are divided: around a corner of a rim, or where two of them cross, they then are a four

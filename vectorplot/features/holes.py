@@ -1,4 +1,4 @@
-"""Parameters moved into the domain of a surface."""
+"""Parameters moved into the domain of a surface, and the holes of surfaces: where they begin, and ways around them."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from vectorplot.geometry.vectors import all_finite, from_components
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances import AROUND_RIM, OUTSIDE_DOMAIN, RIM_FOUND_TO, RIM_SEEN_FROM
+
+# Parameters moved into the domain of a surface.
 
 
 def wrapped(domain: Domain, u: Floats, v: Floats) -> tuple[Floats, Floats]:

@@ -1,4 +1,4 @@
-"""Implicit surfaces polygonised up to their singular lines, sheet by sheet."""
+"""Meshes of implicit surfaces, apart along their singular lines, and finer triangles around curves on them."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ from vectorplot.geometry.vectors import (
 from vectorplot.geometry.weld import chained
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances import LEAST_DIVISOR
+
+# Implicit surfaces polygonised up to their singular lines, sheet by sheet.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,9 +1,4 @@
-"""What holds on the lines along which the gradient of F vanishes: equations of rank two, with Newton's method for them.
-
-Where two sheets cross, the second derivatives H of F have rank two, and the gradient alone leads there. Along a
-cuspidal edge H has rank one, and the gradient vanishes twice over: there H says how fast. The sum of the principal
-minors of H, which is the product of its two larger eigenvalues, vanishes there once.
-"""
+"""Lines of an implicit surface along which its gradient vanishes, and meshes led into them."""
 
 from __future__ import annotations
 
@@ -31,6 +26,12 @@ from vectorplot.tolerances import (
     VANISHED_GRADIENT,
     VANISHED_ON_LINE,
 )
+
+# What holds on the lines along which the gradient of F vanishes: equations of rank two, with Newton's method for them.
+#
+# Where two sheets cross, the second derivatives H of F have rank two, and the gradient alone leads there. Along a
+# cuspidal edge H has rank one, and the gradient vanishes twice over: there H says how fast. The sum of the principal
+# minors of H, which is the product of its two larger eigenvalues, vanishes there once.
 
 ROUNDS = 10
 """Steps of Newton's method onto a singular line."""

@@ -1,4 +1,4 @@
-"""Where implicit surfaces may end: the sides of their boxes, and the planes that cut them."""
+"""Implicit surfaces: their meshes, the planes where they end, conditions on them, and curves F = 0, g = 0 in space."""
 
 from __future__ import annotations
 
@@ -34,6 +34,8 @@ from vectorplot.tolerances import (
     SAME_DIRECTION_SINE,
     SMALLEST_OF_SINGLES,
 )
+
+# Where implicit surfaces may end: the sides of their boxes, and the planes that cut them.
 
 BOXED = 3
 """Sides of the box: across x, y and z."""

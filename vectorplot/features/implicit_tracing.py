@@ -1,4 +1,4 @@
-"""Polylines on a smooth curve that run to and fro, straightened out."""
+"""Curves on implicit surfaces where a condition holds: found on a mesh, refined, led through singular points."""
 
 from __future__ import annotations
 
@@ -60,6 +60,8 @@ from vectorplot.tolerances import (
     VANISHED_VALUE,
     WIDE_OF_AREA,
 )
+
+# Polylines on a smooth curve that run to and fro, straightened out.
 
 BACK = -0.7
 """Cosine between two chords below which the second runs back: that of a triangle around a tiny oval is -0.5."""

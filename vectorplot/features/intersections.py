@@ -1,4 +1,4 @@
-"""Pairs of surfaces that are looked at as one: as many as fit into memory, and of each only what is near the other."""
+"""Curves in which two parametrised surfaces meet, or many pairs of them, and those in which a surface meets itself."""
 
 from __future__ import annotations
 
@@ -51,6 +51,8 @@ from vectorplot.geometry.weld import close_points
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances import CHORD_OF_EXTENT, ONE_POINT_OF_EXTENT, TOUCHING_SHEETS_SINE, ZERO_OF_EXTENT
+
+# Pairs of surfaces that are looked at as one: as many as fit into memory, and of each only what is near the other.
 
 MOST_NODES = 1 << 18
 """Points that the grids of the pairs looked at as one have in all: what is known of them fills memory."""

@@ -1,4 +1,4 @@
-"""How a mesh of a smooth shape bends at its vertices: fitted to the normals around each."""
+"""Feature lines of meshes and implicit surfaces, and the contour of a mesh that stands for a smooth shape."""
 
 from __future__ import annotations
 
@@ -38,6 +38,8 @@ from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances import LEAST_DIVISOR, ROUNDING_OF_POINTS, ROUNDING_OF_TERMS, SETTLED_FIT
 from vectorplot.words import LineKind
+
+# How a mesh of a smooth shape bends at its vertices: fitted to the normals around each.
 
 STEEPEST = 0.3
 """Normals whose cosine with that of the vertex is less are those of another side."""

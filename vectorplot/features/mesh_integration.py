@@ -1,4 +1,4 @@
-"""The convex faces that lines run across, with all that their sides are asked for."""
+"""Integral curves of fields of directions on the faces of a mesh, and straightest geodesics."""
 
 from __future__ import annotations
 
@@ -32,6 +32,8 @@ from vectorplot.tolerances import (
     UNIT_LENGTH,
     ZERO_OF_EXTENT,
 )
+
+# The convex faces that lines run across, with all that their sides are asked for.
 
 NO_SIDE = -1
 

@@ -1,4 +1,4 @@
-"""The pieces of a curve on a triangle mesh, between points on its edges: where values at the vertices change sign."""
+"""Smooth lines on meshes: plane sections, level lines, isophotes, contours across faces, and outlines of patterns."""
 
 from __future__ import annotations
 
@@ -35,6 +35,8 @@ from vectorplot.geometry.vectors import all_components, any_component, component
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.tolerances import LEAST_DIVISOR, LEAST_VALUE, NO_NORMAL, ROUNDING, ROUNDING_OF_TERMS, ZERO_OF_EXTENT
 from vectorplot.words import LineKind
+
+# The pieces of a curve on a triangle mesh, between points on its edges: where values at the vertices change sign.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Where a parametrised surface meets the faces of a mesh."""
+"""Where a parametrised or an implicit surface meets the faces of a mesh."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, hessians
 from vectorplot.tolerances import ON_MESH_BORDER
+
+# Where a parametrised surface meets the faces of a mesh.
 
 DEFAULT = Tracing()
 

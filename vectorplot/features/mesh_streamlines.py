@@ -1,4 +1,4 @@
-"""A mesh and a field of directions as what curves are to cover evenly: places on it, and curves through them."""
+"""Evenly spaced integral curves on a mesh: places along curves, and where they begin and end beside each other."""
 
 from __future__ import annotations
 
@@ -44,6 +44,7 @@ from vectorplot.geometry.weld import one_each
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
+# A mesh and a field of directions as what curves are to cover evenly: places on it, and curves through them.
 
 MOST_PLACES = 40_000
 """Places at which gaps are looked for, at most, as far as triangles need not be divided for them."""

@@ -1,4 +1,4 @@
-"""Parameter lines and borders of a surface."""
+"""Parameter lines, borders, and any curve u(t), v(t) on a parametrised surface."""
 
 from __future__ import annotations
 
@@ -33,6 +33,8 @@ from vectorplot.surfaces.splines import line_pieces
 from vectorplot.surfaces.surface import Surface
 from vectorplot.surfaces.trimmed import CutSurface
 from vectorplot.tolerances import AROUND_RIM, CHORD_OF_EXTENT, ON_BORDER_OF_DOMAIN, ZERO_OF_EXTENT
+
+# Parameter lines and borders of a surface.
 
 DEFAULT = Tracing()
 

@@ -1,4 +1,4 @@
-"""Functions f(u, v) on domains, many at once: values and derivatives across seams, at poles and next to holes."""
+"""Functions f(u, v) on domains, many at once: values and derivatives, zeros along lines, points brought onto f = 0."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ from vectorplot.tolerances import (
     VANISHED_ON_BORDER,
     ZERO_RESIDUAL,
 )
+
+# Functions f(u, v) on domains, many at once: values and derivatives across seams, at poles and next to holes.
 
 Function = Callable[[Floats, Floats], Floats]
 Gradient = Callable[[Floats, Floats], tuple[Floats, Floats]]

@@ -1,4 +1,4 @@
-"""The sides of the triangles of a mesh, as ways that are unfolded over them ask for them."""
+"""Shortest paths and distances on triangle meshes, by windows that are unfolded over the triangles."""
 
 from __future__ import annotations
 
@@ -26,6 +26,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import take
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.tolerances import LEAST_DIVISOR, SETTLED_OF_EXTENT, ZERO_OF_EXTENT
+
+# The sides of the triangles of a mesh, as ways that are unfolded over them ask for them.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Places evenly along integral curves, at which these are compared with each other."""
+"""Integral curves of one field that cover a surface evenly, as if it were combed."""
 
 from __future__ import annotations
 
@@ -32,6 +32,9 @@ from vectorplot.tolerances import INTEGRATED_AS_DRAWN
 
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
+
+
+# Places evenly along integral curves, at which these are compared with each other.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Coordinates in which curves run over a surface: its parameters, and round its poles others, in which it is smooth."""
+"""Coordinates in which curves run over a surface, and places on surfaces and meshes with their tangent planes."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import all_finite, cross, dot, from_components
 from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets, Surface, first_jets, is_parametrised, second_jets
 from vectorplot.tolerances import AT_POLE, LEAST_DIVISOR
+
+# Coordinates in which curves run over a surface: its parameters, and round its poles others, in which it is smooth.
 
 NEAR, FAR = 0.08, 0.12
 """Parts of the domain: nearer to a pole a curve changes to the coordinates round it, farther it changes back."""

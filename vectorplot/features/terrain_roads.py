@@ -1,4 +1,4 @@
-"""Ways up the triangles of a terrain with a constant slope."""
+"""Roads of constant slope on a terrain: ways up its triangles, and roads between two places."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ from vectorplot.geometry.elementary import arcsin, power
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.tolerances import FLAT_SLOPE, ROAD_ARRIVES, ZERO_OF_EXTENT
+
+# Ways up the triangles of a terrain with a constant slope.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Legs of roads up a terrain and the hairpin bends between them, of many roads at once."""
+"""Roads with hairpin bends up a terrain: legs and bends, and lines of a plan laid onto the terrain."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ from vectorplot.geometry.elementary import arctan2, power
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import ROAD_ARRIVES, ZERO_OF_EXTENT
+
+# Legs of roads up a terrain and the hairpin bends between them, of many roads at once.
 
 FARTHEST_TURN = 1.5 * np.pi
 """A bend turns by so much at most."""

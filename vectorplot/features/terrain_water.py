@@ -1,4 +1,4 @@
-"""Places of a terrain by their x and y: in which triangles they are, and how high."""
+"""Water on a terrain, where it runs, parts and gathers; places by x and y; and where labels fit on level lines."""
 
 from __future__ import annotations
 
@@ -22,6 +22,8 @@ from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import greatest_component, least_component
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.tolerances import LEAST_DIVISOR, ZERO_OF_EXTENT
+
+# Places of a terrain by their x and y: in which triangles they are, and how high.
 
 
 def places_on_terrain(mesh: Mesh, places: ArrayLike, what: str = "terrain") -> tuple[Ints, Floats]:

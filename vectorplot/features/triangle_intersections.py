@@ -1,4 +1,4 @@
-"""Where the triangles of two tessellations, or of one, pierce each other."""
+"""Where the triangles of two tessellations, or of one, pierce each other, and where two patches touch or nearly do."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ from vectorplot.tolerances import (
     ULP,
     ZERO_OF_EXTENT,
 )
+
+# Where the triangles of two tessellations, or of one, pierce each other.
 
 Pair = tuple[Ints, Ints]
 

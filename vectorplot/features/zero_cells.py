@@ -1,4 +1,4 @@
-"""The cells near a curve f(u, v) = 0, subdivided where one cell is too coarse."""
+"""Cells, triangles and segments near a curve f(u, v) = 0: the subdivision that tracing begins with."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ from vectorplot.features.scalar_fields import (
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import any_component, component_sum, greatest_component, least_component
 from vectorplot.tolerances import FALLS_BESIDE, FIRST_GUESS, GRID_NOISE, ZERO_RESIDUAL
+
+# The cells near a curve f(u, v) = 0, subdivided where one cell is too coarse.
 
 ALIGNED = 0.25
 """Cosine down to which the gradients in a cell count as pointing the same way: then the curve is one arc there."""

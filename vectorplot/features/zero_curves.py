@@ -1,4 +1,4 @@
-"""Areas in which a curve f(u, v) = 0 turns more often than the smallest cells can tell: nothing of it is kept there."""
+"""Curves f(u, v) = 0 on a rectangle, traced whole: branches, double points, holes, and what could not be decided."""
 
 from __future__ import annotations
 
@@ -67,6 +67,8 @@ from vectorplot.tolerances import (
     ROUNDING_OF_DOMAIN,
     STEEP_DIRECTION,
 )
+
+# Areas in which a curve f(u, v) = 0 turns more often than the smallest cells can tell: nothing of it is kept there.
 
 REACH = 3
 """A tangle has no square smaller than this many cells to each side of one: about a double point of a curve, or along a

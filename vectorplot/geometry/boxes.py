@@ -1,4 +1,4 @@
-"""Boxes in space, and which of many overlap."""
+"""Boxes in space and which of many overlap, and hulls of sets of points by slabs and balls."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.vectors import component_sum, normalize
+
+# Boxes in space, and which of many overlap.
 
 PAIRS_AT_ONCE = 1 << 18
 """Pairs of boxes, or of what is in them, handled at once."""

@@ -1,4 +1,4 @@
-"""How much work a smooth surface may be before its picture is finished without the rest."""
+"""Limits to the work on a smooth surface, the doubts that are told, and work in chunks on several threads."""
 
 from __future__ import annotations
 
@@ -18,6 +18,7 @@ from vectorplot.errors import InputError
 if TYPE_CHECKING:
     from concurrent.futures import Future
 
+# How much work a smooth surface may be before its picture is finished without the rest.
 
 HOW = "a larger budget may do (--budget)"
 """How what was left out may be had all the same."""

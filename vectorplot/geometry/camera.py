@@ -1,4 +1,4 @@
-"""Focal lengths of miniature cameras and fields of vision.
+"""Cameras: where one looks from and how, by central or parallel projection; panoramas and windows of pixels.
 
 Source: Glaeser, section 2.2 and its table; errata G2-03, G2-15.
 """
@@ -19,6 +19,8 @@ from vectorplot.geometry.elementary import arctan, tan
 from vectorplot.geometry.rotations import euler_angles, rotation_x, rotation_z, upright_turn
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import NO_AZIMUTH_SINE, SAME_DIRECTION_SINE, VERTICAL_SINE
+
+# Focal lengths of miniature cameras and fields of vision.
 
 NEGATIVE_MM = (36.0, 24.0)
 """Width and height of a miniature camera's negative."""

@@ -1,4 +1,4 @@
-"""Polylines on curves refined until their chords are near the curves: one way for every kind of curve."""
+"""Polylines on curves of any kind refined until chords are near the curves, and changes along ways found by halving."""
 
 from __future__ import annotations
 
@@ -12,6 +12,8 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.polylines import Rounds
 from vectorplot.geometry.vectors import all_components, any_component, component_sum
 from vectorplot.tolerances import JUMP_OF_DOMAIN, STANDSTILL_OF_SPEED
+
+# Polylines on curves refined until their chords are near the curves: one way for every kind of curve.
 
 PROBES = (0.35, 0.7)
 """Where between two points a curve is compared with its chord: not symmetric, so that no S-shape passes."""

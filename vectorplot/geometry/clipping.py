@@ -1,4 +1,4 @@
-"""Windows and boxes to clip by, and where points lie about them."""
+"""Windows and boxes, where points lie about them, and lines and polygons clipped by them."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import EACH_POINT
+
+# Windows and boxes to clip by, and where points lie about them.
 
 LEFT, RIGHT, ABOVE, BELOW, INFRONT, BEHIND = 1, 2, 4, 8, 16, 32
 """Region codes; a point outside in two ways has their sum. Source: Cohen and Sutherland."""

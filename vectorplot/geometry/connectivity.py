@@ -1,4 +1,4 @@
-"""Whether faces close and agree about the outside, told without a sort."""
+"""Connectivity of faces, told without a sort: whether they close and agree about the outside, pieces and edges."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
+
+# Whether faces close and agree about the outside, told without a sort.
 
 _PIECE = 1 << 15
 

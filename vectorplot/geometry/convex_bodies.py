@@ -1,4 +1,4 @@
-"""Prisms and bodies of revolution that are not convex, and faces, as unions of convex parts."""
+"""Bodies as unions of convex parts, and what a polyhedron has in common with a convex one."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ from vectorplot.geometry.solids import (
 from vectorplot.geometry.vectors import norm
 from vectorplot.geometry.winding import is_closed_oriented
 from vectorplot.tolerances import ZERO_OF_EXTENT
+
+# Prisms and bodies of revolution that are not convex, and faces, as unions of convex parts.
 
 
 def convex_prism_parts(base_points: ArrayLike, vector: ArrayLike) -> list[Mesh]:

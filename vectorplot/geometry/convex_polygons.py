@@ -1,4 +1,4 @@
-"""Plane polygons: as unions of convex ones, and in the coordinates of their planes."""
+"""Plane polygons as unions of convex ones, convex hulls in the plane and in space, and convex faces."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import FOLDED_ANGLE_SQUARED, LEAST_DIVISOR, ROUNDING, ZERO_OF_EXTENT
+
+# Plane polygons: as unions of convex ones, and in the coordinates of their planes.
 
 
 def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) -> list[Ints]:

@@ -1,4 +1,4 @@
-"""Half spaces: what lies before several planes at once, such as the corner that is cut out of a body."""
+"""Meshes cut: by half spaces, into bands between levels, and the plane faces of sections."""
 
 from __future__ import annotations
 
@@ -16,6 +16,8 @@ from vectorplot.geometry.mesh import TRIANGLE, Mesh
 from vectorplot.geometry.regions import areas_of, corners_of, without_holes
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
+
+# Half spaces: what lies before several planes at once, such as the corner that is cut out of a body.
 
 Vector = tuple[float, float, float]
 

@@ -1,4 +1,4 @@
-"""Faces without area, found and taken out."""
+"""Meshes as they come in files, mended: seams, orientation, faces without area, parts that need no mending."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ from vectorplot.geometry.winding import (
     turned_faces,
 )
 from vectorplot.tolerances import SOLID_ANGLE_ROUNDING, THIN_OF_LENGTH, ULP, ZERO_OF_EXTENT
+
+# Faces without area, found and taken out.
 
 _PIECE = 1 << 15
 _ROUNDS = 8

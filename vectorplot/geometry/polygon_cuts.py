@@ -1,4 +1,4 @@
-"""Convex polygons in space, each cut by several planes, many at once."""
+"""Convex polygons in space, cut by several planes or clipped by convex polygons, many at once."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from vectorplot.geometry.convex_polygons import convex_hulls
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.geometry.records import IN_COLUMNS
+
+# Convex polygons in space, each cut by several planes, many at once.
 
 PAIRS_AT_ONCE = 1 << 15
 """Pairs handled at once: few enough for the processor's cache."""

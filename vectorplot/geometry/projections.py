@@ -1,7 +1,9 @@
-"""The two transformations of space to images: images with depths, and the collineation, which keeps planes plane.
+"""Projections: images with depths, collineations, and the world, screen and light systems of cameras and lamps.
 
 The eye stands on the positive z-axis at a distance d, the image plane is z = 0. Points are rows.
-Source: Glaeser, section 2.3."""
+
+Source: Glaeser, section 2.3.
+"""
 
 from __future__ import annotations
 
@@ -19,6 +21,8 @@ from vectorplot.geometry.elementary import tan
 from vectorplot.geometry.rotations import look_rotation
 from vectorplot.geometry.vectors import length
 from vectorplot.tolerances import INFINITE, LARGEST_VIEW, NEAR_OF_DISTANCE, NO_DIGITS_OF_EXTENT, ULP, ZERO_OF_EXTENT
+
+# The two transformations of space to images: images with depths, and the collineation, which keeps planes plane.
 
 
 def project(points: ArrayLike, distance: float) -> Floats:

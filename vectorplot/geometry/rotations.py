@@ -1,6 +1,7 @@
-"""Rotations of space. Points are rows: a point p goes to p @ matrix, and the first of several rotations stands left.
+"""Rotations of space, and whatever can be moved, turned and scaled.
 
 Angles in radians, positive counter-clockwise when the axis points at the viewer.
+
 Source: Glaeser, sections 1.5, 1.6, 2.1 and 2.4.
 """
 
@@ -18,6 +19,8 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import normalize, spherical_coordinates
 from vectorplot.tolerances import PARALLEL_SINE
+
+# Rotations of space. Points are rows: a point p goes to p @ matrix, and the first of several rotations stands left.
 
 
 def rotation_x(angle: ArrayLike) -> Floats:

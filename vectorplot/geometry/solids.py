@@ -1,4 +1,4 @@
-"""Solids as meshes: boxes, and polyhedra given by their faces."""
+"""Solids as meshes: boxes, polyhedra, bodies of revolution, and prisms with holes through them."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.geometry.convex_polygons import convex_polygon_parts, plane_axes
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import FLAT_OF_EXTENT, HALF_TURN_ROUNDING, LEAST_DIVISOR, ROUNDING, ZERO_OF_EXTENT
+
+# Solids as meshes: boxes, and polyhedra given by their faces.
 
 BOTTOM, TOP = "bottom", "top"
 BOTH_CAPS = (BOTTOM, TOP)

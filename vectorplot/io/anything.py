@@ -1,4 +1,4 @@
-"""Whatever has a shape -> a scene: what the verbs take."""
+"""Objects with a shape, of Python and of other libraries -> scenes: what the verbs take; cells of finite elements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The parts of an expression: operations in the order of their evaluation, equal ones shared."""
+"""Formulas as text -> expressions: parsed without running code, with derivatives, evaluated with equal parts shared."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.errors import InputError
 from vectorplot.geometry import elementary
 from vectorplot.words import nearest
+
+# The parts of an expression: operations in the order of their evaluation, equal ones shared.
 
 Values = NDArray[Any]
 """Arrays of float64 or complex128."""

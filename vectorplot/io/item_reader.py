@@ -1,4 +1,4 @@
-"""Where one is in the text of a scene file, and what all readers of items ask there."""
+"""Reading an item of a scene file, word by word: what it is, where it stands, how it looks, which lines it has."""
 
 from __future__ import annotations
 
@@ -66,6 +66,8 @@ from vectorplot.words import (
     nearest_material,
     unknown_material,
 )
+
+# Where one is in the text of a scene file, and what all readers of items ask there.
 
 
 class ItemCursor:

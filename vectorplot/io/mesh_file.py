@@ -1,4 +1,4 @@
-"""Numbers written in text, converted in bulk: eight characters at a time, in integer arithmetic."""
+"""What the readers of mesh files share: bytes, lines and numbers in bulk, the resulting mesh, and which way is up."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.geometry.vectors import norm
 from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene
+
+# Numbers written in text, converted in bulk: eight characters at a time, in integer arithmetic.
 
 Bytes = NDArray[np.uint8]
 Words = NDArray[np.uint64]

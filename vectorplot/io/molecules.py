@@ -1,4 +1,4 @@
-"""What is known of the elements: their radii, from a library, and the colours chemists give them."""
+"""Molecules: the elements, atoms and bonds, xyz files and those of data banks, and scenes of balls and rods."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.capped_bodies import rod
 from vectorplot.surfaces.quadrics import Sphere
+
+# What is known of the elements: their radii, from a library, and the colours chemists give them.
 
 COLOURS = {
     "H": "white",

@@ -1,4 +1,4 @@
-"""Splines in scene files: curves through points, surfaces through grids, and their kinds."""
+"""The surfaces and curves that a scene file can name, splines with their kinds and points among them."""
 
 from __future__ import annotations
 
@@ -72,6 +72,8 @@ from vectorplot.surfaces.swept import (
 from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus, dupin_cyclide
 from vectorplot.surfaces.trimmed import TrimmedSurface
 from vectorplot.tolerances import ROUNDING
+
+# Splines in scene files: curves through points, surfaces through grids, and their kinds.
 
 
 def read_points(words: Words, at: int, owner: str, what: str) -> tuple[Floats, int]:

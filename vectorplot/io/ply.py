@@ -1,4 +1,4 @@
-"""The header of a PLY file: which elements follow, and which properties these have."""
+"""PLY files, text and binary: header, vertices, polygons, and the numbers and colours at both."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ from vectorplot.io.off import face_corners
 from vectorplot.scene.face_looks import FaceLooks
 from vectorplot.scene.scales import Fields
 from vectorplot.tolerances import SINGLE_ULP, ULP
+
+# The header of a PLY file: which elements follow, and which properties these have.
 
 _TYPES = {
     **{

@@ -1,4 +1,4 @@
-"""A file -> a scene."""
+"""Files and standard input -> scenes, by suffix and first bytes; kinds that are not read, and what reads them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where items of scene files stand: placements, and the modifiers that change them."""
+"""One item of a scene file: its draft, where it stands, the modifiers that change it, and how its faces are hatched."""
 
 from __future__ import annotations
 
@@ -48,6 +48,8 @@ from vectorplot.scene.scales import Fields
 from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_parametrised
 from vectorplot.tolerances import LARGEST
+
+# Where items of scene files stand: placements, and the modifiers that change them.
 
 Placement = tuple[float, ...]
 """The first three rows of a matrix (4,4), row by row."""

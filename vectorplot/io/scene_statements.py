@@ -1,4 +1,4 @@
-"""What a scene file says about the scene as a whole: camera, lights, page, labels, cuts, colours by numbers, a box."""
+"""What a scene file says about the scene as a whole: camera, lights, page, labels, annotations, cuts, style, pens."""
 
 from __future__ import annotations
 
@@ -31,6 +31,8 @@ from vectorplot.scene.placement import fitted_page, page_of_width
 from vectorplot.scene.scales import BoxAxes, Colouring
 from vectorplot.scene.scene import Scene
 from vectorplot.words import COLOURS, STYLE_WORDS, is_colour, nearest
+
+# What a scene file says about the scene as a whole: camera, lights, page, labels, cuts, colours by numbers, a box.
 
 _CAMERA_POINTS = ("eye", "target", "up")
 _CAMERA_NUMBERS = {"twist": "twist_deg", "field_of_vision": "fov_deg", "height": "height", "near": "near", "far": "far"}

@@ -1,4 +1,4 @@
-"""Smooth surfaces of scene files: which one, and where it stands; loaded where a file has one."""
+"""Smooth surfaces, curves in space and terrains of scene files: which shape, and where it stands."""
 
 from __future__ import annotations
 
@@ -28,6 +28,8 @@ from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.surfaces.terrains import densified_terrain, exaggerated, terrain, terrain_of_points
 from vectorplot.words import nearest
+
+# Smooth surfaces of scene files: which one, and where it stands; loaded where a file has one.
 
 HOLE_GRID = 16
 """Cells of the grid, in each direction of its box, on which the equation of an implicit surface is tried out."""

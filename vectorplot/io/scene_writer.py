@@ -1,4 +1,4 @@
-"""Smooth surfaces and curves as words of the scene language."""
+"""Scenes as text in the scene language, with every digit: smooth surfaces, curves, items and all that stands around."""
 
 from __future__ import annotations
 
@@ -59,6 +59,8 @@ from vectorplot.surfaces.swept import Rotoid, Screw, SpiralMotion, Swept, Transl
 from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus
 from vectorplot.surfaces.trimmed import TrimmedSurface
 from vectorplot.words import COLOURS
+
+# Smooth surfaces and curves as words of the scene language.
 
 
 def surface_text(shape: Surface | ImplicitSurface) -> str:

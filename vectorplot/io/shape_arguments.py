@@ -1,4 +1,4 @@
-"""Surfaces and curves given by formulas in a scene file, with the exact derivatives of the formulas."""
+"""Arguments of shapes in scene files: numbers, ranges, boxes, and formulas with their exact derivatives."""
 
 from __future__ import annotations
 
@@ -23,6 +23,8 @@ from vectorplot.surfaces.graphs import Disc, Graph, PolarGraph, graph, graph_ove
 from vectorplot.surfaces.implicit import ImplicitFunction, implicit_of_function
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances import LARGEST
+
+# Surfaces and curves given by formulas in a scene file, with the exact derivatives of the formulas.
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Esri's ASCII grid: a head of six lines, then heights row by row from north to south."""
+"""Heights in files, as Esri's ASCII grids and as points, and in arrays -> terrains and scenes."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from vectorplot.scene.terrains import MOST_DRAWN, terrain_scene, times_power_of_
 from vectorplot.surfaces.graphs import MOST_POINTS
 from vectorplot.surfaces.terrains import Terrain, terrain, terrain_of_points, thinned_terrain
 from vectorplot.tolerances import OFF_REGULAR_GRID, SINGLE_ULP
+
+# Esri's ASCII grid: a head of six lines, then heights row by row from north to south.
 
 _HEAD_LINE = re.compile(rb"[ \t]*([A-Za-z_]+)[ \t]+([^\s]+)[ \t\r]*\n")
 

@@ -1,4 +1,4 @@
-"""The strokes that hatch faces of a scene, on a picture of it that has its place."""
+"""The verb draw: a scene becomes strokes on a page, hatching included."""
 
 from __future__ import annotations
 
@@ -36,6 +36,8 @@ from vectorplot.scene.placement import Placement, page_of
 from vectorplot.scene.view import look
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import DRAWN, TEXT_WORDS, WIRES, check_word, line_kinds
+
+# The strokes that hatch faces of a scene, on a picture of it that has its place.
 
 
 def hatched_in_place(

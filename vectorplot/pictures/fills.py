@@ -1,4 +1,4 @@
-"""The paper of a painted picture."""
+"""The polygons of a painted picture: how finely surfaces are cut, colours, order, hatching, and the paper."""
 
 from __future__ import annotations
 
@@ -84,6 +84,7 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 if TYPE_CHECKING:
     from vectorplot.effects.decals import Decals
 
+# The paper of a painted picture.
 
 PAPER = "white"
 """The colour of the paper where the scene names none."""

@@ -1,4 +1,4 @@
-"""A film: the frames of an animation, each made when it is asked for."""
+"""The verb animate: an animation becomes a film, whose frames are made when they are asked for."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.scene.placement import camera_around, page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.image import Image
 from vectorplot.words import check_word, unknown
+
+# A film: the frames of an animation, each made when it is asked for.
 
 Progress = Callable[[str, float], None]
 

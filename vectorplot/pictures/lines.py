@@ -1,4 +1,4 @@
-"""The lines of smooth surfaces, and what these hide of all lines."""
+"""The visible lines of a scene on the page, from tracing to pens: of polyhedra, smooth surfaces, balls and labels."""
 
 from __future__ import annotations
 
@@ -63,6 +63,7 @@ if TYPE_CHECKING:
     from vectorplot.visibility.smooth.meetings import SmoothSheet
     from vectorplot.visibility.smooth.scene_curves import TracedScene
 
+# The lines of smooth surfaces, and what these hide of all lines.
 
 OF_F = "f is what is 0 on the contours, sections or other lines of the surface that are looked for"
 """What doubts about curves f = 0 are of, for those who asked for a picture."""

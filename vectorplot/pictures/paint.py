@@ -1,4 +1,4 @@
-"""Blank polygons with the visible lines on them: hidden lines by erasing."""
+"""The verb paint: a scene becomes filled polygons, painted back to front; hidden lines by erasing."""
 
 from __future__ import annotations
 
@@ -41,6 +41,8 @@ from vectorplot.shading.palettes import PALETTE_SIZE, shaded_colours
 from vectorplot.shading.shaded_faces import exposed_scene, item_colours
 from vectorplot.tolerances import LEAST_TOLERANCE_MM
 from vectorplot.words import LINE_WORDS, TEXT_WORDS, LineKind, check_word, line_kinds
+
+# Blank polygons with the visible lines on them: hidden lines by erasing.
 
 
 def erased(

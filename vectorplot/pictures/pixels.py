@@ -33,6 +33,9 @@ if TYPE_CHECKING:
     from vectorplot.shading.seen_region import SeenRegion
 
 
+# Lines and blank places over a picture of pixels.
+
+
 def with_blanks(pixels: Bytes, blanks: Fills) -> Bytes:
     """The picture with polygons over it."""
     return with_layers(pixels, (Layer("blank", Pen(), (blanks,)),))

@@ -1,4 +1,4 @@
-"""What a picture is of: the scene as it is seen, the camera, and what the scene was before it was cut."""
+"""The scene of a picture as it is seen, with its camera, and the room for title, frame and colour bar around it."""
 
 from __future__ import annotations
 
@@ -29,6 +29,9 @@ from vectorplot.scene.view import View, without_seams
 if TYPE_CHECKING:
     from vectorplot.drawing.labels import SceneLabels
     from vectorplot.effects.scales import ColourBar, Scaled
+
+
+# What a picture is of: the scene as it is seen, the camera, and what the scene was before it was cut.
 
 
 @dataclass(frozen=True)

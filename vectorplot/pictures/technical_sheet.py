@@ -1,4 +1,4 @@
-"""Where views of a part stand on a sheet: in line with each other, with the free room spread evenly around them."""
+"""The verb technical_sheet: views, sections, dimensions and centre lines of a part on one sheet; and turntables."""
 
 from __future__ import annotations
 
@@ -57,6 +57,8 @@ from vectorplot.scene.placement import camera_of, page_of
 from vectorplot.scene.scene import Scene, together
 from vectorplot.tolerances import ROUND_OF_RADIUS, SAME_PLANE_OF_EXTENT, ZERO_OF_EXTENT
 from vectorplot.words import check_word, unknown
+
+# Where views of a part stand on a sheet: in line with each other, with the free room spread evenly around them.
 
 THIRD_ANGLE = {"front": (0, 0), "right": (1, 0), "left": (-1, 0), "top": (0, 1), "bottom": (0, -1), "back": (2, 0)}
 """Column and row of main views, rightwards and upwards from the front, where each is on the side it is seen from."""

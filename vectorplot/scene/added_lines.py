@@ -1,4 +1,4 @@
-"""Lines that are added to whatever a scene holds: plane sections and level lines through the whole of it, isophotes."""
+"""Lines that are added to scenes: sections, level lines, isophotes, their lights, and the lines drawn by default."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.scene.surface_lines import MAX_LINES, Section, SurfaceLines, Vec
 from vectorplot.scene.terrains import USUAL_COUNT, USUAL_EVERY, round_heights, with_index_lines
 from vectorplot.scene.view import View
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
+
+# Lines that are added to whatever a scene holds: plane sections and level lines through the whole of it, isophotes.
 
 
 def with_lines(

@@ -1,4 +1,4 @@
-"""Arrows and axes: curves in space, hidden like any others, and labels at them."""
+"""Arrows, axes, dimensions, angles, radii, leaders and centre lines as curves in space, with labels at them."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.geometry.vectors import cross, norm, normalize
 from vectorplot.scene.item import Item
 from vectorplot.scene.labels import USUAL_SIZE_MM, Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
 from vectorplot.scene.scene import Scene
+
+# Arrows and axes: curves in space, hidden like any others, and labels at them.
 
 OWN_LINES = ("label", "centre")
 """What annotations are drawn as."""

@@ -1,4 +1,4 @@
-"""A cut through a scene: where it is, and what becomes of what lies before it."""
+"""Cuts through a scene and exploded views: planes, what becomes of parts before them, and where parts are moved."""
 
 from __future__ import annotations
 
@@ -18,6 +18,8 @@ from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import EDGE_ON_SINE
 from vectorplot.words import check_colour, check_word
+
+# A cut through a scene: where it is, and what becomes of what lies before it.
 
 FINEST_SPACING_MM = 0.1
 """No hatch of a cut face is closer: it would be black."""

@@ -1,4 +1,4 @@
-"""Shapes in a scene, and how they are drawn."""
+"""Items of a scene: shapes, how they are drawn, patterns on faces, and normals of the smooth surface behind a mesh."""
 
 from __future__ import annotations
 

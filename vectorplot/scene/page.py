@@ -1,4 +1,4 @@
-"""Sheets of paper, in mm."""
+"""Sheets of paper in mm: their sizes by name, and lengths on them as text."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from numbers import Real
 import numpy as np
 
 from vectorplot.errors import InputError
+
+# Sheets of paper, in mm.
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""What a scene says of the pens it is drawn with."""
+"""What a scene says of its pens, and of strokes that tell how far away they are."""
 
 from __future__ import annotations
 
@@ -7,6 +7,8 @@ from dataclasses import dataclass, field, replace
 
 from vectorplot.errors import InputError
 from vectorplot.words import LineKind, check_word, nearest
+
+# What a scene says of the pens it is drawn with.
 
 HIDDEN = "hidden"
 """The kind of what something is in front of, whatever else it is."""

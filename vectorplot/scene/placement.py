@@ -1,4 +1,4 @@
-"""Where the picture goes on the page."""
+"""Where the picture stands on its page, pages as large as their picture, and cameras and pages said in words."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.scene.page import FIT, Page, length_mm, sheet_size
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances import FLAT_PICTURE
 from vectorplot.words import unknown
+
+# Where the picture goes on the page.
 
 
 @dataclass(frozen=True, eq=False)

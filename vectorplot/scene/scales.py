@@ -1,4 +1,4 @@
-"""What a picture shows besides its scene to be read as a chart: colours that are numbers, a box with ticks."""
+"""Colours by numbers, boxes with ticks, and the numbers that a mesh carries at vertices and faces."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import nothing_beside
 from vectorplot.geometry.triangles import PlacedTriangles
+
+# What a picture shows besides its scene to be read as a chart: colours that are numbers, a box with ticks.
 
 MOST_STEPS = 100
 """Of colours."""

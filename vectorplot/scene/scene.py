@@ -1,4 +1,4 @@
-"""What stands in a picture: items, lights, and how one looks at them."""
+"""The value Scene: items, lights, how one looks at them; scenes put together, and surfaces cut off or empty."""
 
 from __future__ import annotations
 
@@ -32,6 +32,8 @@ from vectorplot.surfaces.function_surface import FunctionSurface
 from vectorplot.surfaces.graphs import Graph, PolarGraph
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.words import check_colour
+
+# What stands in a picture: items, lights, and how one looks at them.
 
 
 @dataclass(frozen=True, eq=False)

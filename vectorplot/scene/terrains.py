@@ -1,4 +1,4 @@
-"""Heights of level lines: round ones, and every fifth of them heavier."""
+"""Terrains as scenes: heights of level lines, the lines that are drawn, colours by height, the light of maps."""
 
 from __future__ import annotations
 
@@ -24,6 +24,8 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import MAX_LINES, NO_LINES, Section, SurfaceLines
 from vectorplot.surfaces.terrains import Terrain, exaggerated, terrain
 from vectorplot.tolerances import OFF_REGULAR_GRID
+
+# Heights of level lines: round ones, and every fifth of them heavier.
 
 USUAL_COUNT = 20
 """Level lines between the lowest and the highest point, about."""

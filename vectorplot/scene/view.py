@@ -1,4 +1,4 @@
-"""A scene as one camera sees it: all faces in one mesh, in the camera's axes, scaled to the unit box."""
+"""A scene as one camera sees it, in one mesh, without seams and without items in the place of others."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Depths as whole numbers: the finest there is room for, and 16 bits."""
+"""Depth buffers with depths as whole numbers, for every pixel the triangle in front, and faces in one plane."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.shading.screen import SceneTriangles, ScreenTriangles, front_fac
 from vectorplot.shading.shaded_faces import face_normals
 from vectorplot.tolerances import ZERO_OF_EXTENT
 from vectorplot.visibility.painter.image_faces import image_faces
+
+# Depths as whole numbers: the finest there is room for, and 16 bits.
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Scenes without smooth surfaces: triangles so small that pictures show no corners, with true normals at theirs."""
+"""Smooth surfaces as triangles so small that pictures show no corners, and how fine these have to be."""
 
 from __future__ import annotations
 
@@ -51,6 +51,9 @@ from vectorplot.visibility.projected_faces import newell
 
 if TYPE_CHECKING:
     from vectorplot.features.facets import Facets
+
+
+# Scenes without smooth surfaces: triangles so small that pictures show no corners, with true normals at theirs.
 
 
 @dataclass(frozen=True, eq=False)

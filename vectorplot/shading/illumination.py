@@ -1,7 +1,5 @@
-"""How bright points of surfaces are: Lambert's law, dark sides, highlights, distance and depth.
+"""How bright points of surfaces are and how lines and lights fade: Lambert's law, highlights, distance and depth.
 
-Shades are parts of a palette, from 0 to 1. Light sources share four fifths of it; the last fifth is ambient light, and
-goes to what is near the eye. Points may be barycentres of faces, vertices, or what is visible in each pixel.
 Source: Glaeser, sections 4.5 and 8.5.
 """
 
@@ -23,6 +21,11 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
 from vectorplot.scene.view import View
 from vectorplot.tolerances import LEAST_DIVISOR
+
+# How bright points of surfaces are: Lambert's law, dark sides, highlights, distance and depth.
+#
+# Shades are parts of a palette, from 0 to 1. Light sources share four fifths of it; the last fifth is ambient light,
+# and goes to what is near the eye. Points may be barycentres of faces, vertices, or what is visible in each pixel.
 
 AMBIENT = 0.2
 """The part of the palette that is kept for ambient light (decision D-5)."""

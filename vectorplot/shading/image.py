@@ -1,4 +1,4 @@
-"""Pixels as a PNG file."""
+"""Pictures of pixels: the value Image, PNG files, and supersampling against steps along edges."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.elementary import power
+
+# Pixels as a PNG file.
 
 COMPRESSION = 6
 

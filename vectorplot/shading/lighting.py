@@ -1,4 +1,4 @@
-"""Where in its triangle every visible point lies, so that each pixel is shaded once, after visibility is known."""
+"""The visible points of a picture of pixels, and their colours by lights, materials and shadows."""
 
 from __future__ import annotations
 
@@ -33,6 +33,8 @@ from vectorplot.shading.palettes import COLOUR_MAP, Colours, palette
 from vectorplot.shading.screen import SceneTriangles
 from vectorplot.shading.shaded_faces import depth_limits, light_colours, unit, view_eye
 from vectorplot.shading.shaded_faces import mesh_face_normals as face_normals
+
+# Where in its triangle every visible point lies, so that each pixel is shaded once, after visibility is known.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""The colours of painted polygons, corner by corner."""
+"""The colours of painted polygons, corner by corner, and the normals that these are shaded with."""
 
 from __future__ import annotations
 
@@ -31,6 +31,8 @@ from vectorplot.shading.shaded_faces import (
 )
 from vectorplot.tolerances import FLAT_COSINE
 from vectorplot.visibility.projected_faces import newell
+
+# The colours of painted polygons, corner by corner.
 
 FEW_CORNERS = 8
 """Of a face with more corners it pays to look whether they have the same normal, as those of the faces of cuts."""

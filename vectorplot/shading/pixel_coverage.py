@@ -1,4 +1,4 @@
-"""Which pixels triangles cover: exactly, so that triangles with a common edge leave no gap and share no pixel.
+"""Which pixels triangles, straight lines and polygons cover: exactly, without gaps and overlaps along common edges.
 
 Pixel centres are the integers, row 0 is on top. Corners are snapped to a grid of 1/256 pixel; from there on all is
 integer arithmetic. A centre on an edge belongs to the triangle that has it as a left or a top edge.
@@ -17,6 +17,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
+
+# Which pixels triangles cover: exactly, so that triangles with a common edge leave no gap and share no pixel.
 
 SUBPIXEL_BITS = 8
 """Corners are snapped to 2^-8 pixel."""

@@ -1,4 +1,4 @@
-"""Triangles on the way to pixels: projected, cut at the near plane, with a depth that is larger the closer it is."""
+"""Triangles on the way to pixels: projected, cut at the near plane, with depths; those of a scene's faces."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.scene.view import View
 from vectorplot.shading.pixel_coverage import GUARD_BAND
 from vectorplot.shading.shaded_faces import CornerNormals, TrueNormals, view_normals
 from vectorplot.tolerances import INFINITE, NEAR_OF_DISTANCE
+
+# Triangles on the way to pixels: projected, cut at the near plane, with a depth that is larger the closer it is.
 
 BORDER = 0.03
 """Part of each side that a fitted picture leaves free."""

@@ -1,7 +1,8 @@
-"""Shades of the faces of a view, and of their corners: what each light gives, and all of them together.
+"""Shades of the faces of a view and of their corners, the normals at corners, faces in one plane, and exposure.
 
 Everything is in the view's coordinates, which keep angles: lights are brought there first. Points may be barycentres of
 faces, corners of smooth surfaces with true normals, or corners of polygons that lie on faces.
+
 Source: Glaeser, sections 4.5 and 8.5.
 """
 
@@ -40,6 +41,8 @@ from vectorplot.shading.palettes import COLOUR_MAP, PALETTE_SIZE, Colours, palet
 from vectorplot.tolerances import FLAT_OF_EXTENT, LEAST_DIVISOR, ROUNDING
 from vectorplot.visibility.painter.image_faces import outer_sides
 from vectorplot.visibility.projected_faces import newell
+
+# Shades of the faces of a view, and of their corners: what each light gives, and all of them together.
 
 HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
 """The light of a view of a scene without lights, in the view's coordinates; it throws no shadows."""

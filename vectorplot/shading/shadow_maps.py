@@ -1,8 +1,4 @@
-"""Matrices that carry a trapezoid, or any convex quadrilateral, onto the square from -1 to 1.
-
-Three ways to the same map: step by step with as few operations as can be (Ressler), as a product of eight simple
-matrices (Martin and Tan), and for any quadrilateral (Heckbert). Corners are (4, 2), counter-clockwise.
-"""
+"""Shadow maps: depth buffers of lamps, tapered by projective maps of trapezoids, and the settings they have."""
 
 from __future__ import annotations
 
@@ -38,6 +34,11 @@ from vectorplot.shading.trapezoids import (
     tapered_map,
 )
 from vectorplot.tolerances import INFINITE, LEAST_DIVISOR, MAP_BIAS, NEAR_OF_DISTANCE, PARALLEL_SINE, ZERO_OF_EXTENT
+
+# Matrices that carry a trapezoid, or any convex quadrilateral, onto the square from -1 to 1.
+#
+# Three ways to the same map: step by step with as few operations as can be (Ressler), as a product of eight simple
+# matrices (Martin and Tan), and for any quadrilateral (Heckbert). Corners are (4, 2), counter-clockwise.
 
 LARGEST_SHIFT = 1e4
 """Sides that meet farther away than this, in widths, run parallel: the map is affine."""

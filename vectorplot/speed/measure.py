@@ -1,4 +1,4 @@
-"""Measures the fixed scenes and the bare costs beside them."""
+"""The scenes whose drawing is timed, and the measuring of them and of bare operations."""
 
 from __future__ import annotations
 

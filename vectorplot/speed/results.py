@@ -1,4 +1,4 @@
-"""Time of the processor, and memory, that something takes."""
+"""Time and memory measured: single operations, and results as files, drawings, tables and comparisons."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.pictures.pipeline import peak_mb
+
+# Time of the processor, and memory, that something takes.
 
 _RESET = Path("/proc/self/clear_refs")
 """Where Linux forgets the peak of a process's memory so far."""

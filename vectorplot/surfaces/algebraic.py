@@ -1,4 +1,4 @@
-"""Algebraic surfaces, and the equation of a parametrised surface."""
+"""Algebraic surfaces, implicit equations of parametrised surfaces, and fundamental forms and curvatures."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from vectorplot.surfaces.quadrics import checked_box
 from vectorplot.surfaces.stacked import unit_normals
 from vectorplot.surfaces.surface import Surface, is_hole
 from vectorplot.tolerances import LEAST_SLOPE, OFF_EQUATION, RANK_OF_EQUATION
+
+# Algebraic surfaces, and the equation of a parametrised surface.
 
 MOST_DEGREE = 8
 """The highest degree that is tried: it has 165 coefficients."""

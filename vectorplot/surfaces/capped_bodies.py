@@ -1,4 +1,4 @@
-"""Bodies between flat ends: cylinders, cones, frusta, parts of balls and other surfaces with elliptic sections."""
+"""Bodies between flat ends, such as cylinders, cones, frusta and parts of balls, and whole spheres and ellipsoids."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import Cone, Cylinder, Ellipsoid, EllipticSections, Profile, Sphere
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances import ROUNDING
+
+# Bodies between flat ends: cylinders, cones, frusta, parts of balls and other surfaces with elliptic sections.
 
 SectionsOf = Literal["bottom", "mantle", "top"]
 

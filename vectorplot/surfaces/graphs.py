@@ -1,4 +1,4 @@
-"""Regions of the plane above which a graph stands."""
+"""Graphs of functions over rectangles, regions and discs, and heights on regular grids from scattered points."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets
 from vectorplot.tolerances import ROUNDING_OF_DOMAIN
 from vectorplot.words import check_word
+
+# Regions of the plane above which a graph stands.
 
 
 class Region(Protocol):

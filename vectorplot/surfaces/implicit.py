@@ -1,4 +1,4 @@
-"""Implicit surfaces of functions that users write."""
+"""Implicit surfaces of functions that users write, and implicit surfaces boxed in or cut by planes."""
 
 from __future__ import annotations
 
@@ -15,6 +15,8 @@ from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.surfaces.placed_surface import MovableImplicit, placed_shape
 from vectorplot.surfaces.quadrics import checked_box
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
+
+# Implicit surfaces of functions that users write.
 
 # The places of xx, xy, xz, yy, yz and zz in a matrix.
 _SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])

@@ -1,4 +1,4 @@
-"""Planes and quadrics as implicit equations of ten coefficients."""
+"""Quadrics, as implicit equations of ten coefficients and parametrised, and planes as implicit equations."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.geometry.elementary import cosh, sinh
 from vectorplot.geometry.vectors import component_sum, from_components, normalize
 from vectorplot.surfaces.placed_surface import MovableImplicit, MovableSurface
 from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets
+
+# Planes and quadrics as implicit equations of ten coefficients.
 
 
 @dataclass(frozen=True, eq=False)

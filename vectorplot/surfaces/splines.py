@@ -1,4 +1,4 @@
-"""Splines as surfaces."""
+"""Splines as surfaces, heights on a grid as a smooth surface, and the pieces of a surface's parameter lines."""
 
 from __future__ import annotations
 
@@ -32,6 +32,8 @@ from vectorplot.surfaces.placed_surface import MovableSurface, PlacedSurface
 from vectorplot.surfaces.surface import Domain, OverDomain, Surface
 from vectorplot.surfaces.trimmed import TrimmedSurface
 from vectorplot.tolerances import ZERO_OF_EXTENT
+
+# Splines as surfaces.
 
 MOST_CONTROLS = 1 << 22
 """Control points of a surface at most."""

@@ -1,4 +1,4 @@
-"""What every surface can do, and where it is defined."""
+"""The interfaces of parametrised and of implicit surfaces: domains, holes, normals, derivatives, other domains."""
 
 from __future__ import annotations
 
@@ -11,6 +11,8 @@ from vectorplot.arrays import Bools, Floats
 from vectorplot.curves.derivatives import Range, numeric_function
 from vectorplot.errors import InputError
 from vectorplot.geometry.vectors import cross
+
+# What every surface can do, and where it is defined.
 
 
 @dataclass(frozen=True)

@@ -1,8 +1,4 @@
-"""The motions of space that carry a generating line along a surface; the parameter v is their time.
-
-Weight 1 stands for points, weight 0 for directions, which a translation leaves alone: so one formula serves a curve and
-its derivatives. Source: Glaeser, section 8.2, equations 10 to 14.
-"""
+"""Surfaces swept by a moving curve: helical, spiral, rotoidal, of revolution, of translation, and tubes."""
 
 from __future__ import annotations
 
@@ -24,6 +20,11 @@ from vectorplot.geometry.elementary import arctan2, exp
 from vectorplot.geometry.vectors import component_sum, cross, length, normalize
 from vectorplot.surfaces.placed_surface import MovableSurface
 from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets
+
+# The motions of space that carry a generating line along a surface; the parameter v is their time.
+#
+# Weight 1 stands for points, weight 0 for directions, which a translation leaves alone: so one formula serves a curve
+# and its derivatives. Source: Glaeser, section 8.2, equations 10 to 14.
 
 
 class Motion(Protocol):

@@ -1,4 +1,4 @@
-"""The torus: parametrised, and as two implicit equations."""
+"""The torus, parametrised and as two implicit equations, and Dupin's cyclide, a torus inverted in a sphere."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.surfaces.placed_surface import MovableImplicit
 from vectorplot.surfaces.quadrics import EllipticSections, Profile, checked_box
 from vectorplot.surfaces.surface import Domain
 from vectorplot.tolerances import ROUNDING
+
+# The torus: parametrised, and as two implicit equations.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Parts of parametrised surfaces."""
+"""Parts of parametrised surfaces: trimmed, cut by planes, smooth between creases; and which are embedded."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed_surface import MovableSurface, PlacedSurface
 from vectorplot.surfaces.surface import Domain, OverDomain, Surface
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
+
+# Parts of parametrised surfaces.
 
 Range = tuple[float, float]
 

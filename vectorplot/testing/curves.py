@@ -1,4 +1,4 @@
-"""Assertions on curves: that they lie where they are said to lie, whoever traced them."""
+"""Assertions on curves: that they lie where they are said to lie, how far apart two are, how fine chords are."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether two drawings show the same lines, however these are cut into strokes."""
+"""Whether two drawings show the same lines, and whether a drawing shows what can be seen, checked by rays."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.surfaces.surface import ImplicitSurface, Surface, hessians, is_i
 from vectorplot.testing.rays import edges_of_faces, inside, nearest_places, visible_by_rays
 from vectorplot.tolerances import CLEARANCE_OF_EXTENT, COVERED_OF_TOLERANCE, ZERO_OF_EXTENT
 from vectorplot.words import LineKind
+
+# Whether two drawings show the same lines, however these are cut into strokes.
 
 Group = tuple[int, bool]
 

@@ -1,4 +1,4 @@
-"""Curves that say themselves in which directions they run, as the assertions take them."""
+"""Assertions about curves that follow a field of directions, and about geodesics, on surfaces and on meshes."""
 
 from __future__ import annotations
 
@@ -31,6 +31,8 @@ from vectorplot.pictures.fills import on_page
 from vectorplot.surfaces.surface import Surface, is_parametrised
 from vectorplot.testing.curves import Curves, assert_chords, assert_on_surface, places_near, polylines_of
 from vectorplot.tolerances import LEAST_DIVISOR, ZERO_OF_EXTENT
+
+# Curves that say themselves in which directions they run, as the assertions take them.
 
 
 @dataclass(frozen=True, eq=False)

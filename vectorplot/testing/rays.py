@@ -1,4 +1,4 @@
-"""Triangles for the rays: polygons cut by their ears, on their own and as plainly as possible."""
+"""Visibility by rays, as plainly as possible: what triangles, parametrised and implicit surfaces hide."""
 
 from __future__ import annotations
 
@@ -53,6 +53,8 @@ from vectorplot.tolerances import (
     SAME_HIT,
     ZERO_OF_EXTENT,
 )
+
+# Triangles for the rays: polygons cut by their ears, on their own and as plainly as possible.
 
 
 def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:

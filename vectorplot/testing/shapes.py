@@ -1,4 +1,4 @@
-"""Shapes that hidden-line programs get wrong, as scenes."""
+"""Shapes that hidden-line programs get wrong, as scenes, and curved shapes as meshes of any size."""
 
 from __future__ import annotations
 

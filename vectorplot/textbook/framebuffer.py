@@ -1,6 +1,7 @@
-"""A framebuffer: two pages of pixels, in colour numbers or in red, green and blue.
+"""A framebuffer with a depth buffer: two pages of pixels, lines and polygons in them, and hidden lines by painting.
 
 Pixel centres are the integers, row 0 is on top. One page is shown while the other is drawn.
+
 Source: Glaeser, sections 4.2 and 4.6.
 """
 
@@ -31,6 +32,8 @@ from vectorplot.shading.pixel_coverage import (
 from vectorplot.shading.screen import raster_size
 from vectorplot.tolerances import PARALLEL_SINE, ZERO_OF_EXTENT
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
+
+# A framebuffer: two pages of pixels, in colour numbers or in red, green and blue.
 
 Colour = int | tuple[int, int, int]
 """A colour number, or for a framebuffer without a colour table red, green and blue, 0 to 255."""

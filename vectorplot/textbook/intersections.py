@@ -1,4 +1,4 @@
-"""Where lines, planes, segments and convex polygons meet, in any orientation, many at once."""
+"""Where lines, planes, segments and convex polygons meet, many at once; planes in space."""
 
 from __future__ import annotations
 

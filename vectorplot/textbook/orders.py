@@ -1,4 +1,4 @@
-"""The painter's order of function graphs over a grid, from any eye position, without a single comparison."""
+"""Painter's orders that the shape gives, of graphs, solids of revolution and solids; how two convex outlines lie."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ from vectorplot.visibility.painter.pairs import (
     box_pairs,
     spheres_apart,
 )
+
+# The painter's order of function graphs over a grid, from any eye position, without a single comparison.
 
 
 def graph_triangles(rows: int, columns: int) -> Ints:

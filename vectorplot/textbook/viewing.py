@@ -1,4 +1,4 @@
-"""Frames in space: bases of vectors, and the matrices from and to the world."""
+"""The viewing pipeline: frames in space, changes of coordinates, the viewing pyramid and its homogeneous matrices."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projections import CoordinateSystem, depth_of
 from vectorplot.geometry.vectors import length, normalize
 from vectorplot.tolerances import INFINITE, PARALLEL_SINE
+
+# Frames in space: bases of vectors, and the matrices from and to the world.
 
 
 def basis_of(vector: ArrayLike, other: ArrayLike | None = None) -> Floats:

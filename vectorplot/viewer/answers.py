@@ -1,4 +1,4 @@
-"""What the page asks for, and the answers: functions of what the page tells, which keeps all state itself."""
+"""The answers of the viewer to its page: keys, moving pictures, commands, exact pictures and recordings."""
 
 from __future__ import annotations
 

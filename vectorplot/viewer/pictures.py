@@ -1,4 +1,4 @@
-"""The exact picture of what one looks at, by the verb of its mode."""
+"""The exact pictures of the viewer: what is asked for, the scene that is looked at, and the jobs that make pictures."""
 
 from __future__ import annotations
 
@@ -25,6 +25,8 @@ from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.image import Image
 from vectorplot.viewer.state import ViewerState, camera_of_state, lights_of_state, page_of_state
+
+# The exact picture of what one looks at, by the verb of its mode.
 
 PIXELS_HIGH = 720
 """Rows of pictures of pixels."""

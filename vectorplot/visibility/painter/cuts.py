@@ -1,4 +1,4 @@
-"""Faces above and below planes, and cut by them."""
+"""Faces cut by planes until they have a painter's order: trees of planes, circles of overlap, slices and ribbons."""
 
 from __future__ import annotations
 
@@ -24,6 +24,8 @@ from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, 
 from vectorplot.visibility.painter.pairs import APART, STRADDLING, Codes, box_pairs, drawn_before, face_relations
 from vectorplot.visibility.painter.topological_order import component_ranks
 from vectorplot.visibility.projected_faces import Bytes
+
+# Faces above and below planes, and cut by them.
 
 
 def heights_above(faces: ImageFaces, planes: Floats) -> Floats:

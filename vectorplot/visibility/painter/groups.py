@@ -1,4 +1,4 @@
-"""Orders of whole objects and of groups of objects, and the knots that have none."""
+"""Painter's orders of whole objects and of groups of objects, cyclic overlaps, and items that overlap in a crowd."""
 
 from __future__ import annotations
 

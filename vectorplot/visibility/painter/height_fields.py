@@ -1,4 +1,4 @@
-"""Items that cover a plane once, as graphs of functions do: their painter's order without a comparison."""
+"""The painter's order, without comparisons, of items that cover a plane once, such as graphs of functions."""
 
 from __future__ import annotations
 

@@ -1,5 +1,4 @@
-"""Faces after the projective map that makes all sight lines parallel: planes stay planes, and every face is a convex
-polygon over its image."""
+"""Faces after the projective map that makes all sight lines parallel, and painted polygons inside a frame."""
 
 from __future__ import annotations
 
@@ -18,6 +17,9 @@ from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.unseen import body_sides
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
+
+# Faces after the projective map that makes all sight lines parallel: planes stay planes, and every face is a convex
+# polygon over its image.
 
 
 @dataclass(frozen=True, eq=False)

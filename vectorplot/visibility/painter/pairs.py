@@ -1,4 +1,4 @@
-"""Convex bodies, compared as wholes."""
+"""Pairs of bodies, faces and boxes: which overlap in the image, and which of two is in front of the other."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.tolerances import AT_APEX
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, newell
+
+# Convex bodies, compared as wholes.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Sorting by taking off what nothing lies on, as in the game of mikado."""
+"""Topological sorting by layers, and the relations of precedence between faces that are known beforehand."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ import numpy as np
 from vectorplot.arrays import Bools, Ints
 from vectorplot.geometry import ragged
 from vectorplot.visibility.painter.image_faces import ImageFaces
+
+# Sorting by taking off what nothing lies on, as in the game of mikado.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""What is blended as one: parts of transparent items that hang together, or do not lie on one another."""
+"""Painter's orders in which transparent polygons stand together as sheets, each of which is blended as one."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.tolerances import LEAST_DIVISOR, NEGLIGIBLE_PART
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.pairs import Outlines, box_pairs, overlapping
 from vectorplot.visibility.painter.topological_order import Links, component_ranks
+
+# What is blended as one: parts of transparent items that hang together, or do not lie on one another.
 
 
 def connected_parts(view: View, faces: ImageFaces, item: Ints) -> Ints:

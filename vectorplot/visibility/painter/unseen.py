@@ -1,4 +1,4 @@
-"""Faces no part of which is seen, because opaque ones cover all of it."""
+"""Faces no part of which is seen: those covered by opaque ones, and the inside of closed bodies."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.scene.view import View
 from vectorplot.visibility.polyhedra.hidden_lines import Segments, tried_pairs, visible_parts
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
+
+# Faces no part of which is seen, because opaque ones cover all of it.
 
 IN_ONE_CELL = 64
 """So many pairs of a side and a face in one cell of the image are as much work as one that is looked at closely."""

@@ -1,4 +1,4 @@
-"""Coordinates in which the eye is the origin, or a point at infinity."""
+"""Round bodies as the eye of a view sees them, which is the origin: balls, frusta, capped quadrics."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
 from vectorplot.surfaces.capped_bodies import Ball, CappedQuadric
+
+# Coordinates in which the eye is the origin, or a point at infinity.
 
 
 @dataclass(frozen=True, eq=False)

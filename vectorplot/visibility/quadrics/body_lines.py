@@ -1,4 +1,4 @@
-"""What items ask for of the lines on their bodies: which of them, planes of sections, and lights."""
+"""The lines on round bodies that items ask for: contours, rims, parameter lines, isophotes, plane sections."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP, Balls, CappedBodi
 from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, arcs_on, lines_on, parts_inside
 from vectorplot.visibility.quadrics.occlusion_volumes import ball_contours
 from vectorplot.words import LineKind
+
+# What items ask for of the lines on their bodies: which of them, planes of sections, and lights.
 
 Wants = Callable[[Item, LineKind], bool]
 """Whether an item wants lines of a kind."""

@@ -1,4 +1,4 @@
-"""Arcs of conics in space, and straight lines: what the engine of convex quadrics hides."""
+"""Arcs of conics and straight lines in space: as rational Bézier pieces, as chords, and cut by planes."""
 
 from __future__ import annotations
 
@@ -21,6 +21,8 @@ from vectorplot.visibility.quadrics.bodies import EyeCoordinates, eye_coordinate
 from vectorplot.visibility.smooth.curve_families import Along, Chords
 from vectorplot.visibility.smooth.traced_curves import Curves
 from vectorplot.words import LineKind
+
+# Arcs of conics in space, and straight lines: what the engine of convex quadrics hides.
 
 
 @dataclass(frozen=True, eq=False)

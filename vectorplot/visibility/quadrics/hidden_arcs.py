@@ -1,4 +1,4 @@
-"""What convex quadrics hide of arcs and lines, as a sentence."""
+"""What convex quadrics hide of arcs and lines: intervals between the roots of polynomials in Bernstein form."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The circles in which spheres and ellipsoids meet each other and the faces of polyhedra."""
+"""Which convex bodies meet, and the circles in which they do: balls, faces of polyhedra, bodies on one axis."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.visibility.quadrics.body_lines import Found, on_balls, own_sides
 from vectorplot.visibility.quadrics.conic_arcs import OwnSides, arcs_on, parts_inside
 from vectorplot.visibility.quadrics.occlusion_volumes import Bodies
 from vectorplot.words import LineKind
+
+# The circles in which spheres and ellipsoids meet each other and the faces of polyhedra.
 
 
 def overlapping_balls(balls: Balls) -> tuple[Ints, Ints]:

@@ -1,4 +1,4 @@
-"""What hides: the region behind each ball and the ball itself, as signs of linear and quadratic forms."""
+"""What bodies in closed form hide, as signs of linear and quadratic forms, and which pieces of arcs they could hide."""
 
 from __future__ import annotations
 
@@ -19,6 +19,8 @@ from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP, Balls, CappedBodi
 from vectorplot.visibility.quadrics.conic_arcs import OwnSides, Pieces, packed_box
 from vectorplot.visibility.smooth.curve_families import Along, Chords, Family
 from vectorplot.visibility.smooth.traced_curves import Curves
+
+# What hides: the region behind each ball and the ball itself, as signs of linear and quadratic forms.
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Chords of curves replaced by cubic arcs: close to the curves, and cheap to search."""
+"""Where the images of curves cross those of folds and borders in front of them, with cubic arcs in place of chords."""
 
 from __future__ import annotations
 
@@ -29,6 +29,8 @@ from vectorplot.visibility.smooth.events import Events, hopped, on_chord, once
 from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.visibility.smooth.traced_curves import Curves, at_once, covered_sides, turn
 from vectorplot.words import LineKind
+
+# Chords of curves replaced by cubic arcs: close to the curves, and cheap to search.
 
 STEEPEST = 3.0
 """A slope longer than so many chords is none of a curve near its chord."""

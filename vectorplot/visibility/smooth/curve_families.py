@@ -1,4 +1,4 @@
-"""Curves of one kind on one sheet: what is known of them between the points of their polylines."""
+"""Families of curves on sheets, and what is known of them between the points of their polylines."""
 
 from __future__ import annotations
 
@@ -20,6 +20,8 @@ from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Surface, first_jets
 from vectorplot.tolerances import FAMILY_SETTLED, JUST_BEFORE, LEAST_DIVISOR, MISSED_OF_CHORD, TOUCHING_SHEETS_SINE
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, OnParametrised, TangentPlanes, inside
+
+# Curves of one kind on one sheet: what is known of them between the points of their polylines.
 
 ROUNDS, RENEWED = 8, 4
 """Steps of Newton from a chord to its curve; the one at which slopes are computed anew."""

@@ -1,4 +1,4 @@
-"""Where along a curve the number of sheets in front of it changes."""
+"""Events along a curve, where the number of sheets in front of it changes: roots, contours passed, cusps."""
 
 from __future__ import annotations
 
@@ -17,6 +17,8 @@ from vectorplot.visibility.smooth.curve_families import Along
 from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.visibility.smooth.traced_curves import Curves
 from vectorplot.words import LineKind
+
+# Where along a curve the number of sheets in front of it changes.
 
 
 @dataclass(frozen=True, eq=False)

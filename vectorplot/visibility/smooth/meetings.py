@@ -1,4 +1,4 @@
-"""The curves in which implicit surfaces meet parametrised ones, each other and polyhedra."""
+"""The curves in which smooth surfaces meet themselves, each other and polyhedra, and which come near each other."""
 
 from __future__ import annotations
 
@@ -40,6 +40,8 @@ from vectorplot.visibility.smooth.implicit_items import as_spatial_curves, traci
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, ParametricSheet
 from vectorplot.visibility.smooth.traced_curves import Curves, as_curves, no_curves, together
 from vectorplot.words import LineKind
+
+# The curves in which implicit surfaces meet parametrised ones, each other and polyhedra.
 
 Doubts = tuple[str, ...]
 

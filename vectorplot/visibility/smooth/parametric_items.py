@@ -1,4 +1,4 @@
-"""The integral curves that an item asks for."""
+"""The curves of an item with a parametrised surface as a view shows them, its integral curves among them."""
 
 from __future__ import annotations
 
@@ -65,6 +65,8 @@ from vectorplot.visibility.smooth.curve_families import ConditionCurves, Directe
 from vectorplot.visibility.smooth.sheets import ParametricSheet, parametric_sheets
 from vectorplot.visibility.smooth.traced_curves import Curves, as_curves
 from vectorplot.words import FEATURE_KINDS, LineKind
+
+# The integral curves that an item asks for.
 
 
 def integral_curves_in_view(

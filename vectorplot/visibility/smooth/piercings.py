@@ -1,8 +1,4 @@
-"""Stretches of curves that come close to a sheet and do not pierce it as far as is known: there sight lines decide.
-
-At an apex, a pole, a pinch point or a cuspidal edge a sheet has no normal, and Newton's method finds no meeting; where
-it finds one nothing says on which side of the sheet a curve goes on.
-"""
+"""Where curves pierce sheets that they do not lie on, and stretches close to sheets where sight lines decide."""
 
 from __future__ import annotations
 
@@ -33,6 +29,11 @@ from vectorplot.visibility.smooth.events import Events, all_events, hopped, on_c
 from vectorplot.visibility.smooth.rays import Targets, inside, weights
 from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.visibility.smooth.traced_curves import Curves
+
+# Stretches of curves that come close to a sheet and do not pierce it as far as is known: there sight lines decide.
+#
+# At an apex, a pole, a pinch point or a cuspidal edge a sheet has no normal, and Newton's method finds no meeting;
+# where it finds one nothing says on which side of the sheet a curve goes on.
 
 
 def unmet_stretches(

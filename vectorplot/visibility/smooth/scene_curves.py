@@ -1,4 +1,4 @@
-"""The sharp edges at which the sheets of an item meet, as lines of their own."""
+"""The curves of a scene's smooth surfaces, its sharp edges and curves in space as a view shows them."""
 
 from __future__ import annotations
 
@@ -35,6 +35,8 @@ from vectorplot.visibility.smooth.parametric_items import (
 from vectorplot.visibility.smooth.sheets import ParametricSheet, Sheets, implicit_sheet
 from vectorplot.visibility.smooth.traced_curves import Curves, together, with_merged_families
 from vectorplot.words import LineKind
+
+# The sharp edges at which the sheets of an item meet, as lines of their own.
 
 HALVINGS = 60
 """Steps of halving from a chord to the place where a sheet turns away: what is left is rounding."""
