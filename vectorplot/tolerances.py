@@ -854,10 +854,6 @@ RANK_OF_BENDING = 1e-8
 RANK_OF_END = 1e-10
 """Singular values of the equations of a double curve's end below this part of the largest are none."""
 
-RANK_OF_FIT = 1e-12
-"""Singular values of the equations of a circle or an ellipse below this part of the largest are none: the points lie on
-a line."""
-
 VANISHED_GRADIENT = 1e-6
 """Part of the usual gradient, and of what it makes of the way to go, below which gradient and value are zero."""
 
@@ -904,10 +900,6 @@ SUSPECT_PRODUCT = 1e-6
 SINGULAR_DETERMINANT = 1e-12
 """A determinant below this part of what columns of the same length could have is zero: the matrix has no inverse, the
 conic no area."""
-
-INVERSE_SHIFT = 1e-15
-"""Part of the largest entry that is added to the diagonal of the equations of an ellipse, so that points that lie
-exactly on one leave them solvable."""
 
 RIDGE = 1e-5
 """Part of the size of the equations of handles that is added to them: where handles hardly change the shape, as on a

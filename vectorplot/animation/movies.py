@@ -339,9 +339,6 @@ def corner_colours(movie: Movie, frame: MovieFrame) -> Bytes:
 TINY = 4.0
 """Polygons of no more than so many units of the grid in area are left out."""
 
-NO_ITEM = -1
-"""Of what belongs to no item."""
-
 PAPER = 255.0
 """White, which shines through what is transparent."""
 

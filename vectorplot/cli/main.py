@@ -1,4 +1,4 @@
-"""The entry point: runs the command, and turns what went wrong into one line and an exit status."""
+"""The entry point: runs the command, stops it on signals, and turns what went wrong into a line and an exit status."""
 
 from __future__ import annotations
 

@@ -418,9 +418,6 @@ def reach_of(line: Sequence[Glyph]) -> tuple[float, float]:
 ALIGNED = {"left": 0.0, "centre": 0.5, "right": 1.0}
 """What part of a text lies before the point it is at."""
 
-LEVELS = ("base", "middle", "top", "bottom")
-"""What of a text is as high as the point it is at: the first line's foot, the middle, or the ends of all lines."""
-
 LINES_APART = 1.7
 """From one line of text to the next, in heights of capitals."""
 

@@ -1,4 +1,4 @@
-"""The title of a page, and the frame around it."""
+"""The title of a page, the frame around it, and sheets that are cut to their picture."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, view_points
+from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell, project_faces
@@ -213,13 +213,3 @@ def _with_cut_faces(view: View, whole: Ints, cut: Ints, height: Floats) -> tuple
         face_look=None,
     )
     return new, source
-
-
-def originals(view: View, mirrors: Mirrors, seen: SeenThrough) -> Floats:
-    """(3,c) the points of the view that are seen at the corners of doubles: where shades are to be taken from."""
-    points = view_points(view, seen.points)
-    plane_of_face = np.full(view.face_count, -1, dtype=np.intp)
-    plane_of_face[mirrors.face] = mirrors.plane
-    plane = np.repeat(plane_of_face[seen.pane], np.diff(seen.offsets))
-    normal, point = mirrors.normal[:, plane], mirrors.point[:, plane]
-    return np.asarray(points - 2.0 * ((points - point) * normal).sum(axis=0) * normal, dtype=np.float64)

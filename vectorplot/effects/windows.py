@@ -19,7 +19,6 @@ from vectorplot.geometry.polygon_cuts import clipped_by_convex, inside_convex, p
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.placement import Placement
-from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
 from vectorplot.shading.screen import every_nth
@@ -47,11 +46,6 @@ class ScreenDoor:
 
     def __len__(self) -> int:
         return len(self.polygon)
-
-
-def item_opacities(scene: Scene) -> Floats:
-    """(i,) how opaque the items are, 0 to 1. Very thin material does not refract. Source: Glaeser, section 6.6."""
-    return np.array([item.material.opacity for item in scene.items], dtype=np.float64)
 
 
 def sparseness(opacity: ArrayLike) -> Ints:

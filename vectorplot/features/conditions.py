@@ -323,31 +323,6 @@ class PlaneSection(_Alike):
         )
 
 
-@dataclass(frozen=True, eq=False)
-class ParameterCondition:
-    """f = u - value for the axis 0, v - value for the axis 1: a parameter line or a border.
-
-    Errors: InputError for another axis, a value that is not finite.
-    """
-
-    axis: int
-    value: float
-
-    def __post_init__(self) -> None:
-        if self.axis not in (0, 1):
-            raise InputError(f"parameter line: axis {self.axis!r}: expected 0 for u or 1 for v")
-        number("parameter line: value", self.value)
-
-    def values(self, u: Floats, v: Floats) -> Floats:
-        """(...,) the parameter, less the value."""
-        return np.asarray((u, v)[self.axis] - self.value)
-
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(...,) one and zero, or zero and one."""
-        one, zero = np.ones(np.shape(u)), np.zeros(np.shape(u))
-        return (one, zero) if self.axis == 0 else (zero, one)
-
-
 def _towards(surface: Surface, direction: Floats, u: Floats, v: Floats) -> Floats:
     """(...,) N.d; NaN in holes, of which normals know nothing where the surface is cut."""
     points, unit = points_and_normals(surface, u, v)

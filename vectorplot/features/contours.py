@@ -42,7 +42,6 @@ from vectorplot.features.curve_tracing import (
 from vectorplot.features.parameter_curves import borders
 from vectorplot.features.pinch_points import ThroughPinchPoints, through_pinch_points
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.polylines import take
 from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
@@ -176,13 +175,6 @@ def parallel_contours(
         return curves_on_each(conditions, [1.0] * len(conditions), [ROUNDING_OF_TERMS] * len(conditions), tracing)
 
     return _of_each(surfaces, lambda surface: ParallelContour(surface, direction), found, tracing)
-
-
-def contour_in_view(surface: Surface, camera: Camera, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The contour of a surface as a camera sees it, by central or parallel projection."""
-    if camera.parallel:
-        return parallel_contour(surface, camera.direction, tracing=tracing)
-    return contour(surface, camera.eye, tracing=tracing)
 
 
 # Isophotes: lines of equal illumination on a surface.

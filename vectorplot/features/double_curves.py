@@ -55,12 +55,6 @@ class Bound:
         return Bound(self.normal[which], self.origin[which], self.rail_one[which], self.rail_two[which])
 
 
-def unbound(count: int) -> Bound:
-    """Points that may go anywhere."""
-    free = np.full(count, FREE)
-    return Bound(np.zeros((count, 3)), np.zeros((count, 3)), free, free)
-
-
 def in_planes(normal: Floats, origin: Floats) -> Bound:
     """Points that stay in planes."""
     free = np.full(len(normal), FREE)

@@ -34,7 +34,6 @@ from vectorplot.features.implicit_tracing import (
     no_curves,
 )
 from vectorplot.geometry.budget import unresolved
-from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.chord_refinement import Traces, refined
 from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import Polylines, closed_round
@@ -130,15 +129,6 @@ def implicit_parallel_contour(
     ([True], True)
     """
     return curves_in_space(surface, ImplicitParallelContour(surface, direction), size=1.0, tracing=tracing)
-
-
-def implicit_contour_in_view(
-    surface: ImplicitSurface, camera: Camera, *, tracing: ImplicitTracing = DEFAULT
-) -> ImplicitCurves:
-    """The contour of an implicit surface as a camera sees it, by central or parallel projection."""
-    if camera.parallel:
-        return implicit_parallel_contour(surface, camera.direction, tracing=tracing)
-    return implicit_contour(surface, camera.eye, tracing=tracing)
 
 
 def implicit_isophotes(

@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import number, vector
 from vectorplot.errors import InputError
+from vectorplot.features.conditions import check_cosine
 from vectorplot.features.scalar_fields import bracketed_zeros
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
@@ -515,7 +516,7 @@ class ImplicitIsophote:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "light", normalize(vector("isophotes: light", self.light)))
-        _check_cosine(self.cosine)
+        check_cosine(self.cosine)
 
     def values(self, points: Floats) -> Floats:
         """(...,) cosines of the angles between normal and light, less c."""
@@ -540,7 +541,7 @@ class ImplicitPointIsophote:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "light", vector("isophotes: light", self.light))
-        _check_cosine(self.cosine)
+        check_cosine(self.cosine)
 
     def values(self, points: Floats) -> Floats:
         """(...,) cosines of the angles between normal and light, less c."""
@@ -629,11 +630,6 @@ def _turning(surface: ImplicitSurface, points: Floats, way: Floats) -> tuple[Flo
         unit = slopes / length
         across = way - dot(unit, way)[..., None] * unit
         return np.asarray(unit), np.asarray(np.einsum("...ij,...j->...i", bends, across) / length)
-
-
-def _check_cosine(cosine: float) -> None:
-    if not abs(number("isophotes: cosine", cosine)) <= 1.0:
-        raise InputError(f"isophotes: cosine {cosine:g}: cosines must lie between -1 and 1")
 
 
 # Points brought onto a curve F = 0, g = 0 in space, and polylines on it refined where they leave it.

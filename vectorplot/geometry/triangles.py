@@ -1,4 +1,4 @@
-"""Which triangles of the plane have inner points in common."""
+"""Which triangles of the plane have inner points in common, and where points lie in the triangles of a mesh."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The widget itself: questions of its page are messages, and so are the answers, which threads send."""
+"""The widget of the viewer in notebooks: its page as a module of JavaScript, its questions and answers as messages."""
 
 from __future__ import annotations
 

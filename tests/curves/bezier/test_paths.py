@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from vectorplot.curves.arcs import EllipseArc, arc_error, arc_path, recognised_arc
+from vectorplot.curves.arcs import EllipseArc, arc_error, arc_path
 from vectorplot.curves.bezier import BezierPath, bezier_points, flattened, lengths, split
 from vectorplot.errors import InputError
 from vectorplot.testing.curves import Tree
@@ -114,34 +114,3 @@ def test_semi_axes_of_conjugate_diameters():
     assert np.linalg.norm(long) == pytest.approx(radii.max(), rel=1e-8)
     assert np.linalg.norm(short) == pytest.approx(radii.min(), rel=1e-8)
     assert abs(long @ short) < 1e-14
-
-
-@pytest.mark.parametrize("scale", [1e-6, 1.0, 1e6])
-def test_arcs_are_recognised(scale):
-    t = np.linspace(0.2, 2.5, 40)
-    circle = scale * np.column_stack((7 + 3 * np.cos(-t), 3 * np.sin(-t)))
-    found = recognised_arc(circle, tolerance=1e-9 * scale)
-    assert found is not None and np.linalg.norm(found.first) == pytest.approx(3 * scale, rel=1e-9)
-    assert found.start == pytest.approx(-0.2) and found.end == pytest.approx(-2.5)
-    closed = scale * ellipse(4, 1.5, 0.6, np.linspace(0, 2 * np.pi, 61)[:-1])
-    found = recognised_arc(closed, tolerance=1e-9 * scale, closed=True)
-    assert found is not None and found.closed
-    np.testing.assert_allclose(np.linalg.norm(found.semi_axes(), axis=1), [4 * scale, 1.5 * scale], rtol=1e-8)
-    np.testing.assert_allclose(found.points(np.array(found.start)), closed[0], rtol=1e-8)
-    part = recognised_arc(scale * ellipse(4, 1.5, 0.6, t), tolerance=1e-7 * scale)
-    assert part is not None and not part.closed
-
-
-def test_what_is_no_arc_is_not_recognised():
-    t = np.linspace(0, 1, 30)
-    circle = ellipse(2, 2, 0, 2 * np.pi * t[:-1])
-    assert recognised_arc(np.column_stack((t, t)), tolerance=1e-6) is None
-    assert recognised_arc(np.column_stack((t, t**3)), tolerance=1e-6) is None
-    assert recognised_arc(np.column_stack((t, 1e-5 * t**2)), tolerance=1e-6) is None
-    assert recognised_arc(np.zeros((9, 2)), tolerance=1e-6) is None
-    assert recognised_arc(circle[:4], tolerance=1e-6) is None
-    assert recognised_arc(circle[[0, 5, 3, 9, 12, 15]], tolerance=1e-6) is None
-    assert recognised_arc(circle[:20], tolerance=1e-6, closed=True) is None
-    assert recognised_arc(np.concatenate((circle[:15], circle[10:])), tolerance=1e-6) is None
-    with pytest.raises(InputError):
-        recognised_arc(np.zeros((9, 3)), tolerance=1.0)

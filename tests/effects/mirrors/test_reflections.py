@@ -6,7 +6,7 @@ from support.effort import several
 from support.seen_rays import sight_rays, topmost, triangles
 from support.triangle_rays import first_hits
 
-from vectorplot.effects.mirrors import Mirrors, mirrored_view, mirrors, originals, reflections
+from vectorplot.effects.mirrors import Mirrors, mirrored_view, mirrors, reflections
 from vectorplot.effects.windows import SeenThrough
 from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
@@ -17,7 +17,7 @@ from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, look
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, view_points
+from vectorplot.visibility.painter.image_faces import ImageFaces, image_points
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import project_faces
 
@@ -185,19 +185,6 @@ def test_doubles_that_reach_beyond_the_window_end_at_its_border() -> None:
     arm = picture.seen.points[:2, :, None] - window[:, None, :]
     assert (along[0] * arm[1] - along[1] * arm[0] > -1e-12).all()
     assert np.ptp(picture.seen.points[0]) == pytest.approx(np.ptp(window[0]), rel=0.3)
-
-
-def test_corners_of_doubles_tell_the_points_they_are_doubles_of() -> None:
-    for seed in (1, 3):
-        picture = Picture(*random_scene(seed))
-        view, seen = picture.view, picture.seen
-        assert np.allclose(image_points(view, view_points(view, seen.points)), seen.points, atol=1e-12)
-        points = originals(view, picture.mirrors, seen)
-        for face, a, b in zip(seen.source, seen.offsets[:-1], seen.offsets[1:], strict=True):
-            corners = view.points[:, view.corners[view.offsets[face] : view.offsets[face + 1]]]
-            normal = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-            normal /= np.linalg.norm(normal)
-            assert np.abs(normal @ (points[:, a:b] - corners[:, :1])).max() < 1e-9
 
 
 @pytest.mark.slow

@@ -2,13 +2,10 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.effects.windows import item_opacities, screen_door, screen_door_pixels, sparseness
+from vectorplot.effects.windows import screen_door, screen_door_pixels, sparseness
 from vectorplot.errors import InputError
 from vectorplot.io.scene_language import parse_scene
-from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
-from vectorplot.scene.scene import Scene
-from vectorplot.testing.shapes import box
 
 ELL = np.array([(0, 0), (9, 0), (9, 3), (3, 3), (3, 9), (0, 9)], dtype=float).T
 DISC = 5.0 * np.stack([np.cos(np.linspace(0, 6.2, 60)), np.sin(np.linspace(0, 6.2, 60))]) + 20.0
@@ -80,9 +77,7 @@ def test_how_sparse_opacities_are() -> None:
     assert sparseness([1.0, 0.9, 0.5, 0.34, 0.25, 0.01, 0.0]).tolist() == [1, 2, 2, 3, 4, 4, 0]
 
 
-def test_opacities_of_items() -> None:
-    glass = Item("GLASS", box((0, 0, 0), (1, 1, 1)), material=Material("transparent", 0.4))
-    assert item_opacities(Scene((glass, Item("A", box((0, 0, 0), (1, 1, 1)))))).tolist() == [0.4, 1.0]
+def test_opacities_out_of_range_are_refused() -> None:
     for wrong in (-0.1, 1.5, np.nan):
         with pytest.raises(InputError, match="transparent: an opacity of"):
             Material("transparent", wrong)
@@ -90,5 +85,5 @@ def test_opacities_of_items() -> None:
 
 def test_scene_files_name_transparent_things() -> None:
     scene = parse_scene("PANE transparent opacity 0.25 refraction 1.5 box 1 1 1\nWALL box 1 1 1")
-    assert item_opacities(scene).tolist() == [0.25, 1.0]
+    assert [item.material.opacity for item in scene.items] == [0.25, 1.0]
     assert [item.hides for item in scene.items] == [False, True]

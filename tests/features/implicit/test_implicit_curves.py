@@ -4,12 +4,11 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.contours import contour, isophotes, parallel_contour, point_light_isophotes
+from vectorplot.features.contours import contour, isophotes, point_light_isophotes
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_curves import (
     implicit_borders,
     implicit_contour,
-    implicit_contour_in_view,
     implicit_intersection,
     implicit_isophotes,
     implicit_level_lines,
@@ -20,7 +19,6 @@ from vectorplot.features.implicit_curves import (
 from vectorplot.features.implicit_cusps import implicit_contour_cusps, implicit_parallel_contour_cusps
 from vectorplot.features.implicit_meshes import implicit_mesh
 from vectorplot.features.implicit_tracing import ImplicitTracing
-from vectorplot.geometry.camera import Camera
 from vectorplot.surfaces.implicit import implicit_of_function
 from vectorplot.surfaces.quadrics import (
     Ellipsoid,
@@ -339,15 +337,6 @@ def test_chords_keep_the_tolerance_where_the_picture_measures_it():
     middle = np.linalg.norm((p[1:, :2] + p[:-1, :2]) / 2, axis=1)
     assert np.abs(middle - np.sqrt(0.96)).max() < 1e-4
     assert len(p) < 1000
-
-
-@pytest.mark.slow
-def test_contour_in_view_takes_the_projection_of_the_camera():
-    ball = implicit_sphere(1.0)
-    central, parallel = (implicit_contour_in_view(ball, Camera((8.0, -3.0, 6.0), parallel=p)) for p in (False, True))
-    assert np.abs(central.points @ EYE - 1.0).max() < 1e-11 and np.abs(parallel.points @ EYE).max() < 1e-10
-    direct = parallel_contour(Sphere(1.0), EYE)
-    assert_same_curve(lines(parallel), lines(direct), 1e-2)
 
 
 def test_wrong_input_is_named():

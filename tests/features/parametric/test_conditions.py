@@ -11,7 +11,6 @@ from vectorplot.features.conditions import (
     ImplicitSection,
     Isophote,
     ParallelContour,
-    ParameterCondition,
     PlaneSection,
     PointIsophote,
 )
@@ -38,7 +37,6 @@ CONDITIONS = {
     "point isophote": lambda s: PointIsophote(s, LIGHT, 0.3),
     "implicit section": lambda s: ImplicitSection(s, ImplicitTorus(2.0, 1.0)),
     "plane section": lambda s: PlaneSection(s, LIGHT, 0.3),
-    "parameter line": lambda s: ParameterCondition(1, 0.3),
 }
 every_condition = pytest.mark.parametrize("condition", CONDITIONS.values(), ids=CONDITIONS.keys())
 every_surface = pytest.mark.parametrize("surface", SURFACES.values(), ids=SURFACES.keys())
@@ -123,7 +121,6 @@ def test_bad_conditions_are_refused():
         lambda: Isophote(torus, LIGHT, 1.5),
         lambda: PointIsophote(torus, LIGHT, np.nan),
         lambda: PlaneSection(torus, LIGHT, np.inf),
-        lambda: ParameterCondition(2, 0.0),
     ):
         with pytest.raises(InputError):
             bad()

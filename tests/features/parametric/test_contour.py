@@ -3,10 +3,9 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.contours import contour, contour_in_view, parallel_contour
+from vectorplot.features.contours import contour, parallel_contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.zero_curves import EVERYWHERE
-from vectorplot.geometry.camera import Camera
 from vectorplot.surfaces.quadrics import Cone, Cylinder, Ellipsoid, HyperbolicParaboloid, Sphere
 from vectorplot.surfaces.stacked import unit_normals
 from vectorplot.surfaces.tori import Torus
@@ -131,13 +130,6 @@ def test_contours_of_scaled_and_shifted_scenes_are_the_same(scale, offset):
     curves = contour(torus, eye)
     assert len(curves) == 2 and curves.closed.all() and not curves.doubts
     assert residual(torus, curves, eye) < (1e-10 if offset == 0.0 else 1e-8) * scale
-
-
-def test_contour_in_view_takes_the_projection_of_the_camera():
-    central, parallel = (Camera((8.0, -3.0, 6.0), parallel=p) for p in (False, True))
-    sphere = Sphere(1.0)
-    assert np.abs(contour_in_view(sphere, central).points @ EYE - 1.0).max() < 1e-10
-    assert np.abs(contour_in_view(sphere, parallel).points @ EYE).max() < 1e-9
 
 
 def test_the_tolerance_is_kept_where_the_picture_measures_it():

@@ -218,9 +218,6 @@ class _Convex:
 GRID_OF_WIDTH = 1.0 / 128.0
 """New corners lie on a grid of so much of a width that is not seen."""
 
-FULL = 1.0 - NEGLIGIBLE_PART
-"""What is covered over so much of its area is covered."""
-
 
 @dataclass(frozen=True, eq=False)
 class Sheets:

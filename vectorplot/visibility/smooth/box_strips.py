@@ -1,4 +1,4 @@
-"""Which boxes in the image overlap, of things that lie one beside the other."""
+"""Which boxes in the image overlap, and rows taken in blocks whose partners fit into memory."""
 
 from __future__ import annotations
 

@@ -451,11 +451,6 @@ class ParametricSheet(OnParametrised):
         return self.surface
 
 
-def parametric_sheet(surface: Surface, item: int, hides: bool) -> ParametricSheet:
-    """The sheet of a surface, as of `parametric_sheets`."""
-    return parametric_sheets([surface], [item], [hides])[0]
-
-
 def parametric_sheets(
     surfaces: Sequence[Surface], items: Sequence[int], hides: Sequence[bool]
 ) -> list[ParametricSheet]:

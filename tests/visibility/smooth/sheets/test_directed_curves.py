@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.surfaces import Domain, Sphere, surface_of_function
 from vectorplot.visibility.smooth.curve_families import Chords, DirectedCurves
-from vectorplot.visibility.smooth.sheets import parametric_sheet
+from vectorplot.visibility.smooth.sheets import parametric_sheets
 
 
 def chords(places: Floats, directions: Floats) -> Chords:
@@ -18,7 +18,7 @@ def chords(places: Floats, directions: Floats) -> Chords:
 
 def test_circles_in_the_plane_are_followed_to_the_fourth_power_of_their_chords() -> None:
     plane = surface_of_function(lambda u, v: (u, v, 0.0 * u), Domain(-2.0, 2.0, -2.0, 2.0))
-    family = DirectedCurves(parametric_sheet(plane, 0, False), 0)
+    family = DirectedCurves(parametric_sheets([plane], [0], [False])[0], 0)
     off = []
     for count in (12, 24):
         t = np.linspace(0.0, 2.0 * np.pi, count + 1)
@@ -31,7 +31,7 @@ def test_circles_in_the_plane_are_followed_to_the_fourth_power_of_their_chords()
 
 
 def test_directions_at_the_ends_are_those_known_and_chords_without_them_straight_in_the_parameters() -> None:
-    family = DirectedCurves(parametric_sheet(Sphere(), 0, False), 0)
+    family = DirectedCurves(parametric_sheets([Sphere()], [0], [False])[0], 0)
     places = np.array([[0.0, 0.0], [0.2, 0.1], [0.3, 0.3], [0.4, 0.4], [0.5, 0.4]])
     known = np.array([[2.0, 1.4], [1.0, 1.0], [np.nan, np.nan], [-1.0, 0.0], [1.0, 0.0]])
     own = chords(places, known)

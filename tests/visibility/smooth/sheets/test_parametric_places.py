@@ -8,7 +8,7 @@ import pytest
 from vectorplot.features.holes import just_inside
 from vectorplot.surfaces.function_surface import FunctionSurface, surface_of_function
 from vectorplot.surfaces.surface import Domain
-from vectorplot.visibility.smooth.sheets import ParametricSheet, parametric_sheet
+from vectorplot.visibility.smooth.sheets import ParametricSheet, parametric_sheets
 
 SQUARE = Domain(-1.0, 1.0, -1.0, 1.0)
 SHARE = np.array([-0.7, 0.1, 0.6])
@@ -26,7 +26,7 @@ def sheared(radius: float = 0.0) -> FunctionSurface:
 
 def sheet_of(surface: FunctionSurface) -> ParametricSheet:
     with np.errstate(invalid="ignore"):
-        return parametric_sheet(surface, 0, True)
+        return parametric_sheets([surface], [0], [True])[0]
 
 
 def at(u: object, v: object) -> np.ndarray:

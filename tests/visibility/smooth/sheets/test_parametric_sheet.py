@@ -10,7 +10,7 @@ from vectorplot.surfaces.minimal import minimal_spiral_surface
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.tori import Torus
-from vectorplot.visibility.smooth.sheets import parametric_sheet, parametric_sheets
+from vectorplot.visibility.smooth.sheets import parametric_sheets
 
 
 @pytest.mark.parametrize("growth", [0.5, 2.0, 4.0])
@@ -19,7 +19,7 @@ def test_no_triangle_is_farther_off_its_surface_than_it_and_its_neighbours_are_l
     surface = minimal_spiral_surface(growth)
     u, v = np.meshgrid(*surface.domain.grid(32, 32))
     size = np.abs(surface.points(u, v)).max()
-    sheet = parametric_sheet(PlacedSurface(surface, np.eye(3) / size, np.zeros(3)), 0, True)
+    sheet = parametric_sheets([PlacedSurface(surface, np.eye(3) / size, np.zeros(3))], [0], [True])[0]
     corners = sheet.vertices[sheet.corners]
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     assert (sheet.sags <= 100.0 * sides).all()
@@ -40,7 +40,7 @@ def test_sheets_made_together_are_those_made_alone() -> None:
         placed = [PlacedSurface(s, k * np.eye(3), rng.normal(size=3)) for s, k in zip(shapes, sizes, strict=True)]
         made = parametric_sheets(placed, range(9), [True] * 9)
         for number, (surface, sheet) in enumerate(zip(placed, made, strict=True)):
-            alone = parametric_sheet(surface, number, True)
+            alone = parametric_sheets([surface], [number], [True])[0]
             assert sheet.item == number
             assert (sheet.holed, sheet.jumps) == (alone.holed, alone.jumps) == (number == 7, number == 8)
             assert np.array_equal(sheet.corners, alone.corners)
