@@ -38,7 +38,7 @@ VERBS = {
         GREEN,
         MINT,
         ("triangles", "shading/screen.py", "ScreenTriangles"),
-        ("depth buffer", "shading/depth.py", "DepthBuffer"),
+        ("depth buffer", "shading/depth_buffers.py", "DepthBuffer"),
         ("shadow maps", "shading/shadow_maps.py", "ShadowBuffer"),
         ("light", "shading/lighting.py", "Image"),
     ),

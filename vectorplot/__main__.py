@@ -1,5 +1,7 @@
 """The command: ``vectorplot``, and ``python -m vectorplot``."""
 
+from __future__ import annotations
+
 import os
 import signal
 

@@ -22,7 +22,7 @@ from vectorplot.textbook.orders import graph_order, graph_triangles, ring_order,
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.pairs import convex_bodies, outlined_items
+from vectorplot.visibility.painter.priority_tests import convex_bodies, outlined_items
 from vectorplot.visibility.projected_faces import project_faces
 
 pytestmark = pytest.mark.bench

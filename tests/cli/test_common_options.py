@@ -11,8 +11,7 @@ import vectorplot as vp
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.commands.render import render
-from vectorplot.cli.options import at_least
-from vectorplot.cli.picture_options import (
+from vectorplot.cli.option_values import (
     DRAWING_FORMATS,
     LIGHTS,
     PAGE_OPTIONS,
@@ -20,6 +19,7 @@ from vectorplot.cli.picture_options import (
     CameraOptions,
     PageOptions,
     Told,
+    at_least,
     crease_angle_option,
     hatching_from,
     lines_option,

@@ -11,7 +11,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.cli.main import run
-from vectorplot.cli.options import direction
+from vectorplot.cli.option_values import direction
 from vectorplot.geometry import box
 from vectorplot.io.mesh_file import up_axis_hint
 

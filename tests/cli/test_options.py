@@ -3,7 +3,7 @@ import math
 import click
 import pytest
 
-from vectorplot.cli import options
+from vectorplot.cli import option_values as options
 
 
 @pytest.mark.parametrize(("text", "value"), [("-3,4,5", (-3, 4, 5)), (" 1e3, -.5 ,0", (1000, -0.5, 0))])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from support.drawn import drawn
 
-from vectorplot.features.edge_lines import Edges, Faces, mesh_edges
+from vectorplot.features.mesh_edge_lines import Edges, Faces, mesh_edges
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh

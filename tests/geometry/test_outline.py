@@ -7,8 +7,8 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.contour_polygons import concat, contour_branches, contour_edges, counterclockwise, spatial_hull
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.outline import concat, contour_branches, contour_edges, counterclockwise, spatial_hull
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.rotations import rotation_about
 

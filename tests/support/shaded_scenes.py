@@ -7,7 +7,7 @@ import numpy as np
 from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.shading.depth import depth_buffer
+from vectorplot.shading.depth_buffers import depth_buffer
 from vectorplot.shading.lighting import visible_points
 from vectorplot.shading.screen import raster_system, screen_triangles
 from vectorplot.testing.shapes import box, bumpy_icosphere, grid_graph, rotated_boxes, torus_mesh

@@ -11,7 +11,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.animation import MODES
 from vectorplot.cli.main import run
-from vectorplot.cli.options import light
+from vectorplot.cli.option_values import light
 from vectorplot.io import parse_scene, write_scene
 from vectorplot.save import write
 from vectorplot.viewer import command_line, first_state, picture, pressed

@@ -25,7 +25,7 @@ from vectorplot.curves.splines import (
 )
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing
 from vectorplot.features.conditions import Isophote
-from vectorplot.features.contours import contour
+from vectorplot.features.contours_and_isophotes import contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.grid_triangulation import triangulate_surface
 from vectorplot.features.scalar_fields import cubic_parabola, zero_of_cubic_parabola

@@ -10,7 +10,7 @@ from vectorplot.accuracy.approximation import Approximation, Study, Way, on_page
 from vectorplot.accuracy.of_light import pixels_of, wrong_share
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.features.contours import contour
+from vectorplot.features.contours_and_isophotes import contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.grid_triangulation import mesh_of_grid
 from vectorplot.features.implicit_surfaces import polygonized

@@ -22,7 +22,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.scene.view import View, look
-from vectorplot.shading.depth import depth_buffer
+from vectorplot.shading.depth_buffers import depth_buffer
 from vectorplot.shading.screen import raster_system, screen_triangles
 from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.curves import Segments, Tree

@@ -37,6 +37,7 @@ from vectorplot.shading.image import DPI, Bytes, with_meaning
 if TYPE_CHECKING:
     import cairo
 
+
 # Small flat polygons among shaded triangles, as triangles of the same mesh.
 #
 # A mesh that ends at every polygon of one colour has as many borders as there are such polygons: where a fine surface

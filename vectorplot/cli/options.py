@@ -1,281 +1,934 @@
-"""Values of options: text to numbers, points, pages and words. What does not fit is bad usage."""
+"""The options that the verbs which make pictures share: cuts, lines, camera, page, shading, hatching, pens."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Sequence
-from typing import TYPE_CHECKING, Any, TypeVar
+import warnings
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, fields, replace
+from functools import partial, reduce, wraps
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
 
 import click
 
+from vectorplot.cli.many import WORKER_OPTIONS, PictureVerb, WorkerOptions, is_folder, make_pictures
+from vectorplot.cli.option_values import (
+    AXES,
+    KINDS,
+    at_least,
+    between,
+    chosen,
+    dash,
+    depth_cue,
+    direction,
+    exclusive,
+    exposure,
+    format_of,
+    kinds,
+    layers,
+    length,
+    light,
+    number,
+    page_size,
+    pen,
+    point,
+    said_or_none,
+    style,
+    upwards,
+)
+from vectorplot.cli.picture import Report, Source, make_picture, picture_contents, picture_made, warn_of_nothing
 from vectorplot.errors import InputError
-from vectorplot.words import LINE_WORDS, format_hint, line_words
 
 if TYPE_CHECKING:
-    from vectorplot.scene.light import Exposure, Light
-    from vectorplot.scene.pens import DepthCue
+    from vectorplot.drawing.drawing import Drawing
+    from vectorplot.geometry.camera import Camera, Point
+    from vectorplot.scene.hatching import Hatching, Stippling
+    from vectorplot.scene.material import Material
+    from vectorplot.scene.page import Page
+    from vectorplot.scene.scene import Scene
+    from vectorplot.scene.surface_lines import Section, SurfaceLines
+    from vectorplot.shading.image import Image
 
 
-Value = TypeVar("Value")
+# Options that cut what is shown, or move its parts apart.
 
 
-def number(text: str) -> float:
-    """The finite number that a text spells."""
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value):
-        raise click.BadParameter(f"{text!r} is not a finite number")
-    return value
-
-
-def at_least(low: float, *, at_most: float = math.inf) -> Callable[[str], float]:
-    """How to read a number that lies between low and at_most or is one of them."""
-
-    def read(text: str) -> float:
-        value = number(text)
-        if value < low:
-            raise click.BadParameter(f"{text} is less than {low:g}")
-        if value > at_most:
-            raise click.BadParameter(f"{text} is greater than {at_most:g}")
-        return value
-
-    return read
-
-
-def between(low: float, high: float) -> Callable[[str], float]:
-    """How to read a number that lies between low and high and is neither of them."""
-
-    def read(text: str) -> float:
-        value = number(text)
-        if not low < value < high:
-            upper = "" if high == math.inf else f" and less than {high:g}"
-            raise click.BadParameter(f"{text} is not greater than {low:g}{upper}")
-        return value
-
-    return read
-
-
-def point(text: str) -> tuple[float, float, float]:
-    """Three finite numbers with commas between them, such as -3,4,5."""
-    parts = text.split(",")
-    if len(parts) != 3:
-        raise click.BadParameter(f"{text!r} is not three numbers X,Y,Z")
-    x, y, z = (number(part.strip()) for part in parts)
-    return (x, y, z)
-
-
-AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
-"""The axes of the world by name."""
-
-
-def place(text: str) -> tuple[float, ...]:
-    """X,Y on a terrain, or a point X,Y,Z."""
-    found = numbers(text)
-    if len(found) not in (2, 3):
-        raise click.BadParameter(f"{text!r} is not X,Y or X,Y,Z")
-    return found
-
-
-def direction(text: str) -> tuple[float, float, float]:
-    """A vector, or the name of an axis, perhaps with a sign before it."""
-    axis = AXES.get(text.strip().lower().lstrip("+-"))
-    if axis is None:
-        return point(text)
-    x, y, z = (-one if text.strip().startswith("-") and one else one for one in axis)
-    return (x, y, z)
-
-
-def upwards(text: str) -> tuple[float, float, float]:
-    """A direction that has a length."""
-    found = direction(text)
-    if not any(found):
-        raise click.BadParameter(f"{text!r} has no length: expected a direction such as y or 0,1,0")
-    return found
-
-
-def numbers(text: str) -> tuple[float, ...]:
-    """Positive finite numbers with commas between them, such as 16,32,64."""
-    positive = between(0.0, math.inf)
-    return tuple(positive(part.strip()) for part in text.split(","))
-
-
-def length(text: str) -> float:
-    """The mm of a length on paper, such as 8cm."""
-    from vectorplot.scene.page import length_mm
+def cut_text(text: str) -> str:
+    """The conditions of a cut, as they are; bad usage where they are none."""
+    from vectorplot.scene.cuts import Cut
 
     try:
-        return length_mm(text)
-    except InputError as error:
-        raise click.BadParameter(str(error)) from None
-
-
-def page_size(text: str) -> tuple[float, float] | str:
-    """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape or portrait, or the word FIT."""
-    from vectorplot.scene.page import FIT, sheet_size
-
-    if text.strip().lower() == FIT:
-        return FIT
-    sheet, _, way = text.strip().partition(" ")
-    word = way.strip().lower()
-    try:
-        sides = sheet_size(sheet if word in ("landscape", "portrait") else text)
-        width, height = sorted(sides, reverse=word == "landscape") if word else sides
-        return width, height
-    except InputError as error:
-        raise click.BadParameter(str(error)) from None
-
-
-def pixels(text: str) -> tuple[int, int]:
-    """Columns and rows of a picture, WIDTHxHEIGHT."""
-    from vectorplot.shading.screen import raster_size
-
-    sides = text.lower().split("x")
-    if len(sides) != 2 or not all(side.strip().isdigit() for side in sides):
-        raise click.BadParameter(f"{text!r} is not WIDTHxHEIGHT in pixels")
-    try:
-        return raster_size(int(sides[0]), int(sides[1]))
-    except InputError as error:
-        raise click.BadParameter(str(error)) from None
-
-
-KINDS = f"some of {', '.join(LINE_WORDS)}; or none"
-"""What help texts say of the values of ``--lines``."""
-
-
-def kinds(text: str) -> tuple[str, ...]:
-    """Kinds of lines with commas between them, each once; nothing for ``none``."""
-    try:
-        return line_words(text)
-    except InputError as error:
-        raise click.BadParameter(str(error)) from None
-
-
-def light(text: str) -> Light:
-    """A lamp at X,Y,Z; after that, in any order, its intensity, its colour, and the words parallel and fading."""
-    from vectorplot.scene.light import Light
-
-    place, words = text.split(",")[:3], [word.strip() for word in text.split(",")[3:]]
-    told: dict[str, Any] = {}
-    for word in words:
-        field, value = _of_light(word)
-        if field in told:
-            raise click.BadParameter(f"{text!r} says twice what its {field} is")
-        told[field] = value
-    if len(place) != 3:
-        raise click.BadParameter(f"{text!r} is not a lamp X,Y,Z, perhaps with {LIGHT_WORDS}")
-    x, y, z = (number(part.strip()) for part in place)
-    try:
-        return Light((x, y, z), **told)
-    except InputError as error:
-        raise click.BadParameter(error.cause) from None
-
-
-LIGHT_WORDS = "an intensity, a colour, parallel, fading"
-"""What may be said of a lamp."""
-
-
-def _of_light(word: str) -> tuple[str, Any]:
-    """The field of a light that a word is about, and its value."""
-    if word in ("parallel", "fading"):
-        return word, True
-    try:
-        return "intensity", float(word)
-    except ValueError:
-        return "colour", word
-
-
-def exposure(text: str) -> Exposure:
-    """The word fitted, or a positive factor."""
-    from vectorplot.scene.light import check_exposure
-
-    if text == "fitted":
-        return "fitted"
-    factor = number(text)
-    try:
-        check_exposure(factor)
-    except InputError as error:
-        raise click.BadParameter(error.cause) from None
-    return factor
-
-
-def depth_cue(text: str) -> DepthCue | str:
-    """The word none, or width, shade or both, and a number of steps."""
-    from vectorplot.scene.pens import DepthCue
-
-    try:
-        return text if text == "none" else DepthCue.read(text)
-    except InputError as error:
-        raise click.BadParameter(error.cause) from None
-
-
-def said_or_none(context: click.Context, parameter: click.Parameter, values: tuple[str, ...]) -> tuple[str, ...] | None:
-    """The values of an option that may be repeated; None where it is not given."""
-    return values or None
-
-
-def pen(text: str) -> str:
-    """Pens with commas between them, such as contour=0.5:black,house=red."""
-    return _said(text, lambda pens: _rules(pens, None))
-
-
-def dash(text: str) -> str:
-    """Dash and gap of some lines, such as hidden=3,1."""
-    return _said(text, lambda dashes: _rules(None, dashes))
-
-
-def _rules(pens: str | None, dashes: str | None) -> None:
-    from vectorplot.drawing.pens import pen_rules
-
-    pen_rules(pens, dashes)
-
-
-def layers(text: str) -> str:
-    """What shares a layer, with commas."""
-    from vectorplot.drawing.pen_layers import layer_words
-
-    return _said(text, layer_words)
-
-
-def style(text: str) -> str:
-    """The name of a style, or a file that ends in .toml."""
-    from vectorplot.drawing.pens import TOML, check_style
-
-    return text if text.lower().endswith(TOML) else _said(text, check_style)
-
-
-def _said(text: str, check: Callable[[str], object]) -> str:
-    """The text, where the check has nothing against it."""
-    try:
-        check(text)
+        Cut.of(text)
     except InputError as error:
         raise click.BadParameter(str(error)) from None
     return text
 
 
-def exclusive(given: Iterable[tuple[str, object]]) -> None:
-    """Bad usage where more than one of some options is given (None and False: not given)."""
-    used = [name for name, value in given if value is not None and value is not False]
-    if len(used) > 1:
-        raise click.UsageError(f"{used[0]} and {used[1]} exclude each other")
+def _explosion(text: str) -> tuple[Point] | tuple[Point, float]:
+    """AXIS or AXIS,FACTOR; an axis is x, y, z, or X,Y,Z."""
+    if text.count(",") in (0, 2):
+        return (direction(text),)
+    axis, _, factor = text.rpartition(",")
+    found = direction(axis), number(factor)
+    if not found[1] >= 1.0:
+        raise click.BadParameter(f"a factor of {found[1]:g}: expected 1 or more")
+    return found
 
 
-def chosen(value: Value | None, fallback: Value) -> Value:
-    """The value, or the fallback where none is given."""
-    return fallback if value is None else value
+CUT_SPACING = click.option(
+    "--cut-spacing",
+    type=at_least(0.1),
+    metavar="MM",
+    help="From stroke to stroke of hatches of cut faces, on the page.  [default: 2.4, on narrow faces 1.2]",
+)
+
+CUT_OPTIONS = (
+    click.option(
+        "--cut",
+        type=cut_text,
+        multiple=True,
+        metavar="CONDITION",
+        show_default=False,
+        help="Take away what is before a plane, y=0 or x+2y=3; or all of 'x>0, y<2, 0<z<1'. Repeat it for more cuts.",
+    ),
+    click.option(
+        "--cut-away",
+        type=click.Choice(("gone", "ghost", "moved")),
+        default="gone",
+        help="What becomes of what is cut away: nothing, dashed outlines, or it is moved along the normal.",
+    ),
+    click.option("--cut-colour", metavar="COLOUR", help="Of cut faces.  [default: that of their bodies]"),
+    CUT_SPACING,
+    click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
+    click.option(
+        "--explode",
+        type=_explosion,
+        metavar="AXIS[,FACTOR]",
+        help="Parts moved apart along x, y, z or X,Y,Z; z,1.5 is z.",
+    ),
+)
 
 
-def format_of(path: str, given: str | None, known: Sequence[str]) -> str:
-    """The format to write: the one given, or the suffix of the path."""
-    if given is not None:
-        return given
-    if path == "-":
-        raise click.UsageError("-o - needs --format")
-    suffix = path.rpartition("/")[2].rpartition(".")
-    word = suffix[2].lower() if suffix[1] and suffix[0] else ""
-    if word not in known:
-        choice = "" if len(known) == 1 else "one of "
-        names = ", ".join("." + name for name in known)
-        raise click.UsageError(f"{path}: the name must end in {choice}{names}{format_hint(word)}")
-    return word
+@dataclass(frozen=True)
+class CutOptions:
+    """The cuts that the user asked for, and how parts are moved apart."""
+
+    cut: tuple[str, ...] = ()
+    cut_away: str = "gone"
+    cut_colour: str | None = None
+    cut_spacing: float | None = None
+    cut_angle: float = 45.0
+    explode: tuple[Point] | tuple[Point, float] | None = None
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> CutOptions:
+        """What a command with CUT_OPTIONS was told."""
+        return cls(**{field.name: options[field.name] for field in fields(cls)})
+
+    def of_scene(self, scene: Scene) -> Scene:
+        """The scene with these cuts. Errors: InputError for unknown colours."""
+        from vectorplot.scene.cuts import Cut
+        from vectorplot.scene.exploded import exploded, shown_apart
+
+        scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
+        spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
+        hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)
+        cuts = tuple(hatched(text) for text in self.cut)
+        return replace(scene, cuts=scene.cuts + cuts) if cuts else scene
+
+
+# Options for all that is shown: plane sections, level lines, isophotes, colours, materials.
+
+
+@dataclass(frozen=True)
+class Planes:
+    """Parallel planes: so many of them, or (count: 0) at these distances from the origin."""
+
+    normal: Point
+    count: int
+    offsets: tuple[float, ...] = ()
+
+    @classmethod
+    def read(cls, text: str) -> Planes:
+        """AXIS,N or AXIS=D,...; an axis is x, y, z, or a normal X,Y,Z."""
+        if "=" in text:
+            axis, _, distances = text.partition("=")
+            found = cls(_axis(axis), 0, tuple(number(part.strip()) for part in distances.split(",")))
+        else:
+            axis, comma, last = text.rpartition(",")
+            if not comma:
+                raise click.BadParameter(f"{text!r} is not AXIS,N or AXIS=D,...")
+            found = cls(_axis(axis), count(last))
+        _check(found)
+        return found
+
+    @classmethod
+    def read_levels(cls, text: str) -> Planes:
+        """The same, or N alone, of heights along z."""
+        return cls.read(text) if set(text) & set(",=") else cls(AXES["z"], count(text))
+
+
+def _axis(text: str) -> Point:
+    """The direction that a text spells, for words that say what planes are."""
+    if "," not in text and text.strip().lower().lstrip("+-") not in AXES:
+        raise click.BadParameter(f"{text!r} is no axis, expected x, y, z or a normal X,Y,Z")
+    return direction(text)
+
+
+def _check(planes: Planes) -> None:
+    """Bad usage for planes that make no sense."""
+    from vectorplot.scene.surface_lines import Section
+
+    try:
+        Section(planes.normal, planes.offsets)
+    except InputError as error:
+        raise click.BadParameter(str(error)) from None
+
+
+def count(text: str) -> int:
+    """How many lines: a whole number from 1 to the largest one of scene files."""
+    from vectorplot.scene.surface_lines import MAX_LINES
+
+    try:
+        value = int(text)
+    except ValueError:
+        raise click.BadParameter(f"{text!r} is not a whole number") from None
+    if not 1 <= value <= MAX_LINES:
+        raise click.BadParameter(f"{value} of them, expected 1 to {MAX_LINES}")
+    return value
+
+
+@dataclass(frozen=True)
+class ItemMaterial:
+    """The material of an item, or (item: None) of all."""
+
+    item: str | None
+    material: Material
+
+    @classmethod
+    def read(cls, text: str) -> ItemMaterial:
+        """[ITEM=]WORD[,WHAT=N...]."""
+        from vectorplot.scene.material import FINISH_WORDS, Material
+
+        first, *rest = (part.strip() for part in text.split(","))
+        item, named, word = first.rpartition("=")
+        numbers: dict[str, float] = {}
+        for part in rest:
+            name, _, value = part.partition("=")
+            if name not in (words := (*FINISH_WORDS, "opacity", "refraction")):
+                raise click.BadParameter(f"{part!r} is none of {', '.join(words)} with = and a number")
+            if name in numbers:
+                raise click.BadParameter(f"{text!r} says twice what its {name} is")
+            numbers[name] = number(value)
+        try:
+            return cls(item if named else None, Material(word, **numbers))
+        except InputError as error:
+            raise click.BadParameter(error.cause) from None
+
+
+LINE_OPTIONS = (
+    click.option(
+        "--sections",
+        type=Planes.read,
+        multiple=True,
+        metavar="AXIS,N",
+        help="N plane sections of the whole at right angles to x, y, z or X,Y,Z; or at AXIS=D,...; repeat it for more.",
+        show_default=False,
+    ),
+    click.option(
+        "--levels",
+        type=Planes.read_levels,
+        metavar="[AXIS,]N",
+        help="About N level lines at round heights, every fifth of the kind index; or at AXIS=D,...",
+    ),
+    click.option(
+        "--label-levels", is_flag=True, help="Heights stand on their index lines, or where there are none, on all."
+    ),
+    click.option("--isophotes", type=count, metavar="N", help="N lines of the same light on all that is shown."),
+    click.option(
+        "--detail",
+        type=at_least(0.01),
+        default=1.0,
+        metavar="FACTOR",
+        help="How much there is of suggestive, ridge, valley and apparent lines.",
+    ),
+    click.option(
+        "--smooth-contours",
+        is_flag=True,
+        help="Contours of meshes run across faces, as those of the smooth shapes they stand for.",
+    ),
+    click.option(
+        "--colour-by",
+        metavar="WORD|FORMULA",
+        help="Colours by x, y, z, height, slope, curvature, a formula such as x*y or a field of a file, and their bar.",
+    ),
+    click.option(
+        "--colour-map",
+        metavar="NAME",
+        help="viridis, heat, diverging, land, gray, or one of matplotlib.",
+    ),
+    click.option("--colour-steps", type=click.IntRange(2, 100), metavar="N", help="How many colours (24)."),
+    click.option(
+        "--material",
+        "materials",
+        type=ItemMaterial.read,
+        multiple=True,
+        metavar="[ITEM=]WORD[,WHAT=N...]",
+        help="metallic, wood, ..., of all or one item; after it exponent=N, diffuse=N, highlight=N, sharpness=N, "
+        "opacity=N or refraction=N; repeat it for more.",
+    ),
+    click.option("--box", is_flag=True, help="A box with ticks around all that is shown."),
+)
+
+
+@dataclass(frozen=True)
+class LineOptions:
+    """The lines that the user asked for on all that is shown, beside what a scene file asks for."""
+
+    sections: tuple[Planes, ...] = ()
+    levels: Planes | None = None
+    label_levels: bool = False
+    isophotes: int | None = None
+    detail: float = 1.0
+    smooth_contours: bool = False
+    colour_by: str | None = None
+    colour_map: str | None = None
+    colour_steps: int | None = None
+    box: bool = False
+    materials: tuple[ItemMaterial, ...] = ()
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> LineOptions:
+        """What a command with LINE_OPTIONS was told."""
+        return cls(**{field.name: options[field.name] for field in fields(cls)})
+
+    def in_scene(self, scene: Scene) -> tuple[Scene, tuple[str, ...]]:
+        """A scene with these lines, colours and box, and the kinds of the lines."""
+        from vectorplot.scene.added_lines import line_kinds, with_lines, without_level_lines
+
+        charted, added = self.with_chart(scene), self.of_scene(scene)
+        if self.levels is not None:
+            charted = without_level_lines(charted, self.levels.normal)
+        lined = with_lines(
+            charted,
+            sections=added.sections,
+            isophotes=added.isophotes,
+            detail=added.detail,
+            smooth_contours=added.smooth_contours,
+        )
+        return self.with_numbers(lined), line_kinds(added)
+
+    def with_materials(self, scene: Scene) -> Scene:
+        """A scene with the materials that the user asked for; the last one counts. Bad usage for names of no item."""
+        names = {item.name for item in scene.items}
+        for told in self.materials:
+            if told.item is not None and told.item not in names:
+                raise click.UsageError(f"--material: no item is named {told.item!r}")
+        items = scene.items
+        for told in self.materials:
+            items = tuple(
+                replace(item, material=told.material) if told.item in (None, item.name) else item for item in items
+            )
+        return replace(scene, items=items) if self.materials else scene
+
+    def with_chart(self, scene: Scene) -> Scene:
+        """A scene with the colours and the box that the user asked for. Bad usage for a map of no colours."""
+        from vectorplot.scene.scales import BoxAxes, Colouring
+
+        if self.colour_by is None and self.colour_map is None and self.colour_steps is None and not self.box:
+            return scene
+        own = scene.colouring
+        if self.colour_by is not None:
+            own = Colouring(self.colour_by)
+        if own is None and (self.colour_map is not None or self.colour_steps is not None):
+            raise click.UsageError("--colour-map and --colour-steps go with --colour-by")
+        if own is not None:
+            named = own if self.colour_map is None else replace(own, colour_map=self.colour_map)
+            own = named if self.colour_steps is None else replace(named, steps=self.colour_steps)
+        return replace(scene, colouring=own, box=BoxAxes() if self.box else scene.box)
+
+    def with_numbers(self, scene: Scene) -> Scene:
+        """A scene with numbers on its level lines where the user asked for them. Bad usage where there are none."""
+        from vectorplot.scene.added_lines import with_numbers
+
+        if not self.label_levels:
+            return scene
+        if not any(not section.slices for item in scene.items for section in item.curves.sections):
+            raise click.UsageError("--label-levels: there are no level lines, expected --levels too")
+        return with_numbers(scene)
+
+    def of_scene(self, scene: Scene) -> SurfaceLines:
+        """The lines that these are in a scene. Errors: InputError as of even_sections and round_sections."""
+        from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
+
+        cosines = even_cosines(self.isophotes) if self.isophotes else ()
+        planes = tuple(_sections(one, scene) for one in self.sections) + _levels(self.levels, scene)
+        return SurfaceLines(
+            sections=planes, isophotes=cosines, detail=self.detail, smooth_contours=self.smooth_contours
+        )
+
+
+def _sections(planes: Planes, scene: Scene) -> Section:
+    from vectorplot.scene.added_lines import even_sections
+    from vectorplot.scene.surface_lines import Section
+
+    return even_sections(scene, planes.normal, planes.count) if planes.count else Section(planes.normal, planes.offsets)
+
+
+def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
+    from vectorplot.scene.added_lines import heights_times, round_sections
+    from vectorplot.scene.surface_lines import Section
+    from vectorplot.scene.terrains import USUAL_EVERY, with_index_lines
+
+    if planes is None:
+        return ()
+    if planes.count:
+        return round_sections(scene, planes.normal, planes.count)
+    given = Section(planes.normal, planes.offsets)
+    times = heights_times(scene, given)
+    return with_index_lines(replace(given, offsets=tuple(times * height for height in given.offsets)), USUAL_EVERY)
+
+
+# Options for camera and page, and what becomes of them; the scene file's own are the defaults, field by field.
+
+Command = Callable[..., None]
+
+VIEW_WORDS = ("front", "back", "left", "right", "top", "bottom", "iso")
+
+CAMERA_OPTIONS = (
+    click.option("--eye", type=point, metavar="X,Y,Z", help="Where one looks from."),
+    click.option("--target", type=point, metavar="X,Y,Z", help="What one looks at."),
+    click.option("--up", type=upwards, metavar="X,Y,Z", help="What is upwards, or x, y, z (default: z)."),
+    click.option("--twist", type=number, metavar="DEG", help="Turn of the camera about its principal ray."),
+    click.option("--fov", type=between(0.0, 180.0), metavar="DEG", help="Full angle over the picture height."),
+    click.option("--parallel", is_flag=True, help="Parallel projection along eye - target."),
+    click.option(
+        "--height", type=between(0.0, math.inf), metavar="H", help="World units over the page, when parallel."
+    ),
+    click.option("--near", type=between(0.0, math.inf), metavar="D", help="What is nearer to the eye is cut off."),
+    click.option("--far", type=between(0.0, math.inf), metavar="D", help="What is farther from the eye is cut off."),
+    click.option(
+        "--view",
+        type=click.Choice(VIEW_WORDS),
+        help="A main view of what stands along --up in place of --eye, parallel unless --fov is given.",
+    ),
+)
+
+
+def fit_option(filled: str) -> Callable[[Command], Command]:
+    """``--fit`` and ``--no-fit``, with what a fitted picture fills."""
+    return click.option("--fit/--no-fit", default=True, help=f"Fill the {filled}, or keep the camera's scale.")
+
+
+LANDSCAPE = click.option("--landscape", is_flag=True, help="Lay the page on its longer side.")
+"""Of whatever has a page."""
+
+PAGE_OPTIONS = (
+    click.option(
+        "--page",
+        type=page_size,
+        metavar="SIZE",
+        help="A0 to A6, letter, legal, ... or WIDTHxHEIGHT in mm; fit: as large as the picture.  [default: A4]",
+    ),
+    click.option(
+        "--width", type=length, metavar="LENGTH", help="Of a page as high as its picture: 80mm, 8cm, 3in or 120pt."
+    ),
+    LANDSCAPE,
+    click.option("--margin", type=at_least(0.0), metavar="MM", help="Empty border of the page.  [default: 10]"),
+    fit_option("page"),
+)
+
+
+@dataclass(frozen=True)
+class CameraOptions:
+    """What the user said about the camera; None and False: nothing."""
+
+    eye: Point | None = None
+    target: Point | None = None
+    up: Point | None = None
+    twist: float | None = None
+    fov: float | None = None
+    parallel: bool = False
+    height: float | None = None
+    near: float | None = None
+    far: float | None = None
+    view: str | None = None
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> CameraOptions:
+        """What a command with CAMERA_OPTIONS was told. Bad usage for options that contradict each other."""
+        found = cls(**{field.name: options[field.name] for field in fields(cls)})
+        found.check()
+        return found
+
+    def says_where(self) -> bool:
+        """Whether the user said where one looks from, or what is up."""
+        return any(one is not None for one in (self.eye, self.up, self.twist, self.view))
+
+    def check(self) -> None:
+        """Bad usage for options that contradict each other."""
+        exclusive([("--up", self.up), ("--twist", self.twist)])
+        exclusive([("--fov", self.fov), ("--parallel", self.parallel)])
+        exclusive([("--fov", self.fov), ("--height", self.height)])
+        exclusive([("--view", self.view), ("--eye", self.eye)])
+
+
+@dataclass(frozen=True)
+class PageOptions:
+    """What the user said about the page; None and False: nothing. page: width and height in mm, or a word."""
+
+    page: tuple[float, float] | str | None = None
+    landscape: bool = False
+    margin: float | None = None
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> PageOptions:
+        """What a command with PAGE_OPTIONS was told. Bad usage for a page of a size and a width."""
+        size = None if isinstance(options["page"], str) else options["page"]
+        exclusive([("--page SIZE", size), ("--width", options.get("width"))])
+        return cls(**{field.name: options[field.name] for field in fields(cls)})
+
+
+def camera_from(options: CameraOptions, scene: Scene) -> Camera:
+    """The camera of the scene (or the default one) with the user's fields in place of its own.
+
+    An InputWarning says where its field of vision will not look natural.
+    """
+    from vectorplot.errors import InputWarning
+    from vectorplot.geometry.camera import Camera, lens_advice
+    from vectorplot.scene.placement import default_camera
+
+    upright = chosen(options.up, (0.0, 0.0, 1.0))
+    base = scene.camera or default_camera(scene, upright)
+    if options.view is not None:
+        named = Camera.view(options.view, chosen(options.target, base.target), base.distance, upright)
+        height = base.height if base.parallel else None
+        base = replace(named, fov_deg=base.fov_deg, height=height, near=base.near, far=base.far)
+    parallel = options.parallel or (base.parallel and options.fov is None)
+    if options.height is not None and not parallel:
+        raise click.UsageError("--height needs --parallel")
+    camera = replace(
+        base,
+        eye=chosen(options.eye, base.eye),
+        target=chosen(options.target, base.target),
+        up=base.up if options.view is not None else chosen(options.up, base.up),
+        twist_deg=chosen(options.twist, base.twist_deg),
+        fov_deg=chosen(options.fov, base.fov_deg),
+        parallel=parallel,
+        height=chosen(options.height, base.height) if parallel else None,
+        near=chosen(options.near, base.near),
+        far=chosen(options.far, base.far),
+    )
+    told = None if parallel else lens_advice(camera.fov_deg)
+    if told is not None:
+        warnings.warn(told, InputWarning, stacklevel=2)
+    return camera
+
+
+def page_from(options: PageOptions, scene: Scene) -> Page:
+    """The page of the scene (or A4) with the user's size, margin and orientation; bad usage if nothing is left."""
+    from vectorplot.errors import InputError
+    from vectorplot.scene.page import Page
+    from vectorplot.scene.placement import FittedPage, PageOfWidth, fitted_page, page_of_width
+
+    base = chosen(scene.page, Page())
+    own = (base.width_mm, base.height_mm)
+    width, height = own if options.page is None or isinstance(options.page, str) else options.page
+    try:
+        page = Page(width, height, chosen(options.margin, base.margin_mm))
+    except InputError as error:
+        raise click.UsageError(str(error)) from None
+    page = page.landscape if options.landscape else page
+    if options.page is None and isinstance(base, PageOfWidth):
+        return page_of_width(page, base.width_mm)
+    fitted = isinstance(options.page, str) or (options.page is None and isinstance(base, FittedPage))
+    return fitted_page(page) if fitted else page
+
+
+# Options that the verbs which make pictures share, each written once, and the command that such a verb becomes.
+
+Option = Callable[[Command], Command]
+
+DRAWING_FORMATS = ("svg", "ps", "eps", "pdf", "png", "tex", "dxf", "json")
+"""What a drawing on a page is written as."""
+
+ANGLE = at_least(0.0, at_most=180.0)
+POSITIVE = between(0.0, math.inf)
+
+LIGHTS = click.option(
+    "--lights",
+    type=light,
+    multiple=True,
+    # A tuple without lamps would be darkness; not a word about lamps leaves those of the scene.
+    callback=lambda _context, _parameter, lamps: lamps or None,
+    metavar="X,Y,Z[,WORD...]",
+    help="Lamp in place of those of the scene; its intensity (0 to 1), a colour, parallel, fading; repeat it for more.",
+)
+
+EXPOSURE = click.option(
+    "--exposure",
+    type=exposure,
+    metavar="FACTOR",
+    help="To the intensities of all lights; fitted: the brightest face as bright as can be.  [default: of the scene]",
+)
+
+DEPTH_CUE = click.option(
+    "--depth-cue",
+    type=depth_cue,
+    metavar="WORD,...[,N]",
+    help="Lines thinner (width) or paler (shade) the farther away, in N steps (5); or none.  [default: of the scene]",
+)
+
+BACKGROUND = click.option(
+    "--background",
+    metavar="COLOUR",
+    help="Behind the picture: a palette, a plain colour or #rrggbb.  [default: that of the scene or the style]",
+)
+
+TOLERANCE = click.option(
+    "--tolerance", "tolerance_mm", type=POSITIVE, default=0.02, metavar="MM", help="For approximations."
+)
+
+TITLE = click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the lower margin.")
+
+FRAME = click.option("--frame", is_flag=True, help="A rectangle in the margin.")
+
+TEXT = click.option(
+    "--text",
+    type=click.Choice(["strokes", "real", "latex"]),
+    default="strokes",
+    help="Letters: strokes of the pen; in fonts of the reader; or, with a .pdf or .eps, in a .tex beside it.",
+)
+
+BUDGET = click.option(
+    "--budget", type=POSITIVE, default=1.0, metavar="FACTOR", help="Times the usual work on a surface."
+)
+
+JOBS = click.option(
+    "--jobs", type=click.IntRange(1), metavar="N", help="Threads to work on.  [default: as many as processors]"
+)
+
+EXPLAIN = click.option("--explain", is_flag=True, help="Print stages, times, counts, memory and errors on stderr.")
+
+QUIET = click.option("-q", "--quiet", is_flag=True, help="No warnings, no progress bar.")
+
+INPUT = click.argument("scene_file", type=click.Path(), nargs=-1, required=True, metavar="INPUT...")
+
+EXAGGERATION = click.option(
+    "--exaggeration",
+    type=POSITIVE,
+    metavar="FACTOR",
+    help="Times that heights of a terrain file are as high.  [default: 1 where they are to be seen]",
+)
+
+OUT = click.option("-o", "--out", required=True, type=click.Path(), metavar="OUT", help="File to write; - for stdout.")
+
+OUT_OR_FOLDER = click.option(
+    "-o",
+    "--out",
+    required=True,
+    type=click.Path(),
+    metavar="OUT",
+    help="File to write; - for stdout; FOLDER/ for a picture of each INPUT.",
+)
+
+_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain")
+"""Parameters that say what is read and written, and what is said of it."""
+
+SILENT = Report(None, None)
+"""Nobody is told anything."""
+
+
+def format_option(formats: Sequence[str]) -> Option:
+    """``--format``, for a verb that writes these."""
+    return click.option(
+        "--format", "format_", type=click.Choice(formats), help="Format, where the name of OUT does not tell."
+    )
+
+
+def lines_option(meaning: str, *, default: str | None = "none", note: str = "") -> Option:
+    """``--lines``, with what they are to the verb; note: what the help text says after the words."""
+    return click.option("--lines", type=kinds, default=default, metavar="KIND,...", help=f"{meaning}: {KINDS}.{note}")
+
+
+def crease_angle_option(meaning: str) -> Option:
+    """``--crease-angle``, with what sharper edges are to the verb."""
+    return click.option("--crease-angle", "crease_angle_deg", type=ANGLE, default=25.0, metavar="DEG", help=meaning)
+
+
+def shadows_option(ways: Sequence[str], meaning: str) -> Option:
+    """``--shadows``, with the ways that the verb has of finding them; auto is one of them."""
+    return click.option("--shadows", type=click.Choice(ways), default="auto", help=meaning)
+
+
+@dataclass(frozen=True)
+class Told:
+    """What the user told a verb: camera, page (None: pictures of pixels have none), lines on all that is shown, cuts
+    through it, and all else.
+
+    rest: values by the keywords of the function of the package that has the verb's name.
+    """
+
+    camera: CameraOptions
+    page: PageOptions | None
+    added: LineOptions
+    cuts: CutOptions
+    rest: Mapping[str, Any]
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> Told:
+        """What the options of a command say. Bad usage for options that contradict each other."""
+        groups = (CameraOptions, PageOptions, LineOptions, CutOptions, WorkerOptions)
+        taken = {field.name for group in groups for field in fields(group)}
+        return cls(
+            CameraOptions.of(options),
+            PageOptions.of(options) if "page" in options else None,
+            LineOptions.of(options),
+            CutOptions.of(options),
+            {name: value for name, value in options.items() if name not in taken},
+        )
+
+    def keywords(self, scene: Scene) -> dict[str, Any]:
+        """Keywords of the verb's function for a scene: its camera and page but for what the user said, and the rest."""
+        camera = camera_from(self.camera, scene)
+        page = {} if self.page is None else {"page": page_from(self.page, scene)}
+        return {"camera": camera, **page, **self.rest}
+
+    def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
+        """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
+        draws them."""
+        cut = self.cuts.of_scene(self.added.with_materials(scene))
+        keywords = self.keywords(cut)
+        lined, kinds = self.added.in_scene(cut)
+        if keywords.get("lines") is not None:
+            keywords["lines"] = tuple(dict.fromkeys((*keywords["lines"], *kinds)))
+        return lined, keywords
+
+
+def check_overlaid(out: str, format_: str) -> None:
+    """Bad usage for letters over what LaTeX takes for no picture."""
+    from vectorplot.save import OVERLAID
+
+    if out == "-" or format_ not in OVERLAID or not out.lower().endswith(f".{format_}"):
+        raise click.UsageError("--text latex needs a name that ends in .pdf or .eps")
+
+
+def _why_nothing(verb: str, scene: Scene, keywords: Mapping[str, Any]) -> str:
+    """Why the picture of a scene is empty that a verb made with these keywords."""
+    from vectorplot.pictures.nothing_seen import why_nothing
+    from vectorplot.scene.page import Page
+
+    size = keywords.get("size", (1, 1))
+    page = keywords.get("page") or Page(size[0], size[1], 0.0)
+    lines = keywords["lines"] if verb == "draw" else None
+    return why_nothing(scene, keywords["camera"], page, fit=keywords["fit"], lines=lines)
+
+
+def with_options(*options: Option) -> Callable[[Command], Command]:
+    """A decorator that gives a command these options, in this order."""
+    return lambda command: reduce(lambda inner, option: option(inner), reversed(options), command)
+
+
+def picture_verb(
+    short_help: str, formats: Sequence[str], *options: Option
+) -> Callable[[Callable[..., Drawing | Image]], click.Command]:
+    """A decorator that makes a command of a function: a scene, and what the user told, become a picture.
+
+    The function's name and docstring are the command's name and help; its keywords are those of Told, progress and
+    explain. options: the verb's own, between those for INPUT, OUT and camera and those for work and reports; each is
+    named as the keyword it becomes.
+    """
+
+    def command_of(verb: Callable[..., Drawing | Image]) -> click.Command:
+        def asked(params: Mapping[str, Any]) -> dict[str, Any]:
+            """What is to be pictured and how, as make_picture and picture_contents take it."""
+            told = Told.of({name: value for name, value in params.items() if name not in _OF_THE_FILE})
+            written, jobs = format_of(params["out"], params["format_"], formats), told.rest["jobs"]
+            overlaid = told.rest.get("text") == "latex"
+            if overlaid:
+                told = replace(told, rest={**told.rest, "text": "real"})
+                check_overlaid(params["out"], written)
+
+            def picture(scene: Scene, report: Report) -> Drawing | Image:
+                lined, keywords = told.with_lines(scene)
+                made = verb(lined, **keywords, progress=report.progress, explain=report.explain)
+                warn_of_nothing(source, made, lambda: _why_nothing(verb.__name__, lined, keywords))
+                return made
+
+            source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
+            return {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
+
+        def content(params: Mapping[str, Any]) -> bytes:
+            """What a file of pictures in a folder holds."""
+            return picture_contents(name=Path(params["out"]).name, report=SILENT, **asked(params))[0]
+
+        def made(params: Mapping[str, Any]) -> Drawing | Image:
+            """The picture itself."""
+            said = asked(params)
+            return picture_made(said["source"], said["picture"], SILENT)
+
+        @click.command(cls=PictureVerb, short_help=short_help, context_settings={"show_default": True})
+        @with_options(
+            INPUT,
+            OUT_OR_FOLDER,
+            format_option(formats),
+            EXAGGERATION,
+            *CAMERA_OPTIONS,
+            *options,
+            *LINE_OPTIONS,
+            *CUT_OPTIONS,
+            BUDGET,
+            JOBS,
+            *WORKER_OPTIONS,
+            EXPLAIN,
+            QUIET,
+        )
+        @wraps(verb)
+        def command(**params: Any) -> None:
+            if is_folder(params["out"]):
+                make_pictures(verb.__name__, params, formats, asked)
+                return
+            if WorkerOptions.of(params).given:
+                raise click.UsageError("--workers and --cluster make pictures into a folder: OUT must be one, FOLDER/")
+            told = asked(params)
+            make_picture(out=params["out"], quiet=params["quiet"], explain=params["explain"], **told)
+
+        assert isinstance(command, PictureVerb)
+        command.content = content
+        command.made = made
+        return command
+
+    return command_of
+
+
+# Options for how painted faces and their shadows look.
+
+FACE_OPTIONS = (
+    click.option(
+        "--aura",
+        "aura_mm",
+        type=at_least(0.0),
+        default=0.0,
+        metavar="MM",
+        help="Width of the soft border of shadows.",
+    ),
+    click.option("--palette", type=click.IntRange(2, 256), default=32, metavar="N", help="Shades of every colour."),
+    click.option("--flat", is_flag=True, help="One shade for every plane: no gradients, nothing looks round."),
+)
+
+
+# Options that say how faces are hatched.
+
+_OF = {"spacing": "spacing_mm", "angle": "angle_deg", "cross": "cross", "along": "along", "hatch_width": "width_mm"}
+"""The options that say more of a hatching, and the fields of it that they fill."""
+
+HATCHING_OPTIONS = (
+    click.option(
+        "--hatch",
+        type=click.Choice(["none", "tone", "colour", "even"]),
+        default="none",
+        help="Faces hatched: by light and shadow, by light and colour, or all alike.",
+    ),
+    click.option(
+        "--spacing",
+        type=at_least(0.01),
+        metavar="MM",
+        help="From stroke to stroke where it is darkest.  [default: 0.6]",
+    ),
+    click.option("--angle", type=number, metavar="DEG", help="Of the strokes.  [default: 45]"),
+    click.option("--cross", is_flag=True, default=None, help="Strokes cross where it is darker than a half."),
+    click.option(
+        "--along",
+        type=click.Choice(["page", "surface", "slope", "level", "curvature", "asymptotic", "isophotes"]),
+        help="Parallel on the page; in planes of faces, along parameter lines; or flowing.  [default: page]",
+    ),
+    click.option("--stipple", type=click.IntRange(1), metavar="N", help="So many dots in place of strokes."),
+    click.option(
+        "--hatch-width",
+        type=at_least(0.01),
+        metavar="MM",
+        help="Of the pen that hatches, or makes dots.  [default: 0.18, of dots 0.25]",
+    ),
+)
+
+
+def hatching_from(options: Mapping[str, Any]) -> tuple[Hatching | Stippling | None, dict[str, Any]]:
+    """The hatching or stippling that the options of a command ask for, None where they ask for none, and the other
+    options.
+
+    Errors: bad usage for options of a hatching without one, or beside dots; InputError as of Hatching and Stippling.
+    """
+    from vectorplot.scene.hatching import Hatching, Stippling
+
+    given = {field: options[name] for name, field in _OF.items() if options[name] is not None}
+    rest = {name: value for name, value in options.items() if name not in (*_OF, "hatch", "stipple")}
+    if options["stipple"] is not None:
+        strokes = [name for name, field in _OF.items() if field in given and name != "hatch_width"]
+        if strokes:
+            raise click.UsageError(f"--{strokes[0]} is for strokes, and --stipple makes dots")
+        by: Any = "tone" if options["hatch"] == "none" else options["hatch"]
+        return Stippling(options["stipple"], by, **given), rest
+    if options["hatch"] == "none":
+        if given:
+            name = next(name for name, field in _OF.items() if field in given)
+            raise click.UsageError(f"--{name.replace('_', '-')} goes with --hatch tone, colour or even")
+        return None, rest
+    return Hatching(options["hatch"], **given), rest
+
+
+# Options for how strokes look: a style, hidden lines, pens and dashes.
+
+_STYLE, _HIDDEN, _PEN, _DASH = (
+    click.option(
+        "--style",
+        type=style,
+        metavar="STYLE",
+        help="plain, plotter, book, draft, blueprint, wireframe, depth-cue, or a file that ends in .toml."
+        "  [default: what the scene says, or plain]",
+    ),
+    click.option(
+        "--hidden",
+        type=click.Choice(["none", "dashed", "solid"]),
+        help="How hidden lines look.  [default: none, or what the style says]",
+    ),
+    click.option(
+        "--pen",
+        "pens",
+        type=pen,
+        multiple=True,
+        callback=said_or_none,
+        metavar="[WHAT=]PEN,...",
+        help="WIDTH, COLOUR or WIDTH:COLOUR of a kind of line (or hidden), an item, or ITEM.KIND; repeat it for more.",
+    ),
+    click.option(
+        "--dash",
+        "dashes",
+        type=dash,
+        multiple=True,
+        callback=said_or_none,
+        metavar="[WHAT=]DASH,GAP",
+        help="Dashes of the same, in mm or with units (8pt,3pt), or none; repeat it for more.",
+    ),
+)
+STROKE_OPTIONS = (_STYLE, _HIDDEN, _PEN, _DASH)
+"""Of lines where faces are not filled."""
+
+OVERLAID_OPTIONS = (_STYLE, _PEN, _DASH)
+"""Of lines on top of faces that are filled, where hidden lines are hidden."""
+
+HALO = click.option(
+    "--halo",
+    "halo_mm",
+    type=at_least(0.0),
+    default=0.0,
+    metavar="MM",
+    help="Gap beside lines that lie in front.",
+)
+
+LAYERS = click.option(
+    "--layers",
+    type=layers,
+    metavar="WORD,...",
+    help="What shares a layer: kind, object, colour, or several of these.  [default: kind, or what the style says]",
+)

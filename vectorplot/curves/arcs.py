@@ -11,12 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import BezierPath, BezierPaths
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.algebra import (
-    determinant,
-    linear_solution,
-    singular_decomposition,
-    symmetric_eigen,
-)
+from vectorplot.geometry.algebra import determinant, linear_solution, singular_decomposition, symmetric_eigen
 from vectorplot.geometry.elementary import arctan2, power, tan
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import ABOVE_WHOLE, LOOP_TURN, SINGULAR_DETERMINANT, WHOLE_TURN

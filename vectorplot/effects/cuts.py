@@ -16,7 +16,7 @@ from vectorplot.curves.curve import Curve, is_curve
 from vectorplot.curves.cut_curve import CutCurve, parts_outside
 from vectorplot.drawing.layers import PENS
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.features.contours import plane_sections
+from vectorplot.features.contours_and_isophotes import plane_sections
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_curves import implicit_plane_sections
 from vectorplot.features.implicit_meshes import implicit_mesh

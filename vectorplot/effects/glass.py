@@ -12,9 +12,9 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fill_visibility import united
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay
-from vectorplot.effects.decal_fills import laid_fills, shown_decals
 from vectorplot.effects.decals import Decals, Laid, joined_decals, no_decals
 from vectorplot.effects.refraction import Rays, SightWays, Soup, bent, joined_soups, traced, virtual_points
+from vectorplot.effects.scene_decals import laid_fills, shown_decals
 from vectorplot.effects.windows import (
     SeenThrough,
     clipped_pairs,
@@ -38,7 +38,7 @@ from vectorplot.shading.painted_colours import Lighting, opacities
 from vectorplot.shading.palettes import Colours
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, polygons_of, view_points
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.pairs import (
+from vectorplot.visibility.painter.priority_tests import (
     Outlines,
     box_pairs,
     boxes_over,

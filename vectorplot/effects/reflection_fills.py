@@ -12,10 +12,9 @@ from vectorplot.drawing.fill_visibility import flattened
 from vectorplot.drawing.fills import Colours as Colours_of_fills
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay
-from vectorplot.effects.decal_fills import decal_fills
 from vectorplot.effects.decals import Decals, joined_decals
 from vectorplot.effects.mirrors import DIMMED, Mirrors, backwards, doubled, reflections
-from vectorplot.effects.scene_decals import scene_shadows, shadowed_patterns
+from vectorplot.effects.scene_decals import decal_fills, scene_shadows, shadowed_patterns
 from vectorplot.effects.windows import SeenThrough, mixed, seen_fills
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget

@@ -20,9 +20,9 @@ from vectorplot.drawing.strokes import split_long
 from vectorplot.effects.cuts import InSpace, cut_scene, default_page
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Within, divided
-from vectorplot.features.facets import Facets, facets_of_all
 from vectorplot.features.mesh_feature_lines import mesh_bending, smooth_normals
 from vectorplot.features.mesh_lines import face_triangles
+from vectorplot.features.tessellation import Facets, facets_of_all
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET

@@ -1,5 +1,5 @@
 from .conditions import CentralContour, ParallelContour
-from .contours import (
+from .contours_and_isophotes import (
     contour,
     isophotes,
     level_lines,
@@ -10,8 +10,6 @@ from .contours import (
 )
 from .curve_tracing import SurfaceCurves, Tracing
 from .cusps import Cusps, contour_cusps, contour_with_cusps, singular_lines
-from .double_curves import DoubleCurves
-from .edge_lines import Edges, Faces, mesh_edges
 from .geodesic_curves import geodesics_between
 from .grid_triangulation import average_normals, mesh_of_grid, triangulate_surface
 from .implicit_curves import (
@@ -27,7 +25,10 @@ from .implicit_cusps import implicit_contour_cusps, implicit_parallel_contour_cu
 from .implicit_meshes import ImplicitMesh, implicit_mesh
 from .implicit_surfaces import polygonized
 from .implicit_tracing import ImplicitCurves, ImplicitTracing
+from .intersection_grids import Tessellation, surface_tessellation
+from .intersection_tracing import DoubleCurves
 from .intersections import self_intersections, surface_intersection
+from .mesh_edge_lines import Edges, Faces, mesh_edges
 from .mesh_integration import mesh_geodesics, mesh_integral_curves
 from .mesh_intersections import Intersections, face_intersections
 from .mesh_lines import (
@@ -65,7 +66,6 @@ from .tangent_fields import (
 from .terrain_roads import roads
 from .terrain_serpentines import serpentine
 from .terrain_water import LabelPlaces, basins, label_places, places_on_terrain, valley_lines, water_courses, watersheds
-from .tessellation import Tessellation, surface_tessellation
 from .zero_curves import ZeroManifold, zero_manifold_of_f_uv
 
 __all__ = [

@@ -11,8 +11,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit_surfaces import BOXED, Plane, SpatialCondition, checked_values, sides_of
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul, pseudo_inverse, singular_decomposition, symmetric_eigen
+from vectorplot.geometry.contour_polygons import concat
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.geometry.weld import chained, distinct_points, one_each
 from vectorplot.surfaces.surface import ImplicitSurface, hessians

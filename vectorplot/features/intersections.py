@@ -9,7 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.double_curves import (
+from vectorplot.features.intersection_grids import finer_grids
+from vectorplot.features.intersection_tracing import (
     Bound,
     Course,
     Courses,
@@ -30,7 +31,6 @@ from vectorplot.features.double_curves import (
     zero_between,
 )
 from vectorplot.features.patches import MeshPatch, Patch, StackedPatches, SurfaceGrids, SurfacePatch
-from vectorplot.features.tessellation import finer_grids
 from vectorplot.features.triangle_intersections import (
     Contacts,
     Piercings,
@@ -44,7 +44,7 @@ from vectorplot.features.triangle_intersections import (
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces
-from vectorplot.geometry.outline import concat
+from vectorplot.geometry.contour_polygons import concat
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.vectors import cross, norm
 from vectorplot.geometry.weld import close_points

@@ -8,7 +8,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.features.edge_lines import apart_at_creases
 from vectorplot.features.feature_lines import (
     Bending,
     Detail,
@@ -22,6 +21,7 @@ from vectorplot.features.feature_lines import (
     zeros_between,
 )
 from vectorplot.features.implicit_tracing import ImplicitCurves
+from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.features.mesh_lines import (
     FaceTriangles,
     MeshCurves,
@@ -32,8 +32,8 @@ from vectorplot.features.mesh_lines import (
 )
 from vectorplot.geometry.algebra import linear_solution
 from vectorplot.geometry.budget import slices
+from vectorplot.geometry.contour_polygons import concat
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.outline import concat
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.tolerances import LEAST_DIVISOR, ROUNDING_OF_POINTS, ROUNDING_OF_TERMS, SETTLED_FIT

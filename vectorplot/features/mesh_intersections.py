@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.edge_lines import Faces, unit_normals
+from vectorplot.features.mesh_edge_lines import Faces, unit_normals
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.boxes import overlapping_boxes, overlapping_pairs
 from vectorplot.geometry.budget import mapped, slices

@@ -13,15 +13,15 @@ from vectorplot.curves.bezier import BezierPaths
 from vectorplot.curves.bezier_fit import fitted_paths
 from vectorplot.curves.curve import vector
 from vectorplot.errors import InputError
-from vectorplot.features.edge_lines import apart_at_creases
+from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.geometry import ragged
 from vectorplot.geometry.adjacency import face_barycentres
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import slices
+from vectorplot.geometry.contour_polygons import concat
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import (
     EACH_LINE,
     EACH_POINT,

@@ -44,6 +44,7 @@ from vectorplot.geometry.weld import one_each
 if TYPE_CHECKING:
     from scipy.spatial import cKDTree
 
+
 # A mesh and a field of directions as what curves are to cover evenly: places on it, and curves through them.
 
 MOST_PLACES = 40_000

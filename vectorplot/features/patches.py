@@ -12,7 +12,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import extent
 from vectorplot.features.holes import wrapped
-from vectorplot.features.tessellation import FREE, GridNodes, Tessellation, cell_corners, grid_nodes
+from vectorplot.features.intersection_grids import FREE, GridNodes, Tessellation, cell_corners, grid_nodes
 from vectorplot.geometry import ragged
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.convex_polygons import convex_faces

@@ -11,8 +11,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import poles
-from vectorplot.features.edge_lines import apart_at_creases
 from vectorplot.features.holes import wrapped
+from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.features.mesh_feature_lines import noisy_bending
 from vectorplot.features.mesh_lines import face_triangles
 from vectorplot.geometry import ragged

@@ -50,8 +50,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.chord_refinement import Traces
+from vectorplot.geometry.contour_polygons import concat
 from vectorplot.geometry.elementary import arctan2
-from vectorplot.geometry.outline import concat
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round
 from vectorplot.geometry.vectors import all_components, all_finite, component_sum
 from vectorplot.geometry.weld import close_points

@@ -24,12 +24,12 @@ from .clipping import (
     cut_polygons,
     region_codes,
 )
+from .contour_polygons import Branches, contour_branches, contour_edges, spatial_hull
 from .convex_bodies import convex_prism_parts, convex_revolution_parts, cut_body, polyhedron_intersection, split_faces
 from .convex_polygons import convex_hull, convex_polygon_parts, hull_mesh, is_convex_polygon
 from .mesh import Mesh
 from .mesh_cuts import HalfSpaces
 from .mesh_repair import Mending, MeshReport, mesh_report, repaired, welded
-from .outline import Branches, contour_branches, contour_edges, spatial_hull
 from .polygon_cuts import clipped_by_convex, inside_convex
 from .polylines import Strokes
 from .projections import CoordinateSystem, Projection, collineate, project, projection_of, uncollineate, unproject

@@ -18,6 +18,7 @@ from vectorplot.errors import InputError
 if TYPE_CHECKING:
     from concurrent.futures import Future
 
+
 # How much work a smooth surface may be before its picture is finished without the rest.
 
 HOW = "a larger budget may do (--budget)"

@@ -84,6 +84,7 @@ from vectorplot.visibility.projected_faces import ProjectedFaces, project_faces
 if TYPE_CHECKING:
     from vectorplot.effects.decals import Decals
 
+
 # The paper of a painted picture.
 
 PAPER = "white"
@@ -359,7 +360,7 @@ def _laid(seen: VisiblePolygons, lighting: Lighting, decals: tuple[Decals, ...])
     """What lies on the polygons of the picture."""
     if not decals:
         return ()
-    from vectorplot.effects.decal_fills import decal_fills
+    from vectorplot.effects.scene_decals import decal_fills
 
     return tuple(decal_fills(seen.view, lighting, some, seen.faces, seen.placement) for some in decals)
 

@@ -10,16 +10,17 @@ from typing import TYPE_CHECKING, Literal
 
 import numpy as np
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
-from vectorplot.drawing.drawn_lines import fitted_lines, strokes_on_page
-from vectorplot.drawing.duplicates import with_shared_kinds
+from vectorplot.drawing.duplicates import with_shared_kinds, without_duplicates, without_smooth_duplicates
 from vectorplot.drawing.finishing import inked
 from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_pen
 from vectorplot.drawing.pen_layers import layer_words, not_plotted, pen_scale, sheet_layer, sorted_layers
 from vectorplot.drawing.pens import PenRule, frame_pen, pen_of, rules_by_target, scaled_pen
+from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputWarning
+from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import Budget, budget_of, line_each
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
@@ -34,7 +35,7 @@ from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.placement import Placement, box_corners, fitted_picture, mm_per_image
 from vectorplot.scene.scene import Scene, tell_of_empty_surface
 from vectorplot.scene.view import View, view_of
-from vectorplot.tolerances import FINEST_CHORD_OF_EXTENT
+from vectorplot.tolerances import COINCIDENT_MM, EXACT_MM, FINEST_CHORD_OF_EXTENT
 from vectorplot.visibility.polyhedra.hidden_lines import (
     Segments,
     Visibility,
@@ -60,8 +61,111 @@ from vectorplot.words import LineKind, check_colour
 if TYPE_CHECKING:
     from vectorplot.drawing.labels import SceneLabels
     from vectorplot.visibility.quadrics.closed_forms import ClosedForms, Seen
-    from vectorplot.visibility.smooth.meetings import SmoothSheet
+    from vectorplot.visibility.smooth.intersections import SmoothSheet
     from vectorplot.visibility.smooth.scene_curves import TracedScene
+
+
+# Lines as strokes on the page.
+
+MOST_DIVISIONS = 8
+"""A line is cut into so many parts at most in one go, to be Bézier curves; all together into so many times
+their number."""
+
+MOST_ROUNDS = 6
+"""So often what is still no Bézier curve is cut again: where weights change fast the fourth power comes late."""
+
+
+def fitted_lines(view: View, lines: Lines, seen: Visibility, page: Page) -> Placement:
+    """The place of a picture that fills the page with the parts of lines."""
+    ends = np.concatenate(lines.ends(view, seen.segment, seen.low, seen.high), axis=1)
+    return fitted_picture(view, page, view.image_of(ends))
+
+
+def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Placement) -> Paths:
+    """The parts of lines as strokes on the page, each line once where several lie on each other.
+
+    Of coincident strokes the visible one stays, then the one whose kind comes first, then the one nearer the eye.
+    """
+    seen, parts, handles = _as_cubics(view, lines, seen, placement.scale)
+    ends = np.stack([parts.start, parts.end], axis=2).reshape(3, -1)
+    points = placement.on_page(view.image_of(ends))
+    count, kind, item = len(parts), parts.kind, parts.item
+    offsets = np.arange(0, 2 * count + 1, 2)
+    open_ = np.zeros(count, dtype=np.bool_)
+    # Lines at the same depth but for rounding go by their items: so neither size nor place decides which one stays.
+    depth = np.round(view.depth_of(ends).reshape(-1, 2).sum(axis=1), 8)
+    rank = np.stack([np.arange(count), item, depth, kind, seen.hidden_by > 0])
+    paths = Paths(points, offsets, open_, kind, item, seen.hidden_by, view.world_of(ends), parts.smooth)
+    if parts.chords:
+        # A page shows the image larger, not turned.
+        directions = _at_ends(parts.chords.directions(view))
+        paths = replace(paths, directions=directions, curve=parts.chords.curve, handles=_at_ends(handles))
+    world = placement.page_from_world
+    if not paths.smooth.any():
+        return without_duplicates(paths, rank, COINCIDENT_MM, world, seen.segment)
+    straight, smooth = np.flatnonzero(~paths.smooth), chosen(paths, paths.smooth)
+    given, line = chosen(paths, straight), seen.segment.take(straight)
+    once = without_duplicates(given, rank.take(straight, axis=1), COINCIDENT_MM, world, line)
+    importance = ((smooth.hidden_by > 0) * len(LineKind) + smooth.kind) * len(view.item_vertices) + smooth.item
+    run = _runs(smooth)
+    curve_rank = importance * (run.max(initial=0) + 1) + run
+    return concatenated((once, without_smooth_duplicates(smooth, curve_rank, COINCIDENT_MM)))
+
+
+def _runs(chords: Paths) -> Ints:
+    """(n,) numbers of the parts of curves that chords (n,) belong to: one ends where its curve does, or turns back, as
+    a border does that lies on itself."""
+    along = chords.points[1::2] - chords.points[::2]
+    back = (along[1:] * along[:-1]).sum(axis=1) < 0.0
+    new = (chords.curve[1:] != chords.curve[:-1]) | (back & (chords.curve[1:] >= 0))
+    return np.concatenate([[0], np.cumsum(new)])[: len(along)]
+
+
+def _as_cubics(view: View, lines: Lines, seen: Visibility, scale: float) -> tuple[Visibility, Lines, Floats]:
+    """Visible parts, cut so finely that they are cubics, as lines, and (n,2) how long the handles of these are in mm:
+    NaN where a part is none."""
+    parts, most = lines.cut(view, seen.segment, seen.low, seen.high), MOST_DIVISIONS * len(seen.segment)
+    if parts.chords is None:
+        return seen, parts, np.zeros((0, 2))
+    handles, off = parts.chords.handles(view)
+    for _ in range(MOST_ROUNDS):
+        cuts = _divisions(scale * off)
+        if (cuts == 1).all() or cuts.sum() > most:
+            break
+        seen = _divided(seen, cuts)
+        parts = lines.cut(view, seen.segment, seen.low, seen.high)
+        assert parts.chords is not None
+        handles, off = parts.chords.handles(view)
+    return seen, parts, np.where((scale * off <= EXACT_MM)[:, None], scale * handles, np.nan)
+
+
+def _divisions(off_mm: Floats) -> Ints:
+    """(n,) into how many parts lines have to be cut for each to be a cubic, 1 where nothing helps; off_mm (n,): how far
+    cubics are off them.
+
+    Source: Farin, Curves and Surfaces for CAGD, section 6.5: the difference falls with the fourth power of the length.
+    """
+    ratio = np.where(np.isfinite(off_mm), off_mm / EXACT_MM, 1.0)
+    return np.clip(np.ceil(np.sqrt(np.sqrt(ratio))), 1, MOST_DIVISIONS).astype(np.intp)
+
+
+def _divided(seen: Visibility, count: Ints) -> Visibility:
+    """The parts cut into so many equal ones each (k,)."""
+    own, share = ragged.owner(count), ragged.place(count) / count[ragged.owner(count)]
+    step = (seen.high - seen.low)[own]
+    low, high = seen.low[own] + share * step, seen.low[own] + (share + 1.0 / count[own]) * step
+    ends = ragged.offsets(count)[1:] - 1
+    high[ends] = seen.high
+    return Visibility(seen.segment[own], low, high, seen.hidden_by[own])
+
+
+def _at_ends(directions: Floats) -> Floats:
+    """(2n,2) the directions, or the lengths of handles, at the ends of strokes of two points; (n,2): how each leaves
+    its first, arrives at its last one."""
+    result = np.full((2 * len(directions), 2), np.nan)
+    result[::2, 1], result[1::2, 0] = directions.T
+    return result
+
 
 # The lines of smooth surfaces, and what these hide of all lines.
 
@@ -145,7 +249,7 @@ def _all_curves(
     traced = traced.joined(conic_curves(view, forms.arcs, forms.behind, tolerance))
     if not len(forms.traced) and not len(forms.in_faces):
         return traced
-    from vectorplot.visibility.quadrics.traced_meetings import traced_meetings
+    from vectorplot.visibility.quadrics.traced_intersections import traced_meetings
 
     met, doubts = traced_meetings(scene, view, forms, kinds, tracing_of(view, tolerance, budget))
     return replace(traced.joined(met), doubts=(*traced.doubts, *doubts))

@@ -7,18 +7,21 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.layers import FRAME_PEN
 from vectorplot.errors import InputWarning
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import plan_cuts
 from vectorplot.scene.annotations import LabelAnchors, label_anchors
 from vectorplot.scene.exploded import shown_apart
-from vectorplot.scene.items_of_looks import with_face_looks
+from vectorplot.scene.item import Item
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, depth_cue_of
@@ -29,6 +32,32 @@ from vectorplot.scene.view import View, without_seams
 if TYPE_CHECKING:
     from vectorplot.drawing.labels import SceneLabels
     from vectorplot.effects.scales import ColourBar, Scaled
+
+
+# Items without faces that stand for the looks of single faces: whatever asks an item how it looks asks them too.
+
+_NO_FACES = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
+
+
+def with_face_looks(scene: Scene) -> Scene:
+    """The scene with an item without faces for every look of faces, behind all others; without looks the scene itself.
+
+    What the faces of these items look like is asked of such an item, where they are and what they hide of their own.
+    """
+    if not any(item.face_looks is not None for item in scene.items):
+        return scene
+    items, added = [], list[Item]()
+    for item in scene.items:
+        looks = item.face_looks
+        if looks is None or not isinstance(item.shape, Mesh):
+            items.append(item)
+            continue
+        items.append(replace(item, face_looks=replace(looks, first=len(scene.items) + len(added))))
+        for look in looks.looks:
+            colour = item.colour if look.colour is None else look.colour
+            material = item.material if look.material is None else look.material
+            added.append(Item(item.name, _NO_FACES, colour, material, hatch=item.hatch, occludes=item.occludes))
+    return replace(scene, items=(*items, *added))
 
 
 # What a picture is of: the scene as it is seen, the camera, and what the scene was before it was cut.

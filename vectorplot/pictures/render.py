@@ -45,7 +45,7 @@ from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import view_of, without_coincident
-from vectorplot.shading.depth import coplanar_faces
+from vectorplot.shading.depth_buffers import coplanar_faces
 from vectorplot.shading.facet_resolution import FacetedScene, faceted
 from vectorplot.shading.image import Image, averaged_light
 from vectorplot.shading.map_settings import MapSettings

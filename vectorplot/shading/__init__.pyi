@@ -1,4 +1,4 @@
-from .depth import DepthBuffer, DepthCode, depth_buffer, depth_range
+from .depth_buffers import DepthBuffer, DepthCode, depth_buffer, depth_range
 from .illumination import (
     AMBIENT,
     DIRECT_SHARE,
@@ -17,15 +17,7 @@ from .palettes import COLOUR_MAP, PALETTE_LIMITS, PALETTE_SIZE, ColourMap, colou
 from .screen import HalfSpace, ScreenTriangles, raster_size, raster_system, screen_triangles
 from .seen_region import SeenRegion, region_in_picture
 from .shaded_faces import Shades, face_colours, face_middles, face_shades, view_lights
-from .shadow_maps import (
-    ShadowBuffer,
-    ShadowMap,
-    SquareMap,
-    recipe_matrix,
-    shadow_buffer,
-    square_map,
-    texels_per_unit,
-)
+from .shadow_maps import ShadowBuffer, ShadowMap, SquareMap, recipe_matrix, shadow_buffer, square_map, texels_per_unit
 from .trapezoids import Axis, adapted_size, bounding_trapezoid, line_of_sight, trapezoid
 
 __all__ = [

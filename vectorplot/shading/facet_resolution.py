@@ -50,7 +50,7 @@ from vectorplot.visibility.painter.unseen import body_sides
 from vectorplot.visibility.projected_faces import newell
 
 if TYPE_CHECKING:
-    from vectorplot.features.facets import Facets
+    from vectorplot.features.tessellation import Facets
 
 
 # Scenes without smooth surfaces: triangles so small that pictures show no corners, with true normals at theirs.
@@ -81,7 +81,7 @@ def faceted(scene: Scene, demand: Callable[[int], Criterion], budget: Budget = U
     found: dict[int, Facets] = {}
     if smooth:
         # Of polyhedra nothing is asked that takes surfaces to be loaded.
-        from vectorplot.features.facets import facets_of_all
+        from vectorplot.features.tessellation import facets_of_all
 
         shapes = [scene.items[number].shape for number in smooth]
         made_of = facets_of_all(shapes, lambda k: demand(smooth[k]), budget.facets)
@@ -341,7 +341,7 @@ def triangles_of_items(items: Sequence[Item], boxes: Sequence[Floats]) -> list[t
     smooth = [k for k, item in enumerate(items) if is_parametrised(item.shape) or is_implicit(item.shape)]
     found: dict[int, Facets] = {}
     if smooth:
-        from vectorplot.features.facets import facets_of_all
+        from vectorplot.features.tessellation import facets_of_all
 
         demands = [Coarse((COARSENESS * extents[k],)) for k in smooth]
         made = facets_of_all([items[k].shape for k in smooth], demands.__getitem__, MOST_COARSE)

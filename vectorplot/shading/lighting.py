@@ -15,7 +15,7 @@ from vectorplot.geometry.vectors import any_component, component_sum
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
-from vectorplot.shading.depth import DepthBuffer
+from vectorplot.shading.depth_buffers import DepthBuffer
 from vectorplot.shading.illumination import (
     DIRECT_SHARE,
     SHADOW_SHARE,

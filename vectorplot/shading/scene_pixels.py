@@ -12,7 +12,7 @@ from vectorplot.geometry.algebra import linear_solution, matmul
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import norm
-from vectorplot.shading.depth import CoplanarFaces, DepthBuffer, layers_before, ranked, strip
+from vectorplot.shading.depth_buffers import CoplanarFaces, DepthBuffer, layers_before, ranked, strip
 from vectorplot.shading.lighting import Lighting, points_in_pixels, shaded_points, visible_points
 from vectorplot.shading.screen import (
     HalfSpace,

@@ -19,7 +19,7 @@ from vectorplot.geometry.elementary import power
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.light import Light
-from vectorplot.shading.depth import DepthCode, depth_codes
+from vectorplot.shading.depth_buffers import DepthCode, depth_codes
 from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.screen import HalfSpace, front_facing, screen_triangles
 from vectorplot.shading.seen_region import SeenRegion

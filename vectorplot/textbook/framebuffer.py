@@ -19,7 +19,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.scene.view import View
-from vectorplot.shading.depth import DepthBuffer
+from vectorplot.shading.depth_buffers import DepthBuffer
 from vectorplot.shading.image import Bytes, png_bytes
 from vectorplot.shading.pixel_coverage import (
     SUBPIXELS,

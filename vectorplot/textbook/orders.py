@@ -14,9 +14,9 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.separating_planes import spheres_power
 from vectorplot.geometry.vectors import cross
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.cuts import eye_coordinate, slice_order
+from vectorplot.visibility.painter.face_splitting import eye_coordinate, slice_order
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.pairs import (
+from vectorplot.visibility.painter.priority_tests import (
     APART,
     BEHIND,
     IN_FRONT,

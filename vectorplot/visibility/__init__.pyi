@@ -1,5 +1,5 @@
 from .hidden_points import points_hidden_by
-from .painter.cuts import cut_into_slices, slice_order, sliced_order
+from .painter.face_splitting import cut_into_slices, slice_order, sliced_order
 from .painter.groups import (
     ObjectOrder,
     Objects,
@@ -15,7 +15,7 @@ from .painter.groups import (
 )
 from .painter.image_faces import ImageFaces, image_faces, image_points
 from .painter.painters_order import Painted, painters_order
-from .painter.pairs import APART, BEHIND, COPLANAR, IN_FRONT, STRADDLING, Bodies, convex_bodies
+from .painter.priority_tests import APART, BEHIND, COPLANAR, IN_FRONT, STRADDLING, Bodies, convex_bodies
 from .painter.topological_order import Precedence, TopologicalSort, topological_order
 from .polyhedra.hidden_lines import Segments, Visibility, counted_parts, visible_parts
 from .polyhedra.lines import Lines, edge_lines

@@ -32,7 +32,7 @@ from vectorplot.testing.shapes import (
     torus_mesh,
 )
 from vectorplot.textbook.orders import graph_triangles
-from vectorplot.visibility.painter.cuts import cut_into_slices
+from vectorplot.visibility.painter.face_splitting import cut_into_slices
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import project_faces

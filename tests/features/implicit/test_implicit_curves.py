@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.contours import contour, isophotes, point_light_isophotes
+from vectorplot.features.contours_and_isophotes import contour, isophotes, point_light_isophotes
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_curves import (
     implicit_borders,

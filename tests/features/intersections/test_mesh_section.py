@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.contours import plane_sections
+from vectorplot.features.contours_and_isophotes import plane_sections
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.mesh_sections import mesh_section
 from vectorplot.geometry.mesh import Mesh

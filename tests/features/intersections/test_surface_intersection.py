@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from support.effort import examples
 
 from vectorplot.errors import InputError
-from vectorplot.features.contours import section_by_implicit
+from vectorplot.features.contours_and_isophotes import section_by_implicit
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.intersections import intersections_of_grids, surface_intersection
 from vectorplot.features.patches import SurfaceGrids

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.edge_lines import Faces
+from vectorplot.features.mesh_edge_lines import Faces
 from vectorplot.features.mesh_intersections import Intersections, face_intersections
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.rotations import axis_frame

@@ -5,7 +5,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.features import mesh_intersections
-from vectorplot.features.edge_lines import Faces
+from vectorplot.features.mesh_edge_lines import Faces
 from vectorplot.features.mesh_intersections import self_intersections_of_parts
 from vectorplot.geometry import box
 from vectorplot.geometry.mesh import Mesh

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.edge_lines import apart_at_creases
+from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.features.mesh_lines import mesh_isophotes, mesh_point_light_isophotes, vertex_normals
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.contours import contour, parallel_contour
+from vectorplot.features.contours_and_isophotes import contour, parallel_contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.zero_curves import EVERYWHERE
 from vectorplot.surfaces.quadrics import Cone, Cylinder, Ellipsoid, HyperbolicParaboloid, Sphere

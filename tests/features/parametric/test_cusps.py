@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.features.conditions import CentralContour, ParallelContour
-from vectorplot.features.contours import contour, parallel_contour
+from vectorplot.features.contours_and_isophotes import contour, parallel_contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.cusps import contour_cusps, contour_with_cusps, sight_curvatures
 from vectorplot.surfaces.graphs import graph

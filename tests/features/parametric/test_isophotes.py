@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.contours import isophotes, point_light_isophotes
+from vectorplot.features.contours_and_isophotes import isophotes, point_light_isophotes
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.surfaces.graphs import graph
 from vectorplot.surfaces.quadrics import Cylinder, Sphere

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputWarning
-from vectorplot.features.contours import level_lines, plane_sections, section_by_implicit
+from vectorplot.features.contours_and_isophotes import level_lines, plane_sections, section_by_implicit
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.surfaces.quadrics import (
     Cylinder,

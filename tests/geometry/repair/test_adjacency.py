@@ -10,8 +10,8 @@ from support.paths import DATA
 
 from vectorplot.geometry.adjacency import NO_FACE, body_record, common_edge, face_records, mesh_edges, neighbour_faces
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.contour_polygons import contour_branches
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.outline import contour_branches
 from vectorplot.geometry.separating_planes import FIRST_ABOVE, separations
 from vectorplot.geometry.solids import box, polyhedron
 from vectorplot.io.read_file import read
@@ -20,7 +20,7 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
 from vectorplot.shading.shaded_faces import face_middles, face_normals, face_shades, view_lights
 from vectorplot.visibility.painter.groups import priorities, view_objects, wholly_hidden
-from vectorplot.visibility.painter.pairs import BEHIND, IN_FRONT
+from vectorplot.visibility.painter.priority_tests import BEHIND, IN_FRONT
 from vectorplot.words import MATERIALS, check_colour
 
 VERTICES = [

@@ -13,7 +13,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look
-from vectorplot.shading.depth import coplanar_faces
+from vectorplot.shading.depth_buffers import coplanar_faces
 from vectorplot.testing.shapes import box, rotation
 
 COLOURS = ("#ff0000", "#00ff00", "#0000ff")

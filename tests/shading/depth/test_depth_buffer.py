@@ -16,7 +16,7 @@ from vectorplot.geometry.solids import box
 from vectorplot.scene.item import Item
 from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.shading.depth import DepthCode, depth_buffer, depth_range, strips
+from vectorplot.shading.depth_buffers import DepthCode, depth_buffer, depth_range, strips
 from vectorplot.shading.screen import front_facing, raster_system, screen_triangles
 
 

@@ -8,7 +8,7 @@ from support.pixel_rays import pixel_rays
 from support.shaded_scenes import COLUMNS, ROWS, camera_of, sample
 
 from vectorplot.errors import InputError
-from vectorplot.shading.depth import depth_buffer
+from vectorplot.shading.depth_buffers import depth_buffer
 from vectorplot.shading.lighting import visible_points
 from vectorplot.shading.screen import raster_system, screen_triangles
 

@@ -11,7 +11,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.clipping import Polygons
 from vectorplot.geometry.solids import box
-from vectorplot.shading.depth import depth_buffer, strip
+from vectorplot.shading.depth_buffers import depth_buffer, strip
 from vectorplot.shading.screen import raster_system, screen_triangles
 from vectorplot.textbook.framebuffer import depth_planes, points_visible, visible_line_pixels
 

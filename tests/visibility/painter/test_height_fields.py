@@ -21,7 +21,7 @@ from vectorplot.testing.shapes import box
 from vectorplot.visibility.painter.height_fields import known_orders, plan_of
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.pairs import box_pairs, drawn_before, face_relations
+from vectorplot.visibility.painter.priority_tests import box_pairs, drawn_before, face_relations
 
 
 def scattered(seed: int, count: int = 90) -> Mesh:

@@ -36,7 +36,14 @@ from vectorplot.visibility.painter.groups import (
 )
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.painters_order import painters_order
-from vectorplot.visibility.painter.pairs import APART, BEHIND, IN_FRONT, STRADDLING, convex_bodies, outlined_items
+from vectorplot.visibility.painter.priority_tests import (
+    APART,
+    BEHIND,
+    IN_FRONT,
+    STRADDLING,
+    convex_bodies,
+    outlined_items,
+)
 from vectorplot.visibility.painter.topological_order import component_ranks, topological_order
 from vectorplot.visibility.projected_faces import project_faces
 

@@ -14,7 +14,7 @@ from vectorplot.scene.view import View, look
 from vectorplot.surfaces.quadrics import Quadric, Sphere, implicit_sphere
 from vectorplot.surfaces.surface import ImplicitSurface
 from vectorplot.visibility.smooth.curve_families import Chords, NearChords, SpatialCurves
-from vectorplot.visibility.smooth.meetings import implicit_with_implicit, parametrised_with_implicit
+from vectorplot.visibility.smooth.intersections import implicit_with_implicit, parametrised_with_implicit
 from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, implicit_sheet
 

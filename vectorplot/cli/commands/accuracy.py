@@ -8,7 +8,7 @@ from pathlib import Path
 
 import click
 
-from vectorplot.cli.options import numbers
+from vectorplot.cli.option_values import numbers
 from vectorplot.cli.picture import check_place, progress_bar
 
 PLOTS = ("svg", "ps", "eps", "pdf", "png", "json")

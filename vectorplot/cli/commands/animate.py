@@ -7,11 +7,18 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, is_sequence, write_frames
-from vectorplot.cli.many import WORKER_OPTIONS, WorkerOptions
-from vectorplot.cli.options import chosen, pixels
-from vectorplot.cli.picture import located, progress_bar, reported_warnings, summed, table
-from vectorplot.cli.picture_options import (
+from vectorplot.cli.many import (
+    FPS,
+    FRAME_FORMAT,
+    FRAMES_OUT,
+    WORKER_OPTIONS,
+    WorkerOptions,
+    check_out,
+    is_sequence,
+    write_frames,
+)
+from vectorplot.cli.option_values import chosen, pixels
+from vectorplot.cli.options import (
     BACKGROUND,
     BUDGET,
     CAMERA_OPTIONS,
@@ -44,6 +51,7 @@ from vectorplot.cli.picture_options import (
     shadows_option,
     with_options,
 )
+from vectorplot.cli.picture import located, progress_bar, reported_warnings, summed, table
 
 if TYPE_CHECKING:
     from vectorplot.pictures.pipeline import StageReport

@@ -15,9 +15,9 @@ import click
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.many import WORKER_OPTIONS, PictureVerb, WorkerOptions, inputs_of, picture_of
-from vectorplot.cli.options import at_least, format_of, page_size
+from vectorplot.cli.option_values import at_least, format_of, page_size
+from vectorplot.cli.options import DRAWING_FORMATS, INPUT, LANDSCAPE, OUT, QUIET, format_option, with_options
 from vectorplot.cli.picture import check_place, progress_bar, reported_warnings, write_out
-from vectorplot.cli.picture_options import DRAWING_FORMATS, INPUT, LANDSCAPE, OUT, QUIET, format_option, with_options
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing

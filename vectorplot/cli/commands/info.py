@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from vectorplot.cli.options import upwards
+from vectorplot.cli.option_values import upwards
 from vectorplot.cli.picture import reported_warnings
 from vectorplot.errors import printable
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.picture_options import (
+from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
     DRAWING_FORMATS,

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import between, pixels
-from vectorplot.cli.picture_options import (
+from vectorplot.cli.option_values import between, pixels
+from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
     EXPOSURE,

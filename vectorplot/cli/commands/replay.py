@@ -8,10 +8,10 @@ from functools import partial
 import click
 
 from vectorplot.cli.commands.try_ import PAGE_SHOWN_OPTIONS, check_viewer, show_address
-from vectorplot.cli.frames import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
-from vectorplot.cli.options import chosen
+from vectorplot.cli.many import FPS, FRAME_FORMAT, FRAMES_OUT, check_out, write_frames
+from vectorplot.cli.option_values import chosen
+from vectorplot.cli.options import QUIET, with_options
 from vectorplot.cli.picture import progress_bar, reported_warnings
-from vectorplot.cli.picture_options import QUIET, with_options
 
 
 @click.command(short_help="Replay a movie of polygons.")

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.options import format_of, upwards
-from vectorplot.cli.picture import Source, make_pages, make_picture, warn_of_nothing
-from vectorplot.cli.picture_options import (
+from vectorplot.cli.option_values import format_of, upwards
+from vectorplot.cli.options import (
     CUT_SPACING,
     DRAWING_FORMATS,
     EXPLAIN,
@@ -24,6 +23,7 @@ from vectorplot.cli.picture_options import (
     format_option,
     with_options,
 )
+from vectorplot.cli.picture import Source, make_pages, make_picture, warn_of_nothing
 
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report

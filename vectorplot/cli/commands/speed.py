@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from vectorplot.cli.options import format_of
+from vectorplot.cli.option_values import format_of
 from vectorplot.cli.picture import progress_bar
 
 

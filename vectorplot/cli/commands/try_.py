@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 import click
 
-from vectorplot.cli.frames import check_out
-from vectorplot.cli.options import between
+from vectorplot.cli.many import check_out
+from vectorplot.cli.option_values import between
 from vectorplot.cli.picture import check_place, progress_bar, reported_warnings
 
 if TYPE_CHECKING:

@@ -18,7 +18,7 @@ from vectorplot.geometry.polygon_cuts import inside_convex
 from vectorplot.geometry.separating_planes import Surroundings, separations
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
-from vectorplot.visibility.painter.pairs import (
+from vectorplot.visibility.painter.priority_tests import (
     APART,
     BEHIND,
     IN_FRONT,

@@ -14,10 +14,10 @@ from vectorplot.geometry.budget import USUAL, Budget
 from vectorplot.geometry.polylines import joined
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
-from vectorplot.visibility.painter.cuts import Pairs, cut_into_order, dense, in_slices, ribbon_order, ribbons
+from vectorplot.visibility.painter.face_splitting import Pairs, cut_into_order, dense, in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.groups import around, by_depth, crowded_items, group_ranks, pairs_allowed
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
-from vectorplot.visibility.painter.pairs import (
+from vectorplot.visibility.painter.priority_tests import (
     APART,
     BEHIND,
     IN_FRONT,

@@ -17,7 +17,7 @@ from vectorplot.geometry.regions import corners_of, insides_of, polygons_of, tri
 from vectorplot.scene.view import View
 from vectorplot.tolerances import LEAST_DIVISOR, NEGLIGIBLE_PART
 from vectorplot.visibility.painter.image_faces import ImageFaces
-from vectorplot.visibility.painter.pairs import Outlines, box_pairs, overlapping
+from vectorplot.visibility.painter.priority_tests import Outlines, box_pairs, overlapping
 from vectorplot.visibility.painter.topological_order import Links, component_ranks
 
 # What is blended as one: parts of transparent items that hang together, or do not lie on one another.

@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.features.edge_lines import Edges, Faces, mesh_edges, smooth_mesh_edges
+from vectorplot.features.mesh_edge_lines import Edges, Faces, mesh_edges, smooth_mesh_edges
 from vectorplot.features.mesh_intersections import face_intersections, self_intersections_of_parts
 from vectorplot.features.mesh_lines import (
     MeshCurves,

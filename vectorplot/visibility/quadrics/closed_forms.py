@@ -24,15 +24,7 @@ from vectorplot.tolerances import HOMOTHETIC
 from vectorplot.visibility.polyhedra.hidden_lines import Visibility
 from vectorplot.visibility.polyhedra.lines import Lines, items_wanting, kinds_of
 from vectorplot.visibility.quadrics.bodies import balls_of, capped_bodies_of
-from vectorplot.visibility.quadrics.body_lines import (
-    are_round,
-    ball_arcs,
-    capped_arcs,
-    capped_isophotes,
-    capped_sections,
-)
-from vectorplot.visibility.quadrics.conic_arcs import Arcs, ConicArcs, OwnSides, beyond_near, joined_arcs
-from vectorplot.visibility.quadrics.meetings import (
+from vectorplot.visibility.quadrics.body_intersections import (
     are_bodies_apart,
     are_homothetic,
     balls_with_balls,
@@ -44,6 +36,14 @@ from vectorplot.visibility.quadrics.meetings import (
     on_one_axis,
     overlapping_balls,
 )
+from vectorplot.visibility.quadrics.body_lines import (
+    are_round,
+    ball_arcs,
+    capped_arcs,
+    capped_isophotes,
+    capped_sections,
+)
+from vectorplot.visibility.quadrics.conic_arcs import Arcs, ConicArcs, OwnSides, beyond_near, joined_arcs
 from vectorplot.visibility.quadrics.occlusion_volumes import Bodies, own_bodies
 from vectorplot.words import FEATURE_KINDS, LineKind
 

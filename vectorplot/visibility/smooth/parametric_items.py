@@ -20,7 +20,7 @@ from vectorplot.features.conditions import (
     stacked,
     stacks,
 )
-from vectorplot.features.contours import (
+from vectorplot.features.contours_and_isophotes import (
     border_sections,
     contours,
     isophotes,

@@ -24,8 +24,8 @@ from vectorplot.visibility.polyhedra.lines import items_wanting, kinds_of
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.curve_families import Along, Chords, ParameterCurves, inner_part
 from vectorplot.visibility.smooth.implicit_items import curves_of_implicit
+from vectorplot.visibility.smooth.intersections import SmoothSheet, meetings
 from vectorplot.visibility.smooth.lines_on_two_sheets import with_second_sheets
-from vectorplot.visibility.smooth.meetings import SmoothSheet, meetings
 from vectorplot.visibility.smooth.parametric_items import (
     contours_of_parametrised,
     curves_of_parametrised,

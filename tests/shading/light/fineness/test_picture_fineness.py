@@ -11,10 +11,10 @@ from support.line_distances import distances
 
 from vectorplot.accuracy.approximation import on_page
 from vectorplot.accuracy.of_surfaces import outlines
-from vectorplot.features.contours import contour
+from vectorplot.features.contours_and_isophotes import contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.edge_splitting import LOOKS, NONE, Edges, Vertices
-from vectorplot.features.facets import Patch, facets
+from vectorplot.features.intersection_grids import Patch, facets
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.pictures.paint import paint

@@ -21,7 +21,7 @@ from vectorplot.scene.surface_lines import Section, SurfaceLines
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered, torus_mesh
 from vectorplot.textbook.orders import graph_triangles
-from vectorplot.visibility.painter.cuts import in_slices, ribbon_order, ribbons
+from vectorplot.visibility.painter.face_splitting import in_slices, ribbon_order, ribbons
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces, view_points
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.projected_faces import project_faces

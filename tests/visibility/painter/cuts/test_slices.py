@@ -15,7 +15,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.view import look
 from vectorplot.testing.shapes import box, numbered, scene_of, torus_mesh
 from vectorplot.textbook.orders import graph_order, graph_triangles, ring_order, sliced_meridian
-from vectorplot.visibility.painter.cuts import cut_into_slices, eye_coordinate, slice_order, sliced_order
+from vectorplot.visibility.painter.face_splitting import cut_into_slices, eye_coordinate, slice_order, sliced_order
 from vectorplot.visibility.painter.image_faces import image_faces, image_points, polygons_of
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.topological_order import Precedence

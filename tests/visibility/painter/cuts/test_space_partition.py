@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from vectorplot.visibility.painter.cuts import partitioned
+from vectorplot.visibility.painter.face_splitting import partitioned
 from vectorplot.visibility.painter.image_faces import polygons_of
 
 COUNT = 60

@@ -13,7 +13,7 @@ from vectorplot.surfaces.capped_bodies import ball_of
 from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
 from vectorplot.testing.shapes import box, prism
 from vectorplot.visibility.quadrics.bodies import balls_of
-from vectorplot.visibility.quadrics.meetings import (
+from vectorplot.visibility.quadrics.body_intersections import (
     are_homothetic,
     balls_with_balls,
     balls_with_faces,

@@ -14,7 +14,7 @@ from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.quadrics import Cylinder, Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
 from vectorplot.testing.shapes import box
-from vectorplot.visibility.smooth.meetings import meetings
+from vectorplot.visibility.smooth.intersections import meetings
 from vectorplot.visibility.smooth.scene_curves import scene_sheets
 from vectorplot.visibility.smooth.traced_curves import Curves
 

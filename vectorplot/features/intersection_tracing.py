@@ -9,8 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import Picture
+from vectorplot.features.intersection_grids import FREE
 from vectorplot.features.patches import OnSurfaces, Patch, SurfacePatch
-from vectorplot.features.tessellation import FREE
 from vectorplot.features.triangle_intersections import Contacts
 from vectorplot.geometry.algebra import least_squares, matmul
 from vectorplot.geometry.chord_refinement import Traces, refined

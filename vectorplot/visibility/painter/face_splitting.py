@@ -21,7 +21,14 @@ from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
 from vectorplot.tolerances import ABOUT_AXIS
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, over_corners, polygons_of, view_points
-from vectorplot.visibility.painter.pairs import APART, STRADDLING, Codes, box_pairs, drawn_before, face_relations
+from vectorplot.visibility.painter.priority_tests import (
+    APART,
+    STRADDLING,
+    Codes,
+    box_pairs,
+    drawn_before,
+    face_relations,
+)
 from vectorplot.visibility.painter.topological_order import component_ranks
 from vectorplot.visibility.projected_faces import Bytes
 

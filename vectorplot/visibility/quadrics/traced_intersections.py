@@ -16,9 +16,9 @@ from vectorplot.features.curve_tracing import Tracing
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import inverse_matrix, matmul, symmetric_eigen
 from vectorplot.geometry.chord_refinement import HALVINGS, Traces, bisected, refined, straight_between
+from vectorplot.geometry.contour_polygons import concat
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.outline import concat
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -38,7 +38,7 @@ from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP
 from vectorplot.visibility.quadrics.closed_forms import ClosedForms
 from vectorplot.visibility.quadrics.occlusion_volumes import Bodies, BodiesMeet
 from vectorplot.visibility.smooth.curve_families import FARTHEST, ROUNDS, Along, Chords, no_longer
-from vectorplot.visibility.smooth.meetings import curves_of_pairs, curves_with_mesh
+from vectorplot.visibility.smooth.intersections import curves_of_pairs, curves_with_mesh
 from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.sheets import ParametricSheet
 from vectorplot.visibility.smooth.traced_curves import Curves, together

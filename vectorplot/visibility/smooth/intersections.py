@@ -9,11 +9,11 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conditions import ImplicitSection
-from vectorplot.features.contours import section_by_implicit
+from vectorplot.features.contours_and_isophotes import section_by_implicit
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.double_curves import DoubleCurves
 from vectorplot.features.implicit_curves import implicit_intersection
 from vectorplot.features.implicit_surfaces import MeetsImplicit
+from vectorplot.features.intersection_tracing import DoubleCurves
 from vectorplot.features.intersections import intersections_of_grids, self_intersections
 from vectorplot.features.mesh_sections import implicit_mesh_section, mesh_section
 from vectorplot.features.patches import SurfaceGrids
