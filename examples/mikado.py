@@ -30,7 +30,7 @@ def pen_length(drawing: vp.Drawing) -> float:
 
 def main(folder: Path) -> None:
     random = np.random.default_rng(2)
-    sticks = vp.Scene(tuple(vp.Item(f"STICK{k}", stick(random, 0.42 * k)) for k in range(16)), title="TopologicalSort")
+    sticks = vp.Scene(tuple(vp.Item(f"STICK{k}", stick(random, 0.42 * k)) for k in range(16)), title="Mikado")
     camera = vp.Camera(eye=(9, -18, 44), target=(0, 0, 4), fov_deg=24)
     ink = []
     for number, halo_mm in enumerate((0.0, 0.8, 1.6)):

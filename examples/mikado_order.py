@@ -41,7 +41,7 @@ def sticks(count: int) -> tuple[vp.Item, ...]:
 
 
 def main(folder: Path) -> None:
-    scene = vp.Scene(sticks(12), (LIGHT,), title="TopologicalSort")
+    scene = vp.Scene(sticks(12), (LIGHT,), title="Mikado")
     camera = vp.Camera(eye=(8, -18, 34), target=(0, 0, 1), fov_deg=20)
     before, after = demands(priorities(view_objects(look(scene, camera))))
     found = topological_order(12, before, after)

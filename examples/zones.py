@@ -35,7 +35,7 @@ def main(folder: Path) -> None:
     lath = box((13, 0.12, 0.5))
     behind = replace(lath, vertices=lath.vertices + np.array([-6.5, 2, -0.4]))
     items = [vp.Item(name, mesh) for name, mesh in bodies().items()]
-    scene = vp.Scene((vp.Item("LATH", behind), *items), title="OccludedIntervals")
+    scene = vp.Scene((vp.Item("LATH", behind), *items), title="Zones")
     camera = vp.Camera(eye=(2, -22, 5), fov_deg=24)
     vp.save(vp.draw(scene, camera, page=vp.Page(190, 80, 6), hidden="dashed"), folder / "zones.svg")
 
