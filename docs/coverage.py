@@ -36,13 +36,15 @@ def marks(tree: ast.Module) -> Iterator[tuple[str, str | int, str]]:
 
 
 def module_of(test: Path) -> str:
-    """The module a test file is the mirror of, as a link; the file's room where there is no such module."""
-    parts = test.relative_to(ROOT / "tests").parts
-    room, words = Path("vectorplot", *parts[:-1]), test.stem.removeprefix("test_").split("_")
-    # Several files may mirror one module: test_render_shadows.py is of render.py.
+    """The module a test file is of by its name, or the folder of its test, as a link; the room where there is none."""
+    room = Path("vectorplot", *test.relative_to(ROOT / "tests").parts[:-1])
+    words = test.stem.removeprefix("test_").split("_")
+    # Several files may be of one module: test_render_shadows.py is of render.py.
     names = ["_".join(words[:count]) for count in range(len(words), 0, -1)]
-    places = [room / place for name in names for place in (f"{name}.py", name)]
-    shown = next(place for place in (*places, room, Path("vectorplot")) if (ROOT / place).exists())
+    rooms = [room, *list(room.parents)[:-1]]
+    places = [place / file for place in rooms for name in names for file in (f"{name}.py", name)]
+    folders = [place.with_suffix(".py") for place in rooms]
+    shown = next(place for place in (*places, *folders, *rooms) if (ROOT / place).exists())
     return f"[{shown.as_posix()}](../{shown.as_posix()})"
 
 
