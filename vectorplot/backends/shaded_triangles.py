@@ -2,16 +2,23 @@
 
 from __future__ import annotations
 
+import warnings
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.page import Areas, places_of
+from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.tolerances import LEAST_DIVISOR
+
+if TYPE_CHECKING:
+    import shapely
 
 # Shaded triangles as larger polygons with one gradient each.
 
@@ -195,6 +202,17 @@ HOLLOW_MICRONS = 75.0
 APART_MICRONS = 20.0
 """Sides that are no farther apart, and run against each other, are common ones as far as both go."""
 
+MOST_NEAR = 32
+"""Neighbours are looked for if no more boxes are around a side, or a place, in the mean of some of them."""
+
+CROWDED = (
+    "so many polygons lie on one another that neighbours with a part of a side in common are not looked for: the edges "
+    "between them may be seen as faint lines"
+)
+"""What is said where there are more."""
+
+_ASKED_AT_ONCE = 1 << 12
+
 MOST_CORNERS = 8
 """Nothing is added around corners of polygons that have more."""
 
@@ -334,9 +352,25 @@ def _amid(sides: _Sides, which: Bools) -> Bools:
     solid = np.flatnonzero(sides.covers)
     corner, offsets = ragged.take(sides.areas.offsets, solid)
     tree = shapely.STRtree(polygons_of(sides.microns[corner].T.astype(np.float64), offsets))
-    place, found = tree.query(shapely.points(places), predicate="intersects")
+    place, found = _near(tree, shapely.points(places))
     inside[place[sides.alike(owner[place], solid[found])]] = True
     return np.asarray(which & (np.bincount(owner, weights=~inside, minlength=len(which)) == 0.0))
+
+
+def _near(tree: shapely.STRtree, shapes: NDArray[np.object_], far: float = 0.0) -> NDArray[np.int64]:
+    """(2,k) the shapes and those of a tree that are no farther from them than that, all of one shape before those of
+    the next; none, and an InputWarning, where more boxes are in one another's way than MOST_NEAR allows."""
+    asked = {"predicate": "dwithin", "distance": far} if far else {"predicate": "intersects"}
+    some = shapes[:: 1 + len(shapes) // _ASKED_AT_ONCE]
+    found = [np.zeros((2, 0), dtype=np.int64)]
+    if tree.query(some).shape[1] > MOST_NEAR * (len(some) + MOST_NEAR):
+        warnings.warn(CROWDED, InputWarning, stacklevel=5)
+        return found[0]
+    for start in range(0, len(shapes), _ASKED_AT_ONCE):
+        near = tree.query(shapes[start : start + _ASKED_AT_ONCE], **asked)
+        near[0] += start
+        found.append(near)
+    return np.concatenate(found, axis=1)
 
 
 def _under_hollow(sides: _Sides, other: Ints) -> Floats:
@@ -368,7 +402,7 @@ def _partly_common(sides: _Sides, alone: Ints) -> _Parts:
     alone = alone[np.hypot(*sides.along(alone).T) > APART_MICRONS]
     ends = np.stack((sides.microns[alone], sides.microns[sides.after[alone]]), axis=1).astype(np.float64)
     lines = shapely.linestrings(ends)
-    one, two = alone[shapely.STRtree(lines).query(lines, predicate="dwithin", distance=APART_MICRONS)]
+    one, two = alone[_near(shapely.STRtree(lines), lines, APART_MICRONS)]
     own, next_ = sides.owner[one], sides.owner[two]
     kept = (own != next_) & (sides.areas.group[own] == sides.areas.group[next_])
     one, two = one[kept], two[kept]

@@ -13,6 +13,7 @@ from vectorplot.backends.cairo import pdf_bytes, ps_bytes
 from vectorplot.backends.page import areas
 from vectorplot.backends.shaded_triangles import HOLLOW_MICRONS, grown, underlaps
 from vectorplot.drawing.fills import Fills
+from vectorplot.errors import InputWarning
 
 DARK = (16, 20, 24)
 
@@ -50,6 +51,15 @@ def test_under_transparent_polygons_nothing_goes_and_under_concave_ones_little()
     assert not len(laps.side) and laps.owner.tolist() == [0]
     assert np.ptp(laps.added[0], axis=0).tolist() == [HOLLOW_MICRONS, 10_000]
     assert underlaps(back).side.tolist() == [1] and not len(underlaps(back).owner)
+
+
+def test_neighbours_in_heaps_are_not_looked_for():
+    random = np.random.default_rng(3)
+    start = random.random((8000, 2)) * (60.0, 40.0)
+    needles = list(np.stack([start, start + random.normal(0.0, 9.0, (8000, 2)), start + np.array((0.2, 0.1))], axis=1))
+    with pytest.warns(InputWarning, match=r"^so many polygons lie on one another"):
+        laps = underlaps(areas(flat(needles, [DARK] * 8000), 60.0, 40.0))
+    assert not len(laps.side) and not len(laps.owner)
 
 
 def random_scene(seed: int) -> Fills:
