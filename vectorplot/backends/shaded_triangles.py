@@ -190,7 +190,7 @@ under them goes on beyond."""
 BEYOND_MICRONS = 75.0
 """So far that is."""
 
-LOOKS = np.array((0.05, 0.5, 0.95))
+LOOKS = np.array((0.0, 0.05, 0.5, 0.95, 1.0))
 """Where along sides it is looked for what is beside them."""
 
 ALIKE = 32.0
@@ -204,6 +204,9 @@ APART_MICRONS = 20.0
 
 MOST_NEAR = 32
 """Neighbours are looked for if no more boxes are around a side, or a place, in the mean of some of them."""
+
+FEW_NEAR = 1 << 22
+"""Or if there are no more of them in all."""
 
 CROWDED = (
     "so many polygons lie on one another that neighbours with a part of a side in common are not looked for: the edges "
@@ -337,7 +340,8 @@ def _with_foreign_sides(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:
 
 def _amid(sides: _Sides, which: Bools) -> Bools:
     """(m,) which of some polygons (m,) lie amid others of their item and of about their colour: so do all places
-    BEYOND_MICRONS beside their sides, but for those beyond where the picture ends."""
+    BEYOND_MICRONS beside their sides, with none of another colour over these that would be painted over, but for those
+    beyond where the picture ends."""
     import shapely
 
     side = np.flatnonzero(which[sides.owner])
@@ -353,7 +357,11 @@ def _amid(sides: _Sides, which: Bools) -> Bools:
     corner, offsets = ragged.take(sides.areas.offsets, solid)
     tree = shapely.STRtree(polygons_of(sides.microns[corner].T.astype(np.float64), offsets))
     place, found = _near(tree, shapely.points(places))
-    inside[place[sides.alike(owner[place], solid[found])]] = True
+    # What reaches there is painted over by later ones, and over earlier ones: the last one is seen but for it.
+    top = np.full(len(places), -1, dtype=np.intp)
+    np.maximum.at(top, place, solid[found])
+    hidden = (top > owner) | sides.alike(owner, top)
+    inside[place[sides.alike(owner[place], solid[found]) & hidden[place]]] = True
     return np.asarray(which & (np.bincount(owner, weights=~inside, minlength=len(which)) == 0.0))
 
 
@@ -363,7 +371,8 @@ def _near(tree: shapely.STRtree, shapes: NDArray[np.object_], far: float = 0.0) 
     asked = {"predicate": "dwithin", "distance": far} if far else {"predicate": "intersects"}
     some = shapes[:: 1 + len(shapes) // _ASKED_AT_ONCE]
     found = [np.zeros((2, 0), dtype=np.int64)]
-    if tree.query(some).shape[1] > MOST_NEAR * (len(some) + MOST_NEAR):
+    boxes = tree.query(some).shape[1] * (len(shapes) / max(len(some), 1))
+    if boxes > max(MOST_NEAR * len(shapes), FEW_NEAR):
         warnings.warn(CROWDED, InputWarning, stacklevel=5)
         return found[0]
     for start in range(0, len(shapes), _ASKED_AT_ONCE):

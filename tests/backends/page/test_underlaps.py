@@ -53,6 +53,25 @@ def test_under_transparent_polygons_nothing_goes_and_under_concave_ones_little()
     assert underlaps(back).side.tolist() == [1] and not len(underlaps(back).owner)
 
 
+@pytest.mark.parametrize("hidden", [False, True])
+def test_lines_around_polygons_stay_off_other_colours(hidden):
+    angle = np.linspace(0.0, np.pi, 49)
+    rim = np.stack((np.cos(angle), np.sin(angle)), axis=1)
+    middle = np.array((20.0, 10.0))
+    thin = [np.stack((middle, middle + 10.0 * a, middle + 10.0 * b)) for a, b in pairwise(rim)]
+    around = [middle + np.stack((10.0 * a, 20.0 * a, 20.0 * b, 10.0 * b)) for a, b in pairwise(rim)]
+    below = np.array([(0.0, 0.0), (40.0, 0.0), (40.0, 10.0), (0.0, 10.0)])
+    first = [below + np.array((0.0, 1.0))] if hidden else []
+    polygons = [*first, below, *around, *thin]
+    colours = [DARK] * len(first) + [(200, 200, 200)] + [DARK] * 96
+    found = areas(flat(polygons, colours), 60.0, 40.0)
+    laps = underlaps(found)
+    foreign = shapely.Polygon(1000.0 * below)
+    for number in np.flatnonzero(laps.open):
+        line = shapely.Polygon(found.microns[found.offsets[number] : found.offsets[number + 1]]).buffer(70.0)
+        assert number < len(first) or not line.intersects(foreign)
+
+
 def test_neighbours_in_heaps_are_not_looked_for():
     random = np.random.default_rng(3)
     start = random.random((8000, 2)) * (60.0, 40.0)
