@@ -412,6 +412,8 @@ def intersection_lines(
     wants = items_wanting(LineKind.INTERSECTION, scene, kinds)
     part = _parts(scene, view, solid)
     faced = np.array([item.is_cut_face for item in scene.items], dtype=np.bool_)
+    apart = kept_apart(scene, view)
+    faced[faced] = ~(wants & ~apart[faced]).any(axis=1)
     left_out = (_beyond_two(first_coincident(view)) | faced)[view.face_item]
     left_out |= (faces.facing < 0) & (~backs & _outlined(scene, kinds))[view.face_item]
     asked, which = _faces(view, faces), np.flatnonzero(~left_out)
@@ -427,12 +429,29 @@ def intersection_lines(
     )
     one, two = view.face_item[which[met.one]], view.face_item[which[met.two]]
     one, two = np.minimum(one, two), np.maximum(one, two)
-    kept = wants[one] | wants[two]
+    kept = (wants[one] | wants[two]) & ~apart[one, two]
     owner = np.where(wants[one], one, two)[kept]
     kind = np.full(int(kept.sum()), int(LineKind.INTERSECTION))
     return straight_lines(
         met.start.compress(kept, axis=1), met.end.compress(kept, axis=1), kind, owner, np.zeros_like(kind)
     )
+
+
+def kept_apart(scene: Scene, view: View) -> Bools:
+    """(i,i) which items do not meet: faces of cuts, and what the planes of these cut."""
+    many = len(scene.items)
+    faces = [k for k, item in enumerate(scene.items) if item.is_cut_face]
+    if not faces:
+        return np.broadcast_to(np.False_, (many, many))
+    cuts = list(dict.fromkeys(item.cut_by for item in scene.items))
+    numbers = {regions: k for k, regions in enumerate(cuts)}
+    own = np.array([numbers[item.cut_by] for item in scene.items], dtype=np.intp)
+    apart = np.zeros((many, many), dtype=np.bool_)
+    for face in faces:
+        points, tolerance = scene.items[face].mesh.vertices, CUT_EDGE_OF_EXTENT * view.scale
+        on = [any(region.is_border(points, tolerance).all() for region in regions) for regions in cuts]
+        apart[face] |= np.array(on, dtype=np.bool_)[own]
+    return apart | apart.T
 
 
 def _outlined(scene: Scene, kinds: frozenset[LineKind]) -> Bools:

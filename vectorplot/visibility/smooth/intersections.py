@@ -27,6 +27,7 @@ from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.trimmed import is_embedded
 from vectorplot.tolerances import OUTSIDE_DOMAIN
+from vectorplot.visibility.polyhedra.lines import kept_apart
 from vectorplot.visibility.smooth.curve_families import (
     Along,
     ConditionCurves,
@@ -186,7 +187,8 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
         names = " and ".join(scene.items[sheets[k].item].name for k in (one, two))
         doubts += [(names, text) for text in unsure]
         parts.append(part)
-    shapes = [(k, item.shape) for k, item in enumerate(scene.items) if not item.is_cut_face]
+    apart = kept_apart(scene, view)
+    shapes = [(k, item.shape) for k, item in enumerate(scene.items)]
     meshes = [(k, shape) for k, shape in shapes if isinstance(shape, Mesh) and shape.face_count]
     boxes = [_box(sheet.vertices) for sheet in sheets if meshes]
     for other, shape in meshes:
@@ -194,7 +196,7 @@ def meetings(scene: Scene, view: View, sheets: tuple[SmoothSheet, ...], wants: B
         box = _box(mesh.vertices)
         for number, sheet in enumerate(sheets):
             items = [i for i in sorted((sheet.item, other)) if wants[i]]
-            if items and _overlap(boxes[number], box):
+            if items and not apart[sheet.item, other] and _overlap(boxes[number], box):
                 part, unsure = _with_mesh(sheet, number, mesh, items[0], tracing)
                 names = f"{scene.items[sheet.item].name} and {scene.items[other].name}"
                 doubts += [(names, text) for text in unsure]
