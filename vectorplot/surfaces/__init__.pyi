@@ -15,6 +15,7 @@ from .graphs import (
 from .implicit import BoxedImplicit, CutImplicit, ImplicitFunction, implicit_of_function
 from .inversion import InvertedImplicit, InvertedSurface, inverted
 from .minimal import IsotropicCurve, MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
+from .of_equations import Parametrised, parametrised
 from .placed_surface import PlacedImplicit, PlacedSurface
 from .quadrics import (
     Cone,
@@ -81,6 +82,7 @@ __all__ = [
     "MinimalSurface",
     "Motion",
     "Paraboloid",
+    "Parametrised",
     "PlacedImplicit",
     "PlacedSurface",
     "PolarGraph",
@@ -121,6 +123,7 @@ __all__ = [
     "mean_curvature",
     "minimal_spiral_surface",
     "nurbs_surface",
+    "parametrised",
     "revolution_surface",
     "rod",
     "rotoidal_surface",

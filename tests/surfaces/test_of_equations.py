@@ -1,0 +1,99 @@
+"""Parametrised surfaces of equations."""
+
+import numpy as np
+import pytest
+
+from vectorplot.errors import InputError
+from vectorplot.surfaces import Ellipsoid, ImplicitTorus, Quadric, implicitized, parametrised
+
+BOX = np.array([(-3.0, -3.0, -3.0), (3.0, 3.0, 3.0)])
+# Eigenvalues, linear terms, the constant.
+KINDS = {
+    "ellipsoid": ((1, 2, 0.5), (0, 0, 0), -2, 1),
+    "hyperboloid of one sheet": ((1, -2, 0.5), (0, 0, 0), -1, 1),
+    "hyperboloid of two sheets": ((1, -2, 0.5), (0, 0, 0), 1, 2),
+    "cone": ((1, -2, 0.5), (0, 0, 0), 0, 1),
+    "elliptic paraboloid": ((1, 0, 0.5), (0, 2, 0), 0.3, 1),
+    "hyperbolic paraboloid": ((1, 0, -0.5), (0, 2, 0), 0.3, 1),
+    "elliptic cylinder": ((1, 0, 0.5), (0, 0, 0), -1, 1),
+    "hyperbolic cylinder": ((1, 0, -0.5), (0, 0, 0), 1, 2),
+    "parabolic cylinder": ((0, 2, 0), (1, 0, 1), -0.4, 1),
+    "two crossing planes": ((1, 0, -0.5), (0, 0, 0), 0, 2),
+    "two parallel planes": ((0, 2, 0), (0, 0, 0), -1, 2),
+    "double plane": ((0, 2, 0), (0, 0, 0), 0, 1),
+    "plane": ((0, 0, 0), (1, 2, -2), 0.5, 1),
+}
+NONE = {
+    "a point": ((1, 2, 0.5), 0),
+    "no point": ((1, 2, 0.5), 1),
+    "a line": ((1, 2, 0), 0),
+}
+
+
+def grid_points(part, columns, rows):
+    return part.points(*np.meshgrid(*part.domain.grid(columns, rows)))
+
+
+def turned_quadric(squares, linear, constant, seed, sign=1.0, *, far=0.0):
+    random = np.random.default_rng(seed)
+    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    middle = random.uniform(-0.5, 0.5, 3) + far
+    form, slope = turn @ np.diag(squares) @ turn.T, turn @ np.array(linear, dtype=float)
+    a = sign * form
+    products = [a[0, 0], a[1, 1], a[2, 2], 2 * a[0, 1], 2 * a[1, 2], 2 * a[2, 0]]
+    return Quadric([*products, *sign * slope, sign * constant], BOX + middle + 0.2, middle)
+
+
+@pytest.mark.capability("G8.3-implicitize")
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+@pytest.mark.parametrize("far", [0.0, 100.0])
+def test_parametrised_quadrics_fulfil_their_equation(kind, sign, far):
+    *equation, count = KINDS[kind]
+    for seed in range(4):
+        quadric = turned_quadric(*equation, seed, sign, far=far)
+        found = parametrised(quadric)
+        assert (found.kind, len(found.parts)) == (kind, count)
+        for part in found.parts:
+            points = grid_points(part, 17, 13)
+            size = 1.0 + (np.linalg.norm(points - quadric.origin, axis=-1) ** 2).max()
+            assert np.abs(quadric.values(points)).max() < (1e-12 if far == 0.0 else 1e-11) * size
+
+
+@pytest.mark.capability("G8.3-implicitize")
+@pytest.mark.parametrize("kind", KINDS)
+def test_the_parts_cover_the_box(kind):
+    *equation, _ = KINDS[kind]
+    quadric = turned_quadric(*equation, 5)
+    ends = np.random.default_rng(3).uniform(*quadric.box, (2, 300, 3))
+    t = np.linspace(0.0, 1.0, 201)
+    values = quadric.values(ends[0][:, None] + t[:, None] * (ends[1] - ends[0])[:, None])
+    rows, columns = np.nonzero(values[:, :-1] * values[:, 1:] < 0.0)
+    assert kind == "double plane" or len(rows) > 50
+    spots = ends[0][rows] + t[columns][:, None] * (ends[1] - ends[0])[rows]
+    grids = [grid_points(part, 200, 200).reshape(-1, 3) for part in parametrised(quadric).parts]
+    cloud = np.concatenate(grids)
+    for spot in spots[:40]:
+        assert np.linalg.norm(cloud - spot, axis=1).min() < 0.4
+
+
+@pytest.mark.capability("G8.3-implicitize")
+@pytest.mark.parametrize("kind", NONE)
+def test_equations_of_no_surface_are_told(kind):
+    squares, constant = NONE[kind]
+    with pytest.raises(InputError, match=kind):
+        parametrised(turned_quadric(squares, (0, 0, 0), constant, 1))
+
+
+@pytest.mark.capability("G8.3-implicitize")
+def test_round_trips():
+    egg = Ellipsoid((3.0, 2.0, 1.0))
+    found = parametrised(implicitized(egg))
+    points = grid_points(found.parts[0], 9, 9)
+    assert found.kind == "ellipsoid"
+    assert np.abs((points**2 / [9.0, 4.0, 1.0]).sum(axis=-1) - 1.0).max() < 1e-9
+    ring = ImplicitTorus(3.0, 1.0, (1.0, 2.0, 3.0))
+    torus = parametrised(ring).parts[0]
+    assert np.abs(ring.values(grid_points(torus, 9, 9))).max() < 1e-12 * 64
+    with pytest.raises(InputError, match="degree 1 or 2"):
+        parametrised(implicitized(torus))
