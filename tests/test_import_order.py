@@ -33,6 +33,7 @@ ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "pictures"
 FOR_PROGRAMS = {
     "features/implicit_cusps.py",
     "surfaces/algebraic.py",
+    "surfaces/of_equations.py",
 }
 """Files that programs of one's own call for, and no verb."""
 
