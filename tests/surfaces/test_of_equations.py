@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.surfaces import Ellipsoid, ImplicitTorus, Quadric, implicitized, parametrised
+from vectorplot.surfaces import Ellipsoid, ImplicitCyclide, ImplicitTorus, Quadric, implicitized, parametrised
 
 BOX = np.array([(-3.0, -3.0, -3.0), (3.0, 3.0, 3.0)])
 # Eigenvalues, linear terms, the constant.
@@ -95,5 +95,8 @@ def test_round_trips():
     ring = ImplicitTorus(3.0, 1.0, (1.0, 2.0, 3.0))
     torus = parametrised(ring).parts[0]
     assert np.abs(ring.values(grid_points(torus, 9, 9))).max() < 1e-12 * 64
+    cyclide = ImplicitCyclide(3.0, 1.0, centre=(8.0, 0.0, 0.0), radius=4.0)
+    kind, (inverted,) = vars(parametrised(cyclide)).values()
+    assert kind == "cyclide" and np.abs(cyclide.values(grid_points(inverted, 9, 9))).max() < 1e-9
     with pytest.raises(InputError, match="degree 1 or 2"):
         parametrised(implicitized(torus))

@@ -15,6 +15,7 @@ from vectorplot.geometry.elementary import cosh, sinh
 from vectorplot.geometry.vectors import cross, norm
 from vectorplot.surfaces.algebraic import AlgebraicSurface
 from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import (
     Cone,
@@ -27,7 +28,7 @@ from vectorplot.surfaces.quadrics import (
     Sphere,
 )
 from vectorplot.surfaces.surface import Domain
-from vectorplot.surfaces.tori import ImplicitTorus, Torus
+from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus, dupin_cyclide
 from vectorplot.tolerances import RANK_OF_EQUATION
 
 MONOMIALS = (
@@ -65,15 +66,15 @@ class Parametrised:
     """
 
     kind: str
-    parts: tuple[PlacedSurface | Torus, ...]
+    parts: tuple[PlacedSurface | Torus | InvertedSurface, ...]
 
 
-def parametrised(surface: Quadric | AlgebraicSurface | ImplicitTorus) -> Parametrised:
-    """The kind of a quadric, and parametrised surfaces that cover it; the parametrised torus of an implicit one.
+def parametrised(surface: Quadric | AlgebraicSurface | ImplicitTorus | ImplicitCyclide) -> Parametrised:
+    """The kind of a quadric and parametrised surfaces that cover it; the torus or cyclide of an implicit one.
 
     Parameters
     ----------
-    surface : Quadric, AlgebraicSurface or ImplicitTorus
+    surface : Quadric, AlgebraicSurface, ImplicitTorus or ImplicitCyclide
         An algebraic surface of degree 1 or 2.
 
     Returns
@@ -100,6 +101,8 @@ def parametrised(surface: Quadric | AlgebraicSurface | ImplicitTorus) -> Paramet
     """
     if isinstance(surface, ImplicitTorus):
         return Parametrised("torus", (Torus(surface.major, surface.minor, surface.centre),))
+    if isinstance(surface, ImplicitCyclide):
+        return Parametrised("cyclide", (dupin_cyclide(surface.major, surface.minor, surface.centre, surface.radius),))
     quadric = surface if isinstance(surface, Quadric) else _quadric(surface)
     box = quadric.box
     middle, size = (box[0] + box[1]) / 2.0, float(norm(box[1] - box[0])) / 2.0
