@@ -17,32 +17,14 @@ BOX = np.array([38.0, 16.0])
 """Width and height of a box, in mm."""
 
 SHARED = ("read", "io/read_file.py", "Scene"), ("prepare", "pictures/prepared_scene.py", "Scene, Camera")
-VERBS = {
-    "draw": (
-        BLUE,
-        SKY,
-        ("lines", "pictures/lines.py", "Lines"),
-        ("hidden lines", "visibility/", "Visibility"),
-        ("place, strokes", "drawing/strokes.py", "Paths"),
-        ("layers, pens", "drawing/pen_layers.py", "Drawing"),
-    ),
-    "paint": (
-        RED,
-        ROSE,
-        ("polygons", "shading/facet_resolution.py", "View"),
-        ("order", "visibility/painter/", "Painted"),
-        ("shadows, glass", "effects/", "Decals"),
-        ("colours", "pictures/fills.py", "Drawing"),
-    ),
-    "render": (
-        GREEN,
-        MINT,
-        ("triangles", "shading/screen.py", "ScreenTriangles"),
-        ("depth buffer", "shading/depth_buffers.py", "DepthBuffer"),
-        ("shadow maps", "shading/shadow_maps.py", "ShadowBuffer"),
-        ("light", "shading/lighting.py", "Image"),
-    ),
-}
+DRAW = """lines, pictures/lines.py, Lines; hidden lines, visibility/, Visibility; place, drawing/strokes.py, Paths;
+          layers and pens, drawing/pen_layers.py, Drawing"""
+PAINT = """polygons, shading/facet_resolution.py, View; order, visibility/painter/, Painted;
+           shadows and glass, effects/, Decals; colours, pictures/fills.py, Drawing"""
+RENDER = """triangles, shading/screen.py, ScreenTriangles; depth buffer, shading/depth_buffers.py, DepthBuffer;
+            shadow maps, shading/shadow_maps.py, ShadowBuffer; light, shading/lighting.py, Image"""
+VERBS = {"draw": (BLUE, SKY, DRAW), "paint": (RED, ROSE, PAINT), "render": (GREEN, MINT, RENDER)}
+"""Pens, tints and stages: what a stage does, where it stands, and what it hands on."""
 
 
 def box(corner) -> np.ndarray:
@@ -80,7 +62,8 @@ def main(folder: Path) -> None:
     arrows[INK].append(np.array([shared[0] + BOX * (1, 0.5), shared[1] + BOX * (0, 0.5)]))
     last = ORIGIN + UP * ROW + 6 * STEP
     stand(last, SAND, ("save", "save.py, backends/", "SVG, PDF, PNG, ..."))
-    for row, (verb, (ink, tint, *stages)) in enumerate(VERBS.items()):
+    for row, (verb, (ink, tint, text)) in enumerate(VERBS.items()):
+        stages = [tuple(map(str.strip, stage.split(","))) for stage in text.split(";")]
         corners = [ORIGIN + UP * (2 - row) * ROW + (2 + k) * STEP for k in range(len(stages))]
         for corner, what in zip(corners, stages, strict=True):
             stand(corner, tint, what)

@@ -11,7 +11,8 @@ import vectorplot as vp
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.commands.render import render
-from vectorplot.cli.option_values import (
+from vectorplot.cli.option_values import at_least
+from vectorplot.cli.options import (
     DRAWING_FORMATS,
     LIGHTS,
     PAGE_OPTIONS,
@@ -19,7 +20,6 @@ from vectorplot.cli.option_values import (
     CameraOptions,
     PageOptions,
     Told,
-    at_least,
     crease_angle_option,
     hatching_from,
     lines_option,

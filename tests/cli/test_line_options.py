@@ -9,7 +9,7 @@ from vectorplot import scene as scenes
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.commands.render import render
-from vectorplot.cli.option_values import LineOptions, Planes, Told
+from vectorplot.cli.options import LineOptions, Planes, Told
 from vectorplot.io.read_file import read
 
 ALL = ["--sections", "x,3", "--levels", "4", "--isophotes", "5"]

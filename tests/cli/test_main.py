@@ -14,7 +14,7 @@ from support.paths import DATA
 import vectorplot
 from vectorplot.cli.main import main, run
 
-COMMAND = [sys.executable, "-m", "vectorplot.cli.main"]
+COMMAND = [sys.executable, "-m", "vectorplot"]
 
 
 def shell(*arguments, **options):

@@ -6,7 +6,7 @@ from hypothesis import strategies as st
 
 import vectorplot as vp
 from vectorplot.cli.main import run
-from vectorplot.cli.option_values import CameraOptions, PageOptions, camera_from, page_from
+from vectorplot.cli.options import CameraOptions, PageOptions, camera_from, page_from
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import VIEWS, Camera
 from vectorplot.geometry.rotations import upright_turn

@@ -8,7 +8,7 @@ import shapely
 
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Within
-from vectorplot.features.intersection_grids import facets
+from vectorplot.features.tessellation import facets
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.surfaces.capped_bodies import rod

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.features.edge_splitting import Within
-from vectorplot.features.intersection_grids import facets
+from vectorplot.features.tessellation import facets
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.features.edge_splitting import Within
-from vectorplot.features.intersection_grids import LOT, facets, facets_of_all
+from vectorplot.features.tessellation import LOT, facets, facets_of_all
 from vectorplot.geometry.budget import USUAL
 from vectorplot.shading.facet_resolution import Coarse
 from vectorplot.surfaces.capped_bodies import Capped

@@ -8,7 +8,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.backends.raster import painted
-from vectorplot.cli.option_values import ItemMaterial, LineOptions
+from vectorplot.cli.options import ItemMaterial, LineOptions
 from vectorplot.errors import InputError
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene

@@ -8,7 +8,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.errors import InputError
 from vectorplot.features.edge_splitting import Within
-from vectorplot.features.intersection_grids import facets
+from vectorplot.features.tessellation import facets
 from vectorplot.geometry.vectors import dot
 from vectorplot.io.description import describe
 from vectorplot.io.scene_language import parse_scene

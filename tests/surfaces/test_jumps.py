@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from vectorplot.features.edge_splitting import Within
-from vectorplot.features.intersection_grids import facets
+from vectorplot.features.tessellation import facets
 from vectorplot.io.expressions import parse_expression
 from vectorplot.io.shape_arguments import Formulas, formula_graph
 from vectorplot.surfaces.graphs import Graph

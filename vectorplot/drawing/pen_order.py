@@ -12,11 +12,11 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes import chosen, directed, swapped
 from vectorplot.errors import InputError
+from vectorplot.exact.radix import ShortKeys, radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices, threads, workers
 from vectorplot.geometry.elementary import modulus
 from vectorplot.geometry.polylines import with_points
-from vectorplot.geometry.ragged import ShortKeys, radix_order
 from vectorplot.tolerances import DRAWN_TOGETHER_OF_EXTENT, LEAST_GAIN_OF_TRAVEL, SPREAD_OF_EXTENT, ZERO_OF_EXTENT
 
 # Places of the ends of strokes, curves through them, and which of them are each other's nearest.

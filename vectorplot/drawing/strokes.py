@@ -9,12 +9,12 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, Paths
 from vectorplot.errors import InputError
+from vectorplot.exact.radix import Keys, radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import joined as joined_of_polylines
 from vectorplot.geometry.polylines import take, with_points
-from vectorplot.geometry.ragged import Keys, radix_order
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import SUM_OF_LENGTHS
 

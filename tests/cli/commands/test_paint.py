@@ -20,7 +20,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 
-COMMAND = [sys.executable, "-m", "vectorplot.cli.main"]
+COMMAND = [sys.executable, "-m", "vectorplot"]
 SCENE = """page 100x80 margin 5
 camera eye 7 -12 8 target 0 0 0.8 field_of_vision 28
 light SUN direction 3 -4 5 intensity 0.8

@@ -5,8 +5,8 @@ from support.seen_rays import topmost, triangles
 from support.triangle_rays import first_hits
 
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.mirror_lights import LightDouble, light_doubles, mirror_light
-from vectorplot.effects.mirrors import MIRRORED_SHARE, mirror_faces, mirrors_of
+from vectorplot.effects.mirror_lights import MIRRORED_SHARE, LightDouble, light_doubles, mirror_light
+from vectorplot.effects.mirrors import mirror_faces, mirrors_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item

@@ -9,12 +9,12 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.effects.shadows import shadow_shades
 from vectorplot.errors import InputError
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.material import Material
 from vectorplot.scene.scene import Scene
+from vectorplot.shading.illumination import shadow_shades
 from vectorplot.shading.palettes import palette, shaded_colours
 from vectorplot.shading.shaded_faces import light_colours
 from vectorplot.surfaces.quadrics import Sphere

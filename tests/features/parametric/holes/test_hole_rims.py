@@ -9,8 +9,8 @@ from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.edge_splitting import Within
 from vectorplot.features.hole_rims import cut_at_holes, hole_rims
 from vectorplot.features.holes import beside_rim_chords, into_surface, is_known
-from vectorplot.features.intersection_grids import facets
 from vectorplot.features.parameter_curves import domain_borders, u_lines, v_lines
+from vectorplot.features.tessellation import facets
 from vectorplot.testing.curves import curves_in_space
 
 

@@ -14,7 +14,7 @@ from vectorplot.accuracy.of_surfaces import outlines
 from vectorplot.features.contours_and_isophotes import contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.edge_splitting import LOOKS, NONE, Edges, Vertices
-from vectorplot.features.intersection_grids import Patch, facets
+from vectorplot.features.tessellation import Patch, facets
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.pictures.paint import paint
