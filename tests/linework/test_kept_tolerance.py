@@ -37,6 +37,7 @@ def strokes(path, shape, tolerance_mm, curves):
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=2)
 @pytest.mark.parametrize("name", list(SHAPES))
 def test_strokes_are_within_the_tolerance_of_their_curves(name, tmp_path):
     true = strokes(tmp_path / "true.svg", SHAPES[name], TOLERANCE_MM / 100, "bezier")

@@ -21,6 +21,8 @@ OUTER = {
 }
 
 
+@pytest.mark.slow
+@pytest.mark.spread
 @pytest.mark.parametrize("outer", OUTER)
 @pytest.mark.parametrize("inner", INNER)
 def test_an_uncut_body_meets_the_cut_face_it_comes_out_of(inner, outer):

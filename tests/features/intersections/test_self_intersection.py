@@ -234,6 +234,7 @@ def tube(u, v):
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize(("closed_u", "closed_v"), [(True, True), (False, True), (False, False)])
 def test_a_tube_about_a_knot_does_not_meet_itself_a_period_apart(closed_u, closed_v):
     domain = Domain(0.4, 0.4 + TURN, 0.4, 0.4 + TURN, closed_u=closed_u, closed_v=closed_v)

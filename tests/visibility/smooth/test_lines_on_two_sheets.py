@@ -44,6 +44,7 @@ def test_the_seam_of_a_ball_is_seen_where_it_faces_the_eye(eye):
 
 
 @pytest.mark.slow
+@pytest.mark.spread(parts=3)
 @pytest.mark.parametrize("eye", EYES)
 @pytest.mark.parametrize(("points", "start"), [(ring, 0.3), (klein_bottle, -np.pi)])
 def test_a_seam_is_seen_as_the_same_line_amid_the_surface(points, start, eye):
