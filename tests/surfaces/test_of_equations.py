@@ -44,7 +44,6 @@ def turned_quadric(squares, linear, constant, seed, sign=1.0, *, far=0.0):
     return Quadric([*products, *sign * slope, sign * constant], BOX + middle + 0.2, middle)
 
 
-@pytest.mark.capability("G8.3-implicitize")
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("sign", [1.0, -1.0])
 @pytest.mark.parametrize("far", [0.0, 100.0])
@@ -60,7 +59,6 @@ def test_parametrised_quadrics_fulfil_their_equation(kind, sign, far):
             assert np.abs(quadric.values(points)).max() < (1e-12 if far == 0.0 else 1e-11) * size
 
 
-@pytest.mark.capability("G8.3-implicitize")
 @pytest.mark.parametrize("kind", KINDS)
 def test_the_parts_cover_the_box(kind):
     *equation, _ = KINDS[kind]
@@ -77,7 +75,6 @@ def test_the_parts_cover_the_box(kind):
         assert np.linalg.norm(cloud - spot, axis=1).min() < 0.4
 
 
-@pytest.mark.capability("G8.3-implicitize")
 @pytest.mark.parametrize("kind", NONE)
 def test_equations_of_no_surface_are_told(kind):
     squares, constant = NONE[kind]
@@ -85,7 +82,6 @@ def test_equations_of_no_surface_are_told(kind):
         parametrised(turned_quadric(squares, (0, 0, 0), constant, 1))
 
 
-@pytest.mark.capability("G8.3-implicitize")
 def test_round_trips():
     egg = Ellipsoid((3.0, 2.0, 1.0))
     found = parametrised(implicitized(egg))
