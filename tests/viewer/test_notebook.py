@@ -81,7 +81,7 @@ def test_faults_are_told_and_what_is_stopped_says_so(kernel, monkeypatch):
 
     monkeypatch.setattr("vectorplot.viewer.answers.picture", endless)
     assert kernel.answer(question("picture", state=state))[0]["superseded"]
-    assert kernel.widget._jobs.latest == {}
+    assert kernel.widget._workers.pictures.latest == {}
 
 
 def test_python_sees_what_the_page_shows_and_can_set_it(kernel):

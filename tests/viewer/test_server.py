@@ -7,6 +7,7 @@ import io
 import json
 import struct
 import threading
+import time
 
 import aiohttp
 import pytest
@@ -266,11 +267,33 @@ def test_whatever_a_page_says_the_answer_is_none_of_a_broken_server(source, capl
 def test_questions_while_the_server_ends_are_refused(source, caplog):
     async def conversation(server, address, session):
         server.stop.set()
-        server.jobs.close()
-        server.movies.close()
+        server.workers.close()
         return [(await asked(session, address, what))[0] for what in ("start", "picture", "movie", "save")]
 
     assert talk(source, conversation) == [409] * 4 and not caplog.records
+
+
+def test_keys_do_not_wait_for_a_picture_that_takes_long(source, monkeypatch):
+    began = threading.Event()
+
+    def endless(self, asked, job):
+        began.set()
+        while True:
+            job.progress("lines", 0.5)
+            time.sleep(0.01)
+
+    monkeypatch.setattr(Answers, "picture", endless)
+
+    async def conversation(server, address, session):
+        drawing = asyncio.create_task(asked(session, address, "picture"))
+        await asyncio.to_thread(began.wait)
+        state = first_state(source.scene(None)).values()
+        pressed = await asyncio.wait_for(asked(session, address, "keys", state=state, keys=["v"]), 30.0)
+        server.workers.close()
+        return pressed, await drawing
+
+    (status, _, content), drawn = talk(source, conversation)
+    assert status == 200 and json.loads(content)["wishes"] == ["video"] and drawn[0] == 409
 
 
 def test_questions_that_wait_when_the_server_ends_are_refused(source, caplog, monkeypatch):
@@ -288,10 +311,9 @@ def test_questions_that_wait_when_the_server_ends_are_refused(source, caplog, mo
         # Of each kind one that is worked on, and one that waits.
         asking = [asyncio.create_task(asked(session, address, what, page=page)) for page, what in QUESTIONS]
         await asyncio.to_thread(began.wait)
-        while len(server.jobs.latest) + len(server.movies.latest) < len(QUESTIONS):
+        while len(server.workers.pictures.latest) + len(server.workers.movies.latest) < len(QUESTIONS):
             await asyncio.sleep(0.01)
-        server.jobs.close()
-        server.movies.close()
+        server.workers.close()
         return [(status, content) for status, _, content in await asyncio.gather(*asking)]
 
     answers = talk(source, conversation)
@@ -363,7 +385,7 @@ def test_a_movie_comes_behind_lines_that_say_how_far_it_is(source):
         good = await asked(session, address, "movie", frames=frames, fps=25, format="svg")
         bad = await asked(session, address, "movie", frames=[], fps=25, format="svg")
         wrong = await session.post(f"{address}ask/movie", json=[])
-        return good, bad, wrong.status, server.movies.latest
+        return good, bad, wrong.status, server.workers.movies.latest
 
     good, bad, wrong, latest = talk(source, conversation)
     *progress, head = [json.loads(line) for line in good[2].partition(b"<?xml")[0].splitlines()]

@@ -218,6 +218,26 @@ class Jobs:
         self.pool.shutdown(wait=True, cancel_futures=True)
 
 
+@dataclass(frozen=True, eq=False)
+class Workers:
+    """Who makes what a page asks for: neither a key nor a picture waits for what takes longer than itself."""
+
+    quick: Jobs = field(default_factory=Jobs)
+    pictures: Jobs = field(default_factory=Jobs)
+    movies: Jobs = field(default_factory=Jobs)
+
+    def of(self, what: str) -> Jobs:
+        """Those who answer a question, by its name."""
+        if what == "movie":
+            return self.movies
+        return self.pictures if what in ("picture", "frame", "save") else self.quick
+
+    def close(self) -> None:
+        """Stop all work, as Jobs does."""
+        for jobs in (self.quick, self.pictures, self.movies):
+            jobs.close()
+
+
 # The scene that is looked at: a file, or the text that stands in the page's editor in its place.
 
 MOST_TEXT = 1 << 20

@@ -17,7 +17,7 @@ from typing import Any
 from aiohttp import web
 
 from vectorplot.viewer.answers import ERRORS, Answers, json_bytes, told
-from vectorplot.viewer.pictures import Jobs, SupersededError
+from vectorplot.viewer.pictures import SupersededError, Workers
 
 HOST = "127.0.0.1"
 
@@ -66,8 +66,7 @@ class Server:
     answers: Answers | None
     pages: Mapping[str, tuple[bytes, str]] = field(default_factory=lambda: viewer_pages())
     token: str = field(default_factory=lambda: secrets.token_urlsafe(18))
-    jobs: Jobs = field(default_factory=Jobs)
-    movies: Jobs = field(default_factory=Jobs)
+    workers: Workers = field(default_factory=Workers)
     stop: asyncio.Event = field(default_factory=asyncio.Event)
 
     def app(self) -> web.Application:
@@ -131,7 +130,7 @@ class Server:
             return web.Response(status=404, text="no such question")
         asked = await _asked(request)
         try:
-            made = await self.jobs.run(f"{_page(asked)} {what}", lambda job: answer(asked, job))
+            made = await self.workers.of(what).run(f"{_page(asked)} {what}", lambda job: answer(asked, job))
         except SupersededError:
             return web.Response(status=409, text="superseded")
         except ERRORS as error:
@@ -146,7 +145,7 @@ class Server:
         asked = await _asked(request)
         response = web.StreamResponse(headers={**HEADERS, "Content-Type": "application/octet-stream"})
         try:
-            job, made = self.movies.submit(_page(asked), lambda job: answers.movie(asked, job))
+            job, made = self.workers.movies.submit(_page(asked), lambda job: answers.movie(asked, job))
         except SupersededError:
             return web.Response(status=409, text="superseded")
         waiting = asyncio.wrap_future(made)
@@ -167,7 +166,7 @@ class Server:
         except ERRORS as error:
             await response.write(_line(told(error)))
         finally:
-            self.movies.end(job)
+            self.workers.movies.end(job)
         return response
 
 
@@ -211,8 +210,7 @@ async def serving(server: Server) -> AsyncIterator[str]:
         yield f"http://{HOST}:{runner.addresses[0][1]}/{server.token}/"
     finally:
         server.stop.set()
-        server.jobs.close()
-        server.movies.close()
+        server.workers.close()
         await runner.cleanup()
 
 

@@ -16,7 +16,7 @@ import traitlets
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.shading.image import Image
 from vectorplot.viewer.answers import ERRORS, Answers, json_bytes, told
-from vectorplot.viewer.pictures import Given, Job, Jobs, Source, SupersededError, picture
+from vectorplot.viewer.pictures import Given, Job, Source, SupersededError, Workers, picture
 from vectorplot.viewer.state import ViewerState, first_state
 
 # The page of the viewer as one module of JavaScript, as widgets in notebooks have it.
@@ -67,7 +67,7 @@ class ViewerWidget(anywidget.AnyWidget):
     def __init__(self, source: Source | Given) -> None:
         super().__init__(state=first_state(source.scene(None)).values())
         self._answers = Answers(source)
-        self._jobs, self._movies = Jobs(), Jobs()
+        self._workers = Workers()
         self.on_msg(self._heard)
 
     def picture(self) -> Drawing | Image:
@@ -87,8 +87,7 @@ class ViewerWidget(anywidget.AnyWidget):
 
     def close(self) -> None:
         """Take the widget away, and stop its work."""
-        self._jobs.close()
-        self._movies.close()
+        self._workers.close()
         super().close()
 
     def _heard(self, _widget: object, content: object, _buffers: object) -> None:
@@ -97,7 +96,7 @@ class ViewerWidget(anywidget.AnyWidget):
             return
         what, number, asked = str(content.get("what")), content.get("id"), content.get("asked")
         page = f"{str(content.get('page'))[:64]} {what}"
-        jobs = self._movies if what == "movie" else self._jobs
+        jobs = self._workers.of(what)
         if content.get("stop"):
             job = jobs.latest.get(page)
             if job is not None:
