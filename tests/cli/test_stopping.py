@@ -211,6 +211,18 @@ def test_a_signal_while_the_command_loads_is_one_line(place):
     assert_untouched(out, place)
 
 
+def test_a_signal_amid_the_making_of_a_class_is_one_line(place):
+    # Python makes another error of whatever is raised there.
+    arguments, out = command(place, COMMANDS[0])
+    code = "import functools, os, signal\nreal = functools.cached_property.__set_name__\n"
+    code += "def late(self, owner, name):\n"
+    code += "    if owner.__module__.startswith('vectorplot.scene'): os.kill(os.getpid(), signal.SIGTERM)\n"
+    code += "    real(self, owner, name)\nfunctools.cached_property.__set_name__ = late"
+    result = limited(code, arguments)
+    assert (result.returncode, result.stderr) == (143, b"vectorplot: terminated\n")
+    assert_untouched(out, place)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("latest", [0.02, 0.3])
 def test_ctrl_c_at_any_moment_after_the_first_line_is_one_line(place, latest):
@@ -226,7 +238,7 @@ def test_ctrl_c_at_any_moment_after_the_first_line_is_one_line(place, latest):
             time.sleep(moments.uniform(0.0, latest))
             process.send_signal(signal.SIGINT)
             said = [line for line in process.stderr if not line.startswith(b"import time:")]
-        assert (process.returncode, said) == (130, [b"vectorplot: interrupted\n"])
+        assert (process.returncode, said) == (130, [b"vectorplot: interrupted\n"]), b"".join(said).decode()
         assert_untouched(out, place)
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import signal
 import sys
+import threading
 import warnings
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -26,7 +27,24 @@ class Stopped(KeyboardInterrupt):
 
 
 def _stop(number: int, frame: FrameType | None) -> None:
+    """Raises Stopped; while a module loads, a moment later: Python makes other errors of what is raised in the making
+    of a class (before version 3.12), and modules in C of what is raised in what they import."""
+    while frame is not None:
+        if frame.f_code.co_filename.startswith("<frozen importlib"):
+            later = threading.Timer(0.005, _send, [number, threading.get_ident()])
+            later.daemon = True
+            later.start()
+            return
+        frame = frame.f_back
     raise Stopped(number)
+
+
+def _send(number: int, thread: int) -> None:
+    """Sends a signal to a thread of this process; where systems cannot, to the process, which wakes no thread."""
+    if hasattr(signal, "pthread_kill"):
+        signal.pthread_kill(thread, number)
+    else:
+        signal.raise_signal(number)
 
 
 @contextmanager
