@@ -8,9 +8,11 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.animation import MODES, parse_animation
+from vectorplot.animation.animation import MODES
+from vectorplot.animation.animation_file import parse_animation
 from vectorplot.animation.correspondence import half_extents, steady_fit
-from vectorplot.backends import animated_svg_bytes, pdf_pages_bytes
+from vectorplot.backends.cairo import drawing_pixels, pdf_pages_bytes
+from vectorplot.backends.svg import animated_svg_bytes, svg_bytes
 from vectorplot.geometry import box
 from vectorplot.io import parse_scene
 from vectorplot.surfaces import Sphere
@@ -113,7 +115,7 @@ def test_strokes_are_the_same_in_the_same_order_from_frame_to_frame():
 def test_frames_are_the_same_whoever_makes_them_and_in_whatever_order():
     moving = film()
     again = pickle.loads(pickle.dumps(moving))
-    assert vp.backends.svg_bytes(again.picture(2)) == vp.backends.svg_bytes(moving.picture(2))
+    assert svg_bytes(again.picture(2)) == svg_bytes(moving.picture(2))
 
 
 @pytest.mark.slow
@@ -157,7 +159,7 @@ def test_a_video_is_read_back(suffix, tmp_path):
         frames = [frame.to_ndarray(format="rgb24") for frame in video.decode(video=0)]
         assert float(video.streams.video[0].average_rate) == pytest.approx(10.0)
     still = film(page="61x41").picture(0)
-    wanted = vp.backends.cairo.drawing_pixels(still)
+    wanted = drawing_pixels(still)
     assert len(frames) == 4
     assert np.abs(frames[0][: len(wanted), : wanted.shape[1]].astype(int) - wanted).mean() < 4.0
 

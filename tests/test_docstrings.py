@@ -9,10 +9,7 @@ import functools
 import importlib
 import inspect
 import re
-import typing
-from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -166,21 +163,3 @@ def test_functions_of_classes_that_explain_what_they_are_given_explain_all_of_it
 def test_the_examples_of_what_a_room_offers_run(room):
     for name in names_of(room):
         assert_its_examples_run(name, in_room(name))
-
-
-def own_types(hint: Any) -> Iterator[type]:
-    """The classes of this package that an annotation names, however deep."""
-    if inspect.isclass(hint) and hint.__module__.startswith("vectorplot."):
-        yield hint
-    for part in hint if isinstance(hint, list) else typing.get_args(hint):
-        yield from own_types(part)
-
-
-def test_what_the_functions_of_rooms_take_and_give_is_offered_too():
-    offered = {*(getattr(vp, name) for name in CLASSES), *(in_room(name) for name in IN_ROOMS)}
-    missing = {}
-    for name in IN_ROOMS:
-        if inspect.isfunction(in_room(name)):
-            hints = typing.get_type_hints(in_room(name)).values()
-            missing |= {found.__name__: name for hint in hints for found in own_types(hint) if found not in offered}
-    assert not missing

@@ -31,7 +31,6 @@ WITH_PICTURES = {"read", "save", "save_frames", "batch"}
 ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "pictures"), ("shading/image.py", "pictures")}
 
 FOR_PROGRAMS = {
-    "features/implicit_cusps.py",
     "surfaces/algebraic.py",
     "surfaces/of_equations.py",
 }

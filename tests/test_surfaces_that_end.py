@@ -20,7 +20,8 @@ from vectorplot.curves import Circle, Loxodrome
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.expressions import parse_expression
 from vectorplot.io.shape_arguments import Formulas, formula_graph, formula_implicit
-from vectorplot.surfaces import Domain, Rotoid, Swept, minimal_spiral_surface
+from vectorplot.surfaces import Domain, minimal_spiral_surface
+from vectorplot.surfaces.swept import Rotoid, Swept
 from vectorplot.testing import assert_drawing_is_right
 from vectorplot.testing.drawings import stroke_points
 

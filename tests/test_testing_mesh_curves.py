@@ -5,6 +5,7 @@ import pytest
 
 from vectorplot import features
 from vectorplot.errors import InputError
+from vectorplot.features.mesh_integration import mesh_integral_curves
 from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_geodesic, assert_integral_curve
 from vectorplot.testing.shapes import box
@@ -26,7 +27,7 @@ def lines(curves):
 @pytest.mark.capability("G9.4-polyhedron")
 @pytest.mark.parametrize("name", FIELDS)
 def test_curves_of_a_field_pass_and_those_of_another_do_not(name):
-    own = lines(features.mesh_integral_curves(BALL, FIELDS[name], STARTS[::3], length=1.5))
+    own = lines(mesh_integral_curves(BALL, FIELDS[name], STARTS[::3], length=1.5))
     assert_integral_curve(own, BALL, FIELDS[name], 1e-7)
     turned = features.TurnedField(FIELDS[name], 0.01)
     with pytest.raises(AssertionError, match=r"segments are not on a curve of the field|run against it"):

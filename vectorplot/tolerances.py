@@ -873,9 +873,6 @@ SHALLOW_CROSSING = 1e-6
 """Product of the two larger eigenvalues of the second derivatives of an implicit surface, by their squared size, below
 which two sheets do not cross: they touch, or end in a pinch point."""
 
-ZERO_OF_BENDING = 1e-15
-"""Part of the usual bending of a contour below which it is zero: where it changes its sign the contour has a cusp."""
-
 LEVEL_CURVATURE = 1e-9
 """Part of the largest curvature along a contour below which one is rounding."""
 

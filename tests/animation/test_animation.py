@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.animation import MODES, Mode, parse_animation, read_animation
-from vectorplot.animation.animation import Track
+from vectorplot.animation import read_animation
+from vectorplot.animation.animation import MODES, Mode, Track
+from vectorplot.animation.animation_file import parse_animation
 from vectorplot.io import parse_scene
 
 SCENE = parse_scene(

@@ -11,8 +11,9 @@ from support.backend_samples import run
 
 import vectorplot as vp
 from vectorplot.backends.tikz import latex
-from vectorplot.drawing import Texts, typeset, typeset_along
+from vectorplot.drawing import typeset, typeset_along
 from vectorplot.drawing.formulas import without_formulas
+from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import box
 from vectorplot.save import write

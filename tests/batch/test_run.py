@@ -14,9 +14,9 @@ import pytest
 from support.batches import bad, contents, frame, frames
 
 import vectorplot as vp
-from vectorplot.batch import Here, Tally, Task, fingerprint, results, run
+from vectorplot.batch import Tally, Task, fingerprint, results, run
 from vectorplot.batch.running import RECORD
-from vectorplot.batch.tasks import ALONE, IN_COMPANY, Lost, answers
+from vectorplot.batch.tasks import ALONE, IN_COMPANY, Here, Lost, answers
 
 
 class Losing(Here):

@@ -11,8 +11,8 @@ import pytest
 from support.paths import DATA, ROOT
 
 import vectorplot as vp
-from vectorplot.animation import frame_drawings, read_movie
 from vectorplot.animation.animation import MODES
+from vectorplot.animation.movies import frame_drawings, read_movie
 from vectorplot.cli.main import run
 from vectorplot.save import write
 

@@ -9,7 +9,8 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.curves import Helix, Line
-from vectorplot.io import parse_scene, write_scene
+from vectorplot.io import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import DepthCue, look
 from vectorplot.surfaces import Sphere
 from vectorplot.testing.shapes import box

@@ -10,7 +10,8 @@ import pytest
 import vectorplot as vp
 from vectorplot import geometry
 from vectorplot.drawing import Fills
-from vectorplot.io import parse_scene, write_scene
+from vectorplot.io import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import Cut, FaceLook, FaceLooks, Item, Light, Material, Scene
 
 CAMERA = vp.Camera((9.0, 7.0, 6.0), (1.0, 1.0, 1.0))

@@ -9,10 +9,11 @@ import click
 import pytest
 
 import vectorplot as vp
-from vectorplot.animation import MODES
+from vectorplot.animation.animation import MODES
 from vectorplot.cli.main import run
 from vectorplot.cli.option_values import light
-from vectorplot.io import parse_scene, write_scene
+from vectorplot.io import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.save import write
 from vectorplot.viewer import command_line, first_state, picture, pressed
 from vectorplot.viewer.answers import MOST_SEGMENTS, as_written, moving

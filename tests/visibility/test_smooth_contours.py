@@ -8,7 +8,8 @@ from vectorplot import features, surfaces
 from vectorplot.features.feature_lines import Sight
 from vectorplot.features.mesh_feature_lines import smooth_contours
 from vectorplot.geometry import box
-from vectorplot.io import parse_scene, write_scene
+from vectorplot.io import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import with_lines
 
 TORUS = surfaces.Torus(3.0, 1.0)

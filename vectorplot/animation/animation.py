@@ -31,18 +31,7 @@ from vectorplot.words import check_word
 class Mode:
     """A verb, and what it is told beside all else.
 
-    Parameters
-    ----------
-    verb : {"draw", "paint", "render"}
-        The verb that makes frames.
-    options : mapping
-        Keywords of the verb.
-
-    Examples
-    --------
-    >>> from vectorplot.animation import MODES
-    >>> MODES["shading"]
-    Mode(verb='paint', options={'shadows': 'none'})
+    verb: the verb that makes frames; options: keywords of the verb.
     """
 
     verb: str
@@ -93,7 +82,7 @@ class Animation:
 
     Notes
     -----
-    Degenerate: the only frame of an animation is at time 0.
+    Edge cases: the only frame of an animation is at time 0.
 
     Source: Glaeser, chapter 10 and appendix A.4.
 

@@ -207,35 +207,7 @@ def read_animation(path: str | os.PathLike[str], scene: Scene | None = None) -> 
 
 
 def parse_animation(text: str, scene: Scene | None = None, name: str = "<text>") -> Animation:
-    """The animation that a text describes.
-
-    Parameters
-    ----------
-    text : str
-        Statements, in any order.
-    scene : Scene, optional
-        What moves. Where None, the one that the text names, in the current folder or in ``data/``.
-    name : str
-        What messages call the text.
-
-    Returns
-    -------
-    Animation
-        It can be pickled.
-
-    Raises
-    ------
-    InputError
-        With name, line and the word expected; for names that the scene does not have, and where nobody names a scene.
-
-    Examples
-    --------
-    >>> from vectorplot import animation, io
-    >>> scene = io.parse_scene("camera eye 9 0 5  DIE red box solid 2 2 2")
-    >>> film = animation.parse_animation("frames 3  eye at 0 9 0 5  at 1 0 9 5", scene)
-    >>> [film.scene(frame).camera.eye for frame in range(3)]
-    [(9.0, 0.0, 5.0), (4.5, 4.5, 5.0), (0.0, 9.0, 5.0)]
-    """
+    """The animation that a text describes."""
     return _Reader(AnimationWords(text, name), None).animation(scene)
 
 

@@ -254,7 +254,7 @@ def steady_fit(views: Iterable[tuple[Scene, Camera]], page: Page) -> tuple[Page,
     """The page of all frames, and by how much the heights of their cameras' pictures are to be multiplied, so that all
     that is ever seen fills what the margin leaves, the target in the middle.
 
-    views: the scene and the camera of each frame. Degenerate: where one of them reaches behind the eye, or too far off
+    views: the scene and the camera of each frame. Edge cases: where one of them reaches behind the eye, or too far off
     the principal ray, the camera's field of vision is what the margin leaves; so it is of nothing.
     """
     width = height = 0.0

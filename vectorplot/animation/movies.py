@@ -76,30 +76,8 @@ def packed(numbers: ArrayLike) -> bytes:
 def unpacked(content: bytes) -> Ints:
     """The numbers of twelve bits that bytes hold.
 
-    Parameters
-    ----------
-    content : bytes
-        Whole blocks of twelve bytes.
-
-    Returns
-    -------
-    (n,) array of int
-        Eight for each block, with the zeros that fill the last one.
-
-    Raises
-    ------
-    InputError
-        For a part of a block.
-
-    Notes
-    -----
+    result: (n,) eight for each block, with the zeros that fill the last one.
     Source: Glaeser, section 10.1; erratum G10-02.
-
-    Examples
-    --------
-    >>> from vectorplot import animation
-    >>> animation.unpacked(bytes.fromhex("000fff0018000ffff00074d2")).tolist()
-    [0, 4095, 1, 2048, 255, 4080, 7, 1234]
     """
     if len(content) % 12:
         raise InputError(f"{len(content)} bytes: expected blocks of 12")
@@ -126,27 +104,9 @@ FPS = 30.0
 class MoviePalette:
     """A ramp of 256 shades.
 
-    Parameters
-    ----------
-    index : int
-        0 to 253.
-    lower, upper : (int, int, int)
-        Red, green and blue of the darkest and of the brightest shade, 0 to 255.
-
-    Raises
-    ------
-    InputError
-        For numbers out of range.
-
-    Notes
-    -----
+    index: 0 to 253; lower, upper: (int, int, int) red, green and blue of the darkest and of the brightest shade, 0 to
+    255.
     Source: Glaeser, sections 4.3 and 10.1.
-
-    Examples
-    --------
-    >>> from vectorplot import animation
-    >>> animation.MoviePalette(0, (0, 0, 0), (255, 255, 255)).shades[128].tolist()
-    [128, 128, 128]
     """
 
     index: int
@@ -171,34 +131,9 @@ class MoviePalette:
 class MovieFrame:
     """Polygons and lines, each painted over those before it.
 
-    Parameters
-    ----------
-    points : (p, 2) array of int
-        0 to 4095, y upwards; one unit for both axes.
-    offsets : (m+1,) array of int
-        Polygon k has the corners offsets[k] to offsets[k+1], 2 to 253; two are those of a line.
-    palette : (m,) array of int
-        The index of the palette of each.
-    shades : (p,) array of int
-        0 to 255 for every corner; those of a line are equal.
-
-    Raises
-    ------
-    InputError
-        Where the arrays do not fit together, and for numbers out of range.
-
-    Notes
-    -----
+    points: (p, 2) 0 to 4095, y upwards; offsets: (m+1,) polygon k has the corners offsets[k] to offsets[k+1], 2 to 253;
+    palette: (m,) the index of the palette of each; shades: (p,) 0 to 255 for every corner.
     Source: Glaeser, section 10.1; errata G10-04, G10-06.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import animation
-    >>> points = np.array([(0, 0), (4095, 0), (0, 4095)])
-    >>> frame = animation.MovieFrame(points, np.array([0, 3]), np.array([0]), np.array([9, 9, 9]))
-    >>> len(frame), frame == frame
-    (1, True)
     """
 
     points: Ints = field(metadata=EACH_POINT)
@@ -243,23 +178,7 @@ class MovieFrame:
     def take(self, which: Ints | NDArray[np.bool_]) -> MovieFrame:
         """The polygons with these numbers, or those where a mask is true.
 
-        Parameters
-        ----------
-        which : (k,) array of int or bool
-            Numbers from 0, or a mask (m,).
-
-        Returns
-        -------
-        MovieFrame
-            In this order.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> from vectorplot import animation
-        >>> line = animation.MovieFrame(np.array([(0, 0), (9, 9)]), np.array([0, 2]), np.array([0]), np.array([5, 5]))
-        >>> len(line.take(np.array([0, 0]))), len(line.take(np.array([False])))
-        (2, 0)
+        which: (k,) numbers from 0, or a mask (m,).
         """
         return take(self, which)
 
@@ -268,30 +187,9 @@ class MovieFrame:
 class Movie:
     """A movie: palettes, and frames.
 
-    Parameters
-    ----------
-    palettes : tuple of MoviePalette
-        Each index once.
-    frames : tuple of MovieFrame or None
-        None is a frozen frame: the one before it, once more; first of all an empty one.
-    smooth : bool
-        Whether files have a shade for every corner; otherwise one for every polygon.
-
-    Raises
-    ------
-    InputError
-        For palettes of one index, frames in palettes that there are not, and varying shades in a movie that is not
-        smooth.
-
-    Notes
-    -----
+    palettes: each index once; frames: none is a frozen frame: the one before it, once more; smooth: whether files have
+    a shade for every corner.
     Source: Glaeser, chapter 10.
-
-    Examples
-    --------
-    >>> from vectorplot import animation
-    >>> print(animation.Movie((), (None, None)))
-    2 frames, 2 of them frozen; 0 palettes; 0 polygons, one shade each
     """
 
     palettes: tuple[MoviePalette, ...]
@@ -479,35 +377,7 @@ NEW, FROZEN = 1, 0
 def encoded(movie: Movie) -> tuple[bytes, bytes]:
     """The contents of the two files of a movie.
 
-    Parameters
-    ----------
-    movie : Movie
-        What they hold.
-
-    Returns
-    -------
-    bytes
-        Of NAME.vd1: marks, palettes, numbers of corners and shades.
-    bytes
-        Of NAME.vd2: coordinates.
-
-    Notes
-    -----
-    A quadrilateral of one shade takes 15 bytes, one with a shade for each corner 18, a line 9.
-
     Source: Glaeser, section 10.1; errata G10-03, G10-05, G10-10; decision D-8.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import animation
-    >>> gray = animation.MoviePalette(0, (0, 0, 0), (255, 255, 255))
-    >>> line = animation.MovieFrame(np.array([(0, 0), (9, 9)]), np.array([0, 2]), np.array([0]), np.array([5, 5]))
-    >>> first, second = animation.encoded(animation.Movie((gray,), (line, None)))
-    >>> list(first)
-    [255, 0, 0, 0, 0, 0, 255, 255, 255, 254, 1, 2, 0, 5, 254, 0, 255]
-    >>> second.hex()
-    '0ff000000009009000000000'
     """
     head = bytes([IDENTITY, int(movie.smooth)])
     palettes = b"".join(bytes([one.index, *one.lower, *one.upper]) for one in movie.palettes)
@@ -618,35 +488,7 @@ LARGEST_FILE_BYTES = 256 << 20
 
 
 def read_movie(path: str | os.PathLike[str]) -> Movie:
-    """The movie in two files.
-
-    Parameters
-    ----------
-    path : str or path
-        Their name, with or without .vd1 or .vd2.
-
-    Returns
-    -------
-    Movie
-        What was encoded.
-
-    Raises
-    ------
-    InputError
-        With the file and the byte, for what is no movie, or not all of it; for files of more than 256 MiB, and more
-        than 100,000 frames.
-
-    Examples
-    --------
-    >>> import pathlib, tempfile
-    >>> from vectorplot import animation
-    >>> movie = animation.Movie((), (None,))
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     for suffix, content in zip((".vd1", ".vd2"), animation.encoded(movie), strict=True):
-    ...         _ = pathlib.Path(folder, "still" + suffix).write_bytes(content)
-    ...     animation.read_movie(pathlib.Path(folder, "still")) == movie
-    True
-    """
+    """The movie in two files."""
     whole = Path(path)
     bare = whole.with_suffix("") if whole.suffix.lower() in (".vd1", ".vd2") else whole
     first, second = (bare.with_name(bare.name + suffix) for suffix in (".vd1", ".vd2"))
@@ -668,35 +510,7 @@ def _content(path: Path) -> bytes:
 def decoded(first: bytes, second: bytes, first_name: str = "<vd1>", second_name: str = "<vd2>") -> Movie:
     """The movie that the contents of two files are.
 
-    Parameters
-    ----------
-    first, second : bytes
-        The contents of NAME.vd1 and NAME.vd2.
-    first_name, second_name : str
-        What messages call them.
-
-    Returns
-    -------
-    Movie
-        What was encoded.
-
-    Raises
-    ------
-    InputError
-        As of read_movie.
-
-    Notes
-    -----
-    What follows the end is not read. A frame ends at the next one, or at the end of the movie (erratum G10-09).
-
     Source: Glaeser, section 10.2.
-
-    Examples
-    --------
-    >>> from vectorplot import animation
-    >>> movie = animation.Movie((animation.MoviePalette(3, (0, 0, 0), (9, 9, 9)),), (None, None))
-    >>> animation.decoded(*animation.encoded(movie)) == movie
-    True
     """
     places = _places(second, second_name)
     return _Reader(first, first_name, places, second_name).movie()
@@ -810,32 +624,7 @@ OFF_BY = 1.5
 def movie_of(drawings: Iterable[Drawing]) -> Movie:
     """The movie that drawings make.
 
-    Parameters
-    ----------
-    drawings : iterable of Drawing
-        The frames; lines, curves and polygons of them.
-
-    Returns
-    -------
-    Movie
-        The first polygon of each frame is the paper. A drawing like the one before it is a frozen frame. Polygons that
-        later ones cover are left out.
-
-    Notes
-    -----
-    Coordinates are multiplied by 4095 and divided by the longer side of the page. Widths of pens, texts and opacity are
-    lost: what is transparent is mixed with white.
-
     Source: Glaeser, section 10.1; errata G10-04 to G10-08.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import animation
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
-    >>> print(animation.movie_of([drawing, drawing]))
-    2 frames, 1 of them frozen; 1 palettes; 4 polygons, one shade each
     """
     recorder = Recorder()
     for drawing in drawings:
@@ -938,28 +727,7 @@ LINE = Pen(0.3)
 def frame_drawings(movie: Movie, width_mm: float = 160.0) -> Iterator[Drawing]:
     """The frames of a movie as drawings.
 
-    Parameters
-    ----------
-    movie : Movie
-        What is shown.
-    width_mm : float
-        Of the page, which has the shape of the first polygon where this is a rectangle from the lower left corner,
-        otherwise it is a square.
-
-    Returns
-    -------
-    iterator of Drawing
-        One layer of polygons and lines; of a frozen frame the one before it, or an empty one.
-
-    Notes
-    -----
     Source: Glaeser, section 10.2; erratum G10-09.
-
-    Examples
-    --------
-    >>> from vectorplot import animation
-    >>> [drawing.width_mm for drawing in animation.frame_drawings(animation.Movie((), (None, None)), 80.0)]
-    [80.0, 80.0]
     """
     first = next((frame for frame in movie.frames if frame is not None), None)
     right, top = _sheet(first)

@@ -1,5 +1,1 @@
 """Drawings as files: a backend sees a Drawing and nothing else."""
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

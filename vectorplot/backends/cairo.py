@@ -51,7 +51,7 @@ def in_meshes(areas: Areas) -> Areas:
     """The same with the triangles of their fans in place of small convex polygons that stand in a row of solid ones of
     one item, group and part, some of which are shaded.
 
-    Degenerate: polygons that are not convex, or begin with three corners in a line, stay.
+    Edge cases: polygons that are not convex, or begin with three corners in a line, stay.
     """
     if not areas.shaded.any():
         return areas
@@ -339,7 +339,7 @@ _LINE = 80
 def ascii85_decoded(text: bytes) -> bytes:
     """The bytes that a text without its end mark stands for; white space in it is passed over.
 
-    Degenerate: no text, no bytes.
+    Edge cases: no text, no bytes.
     """
     digits = b"".join(text.split()).replace(_ZEROS, b"!!!!!")
     missing = -len(digits) % 5
@@ -350,7 +350,7 @@ def ascii85_decoded(text: bytes) -> bytes:
 def ascii85_encoded(data: bytes) -> bytes:
     """The text of bytes, without an end mark, in lines of 80 characters; four zeros are one character.
 
-    Degenerate: no bytes, no text.
+    Edge cases: no bytes, no text.
     """
     missing = -len(data) % 4
     words = np.frombuffer(data + bytes(missing), dtype=">u4").astype(np.int64)
@@ -501,34 +501,7 @@ _TITLE_LENGTH = 200  # cairo refuses comments of more than 255 characters
 def ps_bytes(drawing: Drawing) -> bytes:
     """The drawing as a PostScript file of one page; fonts are in it where it has texts.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What the file holds.
-
-    Returns
-    -------
-    bytes
-        A whole file, in points of 1/72 inch; language level 2, or 3 if it has shaded triangles.
-
-    Raises
-    ------
-    InputError
-        For a point, page or pen width that is not finite, a page without area or too large, a colour other than
-        #rrggbb, an opacity that is not from 0 to 1.
-
-    Notes
-    -----
-    Degenerate: the bounding box of an empty drawing is the page.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
-    >>> backends.ps_bytes(drawing).startswith(b"%!PS-Adobe-3.0")
-    True
+    Edge cases: the bounding box of an empty drawing is the page.
     """
     return _postscript(page_marks(drawing), eps=False)
 
@@ -536,35 +509,8 @@ def ps_bytes(drawing: Drawing) -> bytes:
 def eps_bytes(drawing: Drawing) -> bytes:
     """The drawing as an encapsulated PostScript file, to be placed in documents; the bounding box is that of the ink.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What the file holds.
-
-    Returns
-    -------
-    bytes
-        As of ps_bytes, with the head of an encapsulated file.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses.
-
-    Notes
-    -----
-    Degenerate: the bounding box of an empty drawing is the page.
-
+    Edge cases: the bounding box of an empty drawing is the page.
     Source: Adobe, Encapsulated PostScript File Format Specification 3.0.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
-    >>> backends.eps_bytes(drawing).splitlines()[0]
-    b'%!PS-Adobe-3.0 EPSF-3.0'
     """
     return _postscript(page_marks(drawing), eps=True)
 
@@ -581,34 +527,7 @@ def whole_eps_bytes(drawing: Drawing) -> bytes:
 def pdf_bytes(drawing: Drawing) -> bytes:
     """The drawing as a PDF file of one page.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What the file holds; its title becomes that of the file.
-
-    Returns
-    -------
-    bytes
-        The same for the same drawing: no date is in it.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses.
-
-    Notes
-    -----
-    Degenerate: an empty drawing is an empty page.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
-    >>> content = backends.pdf_bytes(drawing)
-    >>> content.startswith(b"%PDF-"), content == backends.pdf_bytes(drawing)
-    (True, True)
+    Edge cases: an empty drawing is an empty page.
     """
     import cairo
 
@@ -628,36 +547,7 @@ def pdf_bytes(drawing: Drawing) -> bytes:
 def png_bytes(drawing: Drawing, dpi: float = DPI) -> bytes:
     """The drawing as a PNG picture on white, in sRGB and with its resolution in the file.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What the picture shows.
-    dpi : float
-        Pixels an inch.
-
-    Returns
-    -------
-    bytes
-        A picture of the size of the page, with three channels of 8 bits.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses, a resolution that is not positive and finite, and a picture of more than 32767 pixels
-        along a side or a hundred million in all.
-
-    Notes
-    -----
-    Degenerate: an empty drawing is a white page; a page smaller than a pixel has one.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> empty = vp.Drawing(254, 127, ())
-    >>> content = backends.png_bytes(empty, dpi=10)
-    >>> int.from_bytes(content[16:20], "big"), int.from_bytes(content[20:24], "big")
-    (100, 50)
+    Edge cases: an empty drawing is a white page; a page smaller than a pixel has one.
     """
     stream = io.BytesIO()
     _raster(drawing, dpi).write_to_png(stream)
@@ -823,34 +713,7 @@ def _stroke(context: cairo.Context[Any], lines: PageStrokes, scale: float, heigh
 def pdf_pages_bytes(drawings: Iterable[Drawing], title: str = "") -> bytes:
     """The drawings as a PDF file with a page for each.
 
-    Parameters
-    ----------
-    drawings : iterable of Drawing
-        What the pages hold, one after the other; only one of them is in memory at a time.
-    title : str
-        That of the file.
-
-    Returns
-    -------
-    bytes
-        The same for the same drawings: no date is in it.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses.
-
-    Notes
-    -----
-    Degenerate: no drawings are a file without pages.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> content = backends.pdf_pages_bytes([vp.Drawing(100, 80, ()), vp.Drawing(80, 100, ())])
-    >>> content.startswith(b"%PDF-"), b"/Count 2" in content
-    (True, True)
+    Edge cases: no drawings are a file without pages.
     """
     import cairo
 

@@ -31,38 +31,7 @@ _FORBIDDEN = str.maketrans(dict.fromkeys('<>/\\":;?*|=`', "_"))
 def dxf_bytes(drawing: Drawing) -> bytes:
     """The drawing as a DXF file.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What the file holds.
-
-    Returns
-    -------
-    bytes
-        DXF of the release 2010, in mm, that programs of computer-aided design and laser cutters read.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses.
-
-    Notes
-    -----
-    A layer for each of the drawing, with its colour and the nearest width that the format has; what is not plotted is
-    switched off for the plotter. Polylines are LWPOLYLINE, arcs of circles and ellipses ARC, CIRCLE and ELLIPSE, other
-    curves SPLINE, with the control points of their Bézier segments; polygons are solid HATCH, a shaded one in the mean
-    of its colours, with its transparency; texts are TEXT, their height that of capitals. Same drawing, same bytes.
-    Degenerate: an empty drawing has layers only.
-
     Source: Autodesk, DXF reference.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> text = backends.dxf_bytes(vp.Drawing(100, 80, (vp.Layer("visible", vp.Pen(), ()),))).decode()
-    >>> "1 visible" in text, text.endswith("EOF\\n")
-    (True, True)
     """
     page = page_marks(drawing)
     with _no_dates():

@@ -306,45 +306,7 @@ VERSION = 1
 
 
 def json_bytes(drawing: Drawing) -> bytes:
-    """The drawing as JSON in ASCII, one stroke or filled polygon a line.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        What the file holds.
-
-    Returns
-    -------
-    bytes
-        What read_drawing reads.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses, and for points in the world and a projection that are not finite.
-
-    Notes
-    -----
-    ``{"format": "vectorplot-drawing", "version": 1, "page_mm": [w, h], "page_from_world": 4x4 row-major, "strokes":
-    [{"kind", "item", "hidden_by", "points", "points3d", "closed"}], "fills": [{"kind", "item", "colour", "opacity",
-    "points", "points3d"}]}``; item is the item's name, points are in mm, y upwards; fills are painted one over the
-    other, colour is #rrggbb or a list with one for each corner. Strokes of smooth curves have moreover "smooth": true;
-    "curve", the number of the curve if it is known; and "directions", for each point the two angles in radians at which
-    the curve arrives and leaves, null where they are not known. A drawing with texts has "texts": [{"text", "at",
-    "size_mm", "turn_deg", "anchor", "room_mm", "hidden_by"}]. Numbers have the digits that give back the same double.
-    Nothing is clipped or rounded.
-
-    Examples
-    --------
-    >>> import json
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
-    >>> content = json.loads(backends.json_bytes(drawing))
-    >>> content["page_mm"], [stroke["item"] for stroke in content["strokes"]]
-    ([210.0, 297.0], ['triangle'])
-    """
+    """The drawing as JSON in ASCII, one stroke or filled polygon a line."""
     check(drawing)
     paths = concatenated(tuple(paths for layer in drawing.layers for paths in layer.strokes))
     fills = Fills.joined(*(fills for layer in drawing.layers for fills in layer.fills))
@@ -364,41 +326,7 @@ def json_bytes(drawing: Drawing) -> bytes:
 
 
 def read_drawing(path: str | os.PathLike[str]) -> Drawing:
-    """The drawing in a JSON file that json_bytes wrote.
-
-    Parameters
-    ----------
-    path : str or path
-        Of the file.
-
-    Returns
-    -------
-    Drawing
-        One layer for each kind of visible line, and one, ``hidden``, for all the others; beneath
-        them one with all fills, ``fills``, above them one with all texts, ``texts``. Pens are the default one: layers
-        and pens are not in the file.
-
-    Raises
-    ------
-    InputError
-        For what is no such file, with its name, and the line where it is not JSON.
-    OSError
-        Where the file cannot be read.
-
-    Examples
-    --------
-    >>> import tempfile
-    >>> from pathlib import Path
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = Path(folder, "triangle.json")
-    ...     _ = path.write_bytes(backends.json_bytes(drawing))
-    ...     backends.read_drawing(path)
-    <Drawing '': 210x297 mm, marks: boundary 1>
-    """
+    """The drawing in a JSON file that json_bytes wrote."""
     name = os.fspath(path)
     try:
         data = json.loads(Path(path).read_bytes())

@@ -282,7 +282,7 @@ def groups_of(microns: Ints, offsets: Ints, run: Ints, part: Ints) -> Ints:
     other, and do not overlap, as what is seen through two of them is to be seen through both; at least two of a group
     touch. A group ends before an item of which a polygon overlaps it, or, where it begins amid one, before that
     polygon.
-    Degenerate: polygons that cross themselves are in none, nor are those of a heap.
+    Edge cases: polygons that cross themselves are in none, nor are those of a heap.
     """
     group = np.full(len(run), -1, dtype=np.intp)
     near = run[1:] == run[:-1]
@@ -590,7 +590,7 @@ def _in_order(parts: tuple[Polygons, ...], place: tuple[Ints, ...]) -> Polygons:
 
 
 def _differ(colours: Colours, offsets: Ints) -> Bools:
-    """(m,) whether the colours of a polygon's corners differ. Degenerate: those of none do not."""
+    """(m,) whether the colours of a polygon's corners differ. Edge cases: those of none do not."""
     sizes = np.diff(offsets)
     other = any_component(colours != colours[np.repeat(np.minimum(offsets[:-1], max(len(colours) - 1, 0)), sizes)])
     count = ragged.offsets(other)[offsets]
@@ -764,7 +764,7 @@ def page_marks(drawing: Drawing) -> PageMarks:
 
     The label of a layer is its number from 1 and its name, with the prefix % if it is not to be plotted.
     Errors: InputError for a point, page or pen width that is not finite, a page without area or larger than
-    LARGEST_PAGE_MM, a colour other than #rrggbb, an opacity that is not from 0 to 1. Degenerate: strokes without length
+    LARGEST_PAGE_MM, a colour other than #rrggbb, an opacity that is not from 0 to 1. Edge cases: strokes without length
     and polygons without area are dropped.
     """
     check(drawing)

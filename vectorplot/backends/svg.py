@@ -547,69 +547,13 @@ _WIDEST_ARC = np.pi / 2.0
 def svg_text(drawing: Drawing) -> str:
     """The drawing as the text of an SVG file.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What the file holds.
-
-    Returns
-    -------
-    str
-        A whole document, that browsers, editors and drivers of plotters read.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses.
-
-    Notes
-    -----
-    Width and height in mm and a viewBox, so that a user unit is 1 mm; three decimals; y downwards. The layers are
-    top-level groups labelled ``1 visible``, ``%2 hidden``; lines are polyline and polygon elements, curves are path
-    elements with cubic segments, or with elliptic arcs where they are such; filled polygons are path elements, several
-    neighbours of one colour in one, shaded ones have linear gradients; texts are text elements. Ids begin with a hash
-    of the content, so that several drawings can share a web page; nothing else changes from run to run.
-
-    Degenerate: an empty drawing is an empty page.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> drawing = vp.draw(vp.Scene((vp.Item("triangle", triangle),)))
-    >>> text = backends.svg_text(drawing)
-    >>> 'viewBox="0 0 210 297"' in text, text.count("<polygon")
-    (True, 1)
+    Edge cases: an empty drawing is an empty page.
     """
     return svg_bytes(drawing).decode("utf-8")
 
 
 def svg_bytes(drawing: Drawing) -> bytes:
-    """The drawing as the bytes of an SVG file in UTF-8.
-
-    Parameters
-    ----------
-    drawing : Drawing
-        What the file holds.
-
-    Returns
-    -------
-    bytes
-        The text that svg_text gives.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> backends.svg_bytes(vp.Drawing(100, 80, ())).decode() == backends.svg_text(vp.Drawing(100, 80, ()))
-    True
-    """
+    """The drawing as the bytes of an SVG file in UTF-8."""
     page = page_marks(drawing)
     bodies = [_body(ink, number, page.height) for number, ink in enumerate(page.inks, start=1)]
     prefix = _content_hash(page, bodies)
@@ -758,39 +702,7 @@ _TIME_DECIMALS = 6
 def animated_svg_bytes(drawings: Iterable[Drawing], fps: float, title: str = "") -> bytes:
     """The drawings as the bytes of an SVG file that shows one after the other, again and again.
 
-    Parameters
-    ----------
-    drawings : iterable of Drawing
-        The frames, on pages of one size.
-    fps : float
-        Frames a second, positive.
-    title : str
-        That of the file.
-
-    Returns
-    -------
-    bytes
-        A group for each picture, with its layers, and in it when it is visible. A picture that comes several times is
-        in the file once. Readers that know no animation show the first frame.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses.
-
-    Notes
-    -----
-    The animation is declared in the language of SVG (SMIL): it runs where scripts do not, as in an image of a page.
-
-    Degenerate: no drawings are an empty picture.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> pages = [vp.Drawing(100, 80, ()), vp.Drawing(100, 80, (vp.Layer("visible", vp.Pen(), ()),))]
-    >>> backends.animated_svg_bytes(pages, fps=2).count(b'dur="1s"')
-    2
+    Edge cases: no drawings are an empty picture.
     """
     head = b'<?xml version="1.0" encoding="utf-8"?>\n<svg xmlns="http://www.w3.org/2000/svg" width="0" height="0">'
     shown: dict[bytes, list[int]] = {}

@@ -188,39 +188,7 @@ _BREAK = 8
 def tikz_bytes(drawing: Drawing) -> bytes:
     """The drawing as a tikzpicture for a LaTeX document.
 
-    Parameters
-    ----------
-    drawing : Drawing
-        What the picture shows.
-
-    Returns
-    -------
-    bytes
-        A tikzpicture environment, that a document with the package tikz takes in by \\input, in its exact size; in
-        ASCII but for texts, which are in UTF-8.
-
-    Raises
-    ------
-    InputError
-        For what ps_bytes refuses, and for pages of more than LARGEST_PAGE_MM.
-
-    Notes
-    -----
-    Lengths are in mm, with three decimals; a scope for each layer, with its pen; curves are cubic segments, polygons
-    are filled in drawing order; texts are nodes in the document's font, formulas between dollars among them. A shaded
-    polygon has the mean of its colours. Polylines of more than LONGEST_PATH points are several paths. Degenerate: an
-    empty drawing is an empty picture of its size.
-
     Source: Tantau, TikZ and PGF manual.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import backends
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> text = backends.tikz_bytes(vp.draw(vp.Scene((vp.Item("triangle", triangle),)))).decode()
-    >>> text.count("\\\\draw"), text.count("cycle")
-    (1, 1)
     """
     if max(drawing.width_mm, drawing.height_mm) > LARGEST_PAGE_MM:
         size = f"{drawing.width_mm:g} x {drawing.height_mm:g} mm"

@@ -1,11 +1,8 @@
-from .running import Outcome, Tally, frame_tasks, results, run
-from .tasks import Here, Processes, Submits, Task, cluster, fingerprint
+from .running import Tally, frame_tasks, results, run
+from .tasks import Processes, Task, cluster, fingerprint
 
 __all__ = [
-    "Here",
-    "Outcome",
     "Processes",
-    "Submits",
     "Tally",
     "Task",
     "cluster",

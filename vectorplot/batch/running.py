@@ -71,7 +71,7 @@ class Records:
 
 
 def _read(record: Path) -> dict[str, tuple[str, int]]:
-    """By names: fingerprints and sizes. Degenerate: lines that are none, as one that was broken off, say nothing."""
+    """By names: fingerprints and sizes. Edge cases: lines that are none, as one that was broken off, say nothing."""
     found: dict[str, tuple[str, int]] = {}
     try:
         text = record.read_text(encoding="ascii", errors="replace")
@@ -99,22 +99,8 @@ WINDOW = 32
 class Outcome:
     """What became of a task.
 
-    Parameters
-    ----------
-    path : str
-        Its file.
-    state : str
-        written, kept (it was up to date) or failed.
-    cause : str
-        Why it failed, in one line.
-    warnings : tuple of str
-        What an InputWarning said while its content was made; of workers that are threads, nothing.
-
-    Examples
-    --------
-    >>> from vectorplot.batch import Outcome
-    >>> Outcome("out/a.svg", "kept").cause
-    ''
+    path: its file; state: written, kept (it was up to date) or failed; cause: why it failed, in one line; warnings:
+    what an InputWarning said while its content was made.
     """
 
     path: str

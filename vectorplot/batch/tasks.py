@@ -109,44 +109,10 @@ NOTHING_WORKS = 3
 
 
 class Submits(Protocol):
-    """What takes calls, as the executors of `concurrent.futures` do, of this room, and of others' clusters.
-
-    Notes
-    -----
-    What it raises in place of an answer is taken for the loss of a worker.
-
-    Examples
-    --------
-    >>> from concurrent.futures import ThreadPoolExecutor
-    >>> from vectorplot.batch import Submits
-    >>> def seven(executor: Submits) -> int:
-    ...     return executor.submit(len, "letters").result()
-    >>> with ThreadPoolExecutor(1) as executor:
-    ...     seven(executor)
-    7
-    """
+    """What takes calls, as the executors of `concurrent.futures` do, of this room, and of others' clusters."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
-        """The answer to a call, which comes later.
-
-        Parameters
-        ----------
-        fn : callable
-            What is called.
-        args, kwargs : Any
-            What it is given.
-
-        Returns
-        -------
-        Future
-            Of `concurrent.futures`.
-
-        Examples
-        --------
-        >>> from vectorplot.batch import Here
-        >>> Here().submit(len, "letters").done()
-        True
-        """
+        """The answer to a call, which comes later."""
         ...
 
 
@@ -240,14 +206,7 @@ MOST_WORKERS = 1024
 
 
 class Here(Executor):
-    """This process: each call is done when it is submitted.
-
-    Examples
-    --------
-    >>> from vectorplot.batch import Here
-    >>> Here().submit(divmod, 7, 2).result()
-    (3, 1)
-    """
+    """This process: each call is done when it is submitted."""
 
     def submit(self, fn: Callable[..., Any], /, *args: Any, **kwargs: Any) -> Future[Any]:
         """The answer to a call, which has come."""

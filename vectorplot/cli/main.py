@@ -51,7 +51,7 @@ def _send(number: int, thread: int) -> None:
 def stoppable() -> Iterator[None]:
     """Where the signals of SAID raise Stopped, wherever the work is; one that was ignored before stays so.
 
-    Degenerate: outside the main thread, where Python has no signals, nothing changes.
+    Edge cases: outside the main thread, where Python has no signals, nothing changes.
     """
     before = {}
     try:

@@ -23,26 +23,8 @@ _MOST_SEGMENTS = 1 << 16
 class EllipseArc:
     """The arc centre + cos(t) first + sin(t) second, from t = start to end; a Curve where d is 3.
 
-    Parameters
-    ----------
-    centre : (d,) array of float
-        The centre of the ellipse; d is 2 or 3.
-    first, second : (d,) array of float
-        Conjugate half diameters; for a circle at right angles and as long as the radius.
-    start, end : float
-        The parameters of the two ends, in radians; the whole ellipse where nothing is said.
-
-    Notes
-    -----
-    end may be less than start: the arc then runs the other way.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves
-    >>> ellipse = curves.EllipseArc(np.zeros(2), np.array([2.0, 0.0]), np.array([0.0, 1.0]))
-    >>> ellipse.closed, ellipse.points(np.array(0.0)).tolist(), ellipse.tangents(np.array(0.0)).tolist()
-    (True, [2.0, 0.0], [0.0, 1.0])
+    centre: (d,) the centre of the ellipse; first, second: (d,) conjugate half diameters; start, end: the parameters of
+    the two ends, in radians.
     """
 
     centre: Floats
@@ -88,37 +70,7 @@ def arc_error(angle: Floats | float) -> Floats:
 def arc_path(arc: EllipseArc, *, tolerance: float) -> BezierPath:
     """An arc as cubic segments of equal parameter length, as few as lie within a tolerance of it.
 
-    Parameters
-    ----------
-    arc : EllipseArc
-        In the plane or in space.
-    tolerance : float
-        How far the path may be off the arc, in the units of the arc.
-
-    Returns
-    -------
-    BezierPath
-        Points and tangents at the ends of its segments are exact; its error is a bound of the distance.
-
-    Raises
-    ------
-    InputError
-        For a tolerance that is not positive or takes more than 2^16 segments.
-
-    Notes
-    -----
-    For a circle of radius 1: 4 segments are off by 2.7e-4, 6 by 2.4e-5, 8 by 4.2e-6.
-
     Source: Goldapp, Approximation of circular arcs by cubic polynomials, CAGD 8 (1991).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves
-    >>> circle = curves.EllipseArc(np.zeros(2), np.array([1.0, 0.0]), np.array([0.0, 1.0]))
-    >>> path = curves.arc_path(circle, tolerance=3e-4)
-    >>> path.control.shape, path.closed, bool(path.error < 3e-4)
-    ((4, 4, 2), True, True)
     """
     radius = float(norm(arc.semi_axes()[0]))
     angle = abs(arc.end - arc.start)
@@ -154,23 +106,8 @@ SMALLEST_RISE = 100.0
 class EllipseArcs:
     """Arcs centre + cos(t) first + sin(t) second, from t = start to end: first and second are the semi-axes.
 
-    Parameters
-    ----------
-    stroke : (a,) array of int
-        The number of the stroke that each arc draws.
-    centre, first, second : (a, 2) array of float
-        The centre and the semi-axes, as vectors.
-    start, end : (a,) array of float
-        In radians, end less than start for clockwise arcs.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.curves import EllipseArcs
-    >>> centre, first, second = np.array([[5.0, 5.0]]), np.array([[2.0, 0.0]]), np.array([[0.0, 1.0]])
-    >>> half = EllipseArcs(np.array([0]), centre, first, second, np.array([0.0]), np.array([np.pi]))
-    >>> half.points(np.array([[0.0, np.pi / 2]])).round(9).tolist()
-    [[[7.0, 5.0], [5.0, 6.0]]]
+    stroke: (a,) the number of the stroke that each arc draws; centre, first, second: (a, 2) the centre and the
+    semi-axes, as vectors; start, end: (a,) in radians, end less than start for clockwise arcs.
     """
 
     stroke: Ints
@@ -216,7 +153,7 @@ def recognised_arcs(points: Floats, offsets: Ints, closed: Bools, *, tolerance: 
 
     points (p,2), offsets (m+1,), closed (m,): the last point joins the first. All points of such a polyline lie within
     tolerance of its arc, which runs through them in their order, by less than a quarter from one to the next.
-    Degenerate: polylines of fewer than FEWEST_POINTS points, flatter than SMALLEST_ANGLE or SMALLEST_RISE, or of more
+    Edge cases: polylines of fewer than FEWEST_POINTS points, flatter than SMALLEST_ANGLE or SMALLEST_RISE, or of more
     than one turn are none.
     Source: the conic through five of the points, from the pencil of the line pairs through four of them; Glaeser,
     section 8.1 on conics.

@@ -26,35 +26,8 @@ _LENGTH_ROUNDS = 30
 class BezierPath:
     """A path of cubic Bézier segments, each beginning where the one before ends; a Curve where d is 3.
 
-    Parameters
-    ----------
-    control : (k, 4, d) array of float
-        The control points of the segments; d is 2 or 3.
-    closed : bool
-        Whether the end joins the start, smoothly or as a corner of a loop.
-    error : float
-        How far from the points it was fitted to it lies, at most.
-
-    Raises
-    ------
-    InputError
-        By part and split for parameters that are not inside, by flattened for a tolerance that is not positive or takes
-        more than MAX_FLAT_POINTS points.
-
-    Notes
-    -----
-    The parameter runs from 0 to k, by 1 in each segment.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves
-    >>> path = curves.BezierPath(np.array([[(0, 0), (0, 1), (2, 1), (2, 0)]], dtype=float))
-    >>> path.points(np.array([0.0, 0.5, 1.0])).tolist()
-    [[0.0, 0.0], [1.0, 0.75], [2.0, 0.0]]
-    >>> before, after = path.split(0.5)
-    >>> before.control[-1, -1].tolist(), len(path.flattened(tolerance=0.01))
-    ([1.0, 0.75], 14)
+    control: (k, 4, d) the control points of the segments; closed: whether the end joins the start, smoothly or as a
+    corner of a loop; error: how far from the points it was fitted to it lies, at most.
     """
 
     control: Floats
@@ -114,27 +87,9 @@ class BezierPath:
 class BezierPaths:
     """Many paths of cubic Bézier segments.
 
-    Parameters
-    ----------
-    control : (k, 4, d) array of float
-        The control points of the segments of all paths, one after the other.
-    offsets : (m+1,) array of int
-        Path i has the segments offsets[i] to offsets[i+1].
-    closed : (m,) array of bool
-        Which of them end where they start.
-    error : (m,) array of float
-        How far each lies from the points it was fitted to, at most.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves
-    >>> points = np.array([(0, 0), (3, 0), (0, 1), (0, 5)], dtype=float)
-    >>> paths = curves.fitted_paths(points, np.array([0, 2, 4]), np.array([False, False]), tolerance=0.1)
-    >>> [round(paths.path(i).length(), 9) for i in range(len(paths))]
-    [3.0, 4.0]
-    >>> paths.flattened(tolerance=0.1)[1].tolist()
-    [0, 2, 4]
+    control: (k, 4, d) the control points of the segments of all paths, one after the other; offsets: (m+1,) path i has
+    the segments offsets[i] to offsets[i+1]; closed: (m,) which of them end where they start; error: (m,) how far each
+    lies from the points it was fitted to, at most.
     """
 
     control: Floats = field(metadata=EACH_POINT)
@@ -189,7 +144,7 @@ def flattened(control: Floats, offsets: Ints, tolerance: float) -> tuple[Floats,
     """Polylines that lie within tolerance of paths: points (p,d) and their offsets (m+1,).
 
     Errors: InputError for a tolerance that is not positive, or one that takes more than MAX_FLAT_POINTS points.
-    Degenerate: a path without segments gives no points; a straight segment one chord.
+    Edge cases: a path without segments gives no points; a straight segment one chord.
     Source: Wang's bound, Goldman, Pyramid Algorithms, section 5.6: a chord of width 1/n is off by at most the largest
     second difference times 6/8 over n squared.
     """
@@ -248,7 +203,7 @@ def clipped_paths(paths: BezierPaths, low: Floats, high: Floats) -> tuple[Bezier
 
     Segments are divided where they cross the border, which is exact but for rounding.
     Paths keep their order; a closed path that is cut becomes open ones.
-    Degenerate: what only touches the border leaves nothing; a path without segments is left out.
+    Edge cases: what only touches the border leaves nothing; a path without segments is left out.
     Source: de Casteljau's scheme at the roots of the coordinates' polynomials.
     """
     size = np.diff(paths.offsets)
@@ -366,7 +321,7 @@ def cubic_error(degree: int, off: Floats, weights: Floats | None) -> Floats:
     """(k,) how far cubics are off curves of a degree, at most: off (c,k,d) is how far they are at the places, weights
     (c+2,k) those of the curves at the start, at the places and at the end, None where they have none.
 
-    Degenerate: infinite where the weights may vanish, and for degrees of more than HIGHEST.
+    Edge cases: infinite where the weights may vanish, and for degrees of more than HIGHEST.
     """
     count, many = off.shape[:2]
     if degree > HIGHEST:

@@ -347,7 +347,7 @@ class _Problem:
         """Handles (2,k) of parabolas whose tangents meet, and parameters (n,): exact for points on them.
 
         In the basis of the two sides to the point where the tangents meet, a point of the parabola has the coordinates
-        2 t - t^2 and t^2. Degenerate: where the tangents do not meet ahead, straight handles.
+        2 t - t^2 and t^2. Edge cases: where the tangents do not meet ahead, straight handles.
         """
         cosine = (self.leaving * self.arriving).sum(axis=0)
         det = 1.0 - cosine * cosine
@@ -472,58 +472,11 @@ def fitted_paths(
 ) -> BezierPaths:
     """Smooth Bézier paths within a tolerance of polylines, all fitted at once.
 
-    Parameters
-    ----------
-    points : (p, d) array of float
-        The points of all polylines, one after the other; d is 2 or 3.
-    offsets : (m+1,) array of int
-        Polyline i has the points offsets[i] to offsets[i+1].
-    closed : (m,) array of bool
-        The last point joins the first, which is not repeated (it may be).
-    tangents : (p, d) or (p, 2, d) array of float, optional
-        Forwards and of any length; zero where the curve has a corner, NaN where nothing is known. Two of them: with
-        which the curve arrives at the point and with which it leaves it.
-    tolerance : float
-        How far a point may be off its path, in the units of the points.
-    corner_angle : float
-        A polyline that turns by more at one point, where no tangents are known, has a corner there; in radians, 30
-        degrees where nothing is said.
-    sag : float
-        How far the polylines are off the curves that they sample, at most.
-
-    Returns
-    -------
-    BezierPaths
-        One path for each polyline, with its error.
-
-    Raises
-    ------
-    InputError
-        For wrong shapes, points that are not finite, a tolerance that is not positive.
-
-    Notes
-    -----
-    Every point lies within tolerance of its path, as the paths' error says; between two points the path keeps within
-    tolerance, plus c/2 tan(a), of their chord c, where a is the angle between chord and tangents: the room a smooth
-    curve through the points takes, at most sag. The direction is continuous except at ends and corners, and where a
-    chord has to stay straight to be so near. Corners are where known tangents say so; where none are known, where the
-    polyline turns by more than corner_angle at one point, or by more than that of a smooth curve with chords so near.
-
-    Degenerate: repeated points count once; two points, or points on a straight line, give one straight segment; a
-    single point a segment of length 0; a line without points a path without segments.
-
+    points: (p, d) the points of all polylines, one after the other; offsets: (m+1,) polyline i has the points
+    offsets[i] to offsets[i+1]; closed: (m,) the last point joins the first, which is not repeated (it may be);
+    tangents: (p, d) forwards and of any length.
     Source: Schneider, An algorithm for automatically fitting digitized curves, Graphics Gems (1990), for tangents first
     and handles by least squares; spans that fail are divided evenly by the sixth-order law of their error.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves
-    >>> t = np.linspace(0.0, np.pi, 50)
-    >>> half = np.stack([np.cos(t), np.sin(t)], axis=1)
-    >>> paths = curves.fitted_paths(half, np.array([0, 50]), np.array([False]), tolerance=1e-3)
-    >>> len(paths), bool(paths.error[0] <= 1e-3), round(paths.path(0).length(), 2)
-    (1, True, 3.14)
     """
     _check(points, offsets, tangents, tolerance)
     lines, given, kept = _lines(np.asarray(points, dtype=np.float64), offsets, closed, tangents)
@@ -543,37 +496,7 @@ def fitted_paths(
 def fitted_curve(curve: Curve, *, tolerance: float) -> BezierPath:
     """A smooth Bézier path within a tolerance of a curve, from its start to its end.
 
-    Parameters
-    ----------
-    curve : Curve
-        With points and tangents that are finite.
-    tolerance : float
-        How far the path may be off the curve, in the units of the curve.
-
-    Returns
-    -------
-    BezierPath
-        With its error; closed where the curve is.
-
-    Raises
-    ------
-    InputError
-        For a curve with points that are not finite, or one that is not within tolerance with 2^17 samples; for a
-        tolerance that is not positive.
-
-    Notes
-    -----
-    The curve is sampled with its tangents, ever finer, until a path fitted to the samples lies within tolerance of
-    three more between each two of them.
-
     Source: as of fitted_paths.
-
-    Examples
-    --------
-    >>> from vectorplot import curves
-    >>> path = curves.fitted_curve(curves.Helix(radius=1.0, rise=0.1), tolerance=1e-3)
-    >>> bool(path.error <= 1e-3), path.points(path.end).round(9).tolist() == [1.0, 0.0, 0.628318531]
-    (True, True)
     """
     count = _CURVE_SAMPLES
     while count <= _MOST_SAMPLES:

@@ -63,24 +63,7 @@ class Curve(Protocol):
 
 
 def is_curve(shape: object) -> TypeGuard[Curve]:
-    """Whether a shape is a curve in space.
-
-    Parameters
-    ----------
-    shape : object
-        Whatever an item may show: a mesh, a surface, a curve.
-
-    Returns
-    -------
-    bool
-        True for what has tangents.
-
-    Examples
-    --------
-    >>> from vectorplot import curves, surfaces
-    >>> curves.is_curve(curves.Circle()), curves.is_curve(surfaces.Sphere())
-    (True, False)
-    """
+    """Whether a shape is a curve in space."""
     return hasattr(shape, "tangents")
 
 

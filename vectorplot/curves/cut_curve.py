@@ -73,24 +73,7 @@ HALVINGS = 60
 class CutCurve(MovableCurve):
     """What is left of a curve between some of its parameters.
 
-    Parameters
-    ----------
-    curve : Curve
-        What is cut.
-    parts : (k, 2) array of float
-        From where to where it is left, rising and apart from each other; at least one.
-
-    Notes
-    -----
-    Its points are those of the curve, exactly; what is cut away is a hole.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves
-    >>> ring = curves.CutCurve(curves.Circle(), np.array([(0.0, 1.0), (4.0, 5.0)]))
-    >>> ring.start, ring.end, ring.points(np.array([0.0, 2.0]))[:, 0].tolist()
-    (0.0, 5.0, [1.0, nan])
+    curve: what is cut; parts: (k, 2) from where to where it is left, rising and apart from each other.
     """
 
     curve: Curve
@@ -141,7 +124,7 @@ def parts_outside(curve: Curve, regions: tuple[HalfSpaces, ...], within: HalfSpa
     """(k,2) parameters between which a curve is outside of regions, and inside of one.
 
     Ends are zeros of the distance from a plane, down to rounding, but for parts that are shorter than a PLACES-th.
-    Degenerate: what lies in a plane is outside, and inside of the one.
+    Edge cases: what lies in a plane is outside, and inside of the one.
     """
     t = np.union1d(np.linspace(curve.start, curve.end, PLACES + 1), breaks_of(curve))
     every = (*regions, *([] if within is None else [within]))

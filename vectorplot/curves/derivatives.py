@@ -54,7 +54,7 @@ def limits_of(values: Callable[..., Floats], low: Floats, high: Floats, *, looks
 
     values(u, v) -> (n, k), NaN where the function has none. A component that grows without end about one of its
     extreme values is cut off at its inner fences, above and below.
-    Degenerate: poles that all of the looks miss are not found; a function all but constant has no fences.
+    Edge cases: poles that all of the looks miss are not found; a function all but constant has no fences.
     Source: Tukey, Exploratory Data Analysis, 1977, chapter 2 (inner fences).
     """
     step = (high - low) / looks

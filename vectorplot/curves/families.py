@@ -47,7 +47,7 @@ class Circle(MovableCurve):
     Notes
     -----
     It starts at the horizontal direction that stands on the axis, and turns counter-clockwise seen from the axis' tip.
-    Degenerate: for an upright axis it starts in the direction of x.
+    Edge cases: for an upright axis it starts in the direction of x.
 
     Source: Glaeser, section 8.1, equations 3 and 4.
 
@@ -137,7 +137,7 @@ def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
 
     Notes
     -----
-    Degenerate: s = r - a or s = r + a: one smooth loop that passes its double point twice; both (equal radii, a = 0):
+    Edge cases: s = r - a or s = r + a: one smooth loop that passes its double point twice; both (equal radii, a = 0):
     two ellipses, Steinmetz's. Cylinders that are too far apart: no branch. Cases count as equal within rounding.
 
     Source: Glaeser, section 8.1, example 4, equations 6 to 8; errata G8-01, G8-02.
@@ -162,34 +162,8 @@ def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
 def cylinder_branches(r: float, s: float, a: float) -> tuple[Curve, ...]:
     """The branches that cylinder_intersection gives, without a word where the cylinders touch in a point.
 
-    Parameters
-    ----------
-    r, s : float
-        The radii, positive.
-    a : float
-        The distance of the axes, 0 or more.
-
-    Returns
-    -------
-    tuple of Curve
-        As of cylinder_intersection.
-
-    Raises
-    ------
-    InputError
-        For radii that are not positive, a < 0, and numbers that are not finite.
-
-    Notes
-    -----
-    Degenerate: as of cylinder_intersection.
-
+    Edge cases: as of cylinder_intersection.
     Source: Glaeser, section 8.1, example 4, equations 6 to 8; errata G8-01, G8-02.
-
-    Examples
-    --------
-    >>> from vectorplot import curves
-    >>> curves.cylinder_branches(2, 1, 3)
-    ()
     """
     r, s, a = positive("cylinder radius r", r), positive("cylinder radius s", s), number("distance of the axes a", a)
     if a < 0.0:
@@ -515,7 +489,7 @@ class Loxodrome(MovableCurve):
     Notes
     -----
     With k = t cot(alpha) the point is r (cos t / cosh k, sin t / cosh k, -tanh k), which is the source's formula
-    simplified; it crosses the equator at t = 0 and winds round the poles for ever. Degenerate: alpha = pi/2 is the
+    simplified; it crosses the equator at t = 0 and winds round the poles for ever. Edge cases: alpha = pi/2 is the
     equator.
 
     Source: Glaeser, section 8.1, equation 5.

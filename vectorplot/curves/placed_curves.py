@@ -219,7 +219,7 @@ def curve_of_function(
 
     Notes
     -----
-    Degenerate: where the function is not finite the curve has a hole, NaN.
+    Edge cases: where the function is not finite the curve has a hole, NaN.
 
     Source: Glaeser, section 8.1, equation 1.
 

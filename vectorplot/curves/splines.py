@@ -92,25 +92,9 @@ HIGHEST_ORDER = 32
 class Basis:
     """The B-splines of an order over knots: what control points are multiplied by.
 
-    Parameters
-    ----------
-    knots : (n + order,) array of float
-        They do not fall, and run on beyond the range of a closed spline.
-    order : int
-        One more than the degree of the polynomials.
-    closed : bool
-        Whether start and end are one place.
-
-    Notes
-    -----
+    knots: (n + order,) they do not fall, and run on beyond the range of a closed spline; order: one more than the
+    degree of the polynomials; closed: whether start and end are one place.
     Source: de Boor, A practical guide to splines, chapter 9; Glaeser, section 9.2, equations 14 and 15.
-
-    Examples
-    --------
-    >>> from vectorplot import curves
-    >>> basis = curves.BSpline(order=4).basis(6)
-    >>> basis.count, basis.start, basis.end, basis.breaks.tolist()
-    (6, 0.0, 3.0, [0.0, 1.0, 2.0, 3.0])
     """
 
     knots: Floats
@@ -772,38 +756,10 @@ def checked_weights(name: str, weights: ArrayLike | None, shape: tuple[int, ...]
 class SplineCurve(MovableCurve):
     """A curve of polynomial pieces, or of their quotients: control points over knots (NURBS).
 
-    Parameters
-    ----------
-    controls : (n, 3) array_like of float
-        The control points, in world units; of a closed one with those that come again.
-    knots : (n + order,) array_like of float
-        They do not fall. The curve runs from knot number order - 1, counted from 0, to knot number n.
-    order : int
-        One more than the degree of its polynomials, 2 to 32.
-    weights : (n,) array_like of float, optional
-        Of the control points, positive: the greater, the more a point attracts the curve. Where None all are 1.
-    closed : bool
-        Whether it is a loop; it may have a corner where it begins.
-
-    Raises
-    ------
-    InputError
-        For numbers that are not finite, knots that fall or are repeated so often that the curve would break, weights
-        that are not positive, and one that is called closed and does not end where it begins.
-
-    Notes
-    -----
-    Made by `spline_curve` and `nurbs_curve`. Derivatives are exact, of every order.
-
+    controls: (n, 3) the control points, in world units; knots: (n + order,) they do not fall; order: one more than the
+    degree of its polynomials, 2 to 32; weights: (n,) of the control points, positive: the greater, the more a point
+    attracts the curve; closed: whether it is a loop.
     Source: Piegl and Tiller, The NURBS book, chapters 3 to 5.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves
-    >>> arc = curves.SplineCurve([(1, 0, 0), (1, 1, 0), (0, 1, 0)], [0, 0, 0, 1, 1, 1], 3, weights=[1, 0.5**0.5, 1])
-    >>> bool(np.allclose(np.linalg.norm(arc.points(np.linspace(0, 1, 9)), axis=1), 1.0))
-    True
     """
 
     controls: ArrayLike
@@ -874,32 +830,8 @@ class SplineCurve(MovableCurve):
     def with_knots(self, values: ArrayLike) -> SplineCurve:
         """The same curve with more knots, and so with more control points.
 
-        Parameters
-        ----------
-        values : (k,) array_like of float
-            Between start and end; a value may come several times.
-
-        Returns
-        -------
-        SplineCurve
-            Its points and derivatives are the same.
-
-        Raises
-        ------
-        InputError
-            For values beyond the ends, and more of one than make a corner.
-
-        Notes
-        -----
+        values: (k,) between start and end.
         Source: Boehm, Inserting new knots into B-spline curves, CAD 12 (1980), all at once.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> from vectorplot import curves
-        >>> curve = curves.spline_curve([(0, 0, 0), (1, 2, 0), (2, 0, 0)], curves.BSpline(order=3))
-        >>> curve.with_knots([0.5]).controls.tolist()
-        [[0.0, 0.0, 0.0], [0.5, 1.0, 0.0], [1.5, 1.0, 0.0], [2.0, 0.0, 0.0]]
         """
         new = np.atleast_1d(np.asarray(values, dtype=np.float64))
         if not ((new > self.start) & (new < self.end)).all():
@@ -907,30 +839,7 @@ class SplineCurve(MovableCurve):
         return self._over(np.sort(np.concatenate([self.basis.knots, new])), self.closed)
 
     def part(self, start: float, end: float) -> SplineCurve:
-        """The curve between two parameters, open, by itself.
-
-        Parameters
-        ----------
-        start, end : float
-            Within the range of the curve.
-
-        Returns
-        -------
-        SplineCurve
-            It begins and ends in its first and last control point.
-
-        Raises
-        ------
-        InputError
-            For an empty range, and one that leaves that of the curve.
-
-        Examples
-        --------
-        >>> from vectorplot import curves
-        >>> curve = curves.spline_curve([(0, 0, 0), (1, 2, 0), (2, 0, 0)], curves.BSpline(order=3))
-        >>> curve.part(0.0, 0.5).controls.tolist()
-        [[0.0, 0.0, 0.0], [0.5, 1.0, 0.0], [1.0, 1.0, 0.0]]
-        """
+        """The curve between two parameters, open, by itself."""
         if not self.start <= start < end <= self.end:
             raise InputError(f"spline: {start:g} to {end:g} is no part of {self.start:g} to {self.end:g}")
         own = self.basis.knots
@@ -938,20 +847,7 @@ class SplineCurve(MovableCurve):
         return self._over(np.concatenate(ends), False)
 
     def smooth_parts(self) -> tuple[SplineCurve, ...]:
-        """The curve cut at its corners: itself where it has none.
-
-        Returns
-        -------
-        tuple of SplineCurve
-            In the order of t.
-
-        Examples
-        --------
-        >>> from vectorplot import curves
-        >>> polygon = curves.spline_curve([(0, 0, 0), (1, 0, 0), (1, 1, 0)], curves.BSpline(order=2))
-        >>> [part.controls.tolist() for part in polygon.smooth_parts()]
-        [[[0.0, 0.0, 0.0], [1.0, 0.0, 0.0]], [[1.0, 0.0, 0.0], [1.0, 1.0, 0.0]]]
-        """
+        """The curve cut at its corners: itself where it has none."""
         if not len(self.corners):
             return (self,)
         places = np.unique([self.start, *self.corners, self.end]).tolist()
@@ -960,26 +856,7 @@ class SplineCurve(MovableCurve):
     def bezier_pieces(self) -> tuple[Floats, Floats]:
         """The Bézier curves that the curve consists of, and the weights of their control points.
 
-        Returns
-        -------
-        (k, order, 3) array of float
-            The control points of the k pieces between neighbouring breaks.
-        (k, order) array of float
-            Their weights, 1 where the curve has none.
-
-        Notes
-        -----
-        Exact: a parallel projection of the control points gives the pieces of the image, a central one where the
-        weights are multiplied by the depths.
-
         Source: Piegl and Tiller, The NURBS book, section 5.3.
-
-        Examples
-        --------
-        >>> from vectorplot import curves
-        >>> curve = curves.spline_curve([(0, 0, 0), (1, 2, 0), (3, 2, 0), (4, 0, 0)], curves.BSpline(order=3))
-        >>> curve.bezier_pieces()[0].tolist()[0]
-        [[0.0, 0.0, 0.0], [1.0, 2.0, 0.0], [2.0, 2.0, 0.0]]
         """
         breaks, p = self.breaks, self.order - 1
         knots = np.concatenate([breaks[:1], np.repeat(breaks, p), breaks[-1:]])

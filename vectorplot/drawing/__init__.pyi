@@ -2,33 +2,28 @@ from .drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from .fill_visibility import visible_fills
 from .fills import FillKind, Fills
 from .hatching import hatched_fills
-from .letters import Lettering, lettered, typeset
+from .letters import lettered, typeset
 from .painted_fills import placement_of_faces
-from .pen_order import pen_ordered, travel_mm
-from .sheets import DrawingScale, Sheet, contact_sheet
+from .pen_order import travel_mm
+from .sheets import Sheet, contact_sheet
 from .stroke_curves import curved_strokes
 from .strokes import split_long
 from .text_along import lettered_along, typeset_along
-from .texts import Texts
 
 __all__ = [
     "CurvedStrokes",
     "Drawing",
-    "DrawingScale",
     "FillKind",
     "Fills",
     "Layer",
-    "Lettering",
     "Paths",
     "Pen",
     "Sheet",
-    "Texts",
     "contact_sheet",
     "curved_strokes",
     "hatched_fills",
     "lettered",
     "lettered_along",
-    "pen_ordered",
     "placement_of_faces",
     "split_long",
     "travel_mm",

@@ -50,7 +50,7 @@ class LogAxis:
     def around(cls, label: str, values: Iterable[float]) -> LogAxis:
         """The axis with all values that are positive and finite inside, and a little room.
 
-        Degenerate: no such value gives the axis from 0.1 to 10, a single one a power of ten about it.
+        Edge cases: no such value gives the axis from 0.1 to 10, a single one a power of ten about it.
         """
         usable = [value for value in values if 0.0 < value < np.inf]
         if not usable:

@@ -31,7 +31,7 @@ def dashed(
     by default a parallel projection; dot_mm: of the dots in the middle of gaps. There are about length / (dash + gap)
     dashes: clip to the page first.
     Errors: InputError unless the dash is positive, the gap positive or zero, and the dot no longer than the gap.
-    Degenerate: an open stroke that is too short for that has two shorter dashes and a gap between them; one that is
+    Edge cases: an open stroke that is too short for that has two shorter dashes and a gap between them; one that is
     shorter than a dash, or with dots has no room for two, stays whole. With a gap of 0 nothing changes.
     """
     if not (0.0 < dash_mm < np.inf and 0.0 <= gap_mm < np.inf):

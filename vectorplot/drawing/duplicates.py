@@ -317,7 +317,7 @@ def pairs_in_dense_groups(owner: Ints, run: Ints, line: Ints) -> Iterator[tuple[
 def with_shared_kinds(view: View, lines: Lines) -> Lines:
     """The lines; creases are contours where contours of other items lie on them in space.
 
-    Only straight lines are looked at. Degenerate: lines of one item stay as they are.
+    Only straight lines are looked at. Edge cases: lines of one item stay as they are.
     """
     straight = ~lines.smooth & np.isin(lines.kind, (LineKind.CONTOUR, LineKind.CREASE))
     which = np.flatnonzero(straight & _in_front(view, lines))
@@ -409,7 +409,7 @@ def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> 
     chords of a curve, which gives way to curves of smaller rank only. A chord goes if its ends and the middle of its
     own arc lie on arcs of smaller rank, within tolerance_mm and a little of the arcs' height, and so does all
     of its curve, or TOUCHING_MM of it in a row; chords without length go too. Strokes keep their order.
-    Degenerate: curves that overlap in part may go on doing so over less than a chord at the ends of the common part.
+    Edge cases: curves that overlap in part may go on doing so over less than a chord at the ends of the common part.
     Source: cubic Hermite arcs over the chords, with the tangents of the curves, or where these are not known of circles
     through three neighbouring points.
     """

@@ -223,7 +223,7 @@ def listed(fills: Fills, parts: Any, source: Ints, page_from_world: Floats) -> F
 def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats) -> Floats:
     """(c,3) where the sight lines of points (c,2) of the page meet the planes of fills (c,).
 
-    Degenerate: of a fill that is seen edge-on, or has no area, the nearest place on its border.
+    Edge cases: of a fill that is seen edge-on, or has no area, the nearest place on its border.
     """
     if not len(points):
         return np.zeros((0, 3))
@@ -294,7 +294,7 @@ def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats,
     borders between them, and so does what lies on them. page_from_world (4,4) as in Drawing. Polygons of one colour
     that follow each other on the same one become one. What lies on polygons that one can see through stays as it is.
     Error: parts narrower than a few of GRID_MM are left out.
-    Degenerate: what is covered as a whole is left out; heaps of more than MOST_LAYERS or MOST_CLEAR stay as they are,
+    Edge cases: what is covered as a whole is left out; heaps of more than MOST_LAYERS or MOST_CLEAR stay as they are,
     but that what has one colour is brought together where several polygons are one.
     """
     opaque = (base.opacity >= 1.0) & (base.kind != FillKind.BACKGROUND)

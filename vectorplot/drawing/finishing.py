@@ -42,7 +42,7 @@ def trimmed_ends(paths: Paths, width_mm: float, page_from_world: Floats) -> Path
     stops where the gaps to its neighbours would be narrower than the lines, every fourth one at half of that distance,
     and so on; one reaches the point. Strokes that go on through the point are divided there.
 
-    Degenerate: strokes that would lose more than a third of their length at one end lose only that.
+    Edge cases: strokes that would lose more than a third of their length at one end lose only that.
     """
     paths = _divided(paths)
     open_ = np.flatnonzero(~paths.closed & (np.diff(paths.offsets) > 1))

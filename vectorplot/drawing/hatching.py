@@ -214,7 +214,7 @@ def _in_triangles(fills: Fills) -> Fills:
 def _darkness(fills: Fills) -> tuple[Floats, Floats, Floats]:
     """(m,3) the planes of darkness over plain polygons and shaded triangles, and (m,) the least and the largest one.
 
-    Degenerate: triangles without area are as dark as the mean of their corners.
+    Edge cases: triangles without area are as dark as the mean of their corners.
     """
     first = fills.offsets[:-1]
     dark = (1.0 - matmul(fills.colours, LUMINANCE) / 255.0) * np.repeat(fills.opacity, np.diff(fills.offsets))
@@ -273,7 +273,7 @@ def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) 
 
     Of lines that are d mm apart, each has a rank between 0 and 1; it is drawn where its rank is less than the share of
     them that is needed for the ink. So where lines come closer on the page, there are fewer of them.
-    Degenerate: places of no region are as dark as the nearest one.
+    Edge cases: places of no region are as dark as the nearest one.
     """
     paths = chosen(lines.paths, lines.paths.item == lines.item)
     some = regions.take(regions.item == lines.item)
@@ -451,7 +451,7 @@ def plane_frame(regions: TonedRegions, angle: float, page_from_world: Floats) ->
 
     In level planes the angle is from the x axis. Planes of one item with one normal are one where they coincide but for
     SAME_PLANE_OF_EXTENT.
-    Degenerate: a plane seen edge-on has no regions.
+    Edge cases: a plane seen edge-on has no regions.
     """
     of = np.repeat(regions.of, np.diff(regions.offsets))
     corners = in_space(regions.fills, regions.points.T, regions.source[of], page_from_world)
@@ -525,7 +525,7 @@ def scanned(u: Floats, v: Floats, offsets: Ints, region: Ints, spacing: Floats) 
     u, v (c,): corners of rings offsets (n+1,); region (n,): which each ring bounds, from outside or as a hole; spacing
     (r,) of regions. So neighbours of one spacing share their lines, and lines meet corners seldom: a corner on a line
     counts as above it.
-    Errors: InputError for more than MOST_STROKES parts. Degenerate: regions between two lines have none.
+    Errors: InputError for more than MOST_STROKES parts. Edge cases: regions between two lines have none.
     """
     of = np.repeat(region, np.diff(offsets))
     after = ragged.following(offsets)
@@ -574,7 +574,7 @@ def stippled(regions: TonedRegions, stippling: Stippling, page_from_world: Float
 
     Dots begin at equal shares of the darkness along a curve that fills the page, and move to the middles of the
     darkness that is nearer to each than to the others, again and again.
-    Degenerate: where all is white there are none; and no more than there are places FINEST_MM apart.
+    Edge cases: where all is white there are none; and no more than there are places FINEST_MM apart.
     Source: Lloyd, Least squares quantization in PCM (1982); Secord, Weighted Voronoi stippling (2002).
     """
     from scipy.spatial import cKDTree

@@ -474,7 +474,7 @@ def direction_at(seen: SeenLabels, number: int, placement: Placement) -> Floats:
 def marked(label: Label, point: Floats, way: Floats, mm: float) -> list[Floats]:
     """The strokes of the mark at the point of a label, where a curve has the direction way.
 
-    Degenerate: no arrowheads and no ticks where the curve is seen end-on, way is zero.
+    Edge cases: no arrowheads and no ticks where the curve is seen end-on, way is zero.
     """
     if label.mark in ("arrow", "tick") and not way.any():
         return []

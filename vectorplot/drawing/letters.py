@@ -429,22 +429,9 @@ DESCENT = 1.0 / 3.0
 class Lettering:
     """A text on the page: strokes of a pen, or lines in a font.
 
-    Parameters
-    ----------
-    strokes : Polylines
-        Points (p, 2) in mm, y upwards; letter by letter as one reads. None where it is typeset.
-    boxes : (b, 4, 2) array of float
-        The corners of the rectangles that the text fills, counter-clockwise from the lower left one as one reads: one
-        for each line, as high as its letters; or of a text along a curve one for each letter.
-    texts : Texts
-        Its lines where it is typeset, or of a text along a curve its letters.
-
-    Examples
-    --------
-    >>> from vectorplot import drawing
-    >>> text = drawing.lettered("I", size_mm=7)
-    >>> text.strokes.points.max(axis=0).round(6).tolist()
-    [1.333333, 7.0]
+    strokes: points (p, 2) in mm, y upwards; boxes: (b, 4, 2) the corners of the rectangles that the text fills,
+    counter-clockwise from the lower left one as one reads: one for each line, as high as its letters; texts: its lines
+    where it is typeset, or of a text along a curve its letters.
     """
 
     strokes: Polylines
@@ -518,7 +505,7 @@ def lettered(
 
     Notes
     -----
-    Degenerate: an empty text, and one of blanks, has no strokes.
+    Edge cases: an empty text, and one of blanks, has no strokes.
 
     Source: Hershey, Calligraphy for computers, U.S. Naval Weapons Laboratory, report 2101 (1967).
 
@@ -574,7 +561,7 @@ def typeset(
 
     Notes
     -----
-    Degenerate: an empty line, and one of blanks, is none.
+    Edge cases: an empty line, and one of blanks, is none.
 
     Examples
     --------

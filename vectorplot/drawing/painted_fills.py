@@ -71,7 +71,7 @@ def placement_of_faces(view: View, faces: ImageFaces, page: Page, fit: bool, bes
 
     Notes
     -----
-    Degenerate: where the faces reach behind the eye, or more than 60 degrees off the principal ray, the picture shows
+    Edge cases: where the faces reach behind the eye, or more than 60 degrees off the principal ray, the picture shows
     the camera's field of vision. Without faces the origin of the image is in the middle.
 
     Examples

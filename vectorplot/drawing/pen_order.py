@@ -780,38 +780,9 @@ _PLACE_BITS = 32
 def pen_ordered(paths: Paths, layer: Ints | None = None) -> Paths:
     """The same strokes in an order, with directions and (closed ones) first points that make the pen's travel short.
 
-    Parameters
-    ----------
-    paths : Paths
-        Strokes that one pen draws.
-    layer : array (m,), optional
-        The layer of each stroke, where there are several: each is ordered for itself, one after the other.
-
-    Returns
-    -------
-    Paths
-        Each stroke once, some of them turned round or begun elsewhere.
-
-    Notes
-    -----
-    The pen begins anywhere; the end of the tour nearer to the page's corner comes first. The result does not depend on
-    the order or the directions of the given strokes, except among strokes with equal ends.
-
-    Degenerate: strokes without points come last, as given.
-
+    Edge cases: strokes without points come last, as given.
     Source: Bentley, Fast algorithms for geometric traveling salesman problems, ORSA J. Computing 4 (1992): greedy
     matching, 2-opt, Or-opt with neighbour lists.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.drawing import Paths, pen_ordered, travel_mm
-    >>> points = np.array([(0.0, 0.0), (0.0, 50.0), (20.0, 0.0), (20.0, 50.0), (10.0, 0.0), (10.0, 50.0)])
-    >>> none, open_ = np.zeros(3, dtype=int), np.zeros(3, dtype=bool)
-    >>> lines = Paths(points, np.array([0, 2, 4, 6]), open_, none, none, none, np.zeros((6, 3)))
-    >>> ordered = pen_ordered(lines)
-    >>> round(travel_mm(lines), 1), round(travel_mm(ordered), 1)
-    (104.8, 20.0)
     """
     if layer is None:
         layer = np.zeros(len(paths), dtype=np.intp)
@@ -862,7 +833,7 @@ def travel_mm(paths: Paths) -> float:
 
     Notes
     -----
-    Degenerate: 0 for no stroke or one; strokes without points count as none.
+    Edge cases: 0 for no stroke or one; strokes without points count as none.
 
     Examples
     --------

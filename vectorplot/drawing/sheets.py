@@ -226,7 +226,7 @@ def contact_sheet(
 
     Notes
     -----
-    Degenerate: without drawings the sheet is empty.
+    Edge cases: without drawings the sheet is empty.
 
     Examples
     --------
@@ -374,22 +374,7 @@ def _along(axis: int, points: list[tuple[float, float]]) -> Floats:
 class DrawingScale:
     """How many mm on paper show how many units of the world, as in 1:2.
 
-    Parameters
-    ----------
-    paper, world : float
-        Of 1:2 these are 1 and 2.
-
-    Raises
-    ------
-    InputError
-        By `of`, for a text that says no scale.
-
-    Examples
-    --------
-    >>> from vectorplot.drawing import DrawingScale
-    >>> half = DrawingScale.of("1:2")
-    >>> str(half), half.factor
-    ('1:2', 0.5)
+    paper, world: of 1:2 these are 1 and 2.
     """
 
     paper: float
@@ -476,14 +461,8 @@ THIN = Pen(0.25)
 class TitleBlock:
     """What a title block says.
 
-    Parameters
-    ----------
-    title, author, date, sheet : str
-        As given; sheet: the number of the sheet, such as 1/2.
-    scale, size : str
-        Of the drawing and of its paper.
-    angle : {"first", "third"}
-        The projection method, which is said by its symbol.
+    title, author, date, sheet: as given; scale, size: of the drawing and of its paper; angle: the projection method,
+    which is said by its symbol.
     """
 
     title: str

@@ -35,7 +35,7 @@ def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
     along the segment that takes their place, points left out only go forward. A closed stroke begins where it did if
     that point stays, otherwise at the next one that stays. points3d keeps the points that stay. Strokes of which the
     Bézier curves are known keep all points, unless they are straight.
-    Degenerate: of repeated points one stays; a closed stroke of which two points stay becomes an open one; strokes of
+    Edge cases: of repeated points one stays; a closed stroke of which two points stay becomes an open one; strokes of
     fewer than three points stay.
     Source: Douglas and Peucker, Algorithms for the reduction of the number of points, Cartographica 10 (1973), between
     the points that are no candidates.

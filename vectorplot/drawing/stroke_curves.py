@@ -221,7 +221,7 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
     Strokes of which all handles are known leave as the Bézier curves that they are, without an error, or as fewer that
     are fitted to these, with true tangents and within nearly the whole tolerance.
 
-    Degenerate: without smooth strokes of three points or more the strokes themselves.
+    Edge cases: without smooth strokes of three points or more the strokes themselves.
 
     Source: vectorplot.curves.bezier.fit and vectorplot.curves.bezier.elliptic_arcs.
 

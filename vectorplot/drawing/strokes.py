@@ -402,7 +402,7 @@ def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
     item and hidden_by of its first part. Ends within tolerance_mm are one node, unless they lie one behind the other in
     the world. Two ends at a node are joined; of more, those that go on most nearly straight are joined first. Strokes
     that come back to their start are closed, their first point not repeated.
-    Degenerate: closed strokes stay as they are and come last; a straight stroke with both ends at one node is left out;
+    Edge cases: closed strokes stay as they are and come last; a straight stroke with both ends at one node is left out;
     two straight strokes between the same nodes and no others become one.
     """
     sizes = np.diff(paths.offsets)
@@ -615,7 +615,7 @@ def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = Non
 
     Notes
     -----
-    Degenerate: strokes without length stay.
+    Edge cases: strokes without length stay.
 
     Examples
     --------
@@ -689,7 +689,7 @@ def clipped_parts(paths: Paths, rectangle: Rectangle, page_from_world: Floats | 
     rectangle: left, bottom, right, top in mm; page_from_world (4,4) as in Drawing, by default a parallel projection:
     with it points3d is cut where the page is. Strokes keep their order; a closed stroke that is cut becomes open ones
     that begin where it enters.
-    Degenerate: a stroke that only touches the border leaves nothing. Of a segment more than 1e15 times as long as the
+    Edge cases: a stroke that only touches the border leaves nothing. Of a segment more than 1e15 times as long as the
     rectangle nothing may be left: doubles do not say where it crosses.
     Source: Liang and Barsky, A new concept and method for line clipping, ACM Trans. Graphics 3 (1984).
     """

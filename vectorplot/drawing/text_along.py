@@ -280,7 +280,7 @@ def outside_boxes(paths: Paths, boxes: Floats, page_from_world: Floats) -> Paths
 
     boxes (b,4,2): corners, counter-clockwise; page_from_world (4,4) as of Drawing: with it points in the world are cut
     where the page is. A closed stroke that is cut becomes open ones.
-    Degenerate: what only touches a rectangle stays.
+    Edge cases: what only touches a rectangle stays.
     Source: Cyrus and Beck, Generalized two- and three-dimensional clipping, Computers & Graphics 3 (1978).
     """
     touched = _touched(paths, boxes)

@@ -14,30 +14,11 @@ from vectorplot.arrays import Floats, Ints
 class Texts:
     """Lines of text on the page, in letters of a font.
 
-    Parameters
-    ----------
-    strings : tuple of str
-        One line each.
-    points : (n, 2) array of float
-        In mm, y upwards: a point of the line that the letters stand on.
-    size_mm : (n,) array of float
-        The heights of capitals.
-    turn_deg : (n,) array of float
-        The directions that the lines run in, from the page's x axis, counter-clockwise.
-    anchor : (n,) array of float
-        What part of a line lies before its point: 0 where it begins there, 0.5 for its middle, 1 where it ends there.
-    room_mm : (n,) array of float
-        The lengths that are kept free for the lines. The font of the reader decides how long they are.
-    hidden_by : (n,) array of int
-        Number of items in front of what they name, 0 where these do not count; of others the letters are fainter, as
-        lines are dashed.
-
-    Examples
-    --------
-    >>> from vectorplot import drawing
-    >>> name = drawing.typeset("Mönch\\n4107 m", at=(80, 120), size_mm=2.5)
-    >>> name.texts.strings, name.texts.points.tolist()
-    (('Mönch', '4107 m'), [[80.0, 120.0], [80.0, 115.75]])
+    strings: one line each; points: (n, 2) in mm, y upwards: a point of the line that the letters stand on; size_mm:
+    (n,) the heights of capitals; turn_deg: (n,) the directions that the lines run in, from the page's x axis,
+    counter-clockwise; anchor: (n,) what part of a line lies before its point: 0 where it begins there, 0.5 for its
+    middle, 1 where it ends there; room_mm: (n,) the lengths that are kept free for the lines; hidden_by: (n,) number of
+    items in front of what they name, 0 where these do not count.
     """
 
     strings: tuple[str, ...]

@@ -69,7 +69,7 @@ def with_title(
 def room_for_title(title: str, width_mm: float) -> float:
     """The margin in mm that a title needs on a page of such a width, in the smallest letters that titles have.
 
-    Degenerate: a word that is wider than the page needs what a line of its own does.
+    Edge cases: a word that is wider than the page needs what a line of its own does.
     Errors: InputError for a character without strokes.
     """
     return _height(_lines(LETTERS["strokes"], title, PART * width_mm))

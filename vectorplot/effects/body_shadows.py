@@ -127,7 +127,7 @@ def covered(ends: Floats, of: Ints, count: int, tolerance: float) -> Any:
     """(k,) the regions that outlines with sides from ends (2,2,s), of bodies (s,), run around, once or more: all that
     the faces of the bodies cover. tolerance: in the image.
 
-    Degenerate: what is narrower than a few tolerances may be missing; a body without an outline covers nothing.
+    Edge cases: what is narrower than a few tolerances may be missing; a body without an outline covers nothing.
     """
     import shapely
 

@@ -555,7 +555,7 @@ def cut_scene(
     Parametrised surfaces stay what they are: what is cut away is a hole. The faces of cuts through them have chords of
     the true section as their border, that are off by a hundred-thousandth of its extent.
 
-    Degenerate: a face in the plane of a cut belongs to the side where its body is.
+    Edge cases: a face in the plane of a cut belongs to the side where its body is.
 
     Source: ISO 128-50 (hatching of sections).
 
@@ -730,39 +730,8 @@ def _shift(scene: Scene, cut: Cut, region: HalfSpaces) -> tuple[float, float, fl
 def between_planes(scene: Scene, camera: Camera) -> Scene:
     """The scene cut at the camera's near and far plane, bodies open where they are.
 
-    Parameters
-    ----------
-    scene : Scene
-        What is cut.
-    camera : Camera
-        With its distances near and far.
-
-    Returns
-    -------
-    Scene
-        With as many items as before. Patterns stay on the faces that nothing is cut off.
-
-    Raises
-    ------
-    InputError
-        For a surface without a finite point.
-
-    Notes
-    -----
-    Smooth surfaces and curves are cut as by cuts (`effects.cut`), without faces where they are.
-
-    Degenerate: a face in one of the planes stays.
-
+    Edge cases: a face in one of the planes stays.
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import effects, geometry
-    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
-    >>> camera = vp.Camera((1, 1, 10), (1, 1, 0), up=(0, 1, 0), near=9.0)
-    >>> effects.between_planes(cube, camera).bounds.tolist()
-    [[0.0, 0.0, 0.0], [2.0, 2.0, 1.0]]
     """
     extent = float(np.ptp(scene.bounds, axis=0).max())
     return replace(scene, items=tuple(_between(item, camera, ZERO_OF_EXTENT * extent) for item in scene.items))

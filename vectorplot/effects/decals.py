@@ -24,45 +24,11 @@ from vectorplot.visibility.projected_faces import newell
 class Decals:
     """Polygons on faces of a View, painted right after the face they lie on.
 
-    Parameters
-    ----------
-    points : (3, c) array of float
-        In the view's coordinates, on the planes of their faces.
-    offsets : (m+1,) array of int
-        Decal k has the points offsets[k] to offsets[k+1], simple, its turn that of the face.
-    face : (m,) array of int
-        The face of the view it lies on.
-    kind : (m,) array of int
-        FillKind values.
-    grade : (m,) array of int
-        How many lights it lacks (0 for decals that are no shadows).
-    light : (m,) array of int
-        Which light of the scene, -1 for several or none.
-    colour : (m,) array of int
-        Index into colours, or -1: the face's own.
-    level : (m,) array of int
-        The order on one face, smaller first, equal ones in any order.
-    colours : tuple of str
-        Names of palettes and colours.
-    lacking : (m,) array of int, optional
-        The lights that do not get there at all, bit k for light k; as far as light says where None.
-    opacity : (m,) array of float, optional
-        How much of the face they cover; all of it where None.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import effects
-    >>> from vectorplot.scene import look
-    >>> def square(side, height):
-    ...     corners = [(-side, -side, height), (side, -side, height), (side, side, height), (-side, side, height)]
-    ...     return vp.Mesh.from_polygons(corners, [(0, 1, 2, 3)])
-    >>> scene = vp.Scene((vp.Item("floor", square(4, 0)), vp.Item("roof", square(1, 1))))
-    >>> shadows = effects.shadow_decals(look(scene, vp.Camera.view("top")), [vp.Light((1, 0, 2), parallel=True)])
-    >>> shadows
-    <Decals: 1 polygons on 1 faces>
-    >>> shadows.light.tolist(), shadows.lights_lacking.tolist()
-    ([0], [1])
+    points: (3, c) in the view's coordinates, on the planes of their faces; face: (m,) the face of the view it lies on;
+    kind: (m,) fillKind values; grade: (m,) how many lights it lacks (0 for decals that are no shadows); light: (m,)
+    which light of the scene, -1 for several or none; colour: (m,) index into colours, or -1: the face's own; level:
+    (m,) the order on one face, smaller first, equal ones in any order; lacking: (m,) the lights that do not get there
+    at all, bit k for light k; opacity: (m,) how much of the face they cover.
     """
 
     points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
@@ -86,34 +52,15 @@ class Decals:
     def of(self, decals: Ints) -> Decals:
         """Some of the decals, in the order asked for.
 
-        Parameters
-        ----------
-        decals : (k,) array of int
-            Their numbers.
-
-        Returns
-        -------
-        Decals
-            k polygons.
+        decals: (k,) their numbers.
         """
         return take(self, decals)
 
     def parts(self, decals: Ints, points: Floats, offsets: Ints) -> Decals:
         """Polygons each of which is a part of one of the decals.
 
-        Parameters
-        ----------
-        decals : (k,) array of int
-            Of which decal each is a part.
-        points : (3, c) array of float
-            Their corners, in the view's coordinates.
-        offsets : (k+1,) array of int
-            Polygon i has the points offsets[i] to offsets[i+1].
-
-        Returns
-        -------
-        Decals
-            With all else as of the decals they are parts of.
+        decals: (k,) of which decal each is a part; points: (3, c) their corners, in the view's coordinates; offsets:
+        (k+1,) polygon i has the points offsets[i] to offsets[i+1].
         """
         # Not through of: each of many parts of a decal would have all its corners first.
         anywhere = np.zeros(points.shape[1], dtype=np.intp)
@@ -285,7 +232,7 @@ def united_decals(view: View, decals: Decals) -> Decals:
     """The decals with those of each face that are alike (kind, lights, colour, level) as one region, cut into simple
     polygons where it has holes.
 
-    Regions move by less than a few tolerances. Degenerate: regions narrower than a few tolerances are left out.
+    Regions move by less than a few tolerances. Edge cases: regions narrower than a few tolerances are left out.
     """
     if not len(decals):
         return decals

@@ -31,7 +31,7 @@ def depth_cued(
     view: in whose axes strokes are near and far, within the limits of depth; paper: its colour, three numbers of 0 to
     255. The nearest part of a layer keeps its name and its pen, the others are numbered from there: contour, contour
     depth 2, contour depth 3. Empty ones are left out.
-    Degenerate: where all strokes are as far away, they are near.
+    Edge cases: where all strokes are as far away, they are near.
     Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
     """
     strokes = [paths for layer in layers for paths in layer.strokes]

@@ -463,7 +463,7 @@ def seen_in_glass(
     convex ones on faces, in the order in which they are painted, seen as their faces are.
     Other transparent solids are seen without refraction. A face that reflects all light that gets there from within, by
     a front face, shows what is seen by way of it; further reflections, and those at parts of faces, show nothing.
-    Degenerate: of material thinner than its surroundings (constants below 1), which a perspective can see through up to
+    Edge cases: of material thinner than its surroundings (constants below 1), which a perspective can see through up to
     the angle of total reflection only, parts near that angle may be missing.
     Source: Glaeser, section 6.6 (transparent solid polyhedra; the swimming pool, figure 12).
     """

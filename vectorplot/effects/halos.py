@@ -41,7 +41,7 @@ def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility
     -----
     Outlines are the visible contours and boundaries among the lines.
 
-    Degenerate: a visible part that lies within a halo as a whole is left out.
+    Edge cases: a visible part that lies within a halo as a whole is left out.
 
     Source: Glaeser, section 7.2, figure 4; the outlines are enlarged (decision D-7).
 

@@ -66,7 +66,7 @@ def mirror_light(
     Decals of the kind LIGHT: light is the number of the double. On them lie their parts that it does not reach, since
     the scene or its double are in the way: light -1, to be painted as if there were no mirror. Both still have to be
     clipped with the shadows of the lights of the scene, by patterns_in_shadows.
-    Degenerate: where the light of several doubles falls, only that of the last one is painted.
+    Edge cases: where the light of several doubles falls, only that of the last one is painted.
     Source: Glaeser, section 6.4: the reflected light is obscured by the reflected objects.
     """
     projected = project_faces(view) if projected is None else projected

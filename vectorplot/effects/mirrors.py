@@ -91,7 +91,7 @@ def reflections(view: View, mirrors: Mirrors, painted: ImageFaces) -> SeenThroug
 
     painted: the polygons of the picture, back to front. Doubles are to be painted right after their windows, DIMMED.
     Mirrors show no mutual reflections: in each other they are plain faces.
-    Degenerate: items that the plane of a mirror cuts are seen as far as they are on its reflecting side.
+    Edge cases: items that the plane of a mirror cuts are seen as far as they are on its reflecting side.
     Source: Glaeser, section 6.4, figures 7 and 8.
     """
     return joined_seen([_reflected(view, mirrors, number, painted) for number in range(len(mirrors))])

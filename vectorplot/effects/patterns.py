@@ -24,7 +24,7 @@ def pattern_decals(scene: Scene, view: View) -> Decals:
     Those of one face lie on each other in the order of the file: levels 0, 1, ... Patterns on faces that are not
     present, and those wholly beside their face, are left out.
     Errors: InputError for a pattern on a face that is not there, or has no area.
-    Degenerate: patterns without area are left out; one that crosses itself is reported by an InputWarning.
+    Edge cases: patterns without area are left out; one that crosses itself is reported by an InputWarning.
     Source: Glaeser, section 6.5, figures 9 and 10; erratum G6-09.
     """
     parts = [_item_patterns(view, number, item) for number, item in enumerate(scene.items) if item.patterns]

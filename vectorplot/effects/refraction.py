@@ -174,7 +174,7 @@ def tangents_of_rays(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike) -
     the point is below the surface, so that the eye is p2 - a above it; c: of rays from the eye into the water.
     (p2 - a) tan(alpha) + a tan(beta) = p1 to a few rounding steps.
     Errors: InputError for numbers that are not finite, a < 0 or p2 <= a, and constants that are not positive.
-    Degenerate: an eye right above the point looks straight down; a point in the surface is seen where it is, or, from
+    Edge cases: an eye right above the point looks straight down; a point in the surface is seen where it is, or, from
     the denser side, at the angle of total reflection if that is smaller.
     Source: Glaeser, section 6.6, equations 4 and 5; erratum G6-11 (the equation is algebraic).
     """
@@ -232,7 +232,7 @@ def inverse_refraction(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike)
     -----
     (p2 - a) tan(alpha) + a tan(beta) = p1 to a few rounding steps.
 
-    Degenerate: an eye right above the point looks straight down; a point in the surface is seen where it is, or, from
+    Edge cases: an eye right above the point looks straight down; a point in the surface is seen where it is, or, from
     the denser side, at the angle of total reflection if that is smaller.
 
     Source: Glaeser, section 6.6, equations 4 and 5; erratum G6-11 (the equation is algebraic).
@@ -280,7 +280,7 @@ def seen_in_surface(eye: ArrayLike, points: ArrayLike, normal: ArrayLike, on_sur
 
     Notes
     -----
-    Degenerate: points above the surface by no more than rounding are in it; for those in it and right below the eye see
+    Edge cases: points above the surface by no more than rounding are in it; for those in it and right below the eye see
     inverse_refraction.
 
     Source: Glaeser, section 6.6, figure 12 (the swimming pool).
@@ -381,7 +381,7 @@ def sight_rays(view: View, image: Floats) -> tuple[Floats, Floats]:
 def traced(view: View, sight_ways: SightWays, image: Floats) -> Rays:
     """The rays of points (2,n) of the image, each on the way of its number, or all on the only one.
 
-    Degenerate: rays that miss a surface, or are totally reflected there, do not pass; their numbers mean nothing.
+    Edge cases: rays that miss a surface, or are totally reflected there, do not pass; their numbers mean nothing.
     Source: Glaeser, section 6.6, equation 3.
     """
     place, direction = sight_rays(view, image)
@@ -421,7 +421,7 @@ def virtual_points(view: View, sight_ways: SightWays, points: Floats, way: Ints 
     A virtual point lies on the straight line on which the eye sees the point, and so far behind the first surface as
     light takes time to go there: what lies behind another point on a ray still does so. In a parallel projection the
     map is affine; rays of a perspective are found by Newton's iteration in the image.
-    Degenerate: points that no ray through the surfaces, thought without borders, can reach are not seen.
+    Edge cases: points that no ray through the surfaces, thought without borders, can reach are not seen.
     Source: Glaeser, section 6.6, equations 4 and 5 for one plane surface and for plates.
     """
     way = np.zeros(points.shape[1], dtype=np.intp) if way is None else way

@@ -80,7 +80,7 @@ class AxisNumbers:
 def axis_numbers(low: float, high: float) -> AxisNumbers:
     """Round numbers from one end of an axis to the other, both included where they are round.
 
-    Degenerate: where both ends are the same that one.
+    Edge cases: where both ends are the same that one.
     """
     values = _round(low, high)
     if len(values) < 2:
@@ -165,7 +165,7 @@ def with_box(scene: Scene, camera: Camera) -> tuple[Scene, Floats]:
     """The scene with the box that it asks for: thin lines, hidden by the scene like any others, and labels; and the
     points (k,3) that a picture of it has to hold besides these: the corners.
 
-    Degenerate: a side along which the scene has no extent is as long as a tenth of the longest one.
+    Edge cases: a side along which the scene has no extent is as long as a tenth of the longest one.
     """
     box = scene.box
     if box is None or not len(scene.items):
@@ -379,7 +379,7 @@ def linear_triangles(
     """Points (n,3) and triangles (t,3) with sides halved where a number, at points (m,3), is farther than that from
     linear along them; neighbours share all points, and the first points are those given.
 
-    Degenerate: what is not finite is left as it is; sides are halved until there are MOST triangles; none where far is
+    Edge cases: what is not finite is left as it is; sides are halved until there are MOST triangles; none where far is
     0.
     """
     if far <= 0.0:

@@ -234,7 +234,7 @@ def shadow_casters(
     """What the items (i,) that cast shadows, solids (i,) among them, put before a light.
 
     A closed body that the light is outside of keeps it away with the faces that it turns to the light; any other item
-    with all its faces. Degenerate: faces that the light grazes keep nothing away.
+    with all its faces. Edge cases: faces that the light grazes keep nothing away.
     """
     lit = np.zeros(len(items), dtype=np.bool_)
     lit[view.face_item[facing > 0]] = True

@@ -110,7 +110,7 @@ def graded(view: View, shadows: Shadows) -> Shadows:
     A shadow that is alone on its face keeps every digit; cells move by less than a few tolerances.
     Errors: InputError for more than MOST_CELLS cells; an InputWarning from MANY_CELLS on. There are as many of them as
     the arrangement has: with m shadows on a face that all cross each other about m squared.
-    Degenerate: cells narrower than a few tolerances are left out.
+    Edge cases: cells narrower than a few tolerances are left out.
     Source: Glaeser, section 6.3, figure 6 (shadows of higher grades).
     """
     whole = np.flatnonzero(shadows.whole)
@@ -299,7 +299,7 @@ def cast_shadows(
     on (None: all). Where every point of a face is in the shadow of one thing, the others that shadow it from this light
     are left out.
     Errors: InputError for lights out of range, or more than MOST_LIGHTS of them.
-    Degenerate: faces that the light grazes, and dark sides, have no shadows; what touches a face or lies in its plane
+    Edge cases: faces that the light grazes, and dark sides, have no shadows; what touches a face or lies in its plane
     casts none on it.
     Source: Glaeser, section 6.3, figures 4 and 5.
     """
@@ -461,7 +461,7 @@ def shadow_decals(
     Only faces that can be seen have shadows, on the side that is seen. Where every point of a face is in the shadow of
     one thing, the others that shadow it from this light are left out.
 
-    Degenerate: faces that the light grazes, and dark sides, have no shadows; what touches a face or lies in its plane
+    Edge cases: faces that the light grazes, and dark sides, have no shadows; what touches a face or lies in its plane
     casts none on it.
 
     Source: Glaeser, section 6.3, figures 4 to 6.

@@ -31,7 +31,7 @@ def shadow_borders(view: View, single: Shadows, cells: Shadows, width: float) ->
     get there at all; light: the one that gets there in part; grade: that of the shadow beside it; level: a multiple of
     LEVELS for what it lies on, and the step, 1 at the outer side to LEVELS - 1 beside the shadow.
     Errors: InputError for a width that is negative or not finite.
-    Degenerate: no borders for width zero, and around faces that are dark as wholes.
+    Edge cases: no borders for width zero, and around faces that are dark as wholes.
     Source: Glaeser, section 6.3 (aura).
     """
     if not 0.0 <= width < np.inf:
@@ -115,7 +115,7 @@ def united_shadows(view: View, shadows: Shadows) -> Shadows:
     has holes.
 
     Shadows of whole faces, those alone on theirs, and those that reach behind the near plane stay as they are; regions
-    move by less than a few tolerances. Degenerate: regions narrower than a few tolerances are left out.
+    move by less than a few tolerances. Edge cases: regions narrower than a few tolerances are left out.
     """
     if not len(shadows):
         return shadows

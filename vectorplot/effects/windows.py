@@ -51,7 +51,7 @@ class ScreenDoor:
 def sparseness(opacity: ArrayLike) -> Ints:
     """(...) 1 for opaque things, else 2, 3 or 4: every how many-th line or pixel comes nearest to an opacity.
 
-    Degenerate: what is clearer than a fifth still gets every fourth one; what is wholly clear gets 0: none at all.
+    Edge cases: what is clearer than a fifth still gets every fourth one; what is wholly clear gets 0: none at all.
     Source: Glaeser, section 6.6.
     """
     given = np.asarray(opacity, dtype=np.float64)
@@ -66,7 +66,7 @@ def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, a
     a polygon densely, the width of the pen, in the units of the points; every (m,) or a number: which of these lines
     are drawn, 0 for none; angle_deg: from the x-axis. All polygons share one set of lines, so that neighbours fit.
     Errors: InputError for a pitch that is not positive, or so fine that there are more than MOST_STROKES strokes.
-    Degenerate: polygons between two lines get no stroke.
+    Edge cases: polygons between two lines get no stroke.
     Source: Glaeser, section 6.6 (every second, third or fourth pixel), for pens.
     """
     if not 0.0 < pitch < np.inf:
@@ -268,7 +268,7 @@ def near_windows(box: Floats | Floats32, windows: Floats) -> Bools:
 def seen_fills(view: View, lighting: Lighting, seen: SeenThrough, placement: Placement, kind: FillKind) -> Overlay:
     """Polygons seen through windows, in the shades of their faces, each to be painted after its window.
 
-    Degenerate: nothing seen gives nothing. Source: Glaeser, sections 6.4 and 6.6.
+    Edge cases: nothing seen gives nothing. Source: Glaeser, sections 6.4 and 6.6.
     """
     shades = corner_shades_of(view, lighting, view_points(view, seen.points), seen.offsets, seen.source)
     source = np.repeat(seen.source, np.diff(seen.offsets))

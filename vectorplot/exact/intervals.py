@@ -35,7 +35,7 @@ def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Fl
 
     Notes
     -----
-    Parameters are compared in steps of 2^-40, in coarser ones where there are more than two million owners. Degenerate:
+    Parameters are compared in steps of 2^-40, in coarser ones where there are more than two million owners. Edge cases:
     nothing in, nothing out.
 
     Source: Glaeser, section 7.2, equation 2.
@@ -94,7 +94,7 @@ def complement(count: int, owner: Ints, low: Floats, high: Floats, gap: Floats) 
 
     Notes
     -----
-    Degenerate: an owner without intervals is free from 0 to 1.
+    Edge cases: an owner without intervals is free from 0 to 1.
 
     Source: Glaeser, section 7.2, equation 3, as erratum G7-03 corrects it.
 
@@ -142,7 +142,7 @@ def coverage(owner: Ints, low: Floats, high: Floats, side: Ints) -> tuple[Ints, 
 
     Notes
     -----
-    Degenerate: nothing in, nothing out.
+    Edge cases: nothing in, nothing out.
 
     Examples
     --------

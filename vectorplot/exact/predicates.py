@@ -44,7 +44,7 @@ def orient2d(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Signs:
     Notes
     -----
     A float filter over whole arrays decides what is clear; the rest is decided in integers, so that every sign is right
-    for the doubles given. Degenerate: where a is b all points are on the line.
+    for the doubles given. Edge cases: where a is b all points are on the line.
 
     Source: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, section 4
     (error bounds).
@@ -118,34 +118,10 @@ def orient3d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Signs:
 def polygon_orientation(points: ArrayLike) -> int:
     """Which way round a polygon runs: exact.
 
-    Parameters
-    ----------
-    points : (n, 2) array_like of float
-        Its corners; of more columns the first two count.
-
-    Returns
-    -------
-    int
-        1 for counter-clockwise, -1 for clockwise, 0 for a signed area of zero.
-
-    Raises
-    ------
-    InputError
-        For coordinates that are not finite.
-
-    Notes
-    -----
-    Degenerate: fewer than three points have no area.
-
+    points: (n, 2) its corners.
+    Edge cases: fewer than three points have no area.
     Source: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, section 4
     (error bounds).
-
-    Examples
-    --------
-    >>> from vectorplot import exact
-    >>> square = [(0, 0), (1, 0), (1, 1), (0, 1)]
-    >>> exact.polygon_orientation(square), exact.polygon_orientation(square[::-1])
-    (1, -1)
     """
     p = np.asarray(points, dtype=np.float64)[:, :2]
     if len(p) < 3:

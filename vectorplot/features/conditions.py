@@ -91,32 +91,8 @@ class _Alike(ABC):
 class CentralContour(_Alike):
     """The condition f = N.(x - eye) = 0 of a contour: the surface turns away from the eye.
 
-    Parameters
-    ----------
-    surface : Surface
-        With points x and unit normals N.
-    eye : (3,) array_like of float
-        In world coordinates.
-
-    Raises
-    ------
-    InputError
-        For an eye that is not three finite numbers.
-
-    Notes
-    -----
-    f is positive where N points away from the eye. Its slopes are N_u.(x - eye), N_v.(x - eye), since N is at right
-    angles to the partials.
-
+    surface: with points x and unit normals N; eye: (3,) in world coordinates.
     Source: Glaeser, section 8.4, equations 25 to 27.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> condition = features.CentralContour(surfaces.Sphere(), eye=(4, 0, 0))
-    >>> condition.values(np.array([0.0, np.pi]), np.array([0.0, 0.0])).round(9).tolist()  # of the near and the far side
-    [-3.0, 5.0]
     """
 
     surface: Surface
@@ -149,31 +125,8 @@ class CentralContour(_Alike):
 class ParallelContour(_Alike):
     """The condition f = N.d = 0 of a contour for an eye at infinity: seen along d the surface turns away.
 
-    Parameters
-    ----------
-    surface : Surface
-        With unit normals N.
-    direction : (3,) array_like of float
-        d, of any length, towards the eye; kept as a unit vector.
-
-    Raises
-    ------
-    InputError
-        For a direction without length.
-
-    Notes
-    -----
-    f is positive where N points towards the eye.
-
+    surface: with unit normals N; direction: (3,) d, of any length, towards the eye.
     Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> condition = features.ParallelContour(surfaces.Sphere(), direction=(5, 0, 0))
-    >>> condition.values(np.array([0.0, np.pi]), np.array([0.0, 0.0])).round(9).tolist()  # of the near and the far side
-    [1.0, -1.0]
     """
 
     surface: Surface
@@ -237,7 +190,7 @@ class PointIsophote(_Alike):
     """f = N.w / |w| - c, w = light - x: the light of a point (3,) meets the surface at the cosine c.
 
     The slopes are N_u.w / |w| + (N.w) (x_u.w) / |w|^3, and so by v.
-    Degenerate: NaN where the light stands on the surface.
+    Edge cases: NaN where the light stands on the surface.
     Errors: InputError for a light that is not three finite numbers, a cosine not within -1 and 1.
     """
 

@@ -77,7 +77,7 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
 
     Notes
     -----
-    What lies behind the eye is traced too. Degenerate: a flat surface whose plane contains the eye has no contour, and
+    What lies behind the eye is traced too. Edge cases: a flat surface whose plane contains the eye has no contour, and
     a doubt says so. At a singular line (the apex of a double cone) the normal jumps: that is no contour.
 
     Source: Glaeser, section 8.4, equations 25 to 27, figures 13 and 14.
@@ -128,39 +128,9 @@ def _contours(conditions: StackedConditions[Any], centre: Floats, tracing: Traci
 def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The points of a surface with n.d = 0, n the unit normal: seen along the direction d, it turns away there.
 
-    Parameters
-    ----------
-    surface : Surface
-        With points, partials and second partials.
-    direction : (3,) array_like of float
-        d, of any length, towards the eye.
-    tracing : Tracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines, each point known by its parameters and in space. The side whose normal points towards the eye is on
-        the left, in u and v.
-
-    Raises
-    ------
-    InputError
-        For a direction without length, a grid that is too coarse, a resolution that is not positive.
-
-    Notes
-    -----
-    Degenerate: a surface all seen edge-on (a cylinder along its axis) has no contour, and a doubt says so.
-
+    direction: (3,) d, of any length, towards the eye.
+    Edge cases: a surface all seen edge-on (a cylinder along its axis) has no contour, and a doubt says so.
     Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> curves = features.parallel_contour(surfaces.Cylinder(), (1, 0, 0))
-    >>> curves.closed.tolist(), bool(np.allclose(np.abs(curves.points[:, 1]), 1.0))  # two rulings
-    ([False, False], True)
     """
     return parallel_contours([surface], direction, tracing=tracing)[0]
 
@@ -208,7 +178,7 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
 
     Notes
     -----
-    Degenerate: a flat part at just that angle gives no lines, and a doubt; c = 1 gives the isolated points that face
+    Edge cases: a flat part at just that angle gives no lines, and a doubt; c = 1 gives the isolated points that face
     the light.
 
     Source: Glaeser, section 8.4, equation 28, figure 15.
@@ -229,41 +199,9 @@ def point_light_isophotes(
 ) -> SurfaceCurves:
     """The curves n.l = c of a surface in the light of a point, l from the surface to the light.
 
-    Parameters
-    ----------
-    surface : Surface
-        With points, partials and second partials.
-    light : (3,) array_like of float
-        Where the light stands, in world coordinates.
-    cosines : (k,) array_like of float
-        c, -1 to 1; or one of them.
-    tracing : Tracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    SurfaceCurves
-        As of `isophotes`.
-
-    Raises
-    ------
-    InputError
-        For a light that is not three finite numbers, cosines not within -1 and 1, a grid that is too coarse, a
-        resolution that is not positive.
-
-    Notes
-    -----
-    Degenerate: a light on the surface: the curves end there.
-
+    light: (3,) where the light stands, in world coordinates; cosines: (k,) c, -1 to 1.
+    Edge cases: a light on the surface: the curves end there.
     Source: Glaeser, section 8.4, equation 28, figure 15.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> curves = features.point_light_isophotes(surfaces.Sphere(), (0, 0, 4), 0.0)  # the border of the lit part
-    >>> len(curves), bool(np.allclose(curves.points[:, 2], 0.25))
-    (1, True)
     """
     lamp, levels = vector("isophotes: light", light), _levels(cosines)
     points = samples(surface)[2]
@@ -296,45 +234,9 @@ def _isophotes(condition: Isophote | PointIsophote, levels: Floats, rounding: fl
 def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The curves of a surface on which F of an implicit surface is zero.
 
-    Parameters
-    ----------
-    surface : Surface
-        On which they are traced.
-    other : ImplicitSurface
-        F is taken wherever the surface is, inside the box of the implicit surface and outside.
-    tracing : Tracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines with F > 0 on the left, in u and v.
-
-    Raises
-    ------
-    InputError
-        For a grid that is too coarse, a resolution that is not positive.
-
-    Warns
-    -----
-    InputWarning
-        Where the surfaces touch in a point.
-
-    Notes
-    -----
-    Degenerate: surfaces that touch in a point give an isolated point; along a line, touching; that coincide in an area,
+    Edge cases: surfaces that touch in a point give an isolated point; along a line, touching; that coincide in an area,
     a doubt.
-
     Source: Glaeser, section 8.4, equation 29, figure 16.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> pipe, ball = surfaces.Cylinder(radius=0.6, bottom=-2, top=2), surfaces.implicit_sphere(1.0)
-    >>> curves = features.section_by_implicit(pipe, ball)
-    >>> len(curves), bool(np.allclose(np.abs(curves.points[:, 2]), 0.8))
-    (2, True)
     """
     points = samples(surface)[2]
     if not len(points):
@@ -387,7 +289,7 @@ def plane_sections(
 
     Notes
     -----
-    Degenerate: as for `section_by_implicit`.
+    Edge cases: as for `section_by_implicit`.
 
     Source: Glaeser, section 8.4, equation 29.
 
@@ -460,7 +362,7 @@ def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFA
 
     Notes
     -----
-    Degenerate: as for `section_by_implicit`.
+    Edge cases: as for `section_by_implicit`.
 
     Source: Glaeser, section 8.4, equation 29.
 

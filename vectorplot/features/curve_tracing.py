@@ -194,46 +194,11 @@ def _joined(
 class SurfaceCurves(NumberedLines):
     """Polylines on a surface, each point known by its parameters and in space.
 
-    Parameters
-    ----------
-    u, v : (n,) array of float
-        Parameters: along a curve they run on over seams, beyond the domain.
-    points : (n, 3) array of float
-        In world coordinates.
-    offsets : (m+1,) array of int
-        Curve i has the points offsets[i] to offsets[i+1].
-    closed : (m,) array of bool
-        The last point joins the first, which is not repeated.
-    turns : (m, 2) array of int
-        The periods that a closed curve has run through when it is back at its start.
-    levels : (m,) array of float
-        The level a curve of a family belongs to, the constant parameter of a parameter line; otherwise 0.
-    isolated : (i, 2) array of float
-        Parameters of single points that satisfy the condition.
-    nodes : (k, 2) array of float
-        Parameters of points where curves cross.
-    touching : (t, 2) array of float
-        Parameters of places where the condition is just touched along a line.
-    doubts : tuple of str
-        A sentence for each thing that could not be decided.
-    directions : (n, 2) array of float
-        In proportion to how u and v grow by the length of a curve, where that is known, as of integral curves; NaN
-        elsewhere, and at poles.
-
-    Notes
-    -----
-    A curve through a pole has the pole twice, with the parameters it comes and goes with.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> ball = surfaces.Sphere()
-    >>> curves = features.v_lines(ball, [0.0, 0.5])
-    >>> isinstance(curves, features.SurfaceCurves), len(curves), curves.levels.tolist(), curves.turns.tolist()
-    (True, 2, [0.0, 0.5], [[1, 0], [1, 0]])
-    >>> bool(np.allclose(ball.points(curves.u, curves.v), curves.points)), curves[0].shape[1]
-    (True, 3)
+    u, v: (n,) parameters: along a curve they run on over seams, beyond the domain; points: (n, 3) in world coordinates;
+    offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,) the last point joins the first,
+    which is not repeated; turns: (m, 2) the periods that a closed curve has run through when it is back at its start;
+    isolated: (i, 2) parameters of single points that satisfy the condition; nodes: (k, 2) parameters of points where
+    curves cross; touching: (t, 2) parameters of places where the condition is just touched along a line.
     """
 
     u: Floats = field(metadata=EACH_POINT)

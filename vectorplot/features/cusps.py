@@ -45,42 +45,8 @@ INSIDE = 0.271
 def singular_lines(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines of a surface on which x_u x x_v vanishes: cuspidal edges, with their cusps and swallowtails as points.
 
-    Parameters
-    ----------
-    surface : Surface
-        With points, partials and second partials.
-    tracing : Tracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines; single singular points in space are isolated.
-
-    Raises
-    ------
-    InputError
-        For a grid that is too coarse, a resolution that is not positive.
-
-    Notes
-    -----
-    Across such a line the normal jumps to its opposite, so its product with normals that are carried on continuously
-    changes sign. On the left, in u and v, it has the sign it has in the first cell of the domain. Degenerate: lines
-    that are a single point in space (an apex, where a spindle torus meets its axis) are isolated points; single
-    singular points such as pinch points are not found here: double curves end in them. A surface with one side only is
-    cut open first. Poles at the border of the domain are none.
-
     Source: Glaeser, section 8.4; Arnold, Gusein-Zade and Varchenko, Singularities of differentiable maps (1985), on
     fronts.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> blade = surfaces.surface_of_function(lambda u, v: (u**2, u**3, v), surfaces.Domain(-1, 1, 0, 1))
-    >>> curves = features.singular_lines(blade, tracing=features.Tracing(columns=15, rows=5))
-    >>> len(curves), bool(np.allclose(curves.points[:, :2], 0.0))
-    (1, True)
     """
     check_grid(surface.domain, tracing.columns, tracing.rows, tracing.resolution)
     if not len(samples(surface)[2]):
@@ -280,21 +246,8 @@ ROUNDS = 6
 class Cusps:
     """Where the image of a contour turns back.
 
-    Parameters
-    ----------
-    u, v : (k,) array of float
-        Parameters, running on with those of the curves.
-    after : (k,) array of int
-        Positions of the points of the curves that come before them; in the order along the curves.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> torus = surfaces.Torus(3.0, 1.0)
-    >>> condition = features.ParallelContour(torus, direction=(2, 0, 1))
-    >>> cusps = features.contour_cusps(condition, features.parallel_contour(torus, (2, 0, 1)))
-    >>> isinstance(cusps, features.Cusps), torus.points(cusps.u, cusps.v).shape
-    (True, (4, 3))
+    u, v: (k,) parameters, running on with those of the curves; after: (k,) positions of the points of the curves that
+    come before them.
     """
 
     u: Floats
@@ -308,7 +261,7 @@ def sight_curvatures(contour: Contour, u: Floats, v: Floats) -> Floats:
     normal.
 
     On the contour the sight is tangential. Zero: it is an asymptotic direction there.
-    Degenerate: NaN at poles, in holes, and where the eye is on the surface.
+    Edge cases: NaN at poles, in holes, and where the eye is on the surface.
     """
     surface = contour.surface
     along_u, along_v = surface.partials(u, v)
@@ -327,68 +280,14 @@ def sight_curvatures(contour: Contour, u: Floats, v: Floats) -> Floats:
 
 
 def contour_cusps(contour: Contour, curves: SurfaceCurves) -> Cusps:
-    """The cusps of a contour: where its image turns back, since the line of sight touches it.
-
-    Parameters
-    ----------
-    contour : CentralContour or ParallelContour
-        The condition that the curves satisfy.
-    curves : SurfaceCurves
-        The contour, as of `contour` or `parallel_contour`.
-
-    Returns
-    -------
-    Cusps
-        u, v (k,): parameters, running on with those of the curves; after (k,): positions of the points of the curves
-        that come before them; in the order along the curves.
-
-    Notes
-    -----
-    Each is a common zero of the contour's condition and of `sight_curvatures`, by Newton's method from a change of sign
-    along the curves, to rounding. Two cusps between neighbouring points of a curve are found where the curvatures of
-    the points around lead there. Degenerate: where the sight is an asymptotic direction all along a contour (a ruling
-    seen along itself) none is given; nor is one that lies in a pole.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> torus, eye = surfaces.Torus(3.0, 1.0), (12, 0, 4)
-    >>> curves = features.contour(torus, eye)
-    >>> cusps = features.contour_cusps(features.CentralContour(torus, eye), curves)
-    >>> len(curves), len(cusps.u)  # the outer outline, and the inner one with its four cusps
-    (2, 4)
-    """
+    """The cusps of a contour: where its image turns back, since the line of sight touches it."""
     return _cusps_of_each(alone(contour.surface, contour), [curves])[0]
 
 
 def contour_with_cusps(contour: Contour, curves: SurfaceCurves) -> tuple[SurfaceCurves, Ints]:
     """The curves of a contour with its cusps among their points.
 
-    Parameters
-    ----------
-    contour : CentralContour or ParallelContour
-        The condition that the curves satisfy.
-    curves : SurfaceCurves
-        The contour, as of `contour` or `parallel_contour`.
-
-    Returns
-    -------
-    curves : SurfaceCurves
-        With the cusps put in.
-    at : (k,) array of int
-        The positions of the cusps in curves.points.
-
-    Notes
-    -----
-    Degenerate: as for `contour_cusps`.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> torus, eye = surfaces.Torus(3.0, 1.0), (12, 0, 4)
-    >>> curves, at = features.contour_with_cusps(features.CentralContour(torus, eye), features.contour(torus, eye))
-    >>> curves.points[at].shape
-    (4, 3)
+    Edge cases: as for `contour_cusps`.
     """
     return contours_with_cusps(alone(contour.surface, contour), [curves])[0]
 

@@ -231,7 +231,7 @@ def refined(net: Net, between: Between, demand: Criterion, most: int) -> Net:
 
     Of a triangle the worst side is split first, so that it has a better shape for the others. Several surfaces may be
     divided at once: of each there come out the triangles, in the order, that come out of it alone.
-    Degenerate: sides that lead into a hole are cut at its rim; triangles in holes stay, with vertices that are NaN;
+    Edge cases: sides that lead into a hole are cut at its rim; triangles in holes stay, with vertices that are NaN;
     sides across a jump stay when their places are one.
     """
     found = _Found(np.zeros(0, dtype=np.intp), np.zeros((3, 0)))

@@ -329,7 +329,7 @@ def crossings(points: Floats, triangles: Ints, field: LineField) -> Crossings:
 
     Directions at the ends of a side are compared with each other: the function has one sign where they go the same way.
     A triangle round which they do not come back to themselves has an umbilic inside, and no line.
-    Degenerate: zero counts as positive; triangles with values that are not finite have no line.
+    Edge cases: zero counts as positive; triangles with values that are not finite have no line.
     """
     sides = np.stack([triangles, np.roll(triangles, -1, axis=1)], axis=-1)
     usable = np.flatnonzero(np.isfinite(field.values)[triangles].all(axis=1))
@@ -461,7 +461,7 @@ def surface_bending(surface: Surface, u: Floats, v: Floats) -> Bending:
     """How a parametrised surface bends at parameters u, v (k,), which may have run on over seams.
 
     Error: third derivatives are differences of second ones, about 1e-7 of their size.
-    Degenerate: not a number at poles, in holes and beside them.
+    Edge cases: not a number at poles, in holes and beside them.
     """
     domain = surface.domain
     steps = SECOND_DIFFERENCE * np.array(domain.size)
@@ -488,7 +488,7 @@ def implicit_bending(surface: ImplicitSurface, points: Floats, extent: float) ->
 
     extent: of the surface. Error: as of surface_bending; where the surface has second derivatives by differences only,
     about 1e-4.
-    Degenerate: not a number at singular points.
+    Edge cases: not a number at singular points.
     """
     with np.errstate(all="ignore"):
         slopes = surface.gradients(points)

@@ -122,7 +122,7 @@ def geodesics_between(
     -----
     Geodesics that leave in 240 directions all round are asked where they pass the end; those that come by are led there
     by Newton's method, with the distance by which neighbours run apart (Jacobi's field). Of many that wind far round a
-    surface, or run apart quickly, some may be missed. Degenerate: none where a border or a hole is in the way; between
+    surface, or run apart quickly, some may be missed. Edge cases: none where a border or a hole is in the way; between
     conjugate points, such as opposite ones of a sphere, one of infinitely many, with a doubt that says so.
 
     Source: do Carmo, Differential geometry of curves and surfaces, sections 4-6 and 5-5.

@@ -16,34 +16,10 @@ from vectorplot.tolerances import ROUNDING, SYMMETRIC_DEVIATION, ZERO_OF_EXTENT
 def average_normals(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Floats:
     """Unit normals of a surface at the points of a grid, on the side of x_u x x_v.
 
-    Parameters
-    ----------
-    grid : (m, n, 3) array_like of float
-        Points, two or more each way.
-    closed_u, closed_v : bool
-        The last row of points repeats the first, and the surface goes on smoothly; closed_v: the last column.
-
-    Returns
-    -------
-    (m, n, 3) array of float
-        Each is the mean of the unit normals of the up to four triangles that a point spans with its grid neighbours.
-
-    Raises
-    ------
-    InputError
-        Unless the grid is (m, n, 3) with at least two points each way.
-
-    Notes
-    -----
-    Degenerate: triangles without area (poles, repeated points, NaN) are left out; without any the normal is zero.
-
+    grid: (m, n, 3) points, two or more each way; result: (m, n, 3) each is the mean of the unit normals of the up to
+    four triangles that a point spans with its grid neighbours.
+    Edge cases: triangles without area (poles, repeated points, NaN) are left out; without any the normal is zero.
     Source: Glaeser, section 8.4, figure 12; erratum G8-12.
-
-    Examples
-    --------
-    >>> from vectorplot import features
-    >>> features.average_normals([[(0, 0, 0), (0, 1, 0)], [(1, 0, 0), (1, 1, 0)]])[0, 0].tolist()
-    [0.0, 0.0, 1.0]
     """
     p = _checked(grid)
     after_u, before_u = _neighbours(p, 0, closed_u)
@@ -101,7 +77,7 @@ def triangulate_surface(grid: ArrayLike, *, closed_u: bool = False, closed_v: bo
     Notes
     -----
     Each cell is cut along that diagonal whose two triangles deviate least, in the sum of angles, from the average
-    normals at their corners. Degenerate: a cell whose diagonals are equally good is cut from (i, j) to (i+1, j+1).
+    normals at their corners. Edge cases: a cell whose diagonals are equally good is cut from (i, j) to (i+1, j+1).
 
     Source: Glaeser, section 8.4; errata G8-12, G8-13.
 

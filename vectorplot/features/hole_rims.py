@@ -60,7 +60,7 @@ def resolved(surface: Surface, places: Floats, triangles: Ints, known: Bools) ->
     side leads over a hole from surface to surface; known (n,): places that are in no hole.
 
     Holes are looked for in triangles with a corner in one, and in those around them.
-    Degenerate: sides that lead over a hole in the end, and their triangles, are left out.
+    Edge cases: sides that lead over a hole in the end, and their triangles, are left out.
     """
     near = _around(triangles, _mixed(triangles, known))
     pool = _around(triangles, near)
@@ -194,7 +194,7 @@ def cut_at_holes(surface: Surface, places: Floats, triangles: Ints, known: Bools
     in none. They turn as before.
 
     A corner that lies on a rim to within 1e-9 of a side is taken for a place on it.
-    Degenerate: lines and points without a surface on either side have no rim: they count as parts of the hole.
+    Edge cases: lines and points without a surface on either side have no rim: they count as parts of the hole.
     """
     known = _with_surface(surface, places, triangles, known)
     finer = resolved(surface, places, triangles, known)
@@ -289,7 +289,7 @@ def hole_rims(surface: Surface, tracing: Tracing) -> SurfaceCurves:
     """The lines inside the domain at which a surface ends, because its points are not finite beyond: the rims of its
     holes, and of what is cut off where it runs to infinity; the hole is to their right.
 
-    Degenerate: rims that run over a seam are cut there; holes smaller than half a cell of the grid may be missed.
+    Edge cases: rims that run over a seam are cut there; holes smaller than half a cell of the grid may be missed.
     """
     domain = surface.domain
     columns, rows = FINER * tracing.columns, FINER * tracing.rows

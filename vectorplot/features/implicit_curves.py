@@ -48,41 +48,8 @@ DEFAULT = ImplicitTracing()
 def implicit_contour(surface: ImplicitSurface, eye: ArrayLike, *, tracing: ImplicitTracing = DEFAULT) -> ImplicitCurves:
     """The points x of an implicit surface with N.(x - eye) = 0, N the unit gradient of F.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F and its box.
-    eye : (3,) array_like of float
-        In world coordinates.
-    tracing : ImplicitTracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    ImplicitCurves
-        Polylines on the surface. Seen from where F > 0 the side that is turned away from the eye is on the left.
-
-    Raises
-    ------
-    InputError
-        For an eye that is not three finite numbers, what `polygonized` refuses, and a resolution or tolerance that is
-        not positive.
-
-    Notes
-    -----
-    What lies behind the eye is traced too. Degenerate: a flat surface whose plane contains the eye has no contour, and
-    a doubt says so. Contours run into singular points of the surface (the apex of a cone).
-
+    eye: (3,) in world coordinates.
     Source: Glaeser, section 8.4, equations 25 to 27.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> tracing = features.ImplicitTracing(cells=12)
-    >>> curves = features.implicit_contour(surfaces.implicit_sphere(1.0), (4, 0, 0), tracing=tracing)
-    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 0], 0.25))  # a circle in front of the centre
-    ([True], True)
     """
     place = vector("contour: eye", eye)
     condition = ImplicitCentralContour(surface, place)
@@ -94,39 +61,9 @@ def implicit_parallel_contour(
 ) -> ImplicitCurves:
     """The points of an implicit surface with N.d = 0, N the unit gradient of F: seen along d it turns away there.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F and its box.
-    direction : (3,) array_like of float
-        d, of any length, towards the eye.
-    tracing : ImplicitTracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    ImplicitCurves
-        Polylines on the surface. Seen from where F > 0 the side with N.d > 0 is on the left.
-
-    Raises
-    ------
-    InputError
-        For a direction without length, what `polygonized` refuses, and a resolution or tolerance that is not positive.
-
-    Notes
-    -----
-    Degenerate: as for `implicit_contour`.
-
+    direction: (3,) d, of any length, towards the eye.
+    Edge cases: as for `implicit_contour`.
     Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> tracing = features.ImplicitTracing(cells=12)
-    >>> curves = features.implicit_parallel_contour(surfaces.implicit_sphere(1.0), (0, 0, 1), tracing=tracing)
-    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 2], 0.0))
-    ([True], True)
     """
     return curves_in_space(surface, ImplicitParallelContour(surface, direction), size=1.0, tracing=tracing)
 
@@ -136,42 +73,9 @@ def implicit_isophotes(
 ) -> ImplicitCurves:
     """The curves N.l = c of an implicit surface in parallel light, N the unit gradient of F, l the light.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F and its box.
-    light : (3,) array_like of float
-        l, of any length, towards the light.
-    cosines : (k,) array_like of float
-        c, -1 to 1; or one of them.
-    tracing : ImplicitTracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    ImplicitCurves
-        Polylines with c as level; seen from where F > 0 the brighter side is on the left.
-
-    Raises
-    ------
-    InputError
-        For a light without length, cosines not within -1 and 1, what `polygonized` refuses, and a resolution or
-        tolerance that is not positive.
-
-    Notes
-    -----
-    Degenerate: a flat part at just that angle gives no lines, and a doubt; c = 1 gives isolated points.
-
+    light: (3,) l, of any length, towards the light; cosines: (k,) c, -1 to 1.
+    Edge cases: a flat part at just that angle gives no lines, and a doubt; c = 1 gives isolated points.
     Source: Glaeser, section 8.4, equation 28.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> tracing = features.ImplicitTracing(cells=12)
-    >>> curves = features.implicit_isophotes(surfaces.implicit_sphere(1.0), (0, 0, 1), [0.0, 0.5], tracing=tracing)
-    >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
-    ([0.0, 0.5], True)
     """
     return _family(surface, lambda c: (ImplicitIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
 
@@ -181,42 +85,9 @@ def implicit_point_light_isophotes(
 ) -> ImplicitCurves:
     """The curves N.l = c of an implicit surface in the light of a point, l from the surface to the light.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F and its box.
-    light : (3,) array_like of float
-        Where the light stands, in world coordinates.
-    cosines : (k,) array_like of float
-        c, -1 to 1; or one of them.
-    tracing : ImplicitTracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    ImplicitCurves
-        As of `implicit_isophotes`.
-
-    Raises
-    ------
-    InputError
-        For a light that is not three finite numbers, cosines not within -1 and 1, what `polygonized` refuses, and a
-        resolution or tolerance that is not positive.
-
-    Notes
-    -----
-    Degenerate: as for `implicit_isophotes`.
-
+    light: (3,) where the light stands, in world coordinates; cosines: (k,) c, -1 to 1.
+    Edge cases: as for `implicit_isophotes`.
     Source: Glaeser, section 8.4, equation 28.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> tracing = features.ImplicitTracing(cells=12)
-    >>> ball = surfaces.implicit_sphere(1.0)
-    >>> curves = features.implicit_point_light_isophotes(ball, (0, 0, 4), 0.5, tracing=tracing)
-    >>> curves.closed.tolist(), curves.levels.tolist()
-    ([True], [0.5])
     """
     return _family(surface, lambda c: (ImplicitPointIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
 
@@ -226,39 +97,8 @@ def implicit_intersection(
 ) -> ImplicitCurves:
     """The curves in which two implicit surfaces meet, within the box of the first.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        On which they are traced.
-    other : ImplicitSurface
-        Its F is taken wherever the first surface is, inside its box and outside.
-    tracing : ImplicitTracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    ImplicitCurves
-        F of the other is positive on the left, seen from where F of the first is.
-
-    Raises
-    ------
-    InputError
-        For what `polygonized` refuses, and a resolution or tolerance that is not positive.
-
-    Notes
-    -----
-    Degenerate: surfaces that touch in a point give an isolated one; that coincide in an area, a doubt.
-
+    Edge cases: surfaces that touch in a point give an isolated one; that coincide in an area, a doubt.
     Source: Glaeser, section 8.4, equation 29.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> one, two = surfaces.implicit_sphere(1.0), surfaces.implicit_sphere(1.0, centre=(1, 0, 0))
-    >>> curves = features.implicit_intersection(one, two, tracing=features.ImplicitTracing(cells=12))
-    >>> len(curves), bool(np.allclose(curves.points[:, 0], 0.5))
-    (1, True)
     """
     own, _ = mesh_of(surface, tracing)
     mesh, tracing = own.mesh, replace(tracing, mesh=own)
@@ -275,43 +115,9 @@ def implicit_plane_sections(
 ) -> ImplicitCurves:
     """The sections of an implicit surface with the parallel planes n.x = d, n the unit normal.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F and its box.
-    normal : (3,) array_like of float
-        Of any length.
-    offsets : (k,) array_like of float
-        d, in world units; or one of them.
-    tracing : ImplicitTracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    ImplicitCurves
-        Polylines with d as level; seen from where F > 0, the side the normal points to is on the left.
-
-    Raises
-    ------
-    InputError
-        For a normal without length, offsets that are not finite, what `polygonized` refuses, and a resolution or
-        tolerance that is not positive.
-
-    Notes
-    -----
-    Degenerate: as for `implicit_intersection`.
-
+    normal: (3,) of any length; offsets: (k,) d, in world units.
+    Edge cases: as for `implicit_intersection`.
     Source: Glaeser, section 8.4, equation 29.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> tracing = features.ImplicitTracing(cells=12)
-    >>> ball = surfaces.implicit_sphere(1.0)
-    >>> curves = features.implicit_plane_sections(ball, (1, 0, 0), [-0.5, 0.5], tracing=tracing)
-    >>> curves.levels.tolist(), bool(np.allclose(curves[0][:, 0], -0.5))
-    ([-0.5, 0.5], True)
     """
     levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
     if levels.ndim != 1 or not np.isfinite(levels).all():
@@ -326,38 +132,9 @@ def implicit_level_lines(
 ) -> ImplicitCurves:
     """The curves of an implicit surface at given heights: `implicit_plane_sections` with z up.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F and its box.
-    heights : (k,) array_like of float
-        In world units; or one of them.
-    tracing : ImplicitTracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    ImplicitCurves
-        Polylines with the height as level.
-
-    Raises
-    ------
-    InputError
-        For heights that are not finite, what `polygonized` refuses, and a resolution or tolerance that is not positive.
-
-    Notes
-    -----
-    Degenerate: as for `implicit_intersection`.
-
+    heights: (k,) in world units.
+    Edge cases: as for `implicit_intersection`.
     Source: as of `implicit_plane_sections`.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> tracing = features.ImplicitTracing(cells=12)
-    >>> curves = features.implicit_level_lines(surfaces.implicit_sphere(1.0), [0.0, 0.5, 2.0], tracing=tracing)
-    >>> curves.levels.tolist()
-    [0.0, 0.5]
     """
     return implicit_plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
 

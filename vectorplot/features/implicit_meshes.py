@@ -31,27 +31,8 @@ from vectorplot.tolerances import LEAST_DIVISOR
 class ImplicitMesh:
     """An implicit surface as triangles that end on its singular lines.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        The triangles.
-    on_line : (v,) array of bool
-        Which vertices are on a singular line.
-    lines : SingularLines
-        Where sheets of the surface cross or end.
-    doubts : tuple of str
-        A sentence where it could not be settled how the surface hangs together.
-
-    Notes
-    -----
-    Made by implicit_mesh.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> found = features.implicit_mesh(surfaces.implicit_sphere(1.0), cells=12)
-    >>> isinstance(found, features.ImplicitMesh), bool(found.on_line.any()), found.doubts
-    (True, False, ())
+    mesh: the triangles; on_line: (v,) which vertices are on a singular line; lines: where sheets of the surface cross
+    or end; doubts: A sentence where it could not be settled how the surface hangs together.
     """
 
     mesh: Mesh
@@ -71,35 +52,7 @@ class SheetsApart:
 
 
 def implicit_mesh(surface: ImplicitSurface, cells: int) -> ImplicitMesh:
-    """An implicit surface polygonised up to its singular lines, for several families of curves on it.
-
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F and its box.
-    cells : int
-        Along the longest side of the box; more are taken until it is settled how the surface hangs together.
-
-    Returns
-    -------
-    ImplicitMesh
-        What ImplicitTracing takes as mesh.
-
-    Raises
-    ------
-    InputError
-        For what `polygonized` refuses.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> ball = surfaces.implicit_sphere(1.0)
-    >>> tracing = features.ImplicitTracing(mesh=features.implicit_mesh(ball, cells=12))
-    >>> levels = features.implicit_level_lines(ball, [0.0, 0.5], tracing=tracing)
-    >>> outline = features.implicit_contour(ball, (4, 0, 0), tracing=tracing)
-    >>> len(levels), len(outline)
-    (2, 1)
-    """
+    """An implicit surface polygonised up to its singular lines, for several families of curves on it."""
     mesh = polygonized(surface, cells)
     return mesh_with_lines(surface, mesh, singular_lines(surface, mesh), cells)
 

@@ -303,7 +303,7 @@ def singular_lines(surface: ImplicitSurface, mesh: Mesh) -> SingularLines:
 
     They end on the sides of the box, and at points in which the equations of their kind lose their rank, known to about
     1e-4 of the extent: pinch points, swallowtails, points in which several lines meet.
-    Degenerate: lines along which second derivatives vanish altogether are not found.
+    Edge cases: lines along which second derivatives vanish altogether are not found.
     """
     extent = float(np.ptp(np.asarray(surface.box, dtype=np.float64), axis=0).max())
     edges, doubles = CuspidalEdges(surface, extent), DoubleLines(surface, extent)

@@ -208,7 +208,7 @@ def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
 
     Notes
     -----
-    Parts of the surface smaller than a cell, and sheets closer than that, may be missed or joined. Degenerate: F of one
+    Parts of the surface smaller than a cell, and sheets closer than that, may be missed or joined. Edge cases: F of one
     sign gives a mesh without faces. Cells at a corner of which F is not finite are holes. A change of sign at a pole or
     a jump of F is no surface. Triangles may be very thin.
 
@@ -451,7 +451,7 @@ class ImplicitCentralContour:
     from it.
 
     Errors: InputError for an eye that is not three finite numbers.
-    Degenerate: NaN where the gradient of F vanishes.
+    Edge cases: NaN where the gradient of F vanishes.
     Source: Glaeser, section 8.4, equations 25 to 27.
     """
 
@@ -484,7 +484,7 @@ class ImplicitParallelContour:
     vector. Positive where the unit gradient N of F points towards the eye.
 
     Errors: InputError for a direction without length.
-    Degenerate: NaN where the gradient of F vanishes.
+    Edge cases: NaN where the gradient of F vanishes.
     """
 
     surface: ImplicitSurface
@@ -532,7 +532,7 @@ class ImplicitPointIsophote:
     """g = N.w / |w| - c, w = light - x: the light of a point (3,) meets the surface at the cosine c.
 
     Errors: InputError for a light that is not three finite numbers, a cosine not within -1 and 1.
-    Degenerate: NaN where the light stands.
+    Edge cases: NaN where the light stands.
     """
 
     surface: ImplicitSurface

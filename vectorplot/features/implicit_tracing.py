@@ -392,32 +392,11 @@ THINNED = 0.3
 class ImplicitTracing:
     """How curves on an implicit surface are traced.
 
-    Parameters
-    ----------
-    cells : int
-        Along the longest side of the box, of the lattice on which the surface is polygonised.
-    mesh : ImplicitMesh, optional
-        The surface polygonised already (see `implicit_mesh`), for several families of curves.
-    resolution : float
-        The part of the box down to which triangles are cut where the curve is not clear; closed curves smaller than
-        that may be missed.
-    tolerance : float, optional
-        Points are put in until chords stay within this distance of the true curve; a thousandth of the extent of the
-        surface where None.
-    picture : callable, optional
-        Takes points (k, 3) to where the tolerance is measured, (k, 2) or (k, 3), for example millimetres on a page;
-        without it in space.
-    budget : Budget
-        How much work it may be.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> ball = surfaces.implicit_sphere(1.0)
-    >>> rough = features.implicit_contour(ball, (4, 0, 0), tracing=features.ImplicitTracing(cells=12, tolerance=0.1))
-    >>> fine = features.implicit_contour(ball, (4, 0, 0), tracing=features.ImplicitTracing(cells=12, tolerance=1e-4))
-    >>> len(rough.points) < len(fine.points)
-    True
+    cells: along the longest side of the box, of the lattice on which the surface is polygonised; mesh: the surface
+    polygonised already (see `implicit_mesh`), for several families of curves; resolution: the part of the box down to
+    which triangles are cut where the curve is not clear; tolerance: points are put in until chords stay within this
+    distance of the true curve; picture: takes points (k, 3) to where the tolerance is measured, (k, 2) or (k, 3), for
+    example millimetres on a page; budget: how much work it may be.
     """
 
     cells: int = 48
@@ -432,36 +411,10 @@ class ImplicitTracing:
 class ImplicitCurves(NumberedLines):
     """Polylines on an implicit surface.
 
-    Parameters
-    ----------
-    points : (n, 3) array of float
-        In world coordinates.
-    offsets : (m+1,) array of int
-        Curve i has the points offsets[i] to offsets[i+1].
-    closed : (m,) array of bool
-        The last point joins the first, which is not repeated.
-    levels : (m,) array of float
-        The level a curve of a family belongs to; otherwise 0.
-    isolated : (i, 3) array of float
-        Single points that satisfy the condition.
-    nodes : (k, 3) array of float
-        Where curves cross.
-    doubts : tuple of str
-        A sentence for each thing that could not be decided.
-
-    Notes
-    -----
-    Seen from where F > 0 the condition is positive on the left.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> tracing = features.ImplicitTracing(cells=12)
-    >>> curves = features.implicit_level_lines(surfaces.implicit_sphere(1.0), [0.0, 0.5], tracing=tracing)
-    >>> isinstance(curves, features.ImplicitCurves), len(curves), curves.doubts
-    (True, 2, ())
-    >>> bool((curves[1][0] == curves[1][-1]).all())  # a closed curve, led back to its first point
-    True
+    points: (n, 3) in world coordinates; offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,)
+    the last point joins the first, which is not repeated; levels: (m,) the level a curve of a family belongs to;
+    isolated: (i, 3) single points that satisfy the condition; nodes: (k, 3) where curves cross; doubts: A sentence for
+    each thing that could not be decided.
     """
 
     points: Floats = field(metadata=EACH_POINT)

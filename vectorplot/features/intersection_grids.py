@@ -35,36 +35,10 @@ FREE = -1
 class Tessellation:
     """Triangles with the places on the true surface that their corners have.
 
-    Parameters
-    ----------
-    points : (n, 3) array of float
-        In world coordinates.
-    triangles : (t, 3) array of int
-        Of points.
-    places : (t, 3, d) array of float
-        Of their corners, such as u and v; a point may have several places (seams, poles).
-    cells : (t,) array of int
-        The cell a triangle belongs to.
-    edges : (e, 2) array of int
-        Of points, the smaller one first.
-    sides : (t, 3) array of int
-        The edge from corner k to the next.
-    rails : (e,) array of int
-        What a point on the edge must stay on, as its sheet numbers such lines; -1 for edges inside.
-    border : (e,) array of bool
-        Edges of one triangle.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> can = surfaces.Cylinder()
-    >>> found = features.surface_tessellation(can, columns=8, rows=3)
-    >>> isinstance(found, features.Tessellation), int(found.border.sum())  # round the bottom and round the top
-    (True, 16)
-    >>> places = found.places.reshape(-1, 2)
-    >>> bool(np.allclose(can.points(*places.T), found.points[found.triangles].reshape(-1, 3)))
-    True
+    points: (n, 3) in world coordinates; triangles: (t, 3) of points; places: (t, 3, d) of their corners, such as u and
+    v; cells: (t,) the cell a triangle belongs to; edges: (e, 2) of points, the smaller one first; sides: (t, 3) the
+    edge from corner k to the next; rails: (e,) what a point on the edge must stay on, as its sheet numbers such lines;
+    border: (e,) edges of one triangle.
     """
 
     points: Floats
@@ -92,39 +66,7 @@ def finer_grids(columns: int, rows: int) -> list[tuple[int, int]]:
 def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellation:
     """A surface as the triangles of an uneven grid of columns times rows cells.
 
-    Parameters
-    ----------
-    surface : Surface
-        What is cut up.
-    columns, rows : int
-        Cells along u and along v, three or more.
-
-    Returns
-    -------
-    Tessellation
-        Triangles with the places (u, v) on the true surface that their corners have. Rails are 0 for a border u =
-        const., 1 for v = const.
-
-    Raises
-    ------
-    InputError
-        For fewer than three columns or rows, or more than 2^20 cells.
-
-    Notes
-    -----
-    Grid points are moved a little, the same way every time: symmetric surfaces then meet in no corner, along no edge.
-    Seams and poles are closed: their triangles share points. Degenerate: triangles without area and those with a corner
-    in a hole are left out.
-
     Source: Glaeser, section 8.4 (polygonised surfaces).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> torus = features.surface_tessellation(surfaces.Torus(), columns=6, rows=5)
-    >>> torus.triangles.shape, torus.places.shape, bool(torus.border.any())
-    ((60, 3), (60, 3, 2), False)
     """
     nodes = grid_nodes(surface, columns, rows)
     domain = surface.domain

@@ -161,40 +161,11 @@ STRAYED = 0.75
 class DoubleCurves(NumberedLines):
     """Polylines on two surfaces, or on two patches of one: each point known by its parameters on both, and in space.
 
-    Parameters
-    ----------
-    points : (n, 3) array of float
-        In world coordinates.
-    one, two : (n, 2) array of float
-        Parameters u, v on both: along a curve they run on over seams, beyond the domain.
-    offsets : (m+1,) array of int
-        Curve i has the points offsets[i] to offsets[i+1].
-    closed : (m,) array of bool
-        The last point joins the first, which is not repeated.
-    nodes : (k, 3) array of float
-        Points where curves cross because the surfaces touch there.
-    isolated : (i, 3) array of float
-        Points where they touch and no curve passes.
-    touching : (t, 3) array of float
-        Points of lines along which they touch.
-    doubts : tuple of str
-        A sentence for each thing that could not be decided.
-
-    Notes
-    -----
-    Where a surface meets itself one and two may have changed their roles when a closed curve is back at its start (a
-    Klein bottle), and they are equal where a curve ends in a pinch point or a swallowtail.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> ball, pipe = surfaces.Sphere(1.0), surfaces.Cylinder(radius=0.6, bottom=-2, top=2)
-    >>> curves = features.surface_intersection(ball, pipe, tracing=features.Tracing(columns=15, rows=15))
-    >>> isinstance(curves, features.DoubleCurves), curves.closed.tolist()
-    (True, [True, True])
-    >>> bool(np.allclose(pipe.points(*curves.two.T), curves.points))
-    True
+    points: (n, 3) in world coordinates; one, two: (n, 2) parameters u, v on both: along a curve they run on over seams,
+    beyond the domain; offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,) the last point
+    joins the first, which is not repeated; nodes: (k, 3) points where curves cross because the surfaces touch there;
+    isolated: (i, 3) points where they touch and no curve passes; touching: (t, 3) points of lines along which they
+    touch; doubts: A sentence for each thing that could not be decided.
     """
 
     points: Floats = field(metadata=EACH_POINT)

@@ -574,7 +574,7 @@ def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAU
     -----
     Closed curves smaller than a cell are found by the place inside them where the tangent planes are parallel: to any
     size, but one of them for each pair of triangles. Where triangles cannot tell curves from one another the grids are
-    refined (up to 2^17 cells); what is left then is a doubt. Degenerate: where surfaces touch in a point it is
+    refined (up to 2^17 cells); what is left then is a doubt. Edge cases: where surfaces touch in a point it is
     isolated, or a node if curves cross there; where they touch along a line its points are touching, with a doubt;
     where they coincide in an area there is a doubt and no curve. Curves end at the last whole cell before a hole.
 
@@ -667,7 +667,7 @@ def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> Doubl
 
     Notes
     -----
-    Degenerate: of more curves than the budget allows there is none, with a doubt. A double curve ends exactly in a
+    Edge cases: of more curves than the budget allows there is none, with a doubt. A double curve ends exactly in a
     pinch point, or in a swallowtail; where the surface passes through a point in all directions (the axis of a spindle
     torus, the apex of a double cone) that point is isolated. Loops that are smaller than three cells are not found.
 

@@ -30,31 +30,9 @@ BLOCK = 1 << 16
 class Edges:
     """Edges of a mesh, and what they are.
 
-    Parameters
-    ----------
-    start, end : (e,) array of int
-        Vertices.
-    kind : (e,) array of int
-        Values of LineKind.
-    face : (e,) array of int
-        One of the faces there.
-    front : (e,) array of bool
-        Whether a face there shows its outside.
-    side : (e,) array of int
-        1 where all faces there lie to the left of start -> end in the image, -1 where they lie to the right, 0
-        elsewhere.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import features, geometry
-    >>> cube = geometry.box((1, 1, 1))
-    >>> facing = np.sign(cube.face_normals @ (3, 2, 1)).astype(np.int8)
-    >>> faces = features.Faces(cube.vertices.T, cube.corners, cube.offsets, np.zeros(24, dtype=bool), facing)
-    >>> edges = features.mesh_edges(faces, {vp.LineKind.EDGES}, crease_angle_deg=25.0)
-    >>> isinstance(edges, features.Edges), int(edges.front.sum()), len(edges.front)  # three of the edges are behind
-    (True, 9, 12)
+    start, end: (e,) vertices; kind: (e,) values of LineKind; face: (e,) one of the faces there; front: (e,) whether a
+    face there shows its outside; side: (e,) 1 where all faces there lie to the left of start -> end in the image, -1
+    where they lie to the right, 0 elsewhere.
     """
 
     start: Ints
@@ -69,28 +47,10 @@ class Edges:
 class Faces:
     """What the edges of a mesh are told from.
 
-    Parameters
-    ----------
-    points : (3, v) array of float
-        Coordinates of the vertices: of a picture, in the axes of the camera.
-    corners : (c,) array of int
-        Vertex indices of all faces one after the other.
-    offsets : (f+1,) array of int
-        Face i has the corners offsets[i] to offsets[i+1].
-    inner : (c,) array of bool
-        Marks the diagonals of polygons that were cut: the edges that begin at these corners.
-    facing : (f,) array of int8
-        1, -1 or 0 as a face shows its outside, its inside or its edge.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, geometry
-    >>> cube = geometry.box((1, 1, 1))
-    >>> facing = np.sign(cube.face_normals @ (3, 2, 1)).astype(np.int8)  # as seen from far away in this direction
-    >>> faces = features.Faces(cube.vertices.T, cube.corners, cube.offsets, np.zeros(24, dtype=bool), facing)
-    >>> faces.after(np.arange(4)).tolist()  # the corners that follow those of the first face
-    [1, 2, 3, 0]
+    points: (3, v) coordinates of the vertices: of a picture, in the axes of the camera; corners: (c,) vertex indices of
+    all faces one after the other; offsets: (f+1,) face i has the corners offsets[i] to offsets[i+1]; inner: (c,) marks
+    the diagonals of polygons that were cut: the edges that begin at these corners; facing: (f,) 1, -1 or 0 as a face
+    shows its outside, its inside or its edge.
     """
 
     points: Floats
@@ -107,41 +67,7 @@ class Faces:
 def mesh_edges(faces: Faces, kinds: Collection[LineKind], crease_angle_deg: float) -> Edges:
     """The edges of a mesh that are contours, boundaries, creases or edges, each edge once.
 
-    Parameters
-    ----------
-    faces : Faces
-        The faces, and which side each shows.
-    kinds : collection of LineKind
-        What is asked for; an edge gets the first of them that it is.
-    crease_angle_deg : float
-        A crease turns by more than that, in degrees.
-
-    Returns
-    -------
-    Edges
-        Ordered by their vertices: start and end (e,), kind (e,), face (e,) one of the faces there, front (e,), and side
-        (e,), on which side of start -> end all faces there lie in the image.
-
-    Notes
-    -----
-    An edge is a contour where all its faces lie on one side of it in the image, a boundary with one face only, a crease
-    where two faces turn by more than crease_angle_deg or more of them meet, but for layers of one sheet. Neighbours
-    wound in opposite senses are compared as if one were turned over. Degenerate: diagonals of cut polygons count as
-    contours only; edges between two faces seen edge-on are no contours.
-
     Source: Glaeser, sections 3.3, 6.1 and 9.3; erratum G3-09.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import features, geometry
-    >>> cube = geometry.box((1, 1, 1))
-    >>> facing = np.sign(cube.face_normals @ (3, 2, 1)).astype(np.int8)
-    >>> faces = features.Faces(cube.vertices.T, cube.corners, cube.offsets, np.zeros(24, dtype=bool), facing)
-    >>> edges = features.mesh_edges(faces, {vp.LineKind.CONTOUR, vp.LineKind.CREASE}, crease_angle_deg=25.0)
-    >>> len(edges.kind), int((edges.kind == vp.LineKind.CONTOUR).sum())
-    (12, 6)
     """
     half = _candidates(faces, kinds, crease_angle_deg)
     if not len(half):
@@ -345,7 +271,7 @@ def apart_at_creases(mesh: Mesh, crease_angle_deg: float) -> Mesh:
     """The mesh with vertices of their own for faces that no way around the vertex joins but over edges at which two
     faces turn by more than an angle, or more than two meet; the same faces in the same order.
 
-    Degenerate: faces without a normal turn by nothing. A mesh without creases is as it was.
+    Edge cases: faces without a normal turn by nothing. A mesh without creases is as it was.
     """
     part = _parts_at_vertices(mesh, crease_angle_deg)
     first = np.unique(part, return_index=True)[1]

@@ -64,7 +64,7 @@ def noisy_bending(faces: FaceTriangles, trust: Floats) -> tuple[Bending, Floats]
     Error: on a mesh of a smooth surface curvatures are off by the square of the edges, their derivatives by the edges.
     By how much is what the fit leaves of the slopes, and what rounding may do to them, over the distance of neighbours;
     infinite where there are no more slopes than unknowns.
-    Degenerate: not a number at vertices without faces.
+    Edge cases: not a number at vertices without faces.
     Source: Goldfeather, Interrante (2004), section 3.
     """
     mesh = faces.mesh
@@ -288,7 +288,7 @@ def smooth_contours(mesh: Mesh, sight: Sight, crease_angle_deg: float) -> Smooth
     """Where average normals, linear in every triangle, are at right angles to the view.
 
     Normals are averaged up to the creases of the mesh, at which contours end.
-    Degenerate: none around vertices without a normal, and at the eye itself.
+    Edge cases: none around vertices without a normal, and at the eye itself.
     Source: Hertzmann, Zorin (2000), section 3.
     """
     smooth = apart_at_creases(mesh, crease_angle_deg)

@@ -546,59 +546,9 @@ def mesh_integral_curves(
 ) -> MeshCurves:
     """The lines across the faces of a mesh that follow a field of directions, one through each of given points.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        On which they run; open or closed.
-    field : TangentField
-        What they follow, such as `SteepestSlope`, `ConstantElevation`, `PrincipalDirections`, `AsymptoticDirections`,
-        `VectorField`, `TurnedField` of one of these: asked once for every face, at its barycentre. Fields of parameters
-        need a surface.
-    faces : (k,) array_like of int
-        In which faces they begin; or one of them.
-    points : (k, 3) array_like of float, optional
-        Where in these faces; at the barycentres where None.
-    length : float, optional
-        How far they run from the start to each side at most, in world units; ten times the extent of the mesh where
-        None.
-    both_ways : bool
-        Whether they run against the field as well.
-    crease_angle_deg : float
-        At edges where faces turn by more, 0 to 180 degrees, the mesh is not smooth: for fields that go by curvatures.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines with the number of the start as level. Every vertex but the ends lies on an edge (or the fold of a
-        polygon that is not plane), and every segment in a face, along its direction.
-
-    Raises
-    ------
-    InputError
-        For faces that the mesh does not have, points that are not in their faces, a length that is not positive, fields
-        that need parameters, or give what are no directions in faces; an angle that is not within 0 and 180.
-
-    Notes
-    -----
-    All lines are led on at once, by a face each time. Where the direction beyond an edge leads back to it, the line
-    follows the edge in the sense of both directions, those that push less counting more (water in a valley); where
-    these cancel out it ends. At a vertex it goes into the face, or along the edge, that leads away and is nearest to
-    the way it came, and ends where there is none: on a summit, in a pit. It ends at borders, at edges of more than two
-    faces or of two that do not agree on their outer side, and at faces in which the field has no direction or that
-    have no area. What has no sense (lines of curvature) goes on in the one nearest to the way it came. It is closed
-    where it comes back to the point where it left its first face. No line runs across more than 100000 faces.
-
+    faces: (k,) in which faces they begin; points: (k, 3) where in these faces.
     Source: Glaeser, section 9.4, figure 8; errata G9-14. Filippov, Differential equations with discontinuous righthand
     sides, section 4, for edges.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, geometry
-    >>> turn = features.VectorField(lambda points: np.cross((0.0, 0.0, 1.0), points - (1.0, 1.0, 0.0)))
-    >>> ring = features.mesh_integral_curves(geometry.box((2, 2, 2)), turn, 0)
-    >>> ring.closed.tolist(), ring[0][:, 2].tolist()
-    ([True], [1.0, 1.0, 1.0, 1.0, 1.0])
     """
     sides = mesh_sides(mesh)
     face, own = starts_in_faces("integral curves", mesh, sides, faces, points)

@@ -49,22 +49,7 @@ AXIS_SHIFT = 16.0
 class Intersections:
     """Segments in which two faces meet.
 
-    Parameters
-    ----------
-    start, end : (3, n) array of float
-        Their ends, in the coordinates of the faces.
-    one, two : (n,) array of int
-        The two faces.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features
-    >>> points = np.array([(-1, -1, 0), (1, -1, 0), (0, 1, 0), (0, -1, -1), (0, 1, -1), (0, 0, 1)], dtype=float)
-    >>> faces = features.Faces(points.T, np.arange(6), np.array([0, 3, 6]), np.zeros(6, bool), np.ones(2, np.int8))
-    >>> meeting = features.face_intersections(faces, np.array([0, 1]), tolerance=1e-9)
-    >>> isinstance(meeting, features.Intersections), meeting.one.tolist(), meeting.two.tolist()
-    (True, [0], [1])
+    start, end: (3, n) their ends, in the coordinates of the faces; one, two: (n,) the two faces.
     """
 
     start: Floats = field(metadata=IN_COLUMNS)
@@ -76,36 +61,8 @@ class Intersections:
 def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersections:
     """The segments in which convex faces of different parts meet.
 
-    Parameters
-    ----------
-    faces : Faces
-        Convex, or cut so that they are.
-    part : (f,) array of int
-        Faces with the same number are not compared.
-    tolerance : float
-        A distance below that is zero, in the units of the points.
-
-    Returns
-    -------
-    Intersections
-        start and end (3, n) of the segments, and the two faces one and two (n,) of each.
-
-    Notes
-    -----
-    A face that only touches the other's plane with an edge counts, one that lies in it does not. Of equal segments the
-    first one stays.
-
+    part: (f,) faces with the same number are not compared.
     Source: Glaeser, section 1.3, equations 21 and 22; errata G1-01 to G1-03.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features
-    >>> points = np.array([(-1, -1, 0), (1, -1, 0), (0, 1, 0), (0, -1, -1), (0, 1, -1), (0, 0, 1)], dtype=float)
-    >>> faces = features.Faces(points.T, np.arange(6), np.array([0, 3, 6]), np.zeros(6, bool), np.ones(2, np.int8))
-    >>> meeting = features.face_intersections(faces, np.array([0, 1]), tolerance=1e-9)
-    >>> sorted([meeting.start[1, 0], meeting.end[1, 0]]) == [-0.5, 0.5]
-    True
     """
     none = np.zeros((3, 0))
     found = [Intersections(none, none, np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]

@@ -57,7 +57,7 @@ def level_segments(triangles: Ints, values: Floats) -> LevelSegments:
 
     An edge is one for all its triangles, and so is the crossing on it. Zero counts as positive: a curve through a
     vertex or along an edge is met once, in one triangle of those around it.
-    Degenerate: triangles with a value that is not a number have none.
+    Edge cases: triangles with a value that is not a number have none.
     """
     negative = (values[..., triangles] < 0.0).reshape(-1, 3)
     count = negative.sum(axis=1)
@@ -126,33 +126,9 @@ TRIANGLES_AT_ONCE = 1 << 14
 class MeshCurves(NumberedLines):
     """Polylines in the faces of a mesh.
 
-    Parameters
-    ----------
-    points : (n, 3) array of float
-        In world coordinates.
-    offsets : (m+1,) array of int
-        Curve i has the points offsets[i] to offsets[i+1].
-    closed : (m,) array of bool
-        The last point joins the first, which is not repeated.
-    faces : (n,) array of int
-        The face in which the segment from each point to the next lies, -1 at the end of an open curve.
-    levels : (m,) array of float
-        The level a curve of a family belongs to.
-
-    Notes
-    -----
-    Seen from outside the side of larger values is on the left.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> curves = features.mesh_level_lines(geometry.box((2, 2, 2)), [0.5, 1.0])
-    >>> isinstance(curves, features.MeshCurves), len(curves), curves.levels.tolist()
-    (True, 2, [0.5, 1.0])
-    >>> len(curves[0])  # four corners, and the first one again
-    5
-    >>> len(curves.smooth(tolerance=0.01))  # Bézier paths
-    2
+    points: (n, 3) in world coordinates; offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,)
+    the last point joins the first, which is not repeated; faces: (n,) the face in which the segment from each point to
+    the next lies, -1 at the end of an open curve; levels: (m,) the level a curve of a family belongs to.
     """
 
     points: Floats = field(metadata=EACH_POINT)
@@ -298,7 +274,7 @@ def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> Me
 
     Notes
     -----
-    Degenerate: a vertex in the plane counts as above it, but on a border that lies in the plane with the mesh above:
+    Edge cases: a vertex in the plane counts as above it, but on a border that lies in the plane with the mesh above:
     such borders are sections as well. A face in the plane gives its outline where the mesh goes on below.
 
     Source: Glaeser, section 9.3, example 3, figure 7.
@@ -344,7 +320,7 @@ def mesh_level_lines(mesh: Mesh, heights: ArrayLike) -> MeshCurves:
 
     Notes
     -----
-    Degenerate: as for `mesh_plane_sections`.
+    Edge cases: as for `mesh_plane_sections`.
 
     Source: Glaeser, section 9.3, example 3, figure 7.
 
@@ -361,43 +337,8 @@ def mesh_level_lines(mesh: Mesh, heights: ArrayLike) -> MeshCurves:
 def mesh_isophotes(mesh: Mesh, light: ArrayLike, cosines: ArrayLike, crease_angle_deg: float = 180.0) -> MeshCurves:
     """The curves across the faces of a mesh on which N.l = c in parallel light.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Best one of a surface that is smooth but for creases.
-    light : (3,) array_like of float
-        l, of any length, towards the light.
-    cosines : (k,) array_like of float
-        c, -1 to 1; or one of them.
-    crease_angle_deg : float
-        At edges where faces turn by more, 0 to 180 degrees, they are taken for different surfaces; where 180 at none.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines with c as level.
-
-    Raises
-    ------
-    InputError
-        For a light without length, cosines not within -1 and 1, an angle not within 0 and 180.
-
-    Notes
-    -----
-    N.l is taken from average normals at the vertices and linear in every triangle: on a mesh of a smooth surface the
-    curves come near the true isophotes. They end at creases, and flat faces between creases have none.
-
+    light: (3,) l, of any length, towards the light; cosines: (k,) c, -1 to 1.
     Source: Glaeser, section 9.3, example 2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> u, v = np.meshgrid(*surfaces.Sphere().domain.grid(36, 18), indexing="ij")
-    >>> ball = features.mesh_of_grid(surfaces.Sphere().points(u, v), closed_u=True)
-    >>> curves = features.mesh_isophotes(ball, (0, 0, 1), [0.5])
-    >>> len(curves), bool(np.allclose(curves.points[:, 2], 0.5, atol=0.02))
-    (1, True)
     """
     towards = normalize(vector("isophotes: light", light))
     whole = _apart(mesh, crease_angle_deg)
@@ -409,40 +350,8 @@ def mesh_point_light_isophotes(
 ) -> MeshCurves:
     """The curves across the faces of a mesh on which N.l = c in the light of a point.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Best one of a surface that is smooth but for creases.
-    light : (3,) array_like of float
-        Where the light stands, in world coordinates.
-    cosines : (k,) array_like of float
-        c, -1 to 1; or one of them.
-    crease_angle_deg : float
-        At edges where faces turn by more, 0 to 180 degrees, they are taken for different surfaces; where 180 at none.
-
-    Returns
-    -------
-    MeshCurves
-        As of `mesh_isophotes`; l goes from the mesh to the light.
-
-    Raises
-    ------
-    InputError
-        For a light that is not three finite numbers, cosines not within -1 and 1.
-
-    Notes
-    -----
+    light: (3,) where the light stands, in world coordinates; cosines: (k,) c, -1 to 1.
     Source: Glaeser, section 9.3, example 2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> u, v = np.meshgrid(*surfaces.Sphere().domain.grid(36, 18), indexing="ij")
-    >>> ball = features.mesh_of_grid(surfaces.Sphere().points(u, v), closed_u=True)
-    >>> curves = features.mesh_point_light_isophotes(ball, (0, 0, 4), [0.0])
-    >>> len(curves), bool(curves.points[:, 2].min() > 0.2)  # the terminator stands before the middle
-    (1, True)
     """
     lamp = vector("isophotes: light", light)
     whole = _apart(mesh, crease_angle_deg)
@@ -452,37 +361,9 @@ def mesh_point_light_isophotes(
 def mesh_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
     """The edges of a mesh between lighter and darker faces, in parallel light.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Whose faces are compared.
-    light : (3,) array_like of float
-        l, of any length, towards the light.
-    cosines : (k,) array_like of float
-        c, -1 to 1; or one of them.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines with c as level: N.l of the face on the left is at least c, on the right below.
-
-    Raises
-    ------
-    InputError
-        For a light without length, cosines not within -1 and 1.
-
-    Notes
-    -----
-    Degenerate: edges that do not have two faces are none.
-
+    light: (3,) l, of any length, towards the light; cosines: (k,) c, -1 to 1.
+    Edge cases: edges that do not have two faces are none.
     Source: Glaeser, section 9.3, example 2.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> curves = features.mesh_isophote_edges(geometry.box((2, 2, 2)), (0, 0, 1), [0.5])
-    >>> curves.closed.tolist(), set(curves[0][:, 2].tolist())  # round the top
-    ([True], {2.0})
     """
     towards = normalize(vector("isophotes: light", light))
     return _along_edges(mesh, np.asarray(matmul(mesh.face_normals, towards)), _cosines(cosines))
@@ -491,37 +372,9 @@ def mesh_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> Mes
 def mesh_point_light_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: ArrayLike) -> MeshCurves:
     """The edges of a mesh between lighter and darker faces, in the light of a point.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Whose faces are compared.
-    light : (3,) array_like of float
-        Where the light stands, seen from the middles of the faces.
-    cosines : (k,) array_like of float
-        c, -1 to 1; or one of them.
-
-    Returns
-    -------
-    MeshCurves
-        As of `mesh_isophote_edges`.
-
-    Raises
-    ------
-    InputError
-        For a light that is not three finite numbers, cosines not within -1 and 1.
-
-    Notes
-    -----
-    Degenerate: as for `mesh_isophote_edges`.
-
+    light: (3,) where the light stands, seen from the middles of the faces; cosines: (k,) c, -1 to 1.
+    Edge cases: as for `mesh_isophote_edges`.
     Source: Glaeser, section 9.3, example 2.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> curves = features.mesh_point_light_isophote_edges(geometry.box((2, 2, 2)), (1, 1, 9), [0.5])
-    >>> set(curves[0][:, 2].tolist())
-    {2.0}
     """
     lamp = vector("isophotes: light", light)
     return _along_edges(mesh, _towards(face_barycentres(mesh), lamp, mesh.face_normals), _cosines(cosines))
@@ -530,39 +383,8 @@ def mesh_point_light_isophote_edges(mesh: Mesh, light: ArrayLike, cosines: Array
 def mesh_contour_across_faces(mesh: Mesh, eye: ArrayLike) -> MeshCurves:
     """The curves across the faces of a mesh on which N.(eye - x) = 0, N from average normals at the vertices.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Best one of a smooth surface.
-    eye : (3,) array_like of float
-        In world coordinates.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines of level 0.
-
-    Raises
-    ------
-    InputError
-        For an eye that is not three finite numbers.
-
-    Notes
-    -----
-    On a mesh of a smooth surface a smooth line near the true contour, where the contour along edges goes to and fro;
-    but visibility on the mesh itself changes along edges.
-
+    eye: (3,) in world coordinates.
     Source: Glaeser, section 9.3, example 1.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> u, v = np.meshgrid(*surfaces.Sphere().domain.grid(36, 18), indexing="ij")
-    >>> ball = features.mesh_of_grid(surfaces.Sphere().points(u, v), closed_u=True)
-    >>> curves = features.mesh_contour_across_faces(ball, (4, 0, 0))
-    >>> len(curves), bool(np.allclose(curves.points[:, 0], 0.25, atol=0.02))
-    (1, True)
     """
     place = vector("contour: eye", eye)
     return _across_faces(mesh, lambda points, normals: _towards(points, place, normals), np.zeros(1))
@@ -571,36 +393,8 @@ def mesh_contour_across_faces(mesh: Mesh, eye: ArrayLike) -> MeshCurves:
 def mesh_parallel_contour_across_faces(mesh: Mesh, direction: ArrayLike) -> MeshCurves:
     """The curves across the faces of a mesh on which N.d = 0, for an eye at infinity.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Best one of a smooth surface.
-    direction : (3,) array_like of float
-        d, of any length, towards the eye.
-
-    Returns
-    -------
-    MeshCurves
-        As of `mesh_contour_across_faces`.
-
-    Raises
-    ------
-    InputError
-        For a direction without length.
-
-    Notes
-    -----
+    direction: (3,) d, of any length, towards the eye.
     Source: Glaeser, section 9.3, example 1.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> u, v = np.meshgrid(*surfaces.Sphere().domain.grid(36, 18), indexing="ij")
-    >>> ball = features.mesh_of_grid(surfaces.Sphere().points(u, v), closed_u=True)
-    >>> curves = features.mesh_parallel_contour_across_faces(ball, (1, 2, 3))
-    >>> len(curves), bool(np.allclose(curves.points @ (1, 2, 3), 0.0, atol=0.1))
-    (1, True)
     """
     d = normalize(vector("contour: direction", direction))
     return _across_faces(mesh, lambda points, normals: np.asarray(matmul(normals, d)), np.zeros(1))
@@ -609,7 +403,7 @@ def mesh_parallel_contour_across_faces(mesh: Mesh, direction: ArrayLike) -> Mesh
 def vertex_normals(mesh: Mesh) -> Floats:
     """(v,3) average normals at the vertices, of length one: of the faces there, each weighted with its angle.
 
-    Degenerate: zero where the faces at a vertex cancel out, and at vertices without a face.
+    Edge cases: zero where the faces at a vertex cancel out, and at vertices without a face.
     """
     corner, following = mesh.corners, mesh.next_corner
     before = np.empty_like(following)

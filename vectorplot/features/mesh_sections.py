@@ -35,23 +35,8 @@ MOST_BORDERS = 1000
 class MeshSection:
     """The curves in which a surface meets the faces of a mesh.
 
-    Parameters
-    ----------
-    curves : SurfaceCurves
-        On the surface.
-    faces : (n,) array of int
-        The face of the mesh in which the segment from every point to the next runs; the last point of an open curve has
-        that of the segment before.
-    normals : (n, 3) array of float
-        Its unit normal there, that of one of its triangles where it is not planar.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry, surfaces
-    >>> ball, cube = surfaces.Sphere(1.2, centre=(1, 1, 1)), geometry.box((2, 2, 2))
-    >>> section = features.mesh_section(ball, cube, tracing=features.Tracing(columns=15, rows=15))
-    >>> isinstance(section, features.MeshSection), section.normals.shape == section.curves.points.shape
-    (True, True)
+    curves: on the surface; faces: (n,) the face of the mesh in which the segment from every point to the next runs;
+    normals: (n, 3) its unit normal there, that of one of its triangles where it is not planar.
     """
 
     curves: SurfaceCurves
@@ -65,44 +50,7 @@ class MeshSection:
 def mesh_section(surface: Surface, mesh: Mesh, *, tracing: Tracing = DEFAULT) -> MeshSection:
     """The curves in which a surface meets the faces of a mesh.
 
-    Parameters
-    ----------
-    surface : Surface
-        On which they are traced.
-    mesh : Mesh
-        Faces that are not present are left out.
-    tracing : Tracing
-        columns and rows of the grid that the surface is polygonised by; tolerance (a thousandth of the smaller extent
-        where None) and picture.
-
-    Returns
-    -------
-    MeshSection
-        The curves on the surface; faces (n,) and normals (n, 3): the face of the mesh in which the segment from every
-        point to the next runs, and its unit normal there.
-
-    Raises
-    ------
-    InputError
-        For a grid that is too coarse.
-
-    Notes
-    -----
-    In a face a curve is the section of the surface with the plane of the face; it goes on over edges, and every edge it
-    crosses has a point of it, on the edge and on the surface. Degenerate: a face that only touches the surface gives an
-    isolated point; one that lies in it a doubt. Where more than two faces meet in an edge curves are joined in pairs.
-    Where the triangles cross edges otherwise than the surface (it passes a corner, or grazes an edge) the grid is
-    refined, up to 2^17 cells; the rest is a doubt.
-
     Source: Glaeser, section 8.4 (face-face sections).
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry, surfaces
-    >>> ball, cube = surfaces.Sphere(1.2, centre=(1, 1, 1)), geometry.box((2, 2, 2))
-    >>> section = features.mesh_section(ball, cube, tracing=features.Tracing(columns=15, rows=15))
-    >>> len(section), sorted({int(face) for face in section.faces})  # a circle in each face
-    (6, [0, 1, 2, 3, 4, 5])
     """
     two = MeshPatch(mesh)
     for columns, rows in finer_grids(tracing.columns, tracing.rows):
@@ -278,21 +226,8 @@ class ImplicitPatch(SingleShape):
 class ImplicitMeshSection:
     """The curves in which an implicit surface meets the faces of a mesh.
 
-    Parameters
-    ----------
-    curves : ImplicitCurves
-        On the surface.
-    normals : (n, 3) array of float
-        The unit normal of the face of the mesh in which the segment from every point to the next runs; the last point
-        of an open curve has that of the segment before.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry, surfaces
-    >>> ball, cube = surfaces.implicit_sphere(1.2, centre=(1, 1, 1)), geometry.box((2, 2, 2))
-    >>> section = features.implicit_mesh_section(ball, cube, tracing=features.ImplicitTracing(cells=12))
-    >>> isinstance(section, features.ImplicitMeshSection), section.normals.shape == section.curves.points.shape
-    (True, True)
+    curves: on the surface; normals: (n, 3) the unit normal of the face of the mesh in which the segment from every
+    point to the next runs.
     """
 
     curves: ImplicitCurves
@@ -307,41 +242,7 @@ def implicit_mesh_section(
 ) -> ImplicitMeshSection:
     """The curves in which an implicit surface meets the faces of a mesh, within its box.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F and its box.
-    mesh : Mesh
-        Faces that are not present are left out.
-    tracing : ImplicitTracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    ImplicitMeshSection
-        The curves on the surface, and normals (n, 3): the unit normal of the face of the mesh in which the segment from
-        every point to the next runs.
-
-    Raises
-    ------
-    InputError
-        For what `polygonized` refuses.
-
-    Notes
-    -----
-    In a face a curve is the section of the surface with the plane of the face; it goes on over edges, and every edge it
-    crosses has a point of it. Degenerate: a face that only touches the surface gives an isolated point; one that lies
-    in it a doubt.
-
     Source: Glaeser, section 8.4 (face-face sections).
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry, surfaces
-    >>> ball, cube = surfaces.implicit_sphere(1.2, centre=(1, 1, 1)), geometry.box((2, 2, 2))
-    >>> section = features.implicit_mesh_section(ball, cube, tracing=features.ImplicitTracing(cells=12))
-    >>> len(section), bool(section.curves.closed.all())  # a circle in each face
-    (6, True)
     """
     polygonised, doubts = mesh_of(surface, tracing)
     own = polygonised.mesh

@@ -565,41 +565,7 @@ def _cut(shape: StreamlineMesh, found: PlacedCurves, line: Ints, first: Ints, la
 def evenly_spaced_mesh_curves(
     mesh: Mesh, field: TangentField, apart: float, *, crease_angle_deg: float = USUAL_CREASE_DEG
 ) -> MeshCurves:
-    """Integral curves of a field that cover a mesh evenly.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        On which they run; open or closed.
-    field : TangentField
-        What they follow, as of `mesh_integral_curves`.
-    apart : float
-        About how far neighbours are from each other, in world units, as of `evenly_spaced_curves`.
-    crease_angle_deg : float
-        As of `mesh_integral_curves`.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines from edge to edge. A curve ends where it comes too near to another one, or to itself.
-
-    Raises
-    ------
-    InputError
-        For a distance that is not positive, or less than a five-hundredth of the extent of the mesh; for fields that
-        need parameters, or give what are no directions in faces; an angle that is not within 0 and 180.
-
-    Notes
-    -----
-    As `evenly_spaced_curves`. Those that run together in one edge (water in a valley) are one from there on.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> curves = features.evenly_spaced_mesh_curves(geometry.box((2, 2, 2)), features.SteepestSlope(), 0.25)
-    >>> len(curves) > 20
-    True
-    """
+    """Integral curves of a field that cover a mesh evenly."""
     return evenly_spaced_on_faces(BentFaces(mesh, crease_angle_deg), field, apart)
 
 

@@ -22,20 +22,8 @@ PAIRS = 1 << 20
 class MeshPlaces(NamedTuple):
     """Places on a mesh.
 
-    Parameters
-    ----------
-    faces : (k,) array of int
-        The face that each is in.
-    points : (k, 3) array of float
-        In world coordinates.
-    distances : (k,) array of float
-        How far they are from the points they were looked for from, in world units.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> features.nearest_on_mesh(geometry.box((2, 2, 2)), (1, 1, 5)).points.tolist()
-    [[1.0, 1.0, 2.0]]
+    faces: (k,) the face that each is in; points: (k, 3) in world coordinates; distances: (k,) how far they are from the
+    points they were looked for from, in world units.
     """
 
     faces: Ints

@@ -73,7 +73,7 @@ def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Traci
 
     Notes
     -----
-    Degenerate: as for `u_lines`.
+    Edge cases: as for `u_lines`.
 
     Source: Glaeser, section 8.2.
 
@@ -112,36 +112,8 @@ def parameter_lines_of_each(
 def u_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines u = const. of a surface.
 
-    Parameters
-    ----------
-    surface : Surface
-        On which they run.
-    values : (k,) array_like of float
-        Of u; or one of them.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines with u as level; v rises along them.
-
-    Raises
-    ------
-    InputError
-        For values that are not finite.
-
-    Notes
-    -----
-    Degenerate: lines that are a single point (poles) are left out; holes of the surface interrupt lines.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> curves = features.u_lines(surfaces.Sphere(), 0.0)  # a meridian
-    >>> curves.closed.tolist(), bool(np.allclose(curves.points[:, 1], 0.0))
-    ([False], True)
+    values: (k,) of u.
+    Edge cases: lines that are a single point (poles) are left out; holes of the surface interrupt lines.
     """
     return _lines_of_one(surface, 0, values, tracing)
 
@@ -149,36 +121,8 @@ def u_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) 
 def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines v = const. of a surface.
 
-    Parameters
-    ----------
-    surface : Surface
-        On which they run.
-    values : (k,) array_like of float
-        Of v; or one of them.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines with v as level; u rises along them.
-
-    Raises
-    ------
-    InputError
-        For values that are not finite.
-
-    Notes
-    -----
-    Degenerate: as for `u_lines`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> curves = features.v_lines(surfaces.Sphere(), [0.0, np.pi / 2])  # the equator; at the pole there is no line
-    >>> curves.levels.tolist(), curves.closed.tolist()
-    ([0.0], [True])
+    values: (k,) of v.
+    Edge cases: as for `u_lines`.
     """
     return _lines_of_one(surface, 1, values, tracing)
 
@@ -201,7 +145,7 @@ def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     Notes
     -----
     Rims are where the points of the surface are not finite any more, and where it is cut off because it runs to
-    infinity; their level is 0. Degenerate: holes smaller than half a cell of the tracing's grid may be missed.
+    infinity; their level is 0. Edge cases: holes smaller than half a cell of the tracing's grid may be missed.
 
     Examples
     --------
@@ -398,7 +342,7 @@ def surface_path(
     It may run over the seams of a closed surface, any number of times; where it leaves an open one, or comes to a hole,
     it is interrupted. Of tracing, tolerance and picture count: chords stay within the tolerance, in picture where there
     is one. A path that comes back to its start, up to whole periods, is closed.
-    Degenerate: a path that is a single point is none. Source: Glaeser, section 8.2, equation 9.
+    Edge cases: a path that is a single point is none. Source: Glaeser, section 8.2, equation 9.
     """
     size = extent(surface)[0]
     if size == 0.0:

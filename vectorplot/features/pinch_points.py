@@ -43,7 +43,7 @@ class PinchPoints:
 def pinch_points(surface: Surface) -> PinchPoints:
     """The pinch points of a surface, found by Gauss and Newton's method from the shortest normals on a grid.
 
-    Degenerate: points of cuspidal edges, and poles, are none: there the product keeps its direction.
+    Edge cases: points of cuspidal edges, and poles, are none: there the product keeps its direction.
     """
     none = PinchPoints(np.zeros((0, 2)), np.zeros(0))
     if is_embedded(surface):

@@ -181,7 +181,7 @@ def without_poles(field: ScalarFields, values: Floats) -> tuple[ScalarFields, Fl
     """The fields without their poles, and their values (s, columns+1, rows+1) on grids over the domains; values: those
     that `on_grid` gives.
 
-    Degenerate: a border all along which f is zero or not defined is a pole of the parametrisation (there the normal of
+    Edge cases: a border all along which f is zero or not defined is a pole of the parametrisation (there the normal of
     a surface vanishes), it gets the values next to it. A single point where f is not defined, such as sin(r) / r at
     r = 0, gets the value next to it.
     """
@@ -255,7 +255,7 @@ def zero_of_cubic_parabola(coefficients: ArrayLike, *, tolerance: float = CUBIC_
     """(...) zeros within 0 <= t <= 1 of cubic parabolas (..., 4): by Newton from the chord's zero, by bisection where
     Newton leaves the interval or does not settle.
 
-    Degenerate: NaN where the values at 0 and 1 have the same sign.
+    Edge cases: NaN where the values at 0 and 1 have the same sign.
     Source: Glaeser, section 8.4; errata G8-09, G8-10.
     """
     q = np.asarray(coefficients, dtype=np.float64)
@@ -290,7 +290,7 @@ def zero_by_newton(
     """Zeros of f near start (...), and which of them settled: whose last step is at most tolerance times 1 + |x|.
 
     f works entry by entry on arrays of start's shape; without a derivative it is a central difference.
-    Degenerate: where the derivative is zero, the value stays and did not settle unless f is zero there.
+    Edge cases: where the derivative is zero, the value stays and did not settle unless f is zero there.
     Source: Glaeser, section 8.4.
     """
     x = np.array(start, dtype=np.float64)
@@ -314,7 +314,7 @@ def zero_by_bisection(
 ) -> Floats:
     """Where f changes its sign between low and high (...), to tolerance times the length of the bracket.
 
-    f works entry by entry on arrays of that shape. Degenerate: NaN where f has the same sign at both ends; a zero at
+    f works entry by entry on arrays of that shape. Edge cases: NaN where f has the same sign at both ends; a zero at
     an end is that end.
     Source: Glaeser, section 8.4; erratum G8-13.
     """
@@ -337,7 +337,7 @@ def bracketed_zeros(
     f(t, which) are the values of the functions with the indices which at t. The first try is guess, then the zero of
     the parabola t(w) through the last three points, the middle of the bracket where that leaves it or where neither
     the bracket nor f at its ends shrinks, until |f| <= small (k,) or the bracket is used up.
-    Degenerate: zero counts as positive. At a pole or a jump the values stay large; it is for the caller to look.
+    Edge cases: zero counts as positive. At a pole or a jump the values stay large; it is for the caller to look.
     Where f is not defined inside a bracket the value is NaN.
     """
     t, w = np.array(guess, dtype=np.float64), np.full(len(guess), np.nan)

@@ -749,7 +749,7 @@ def integral_curves(
     -----
     All curves are integrated at once. They go on over seams and through poles, and end at the borders of the surface,
     where they come back to their start (and are closed), at critical points, where the direction is no longer real, in
-    holes, and where they are as long as they may be. Degenerate: no curve from where the field has no direction.
+    holes, and where they are as long as they may be. Edge cases: no curve from where the field has no direction.
 
     Source: Glaeser, section 9.4, equations 18 and 19; errata G9-13 to G9-15.
 
@@ -809,7 +809,7 @@ def geodesics(
 
     Notes
     -----
-    Degenerate: none from a pole or a singular point.
+    Edge cases: none from a pole or a singular point.
 
     Examples
     --------

@@ -211,14 +211,7 @@ def charts(surface: Surface) -> Charts:
 
 
 class TangentPlanes(ABC):
-    """Places in space with a tangent plane at each: of a surface (`Sites`), or of the faces of a mesh (`FaceSites`).
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> issubclass(features.Sites, features.TangentPlanes), issubclass(features.FaceSites, features.TangentPlanes)
-    (True, True)
-    """
+    """Places in space with a tangent plane at each: of a surface (`Sites`), or of the faces of a mesh (`FaceSites`)."""
 
     @property
     @abstractmethod
@@ -420,23 +413,8 @@ def _trust(count: int, triangles: Ints) -> Floats:
 class FaceSites(TangentPlanes):
     """Places in faces, one in each, with the planes of the faces: where fields are asked for directions of faces.
 
-    Parameters
-    ----------
-    centres : (f, 3) array of float
-        In world coordinates.
-    facing : (f, 3) array of float
-        Unit normals; NaN of faces without area.
-    bent : BentFaces, optional
-        How the mesh bends: fields that go by curvatures need it.
-    faces : (f,) array of int, optional
-        In which of its faces each place is.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> walls = features.face_sites(geometry.box((2, 2, 2)))
-    >>> features.ConstantElevation(0.5).tangents(walls)[0, :4, 2].round(6).tolist()
-    [0.479426, 0.479426, 0.479426, 0.479426]
+    centres: (f, 3) in world coordinates; facing: (f, 3) unit normals; bent: how the mesh bends: fields that go by
+    curvatures need it; faces: (f,) in which of its faces each place is.
     """
 
     centres: Floats

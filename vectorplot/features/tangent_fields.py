@@ -38,7 +38,7 @@ class TangentField(Protocol):
     --------
     >>> import numpy as np
     >>> from vectorplot import features, surfaces
-    >>> def first(field: features.TangentField, sites: features.TangentPlanes) -> list[float]:
+    >>> def first(field, sites):
     ...     return (field.tangents(sites)[0, 0] + 0.0).round(9).tolist()
     >>> sites = features.Sites(surfaces.Sphere(), np.array([0.0]), np.array([0.0]))
     >>> first(features.SteepestSlope(), sites)
@@ -107,7 +107,7 @@ class SteepestSlope:
 
     Notes
     -----
-    Degenerate: no direction where the surface is level.
+    Edge cases: no direction where the surface is level.
 
     Source: Glaeser, section 9.4, example 1.
 
@@ -153,7 +153,7 @@ class ConstantElevation:
 
     Notes
     -----
-    Degenerate: no direction where the surface is less steep than the angle: the solution is not real there.
+    Edge cases: no direction where the surface is less steep than the angle: the solution is not real there.
 
     Source: Glaeser, section 9.4, equations 20 to 23.
 
@@ -198,7 +198,7 @@ class VectorField:
 
     Notes
     -----
-    Degenerate: no direction where the tangential part vanishes or is not finite.
+    Edge cases: no direction where the tangential part vanishes or is not finite.
 
     Examples
     --------
@@ -229,7 +229,7 @@ class ParameterField:
 
     Notes
     -----
-    Degenerate: no direction where both vanish or one is not finite.
+    Edge cases: no direction where both vanish or one is not finite.
 
     Source: Glaeser, section 9.4, equations 18 and 19.
 
@@ -384,7 +384,7 @@ class PrincipalDirections:
     Notes
     -----
     Not directed. A curve through an umbilic, where all directions are principal ones, goes straight on; beyond it, it
-    may be of the other family. Degenerate: no curve begins at an umbilic, and none on a sphere or in a plane.
+    may be of the other family. Edge cases: no curve begins at an umbilic, and none on a sphere or in a plane.
 
     In a face of a mesh they are those of the mean of the curvature tensors at its corners, which are fitted to the
     normals around them, on one side of creases. On finer and finer meshes of a smooth surface they come near its own by
@@ -433,7 +433,7 @@ class AsymptoticDirections:
 
     Notes
     -----
-    Not directed. Degenerate: no direction where the Gaussian curvature is positive: the solution is not real there; and
+    Not directed. Edge cases: no direction where the Gaussian curvature is positive: the solution is not real there; and
     where the surface is flat. In faces of meshes as `PrincipalDirections`; a curvature that is less than it may be
     wrong by is zero there: asymptotic lines of a cylinder are the straight lines on it.
 
@@ -536,7 +536,7 @@ class IsophoteDirections:
 
     Notes
     -----
-    To the left of an isophote, seen from the tips of the normals, the cosine of that angle grows. Degenerate: no
+    To the left of an isophote, seen from the tips of the normals, the cosine of that angle grows. Edge cases: no
     direction where it does not change at all, as in the brightest point, and nowhere in a plane in parallel light.
 
     Source: Glaeser, sections 8.4, equation 28, and 9.4.

@@ -230,7 +230,7 @@ def draped(ground: Ground, plan: Floats) -> tuple[Floats, Ints]:
     """The points (n,3) on a terrain above a line (k,2) of the plan, those in which it passes from one triangle to the
     next among them, and the triangles (n-1,) between these.
 
-    Degenerate: -1 and NaN heights beside the terrain.
+    Edge cases: -1 and NaN heights beside the terrain.
     """
     mesh = ground.mesh
     centre = mesh.bounds.mean(axis=0)[:2]
@@ -333,7 +333,7 @@ def serpentine(
     ones between those that pass the end on different sides: the road with the fewest bends is taken. Where no distance
     does, smaller slopes are tried, down to eight tenths.
 
-    Degenerate: without bends where one leg leads to the end. Legs that come to a narrow ridge, a valley or level
+    Edge cases: without bends where one leg leads to the end. Legs that come to a narrow ridge, a valley or level
     ground end.
 
     Source: Glaeser, section 9.5, example 1, for legs.

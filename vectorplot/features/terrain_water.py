@@ -29,34 +29,7 @@ from vectorplot.tolerances import LEAST_DIVISOR, ZERO_OF_EXTENT
 def places_on_terrain(mesh: Mesh, places: ArrayLike, what: str = "terrain") -> tuple[Ints, Floats]:
     """Where the vertical lines through given places meet a terrain.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Of triangles, none above another, such as `terrain_mesh` makes.
-    places : (k, 2) array_like of float
-        x and y; or one pair.
-    what : str
-        How messages begin.
-
-    Returns
-    -------
-    faces : (k,) array of int
-        One triangle for each place.
-    points : (k, 3) array of float
-        In these triangles.
-
-    Raises
-    ------
-    InputError
-        For places that are not finite pairs, or beside the terrain or in a hole, and a mesh of other faces.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import features
-    >>> roof = vp.Mesh.from_triangles([(0, 0, 0), (2, 0, 0), (0, 2, 4)], [(0, 1, 2)])
-    >>> features.places_on_terrain(roof, (0.5, 1.0))[1].tolist()
-    [[0.5, 1.0, 2.0]]
+    places: (k, 2) x and y.
     """
     given = np.atleast_2d(np.asarray(places, dtype=np.float64))
     if given.ndim != 2 or given.shape[1] != 2 or not np.isfinite(given).all():
@@ -177,7 +150,7 @@ def water_courses(mesh: Mesh, places: ArrayLike, *, length: float | None = None)
 
     Notes
     -----
-    Degenerate: no course from a place on a plain.
+    Edge cases: no course from a place on a plain.
 
     Source: Glaeser, sections 9.4 and 9.5, example 1.
 
@@ -416,27 +389,9 @@ MOST_LABELS = 10_000
 class LabelPlaces:
     """Places of labels on level lines.
 
-    Parameters
-    ----------
-    points : (k, 3) array of float
-        Their middles, on the lines, in world coordinates.
-    directions : (k, 3) array of float
-        Unit vectors along the lines: the higher ground is on the left, at the heads of letters.
-    heights : (k,) array of float
-        The level of the line.
-    straightness : (k,) array of float
-        Chord over length of the part of the line beside the label, 1 where it is straight.
-
-    Notes
-    -----
-    Made by `label_places`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features
-    >>> features.LabelPlaces(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros(0), np.zeros(0)).heights.tolist()
-    []
+    points: (k, 3) their middles, on the lines, in world coordinates; directions: (k, 3) unit vectors along the lines:
+    the higher ground is on the left, at the heads of letters; heights: (k,) the level of the line; straightness: (k,)
+    chord over length of the part of the line beside the label, 1 where it is straight.
     """
 
     points: Floats

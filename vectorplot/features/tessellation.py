@@ -489,7 +489,7 @@ def cut_where_normals_jump(net: Net, between: Between) -> tuple[Net, Bools]:
     (v,) which vertices are new: on the line, with the normal of one side of it.
 
     Sides whose normals only turn so far are cut too, in the middle of the turn.
-    Degenerate: sides with an end that has no normal, and those that lead over a hole, stay whole.
+    Edge cases: sides with an end that has no normal, and those that lead over a hole, stay whole.
     """
     count = len(net.vertices.points)
     edges, sides, uses = edges_of(net.triangles, count)
@@ -541,7 +541,7 @@ def facets(shape: Surface | ImplicitSurface, demand: Criterion, most: int = USUA
     where it calls for more than most triangles it is not kept. Sides that lead into a hole end at its rim, and those
     along a rim follow it; cuspidal edges lie on sides, up to their chords.
     Errors: InputError for what is no smooth surface.
-    Degenerate: triangles in holes, those without area, those beneath which the surface jumps, and, of surfaces with
+    Edge cases: triangles in holes, those without area, those beneath which the surface jumps, and, of surfaces with
     borders, those that fold over in a plane part, where their neighbours lie over them, are left out.
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """

@@ -127,7 +127,7 @@ def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
 
     Every sign is that of one determinant, taken with the ends of an edge in one order: both triangles at the edge get
     the same answer, and what lies on a plane or a line counts as above it. So segments fit without gaps.
-    Degenerate: coplanar triangles do not meet.
+    Edge cases: coplanar triangles do not meet.
     Source: Glaeser, section 8.4; the determinants are those of Guigue and Devillers (2003).
     """
     origin = one.points[one.triangles[:1, 0]].reshape(-1, 3)[:1] if len(one.triangles) else np.zeros((1, 3))

@@ -586,44 +586,11 @@ def ends_meet(field: ScalarFields, first: Floats, last: Floats) -> Bools:
 class ZeroManifold:
     """The curve f(u, v) = 0 over a domain, with all its branches.
 
-    Parameters
-    ----------
-    domain : Domain
-        Where f is defined.
-    points : (p, 2) array of float
-        Parameters u, v. Along a branch they run on over seams, beyond the domain.
-    offsets : (b+1,) array of int
-        Branch i has the points offsets[i] to offsets[i+1].
-    closed : (b,) array of bool
-        The last point of the branch joins the first, which is not repeated.
-    turns : (b, 2) array of int
-        The periods that a closed branch has run through when it is back at its start.
-    nodes : (n, 2) array of float
-        Where branches meet; a branch goes straight on through each.
-    isolated : (i, 2) array of float
-        Single points where f is zero but does not change its sign.
-    touching : (t, 2) array of float
-        Places of a line along which f is zero without changing sign, or between two branches nearer to each other than
-        the resolution.
-    doubts : tuple of str
-        A sentence for each thing that could not be decided.
-    grid : (columns+1, rows+1, 3) array of float
-        u, v and f.
-
-    Notes
-    -----
-    f is positive on the left of a branch (from node to node of it).
-
+    points: (p, 2) parameters u, v; offsets: (b+1,) branch i has the points offsets[i] to offsets[i+1]; closed: (b,) the
+    last point of the branch joins the first, which is not repeated; turns: (b, 2) the periods that a closed branch has
+    run through when it is back at its start; nodes: (n, 2) where branches meet; isolated: (i, 2) single points where f
+    is zero but does not change its sign; grid: (columns+1, rows+1, 3) u, v and f.
     Source: Glaeser, section 8.4, figures 11 and 12; errata G8-08 to G8-14.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> square = surfaces.Domain(-2, 2, -2, 2)
-    >>> cross = features.zero_manifold_of_f_uv(lambda u, v: u * v, square, columns=7, rows=7)
-    >>> len(cross), cross.closed.tolist(), len(cross.nodes)
-    (2, [False, False], 1)
     """
 
     domain: Domain
@@ -704,7 +671,7 @@ def zero_manifold_of_f_uv(
     resolution is found if the grid feels it, that is if slopes of the size met at the corners of a cell could reach
     zero inside it.
 
-    Degenerate: f of one sign gives no branch; a change of sign through a pole or a jump is none either; where f is not
+    Edge cases: f of one sign gives no branch; a change of sign through a pole or a jump is none either; where f is not
     finite there is a hole, and branches end at its border; zeros at grid points count as positive, which gives one
     polyline for a curve along grid lines; a border all along which f is zero is a pole of the surface, not a curve.
 
@@ -748,38 +715,7 @@ def zero_manifolds(
 ) -> list[ZeroManifold]:
     """The curves f(u, v) = 0 of many functions, each over a domain of its own, all traced at once.
 
-    Parameters
-    ----------
-    f : callable
-        Takes arrays u, v (k,) and the numbers (k,) of the functions that are asked for, and returns (k,) values.
-    domains : sequence of Domain
-        Where the functions are defined, at least one; all closed in the same directions.
-    columns, rows : int
-        Cells of the grid on which each is looked at first.
-    gradient, positions : callable, optional
-        As of `zero_manifold_of_f_uv`, with the numbers (k,) as their third argument.
-    tolerances : sequence of float, optional
-        As the tolerance of `zero_manifold_of_f_uv`, one for each function.
-    values : (s, columns+1, rows+1) array of float, optional
-        Those of f on the grids, where they are known already.
-    resolution, budget
-        As of `zero_manifold_of_f_uv`, for each function.
-
-    Returns
-    -------
-    list of ZeroManifold
-        One for each function, the same as if it were traced alone.
-
-    Raises
-    ------
-    InputError
-        As `zero_manifold_of_f_uv`.
-
-    Notes
-    -----
-    Numpy takes as long for one point as for a hundred: tracing a hundred curves at once takes a fraction of the time
-    that it takes one by one. Memory follows the number of cells of all grids together.
-
+    values: (s, columns+1, rows+1) those of f on the grids, where they are known already.
     Source: as of `zero_manifold_of_f_uv`.
     """
     for domain in domains:

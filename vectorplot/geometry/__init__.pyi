@@ -1,138 +1,66 @@
 from . import ragged
-from .adjacency import (
-    BodyRecord,
-    FaceRecords,
-    body_record,
-    common_edge,
-    face_barycentres,
-    face_constants,
-    face_records,
-    neighbour_faces,
-)
-from .budget import Budget, budget_of
-from .camera import Camera, PixelWindow, diagonal_field_of_vision_deg, field_of_vision_deg, focal_length_mm, lens_advice
-from .clipping import (
-    Box,
-    ClippedLines,
-    Polygons,
-    Window,
-    clip_and_draw,
-    clip_lines_2d,
-    clip_lines_3d,
-    clip_polygons_2d,
-    clip_polygons_3d,
-    cut_polygons,
-    region_codes,
-)
-from .contour_polygons import Branches, contour_branches, contour_edges, spatial_hull
-from .convex_bodies import convex_prism_parts, convex_revolution_parts, cut_body, polyhedron_intersection, split_faces
-from .convex_polygons import convex_hull, convex_polygon_parts, hull_mesh, is_convex_polygon
+from .adjacency import body_record, face_barycentres
+from .budget import Budget
+from .camera import Camera, focal_length_mm
+from .clipping import Box, Polygons, Window, clip_lines_2d, clip_polygons_2d, cut_polygons, region_codes
+from .contour_polygons import spatial_hull
+from .convex_bodies import convex_revolution_parts, polyhedron_intersection
+from .convex_polygons import convex_hull, hull_mesh
 from .mesh import Mesh
-from .mesh_cuts import HalfSpaces
-from .mesh_repair import Mending, MeshReport, mesh_report, repaired, welded
+from .mesh_repair import mesh_report, repaired, welded
 from .polygon_cuts import clipped_by_convex, inside_convex
 from .polylines import Strokes
-from .projections import CoordinateSystem, Projection, collineate, project, projection_of, uncollineate, unproject
+from .projections import CoordinateSystem, collineate, project, projection_of
 from .regions import polygons_of
 from .rotations import (
     axis_frame,
     euler_angles,
     inverse_rotation,
-    look_rotation,
     rotated_about_line,
     rotation_about,
     rotation_x,
-    rotation_y,
     rotation_z,
 )
-from .separating_planes import Separations, Surroundings, own_box, separations, separations_after_moves, spheres_power
+from .separating_planes import Surroundings, own_box, separations, spheres_power
 from .solids import box, has_convex_outline, placed, polyhedron, prism, regular_polygon, revolution
-from .vectors import (
-    angle,
-    angle_line_plane,
-    angle_planes,
-    from_spherical_coordinates,
-    lambert_cosine,
-    length,
-    normalize,
-    point_at_distance,
-    point_on_line,
-    spherical_coordinates,
-    translated,
-)
-from .winding import EdgeUses, consistent_winding, edge_uses, is_closed_oriented
+from .vectors import angle, length, normalize, translated
+from .winding import edge_uses, is_closed_oriented
 
 __all__ = [
-    "BodyRecord",
     "Box",
-    "Branches",
     "Budget",
     "Camera",
-    "ClippedLines",
     "CoordinateSystem",
-    "EdgeUses",
-    "FaceRecords",
-    "HalfSpaces",
-    "Mending",
     "Mesh",
-    "MeshReport",
-    "PixelWindow",
     "Polygons",
-    "Projection",
-    "Separations",
     "Strokes",
     "Surroundings",
     "Window",
     "angle",
-    "angle_line_plane",
-    "angle_planes",
     "axis_frame",
     "body_record",
     "box",
-    "budget_of",
-    "clip_and_draw",
     "clip_lines_2d",
-    "clip_lines_3d",
     "clip_polygons_2d",
-    "clip_polygons_3d",
     "clipped_by_convex",
     "collineate",
-    "common_edge",
-    "consistent_winding",
-    "contour_branches",
-    "contour_edges",
     "convex_hull",
-    "convex_polygon_parts",
-    "convex_prism_parts",
     "convex_revolution_parts",
-    "cut_body",
     "cut_polygons",
-    "diagonal_field_of_vision_deg",
     "edge_uses",
     "euler_angles",
     "face_barycentres",
-    "face_constants",
-    "face_records",
-    "field_of_vision_deg",
     "focal_length_mm",
-    "from_spherical_coordinates",
     "has_convex_outline",
     "hull_mesh",
     "inside_convex",
     "inverse_rotation",
     "is_closed_oriented",
-    "is_convex_polygon",
-    "lambert_cosine",
     "length",
-    "lens_advice",
-    "look_rotation",
     "mesh_report",
-    "neighbour_faces",
     "normalize",
     "own_box",
     "placed",
-    "point_at_distance",
-    "point_on_line",
     "polygons_of",
     "polyhedron",
     "polyhedron_intersection",
@@ -147,16 +75,10 @@ __all__ = [
     "rotated_about_line",
     "rotation_about",
     "rotation_x",
-    "rotation_y",
     "rotation_z",
     "separations",
-    "separations_after_moves",
     "spatial_hull",
     "spheres_power",
-    "spherical_coordinates",
-    "split_faces",
     "translated",
-    "uncollineate",
-    "unproject",
     "welded",
 ]

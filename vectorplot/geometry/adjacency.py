@@ -28,30 +28,9 @@ def mesh_edges(mesh: Mesh) -> Ints:
 def neighbour_faces(mesh: Mesh) -> Ints:
     """For every corner the face across the edge from it to the next corner.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        With c corners.
-
-    Returns
-    -------
-    (c,) array of int
-        Numbers of faces; NO_FACE (-1) where there is none.
-
-    Notes
-    -----
-    Degenerate: at an edge of more than two faces NO_FACE too: there is no single neighbour.
-
+    result: (c,) numbers of faces.
+    Edge cases: at an edge of more than two faces NO_FACE too: there is no single neighbour.
     Source: Glaeser, sections 3.2 and 6.1.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
-    >>> square = vp.Mesh.from_triangles(corners, [(0, 1, 2), (0, 2, 3)])
-    >>> geometry.neighbour_faces(square).tolist()
-    [-1, -1, 1, 0, -1, -1]
     """
     uses = edge_uses(mesh)
     across = np.full(len(mesh.corners), NO_FACE, dtype=np.intp)
@@ -65,28 +44,8 @@ def neighbour_faces(mesh: Mesh) -> Ints:
 def common_edge(mesh: Mesh, one: int, other: int) -> tuple[int, int] | None:
     """Where in a face the first edge is that it shares with another face.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        With both faces.
-    one, other : int
-        Numbers of faces from 0.
-
-    Returns
-    -------
-    (int, int) or None
-        The positions in face ``one`` (from 0) of the ends of the edge; None where there is no such edge.
-
-    Notes
-    -----
+    result: (int, int) the positions in face ``one`` (from 0) of the ends of the edge.
     Source: Glaeser, section 3.3; errata G3-09, G3-14.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> cube = geometry.box((1, 1, 1))
-    >>> geometry.common_edge(cube, 0, 1), geometry.common_edge(cube, 4, 5)
-    ((1, 2), None)
     """
     a, b = (mesh.corners[mesh.offsets[f] : mesh.offsets[f + 1]] for f in (one, other))
     sides = np.stack([a, np.roll(a, -1)], axis=1)
@@ -102,27 +61,9 @@ def common_edge(mesh: Mesh, one: int, other: int) -> tuple[int, int] | None:
 class FaceRecords:
     """What there is to know about every face.
 
-    Parameters
-    ----------
-    normals : (f, 3) array of float
-        Outwards, of length one.
-    constants : (f,) array of float
-        normal . v of its vertices.
-    barycentres : (f, 3) array of float
-        Of its vertices.
-    neighbours : (c,) array of int
-        The face across the edge from every corner; -1 where there is none.
-
-    Notes
-    -----
+    normals: (f, 3) outwards, of length one; constants: (f,) normal ; barycentres: (f, 3) of its vertices; neighbours:
+    (c,) the face across the edge from every corner.
     Source: Glaeser, section 3.2.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> top = geometry.face_records(geometry.box((2, 2, 3)))
-    >>> top.normals[5].tolist(), top.constants[5].item(), top.barycentres[5].tolist()
-    ([0.0, 0.0, 1.0], 3.0, [1.0, 1.0, 3.0])
     """
 
     normals: Floats
@@ -134,26 +75,7 @@ class FaceRecords:
 def face_records(mesh: Mesh) -> FaceRecords:
     """The records of all faces of a mesh.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        With f faces and c corners.
-
-    Returns
-    -------
-    FaceRecords
-        Normals, plane constants, barycentres and neighbours.
-
-    Notes
-    -----
     Source: Glaeser, section 3.2.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> records = geometry.face_records(geometry.box((1, 1, 1)))
-    >>> records.normals.shape, records.neighbours.shape
-    ((6, 3), (24,))
     """
     return FaceRecords(mesh.face_normals, face_constants(mesh), face_barycentres(mesh), neighbour_faces(mesh))
 
@@ -187,21 +109,7 @@ def face_barycentres(mesh: Mesh) -> Floats:
 def face_constants(mesh: Mesh) -> Floats:
     """The c of the plane n . v = c of every face, n being its unit outer normal.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        With f faces.
-
-    Returns
-    -------
-    (f,) array of float
-        Signed distances of the planes from the origin.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.face_constants(geometry.box((2, 3, 4)))[[1, 2, 5]].tolist()
-    [2.0, 3.0, 4.0]
+    result: (f,) signed distances of the planes from the origin.
     """
     return np.asarray(np.einsum("ij,ij->i", mesh.face_normals, face_barycentres(mesh)))
 
@@ -210,33 +118,10 @@ def face_constants(mesh: Mesh) -> Floats:
 class BodyRecord:
     """What there is to know about a body.
 
-    Parameters
-    ----------
-    vertex_count, edge_count, face_count : int
-        How many there are.
-    barycentre : (3,) array of float
-        Of its vertices.
-    max_radius : float
-        The largest distance of a vertex from it.
-    bounds : (2, 3) array of float
-        Smallest and largest coordinates.
-    volume : float
-        Of the closed body; for an open one it says nothing.
-    area : float
-        Of the faces that are present.
-
-    Notes
-    -----
+    vertex_count, edge_count, face_count: how many there are; barycentre: (3,) of its vertices; max_radius: the largest
+    distance of a vertex from it; bounds: (2, 3) smallest and largest coordinates; volume: of the closed body; area: of
+    the faces that are present.
     Source: Glaeser, section 3.2.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> record = geometry.body_record(geometry.box((1, 2, 3)))
-    >>> record.vertex_count, record.edge_count, record.face_count
-    (8, 12, 6)
-    >>> round(record.volume, 9), round(record.area, 9)
-    (6.0, 22.0)
     """
 
     vertex_count: int
@@ -264,7 +149,7 @@ def body_record(mesh: Mesh) -> BodyRecord:
 
     Notes
     -----
-    Degenerate: without vertices barycentre and bounds are zero.
+    Edge cases: without vertices barycentre and bounds are zero.
 
     Source: Glaeser, section 3.2.
 

@@ -95,13 +95,7 @@ def determinant(matrices: ArrayLike) -> Floats:
 
 
 def linear_solution(matrices: ArrayLike, right: ArrayLike) -> Floats:
-    """The solutions x of matrix x = right: matrices (..., k, k), right (..., k, n) or, with one matrix, (k,).
-
-    Raises
-    ------
-    numpy.linalg.LinAlgError
-        Where a matrix is exactly singular.
-    """
+    """The solutions x of matrix x = right: matrices (..., k, k), right (..., k, n) or, with one matrix, (k,)."""
     m, b = np.asarray(matrices, dtype=np.float64), np.asarray(right, dtype=np.float64)
     if b.ndim == 1:
         return np.asarray(linear_solution(m, b[:, None])[..., 0])

@@ -74,29 +74,7 @@ USUAL = Budget()
 
 
 def budget_of(factor: float) -> Budget:
-    """The usual budget, so many times.
-
-    Parameters
-    ----------
-    factor : float
-        Positive; 1 is the usual budget.
-
-    Returns
-    -------
-    Budget
-        Every limit so many times as large, and 1 at least.
-
-    Raises
-    ------
-    InputError
-        Unless the factor is finite and positive.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.budget_of(2.0).points == 2 * geometry.Budget().points
-    True
-    """
+    """The usual budget, so many times."""
     if not 0.0 < factor < math.inf:
         raise InputError(f"a budget of {factor:g}: expected a factor that is finite and positive")
     limits = (getattr(USUAL, limit.name) for limit in fields(Budget))
@@ -178,7 +156,7 @@ def mapped(function: Callable[[T], R], chunks: Iterable[T]) -> Iterator[R]:
     number. What the function raises comes out where its result would; then, or when nobody takes the rest, chunks that
     have not begun are never done. What is mapped within a chunk has one thread, and those that are idle by then: so the
     last and largest one of a few is shared too.
-    Degenerate: without chunks nothing; a single one is done where it is asked for.
+    Edge cases: without chunks nothing; a single one is done where it is asked for.
     """
     count, chunks = _THREADS.get()(), iter(chunks)
     first = list(islice(chunks, 2)) if count > 1 else []

@@ -35,30 +35,7 @@ WIDEST_DEG, NARROWEST_DEG = 60.0, 10.0
 def field_of_vision_deg(focal_length_mm: float) -> float:
     """The angle over the height of the picture of a miniature camera.
 
-    Parameters
-    ----------
-    focal_length_mm : float
-        Of the lens, in mm.
-
-    Returns
-    -------
-    float
-        In degrees.
-
-    Raises
-    ------
-    InputError
-        For a focal length that is not positive and finite.
-
-    Notes
-    -----
     Source: Glaeser, section 2.2 and its table; errata G2-03, G2-15.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> round(geometry.field_of_vision_deg(50.0), 3)
-    26.991
     """
     return _angle_deg(NEGATIVE_MM[1], focal_length_mm)
 
@@ -66,30 +43,7 @@ def field_of_vision_deg(focal_length_mm: float) -> float:
 def diagonal_field_of_vision_deg(focal_length_mm: float) -> float:
     """The angle over the diagonal of the picture of a miniature camera.
 
-    Parameters
-    ----------
-    focal_length_mm : float
-        Of the lens, in mm.
-
-    Returns
-    -------
-    float
-        In degrees.
-
-    Raises
-    ------
-    InputError
-        For a focal length that is not positive and finite.
-
-    Notes
-    -----
     Source: Glaeser, section 2.2 and its table; errata G2-03, G2-15.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> round(geometry.diagonal_field_of_vision_deg(50.0), 3)
-    46.793
     """
     return _angle_deg(float(np.hypot(*NEGATIVE_MM)), focal_length_mm)
 
@@ -130,27 +84,7 @@ def focal_length_mm(fov_deg: float) -> float:
 def lens_advice(fov_deg: float) -> str | None:
     """One line about a field of vision that will not look natural.
 
-    Parameters
-    ----------
-    fov_deg : float
-        Over the height of the picture, in degrees.
-
-    Returns
-    -------
-    str or None
-        None for a sensible one.
-
-    Notes
-    -----
     Source: Glaeser, section 2.2.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.lens_advice(75.0)
-    'a field of vision of 75 degrees distorts; 15 to 40 degrees look natural'
-    >>> geometry.lens_advice(30.0) is None
-    True
     """
     natural = f"{NATURAL_DEG[0]:g} to {NATURAL_DEG[1]:g} degrees look natural"
     if fov_deg > WIDEST_DEG:
@@ -547,23 +481,7 @@ class Panorama:
 class PixelWindow:
     """A window of width x height pixels.
 
-    Parameters
-    ----------
-    width, height : float
-        In pixels.
-    pixel_ratio : float
-        What a unit upwards is in pixels against one to the right; about -1 where rows count downwards.
-
-    Raises
-    ------
-    InputError
-        For sides that are not positive and finite, and a ratio that is zero or not finite.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.PixelWindow(640, 480).normalized([(320, 240), (640, 480)]).tolist()
-    [[0.5, 0.5], [1.0, 1.0]]
+    width, height: in pixels; pixel_ratio: what a unit upwards is in pixels against one to the right.
     """
 
     width: float
@@ -577,18 +495,8 @@ class PixelWindow:
     def normalized(self, pixels: ArrayLike) -> Floats:
         """Normalised device coordinates of pixels.
 
-        Parameters
-        ----------
-        pixels : (..., 2 or more) array_like of float
-            Further columns do not matter.
-
-        Returns
-        -------
-        (..., 2) array of float
-            0 to 1 from left to right and from the bottom to the top of the picture.
-
-        Notes
-        -----
+        pixels: (..., 2 or more) further columns do not matter; result: (..., 2) 0 to 1 from left to right and from the
+        bottom to the top of the picture.
         Source: Glaeser, section 2.3, equation 13, with the correction of erratum G2-02.
         """
         p = np.asarray(pixels, dtype=np.float64)[..., :2]

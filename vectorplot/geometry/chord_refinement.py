@@ -191,7 +191,7 @@ def with_standstills(lines: Traces, slopes: Callable[[Floats], Floats]) -> Trace
     stands still and turns back: its cusps.
 
     slopes: takes points (k,c) to the derivatives (k,d) of the curves there, by what runs along them.
-    Degenerate: of two cusps between neighbouring points none is seen.
+    Edge cases: of two cusps between neighbouring points none is seen.
     """
     points, way = lines.points, _seen(slopes, lines.points)
     with np.errstate(invalid="ignore"):
@@ -268,7 +268,7 @@ def bisected(
     which it is not, as near to each other as so many halvings lead.
 
     goes_on: takes which of the k ways (n,) and parameters (n,) on these to whether (n,) it is as at low there.
-    Degenerate: of several changes one is found; where nothing changes it is taken to do so at high.
+    Edge cases: of several changes one is found; where nothing changes it is taken to do so at high.
     """
     if not len(low):
         return low, high

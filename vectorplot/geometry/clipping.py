@@ -190,22 +190,8 @@ Drawn = TypeVar("Drawn")
 class ClippedLines:
     """Segments after clipping.
 
-    Parameters
-    ----------
-    start, end : (n, k) array of float
-        Rows of segments of which nothing is left have no meaning.
-    exists : (n,) array of bool
-        Something is left.
-    clipped : (n,) array of bool
-        Something is gone.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> window = geometry.Window(0, 10, 0, 10)
-    >>> lines = geometry.clip_lines_2d([(5, 5), (20, 0)], [(6, 6), (20, 9)], window)
-    >>> lines.exists.tolist(), lines.clipped.tolist()
-    ([True, False], [False, True])
+    start, end: (n, k) rows of segments of which nothing is left have no meaning; exists: (n,) something is left;
+    clipped: (n,) something is gone.
     """
 
     start: Floats
@@ -258,31 +244,8 @@ def clip_lines_2d(start: ArrayLike, end: ArrayLike, window: Window) -> ClippedLi
 def clip_lines_3d(start: ArrayLike, end: ArrayLike, box: Box) -> ClippedLines:
     """The parts of segments inside a box, wherever the eye is.
 
-    Parameters
-    ----------
-    start, end : (n, 4) array_like of float
-        Homogeneous, as CoordinateSystem.homogeneous gives them.
-    box : Box
-        The clipping region.
-
-    Returns
-    -------
-    ClippedLines
-        Ends (n, 3) after T2.
-
-    Notes
-    -----
+    start, end: (n, 4) homogeneous, as CoordinateSystem.homogeneous gives them.
     Source: Glaeser, section 2.5; errata G2-08 to G2-10.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> system = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
-    >>> start, end = system.homogeneous([(0, 0, 0)]), system.homogeneous([(0, 0, 20)])
-    >>> lines = geometry.clip_lines_3d(start, end, geometry.Box(geometry.Window(-1, 1, -1, 1)))
-    >>> lines.start.tolist(), lines.end.round(9).tolist()
-    ([[0.0, 0.0, 0.0]], [[0.0, 0.0, 4.0]])
     """
     p, q = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
     low, high, exists, clipped = _inside_part(matmul(p, box.planes.T), matmul(q, box.planes.T))
@@ -318,31 +281,7 @@ def clip_and_draw(
 ) -> Drawn:
     """What draw makes of the segments that clip leaves: any way of clipping goes with any way of drawing.
 
-    Parameters
-    ----------
-    start, end : (n, 2 or more) array_like of float
-        The segments.
-    clip : callable
-        clip(start, end) gives ClippedLines.
-    draw : callable
-        draw(start, end) is called with the parts that exist.
-
-    Returns
-    -------
-    Any
-        What draw returns.
-
-    Notes
-    -----
-    Segments that are not clipped are drawn as they are. Source: Glaeser, section 2.5.
-
-    Examples
-    --------
-    >>> from functools import partial
-    >>> from vectorplot import geometry
-    >>> clip = partial(geometry.clip_lines_2d, window=geometry.Window(0, 10, 0, 10))
-    >>> geometry.clip_and_draw([(-5, 5), (20, 0)], [(15, 5), (20, 9)], clip, lambda start, end: (end - start).tolist())
-    [[10.0, 0.0]]
+    start, end: (n, 2 or more) the segments.
     """
     lines = clip(start, end)
     return draw(lines.start[lines.exists], lines.end[lines.exists])
@@ -416,7 +355,7 @@ def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]
 
     Notes
     -----
-    Degenerate: a polygon that is not convex may keep coincident edges along the cut, which enclose no area.
+    Edge cases: a polygon that is not convex may keep coincident edges along the cut, which enclose no area.
 
     Source: Glaeser, section 2.5 (Hodgman and Sutherland); errata G2-10 to G2-12.
 
@@ -480,33 +419,7 @@ def clip_polygons_2d(polygons: Polygons, window: Window) -> Polygons:
 def clip_polygons_3d(polygons: Polygons, box: Box) -> Polygons:
     """The parts of polygons inside a box, wherever the eye is.
 
-    Parameters
-    ----------
-    polygons : Polygons
-        Homogeneous (4 columns), as CoordinateSystem.homogeneous gives them.
-    box : Box
-        The clipping region.
-
-    Returns
-    -------
-    Polygons
-        As many as before, some of them empty; corners (3 columns) after T2.
-
-    Notes
-    -----
-    Far and near come first, so that few corners are left for the sides.
-
     Source: Glaeser, section 2.5; errata G2-09, G2-12.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> system = geometry.CoordinateSystem.of_image(vp.Camera((0, 0, 10), up=(0, 1, 0)))
-    >>> floor = geometry.Polygons.of(system.homogeneous([(-1, -1, 0), (1, -1, 0), (1, -1, 20), (-1, -1, 20)]))
-    >>> clipped = geometry.clip_polygons_3d(floor, geometry.Box(geometry.Window(-2, 2, -2, 2), max_z=1.0))
-    >>> clipped[0].max(axis=0).round(9).tolist()
-    [2.0, -1.0, 1.0]
     """
     for plane in box.planes:
         polygons, _ = cut_polygons(polygons, matmul(polygons.points, plane))

@@ -18,21 +18,8 @@ from vectorplot.tolerances import ROUNDING
 class Branches:
     """Polylines of vertex indices.
 
-    Parameters
-    ----------
-    points : (p,) array of int
-        Of all branches, one after the other.
-    offsets : (b+1,) array of int
-        Branch i has the points offsets[i] to offsets[i+1].
-    closed : (b,) array of bool
-        The last point joins the first, which is not repeated.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> branches = geometry.contour_branches(geometry.box((2, 2, 2)), centre=(9, 1, 1))
-    >>> len(branches), branches[0].tolist()
-    (1, [1, 2, 6, 5])
+    points: (p,) of all branches, one after the other; offsets: (b+1,) branch i has the points offsets[i] to
+    offsets[i+1]; closed: (b,) the last point joins the first, which is not repeated.
     """
 
     points: Ints
@@ -51,7 +38,7 @@ def counterclockwise(polygon: ArrayLike) -> Floats:
     first.
 
     The sign of its area is exact, so tiny areas far from the origin are turned the right way too.
-    Degenerate: a polygon of area zero stays as it is. Source: Glaeser, section 6.1; errata G6-03, G6-08.
+    Edge cases: a polygon of area zero stays as it is. Source: Glaeser, section 6.1; errata G6-03, G6-08.
     """
     p = np.asarray(polygon, dtype=np.float64)
     return np.concatenate([p[:1], p[:0:-1]]) if polygon_orientation(p) < 0 else p
@@ -64,7 +51,7 @@ def concat(edges: ArrayLike) -> Branches:
     A branch runs forward along the edge of it that is listed first, a closed one starts there; branches come in the
     order of these edges. At a vertex where more than two edges meet they are joined in pairs, in the order of the
     list, heads to tails as far as possible.
-    Degenerate: edges from a vertex to itself are left out.
+    Edge cases: edges from a vertex to itself are left out.
     Source: Glaeser, sections 6.1 and 8.4; erratum G8-11.
     """
     pairs = np.asarray(edges, dtype=np.intp).reshape(-1, 2)
@@ -156,30 +143,8 @@ def _ranks(following: Ints, closed: Bools, first_edge: Ints) -> Ints:
 def contour_edges(mesh: Mesh, centre: ArrayLike) -> Ints:
     """The edges of a mesh between a face that shows its outside and one that does not.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Any polyhedron.
-    centre : (3,) or (4,) array_like of float
-        The eye or lamp; (x, y, z, 0) for rays that come from the direction (x, y, z).
-
-    Returns
-    -------
-    (e, 2) array of int
-        Indices of vertices, the front face on the left.
-
-    Notes
-    -----
-    Faces that are not present count: they close the body. A hole that no face closes is closed by its border, so the
-    border of a single polygon is its contour. Faces seen edge-on count as turned away.
-
+    centre: (3,) the eye or lamp; result: (e, 2) indices of vertices, the front face on the left.
     Source: Glaeser, section 6.1; erratum G6-01.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.contour_edges(geometry.box((2, 2, 2)), centre=(9, 1, 1)).tolist()
-    [[1, 2], [2, 6], [6, 5], [5, 1]]
     """
     whole = closed_by_borders(mesh)
     front = _faces_towards(whole, np.asarray(centre, dtype=np.float64))[whole.corner_face]
@@ -242,7 +207,7 @@ def spatial_hull(mesh: Mesh, centre: ArrayLike) -> Ints:
 
     Notes
     -----
-    Degenerate: no points for an eye inside, or a single polygon seen edge-on.
+    Edge cases: no points for an eye inside, or a single polygon seen edge-on.
 
     Source: Glaeser, section 6.1; erratum G6-01.
 
@@ -261,28 +226,7 @@ def spatial_hull(mesh: Mesh, centre: ArrayLike) -> Ints:
 def contour_branches(mesh: Mesh, centre: ArrayLike) -> Branches:
     """The contour of any polyhedron, joined to closed branches: a faceted torus has two.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Any polyhedron.
-    centre : (3,) or (4,) array_like of float
-        As of contour_edges.
-
-    Returns
-    -------
-    Branches
-        Polylines of vertex indices.
-
-    Notes
-    -----
+    centre: (3,) as of contour_edges.
     Source: Glaeser, section 6.1.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> ring = geometry.revolution([(3, 0, 0), (4, 0, -1), (5, 0, 0), (4, 0, 1), (3, 0, 0)], order=8)
-    >>> branches = geometry.contour_branches(ring, centre=(0, 0, 1, 0))
-    >>> [len(branch) for branch in branches], branches.closed.tolist()
-    ([8, 8], [True, True])
     """
     return concat(contour_edges(mesh, centre))

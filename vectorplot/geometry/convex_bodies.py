@@ -35,34 +35,8 @@ from vectorplot.tolerances import ZERO_OF_EXTENT
 def convex_prism_parts(base_points: ArrayLike, vector: ArrayLike) -> list[Mesh]:
     """Convex prisms that together fill the prism over a planar base.
 
-    Parameters
-    ----------
-    base_points : (b, 3) array_like of float
-        A planar polygon.
-    vector : (3,) array_like of float
-        Along which it is moved.
-
-    Returns
-    -------
-    list of Mesh
-        One where the base is convex.
-
-    Raises
-    ------
-    InputError
-        For what prism refuses, and a base that crosses itself.
-
-    Notes
-    -----
+    base_points: (b, 3) A planar polygon; vector: (3,) along which it is moved.
     Source: Glaeser, section 3.5.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> angle = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)]
-    >>> parts = geometry.convex_prism_parts(angle, (0, 0, 1))
-    >>> round(sum(geometry.body_record(part).volume for part in parts), 9)
-    3.0
     """
     whole = prism(base_points, vector)
     count = len(whole.vertices) // 2
@@ -174,32 +148,7 @@ def _without_repeats(face: list[int]) -> list[int]:
 def split_faces(mesh: Mesh, chosen: Bools) -> Mesh:
     """The mesh with some faces cut into convex parts.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        With f faces.
-    chosen : (f,) array of bool
-        The faces to be cut, which are planar.
-
-    Returns
-    -------
-    Mesh
-        With the same vertices; the other faces first, in their order.
-
-    Raises
-    ------
-    InputError
-        For a face that crosses itself.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> corners = [(0, 0, 0), (2, 0, 0), (2, 1, 0), (1, 1, 0), (1, 2, 0), (0, 2, 0)]
-    >>> angle = vp.Mesh.from_polygons(corners, [range(6)])
-    >>> geometry.split_faces(angle, np.array([True])).face_sizes.tolist()
-    [4, 4]
+    chosen: (f,) the faces to be cut, which are planar.
     """
     polygons = mesh.polygons()
     present = np.ones(mesh.face_count, dtype=np.bool_) if mesh.present is None else mesh.present
@@ -246,7 +195,7 @@ def polyhedron_intersection(body: Mesh, convex: Mesh) -> Mesh:
     -----
     If body is convex too, so is the result, and the order of the two does not matter.
 
-    Degenerate: bodies that only touch have an empty intersection; of two faces in one plane that of body stays;
+    Edge cases: bodies that only touch have an empty intersection; of two faces in one plane that of body stays;
     distances below 1e-9 of the extent are zero. A cut with holes is closed by several convex faces.
 
     Source: Glaeser, section 3.6; errata G3-12 to G3-15.
@@ -304,39 +253,8 @@ def _sides(distance: Floats, zero: float) -> Ints:
 def cut_body(body: Mesh, normal: Floats, point: Floats, zero: float, shown: bool) -> Mesh:
     """The part of a closed polyhedron behind a plane with an outer normal.
 
-    Parameters
-    ----------
-    body : Mesh
-        Closed, its faces turned outwards.
-    normal, point : (3,) array of float
-        Of the plane: a unit vector, and a point in it.
-    zero : float
-        Points up to this distance from the plane lie in it.
-    shown : bool
-        Whether the faces in the plane that close it are present.
-
-    Returns
-    -------
-    Mesh
-        Vertices that no face has any more stay.
-
-    Raises
-    ------
-    InputError
-        For a body that is not closed.
-
-    Notes
-    -----
+    normal, point: (3,) of the plane: a unit vector, and a point in it.
     Source: Glaeser, section 3.6.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> cube = geometry.box((2, 2, 2))
-    >>> corner = geometry.cut_body(cube, np.array((1, 1, 1)) / np.sqrt(3), np.array((1.0, 2.0, 2.0)), 1e-9, shown=True)
-    >>> corner.face_count, sorted(corner.face_sizes.tolist())
-    (7, [3, 4, 4, 4, 5, 5, 5])
     """
     distance = matmul(body.vertices - point, normal)
     side = _sides(distance, zero)

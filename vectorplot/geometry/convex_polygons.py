@@ -27,38 +27,9 @@ from vectorplot.tolerances import FOLDED_ANGLE_SQUARED, LEAST_DIVISOR, ROUNDING,
 def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) -> list[Ints]:
     """Convex polygons that together cover a plane polygon.
 
-    Parameters
-    ----------
-    outline : (n, 2) array_like of float
-        Counter-clockwise.
-    holes : sequence of (k, 2) array_like of float
-        Clockwise.
-
-    Returns
-    -------
-    list of (m,) array of int
-        Numbers of points, counter-clockwise; the points are numbered through, the outline first.
-
-    Raises
-    ------
-    InputError
-        For an outline that crosses itself.
-
-    Notes
-    -----
-    The parts are triangles of a constrained Delaunay triangulation, joined over the diagonals that convexity does not
-    need.
-
-    Degenerate: a convex outline without holes is its own part.
-
+    outline: (n, 2) counter-clockwise.
+    Edge cases: a convex outline without holes is its own part.
     Source: Glaeser, section 3.5; the joining is that of Hertel and Mehlhorn.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> angle = [(0, 0), (2, 0), (2, 1), (1, 1), (1, 2), (0, 2)]
-    >>> [len(part) for part in geometry.convex_polygon_parts(angle)]
-    [4, 4]
     """
     rings = [np.asarray(ring, dtype=np.float64).reshape(-1, 2) for ring in (outline, *holes)]
     if not len(rings) > 1 and is_convex_polygon(rings[0]):
@@ -70,23 +41,7 @@ def convex_polygon_parts(outline: ArrayLike, holes: Sequence[ArrayLike] = ()) ->
 def is_convex_polygon(points: Floats) -> bool:
     """Whether a polygon turns left or goes straight on at every corner, and once round in all.
 
-    Parameters
-    ----------
-    points : (n, 2) array of float
-        The corners.
-
-    Returns
-    -------
-    bool
-        False for a convex polygon that runs clockwise.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> square = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
-    >>> geometry.is_convex_polygon(square), geometry.is_convex_polygon(square[::-1])
-    (True, False)
+    points: (n, 2) the corners.
     """
     sides = np.roll(points, -1, axis=0) - points
     after = np.roll(sides, -1, axis=0)
@@ -196,7 +151,7 @@ def convex_hull(points: ArrayLike) -> Ints:
 
     Notes
     -----
-    Degenerate: two corners where all points lie on a line, one where all are the same, of which the first listed, none
+    Edge cases: two corners where all points lie on a line, one where all are the same, of which the first listed, none
     for no points.
 
     Source: Glaeser, section 6.1, figure 1 (Bykat); errata G6-02, G6-03.
@@ -397,7 +352,7 @@ def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float)
     points (3,v); a polygon is planar where no corner is further than tolerance from its mean plane. Quadrilaterals are
     cut along a diagonal that folds neither triangle over (the shorter one if both do), larger polygons by a constrained
     Delaunay triangulation in their mean plane.
-    Degenerate: a hole that a bridge of no width joins to the border stays a hole; a polygon that crosses itself is cut
+    Edge cases: a hole that a bridge of no width joins to the border stays a hole; a polygon that crosses itself is cut
     as a fan and reported by an InputWarning.
     """
     sizes = np.diff(offsets)

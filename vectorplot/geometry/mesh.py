@@ -54,7 +54,7 @@ class Mesh(Movable["Mesh"]):
 
     Notes
     -----
-    Degenerate: a mesh without faces is allowed.
+    Edge cases: a mesh without faces is allowed.
 
     Source: Glaeser, Fast Algorithms for 3D-Graphics, sections 3.1 to 3.4.
 

@@ -26,20 +26,7 @@ Vector = tuple[float, float, float]
 class HalfSpaces:
     """The points p with normal . p > offset for all of some planes: a convex region, with or without bounds.
 
-    Parameters
-    ----------
-    normals : tuple of (float, float, float)
-        Unit vectors that lead into the region.
-    offsets : tuple of float
-        In world units, as many.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.geometry import HalfSpaces
-    >>> quarter = HalfSpaces(((1.0, 0.0, 0.0), (0.0, 1.0, 0.0)), (0.0, 2.0))
-    >>> quarter.heights(np.array([(1.0, 5.0, 0.0), (1.0, 1.0, 0.0)])).tolist()
-    [[1.0, 1.0], [3.0, -1.0]]
+    normals: unit vectors that lead into the region; offsets: in world units, as many.
     """
 
     normals: tuple[Vector, ...]
@@ -48,15 +35,7 @@ class HalfSpaces:
     def heights(self, points: Floats) -> Floats:
         """How far points lie before each of the planes.
 
-        Parameters
-        ----------
-        points : (..., 3) array of float
-            In world units.
-
-        Returns
-        -------
-        (k, ...) array of float
-            Negative behind a plane.
+        points: (..., 3) in world units; result: (k, ...) negative behind a plane.
         """
         normals = np.array(self.normals)
         feet = normals * np.array(self.offsets)[:, None]
@@ -66,32 +45,14 @@ class HalfSpaces:
     def is_inside(self, points: Floats) -> np.ndarray:
         """Which points are in the region.
 
-        Parameters
-        ----------
-        points : (..., 3) array of float
-            In world units.
-
-        Returns
-        -------
-        (...,) array of bool
-            False on the planes.
+        points: (..., 3) in world units; result: (...,) false on the planes.
         """
         return np.asarray((self.heights(points) > 0.0).all(axis=0))
 
     def is_border(self, points: Floats, tolerance: float) -> np.ndarray:
         """Which points are on the border of the region.
 
-        Parameters
-        ----------
-        points : (..., 3) array of float
-            In world units.
-        tolerance : float
-            A distance that counts as none.
-
-        Returns
-        -------
-        (...,) array of bool
-            Whether each is before no plane's back, and on one of them.
+        points: (..., 3) in world units; result: (...,) whether each is before no plane's back, and on one of them.
         """
         heights = self.heights(points)
         on = (np.abs(heights) <= tolerance).any(axis=0)
@@ -100,15 +61,7 @@ class HalfSpaces:
     def transformed(self, matrix: Floats) -> HalfSpaces:
         """The same planes under a 4x4 matrix acting on columns.
 
-        Parameters
-        ----------
-        matrix : (4, 4) array of float
-            Rows 0 to 2: rotation, scale and translation.
-
-        Returns
-        -------
-        HalfSpaces
-            The moved region.
+        matrix: (4, 4) rows 0 to 2: rotation, scale and translation.
         """
         normals, offsets = moved_planes(np.array(self.normals), np.array(self.offsets), matrix)
         return HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(offsets.tolist()))
@@ -118,7 +71,7 @@ def moved_planes(normals: Floats, offsets: Floats, matrix: Floats) -> tuple[Floa
     """(n,3) unit normals and (n,) offsets of planes, n . x = offset, under a 4x4 matrix acting on columns. One normal
     (1,3) may serve for all offsets.
 
-    Degenerate: numpy's LinAlgError for a matrix that flattens space.
+    Edge cases: numpy's LinAlgError for a matrix that flattens space.
     """
     moved = linear_solution(matrix[:3, :3].T, normals.T).T
     lengths = np.linalg.norm(moved, axis=1)
@@ -173,7 +126,7 @@ class _Made:
 def divided_mesh(mesh: Mesh, region: HalfSpaces) -> Divided:
     """The parts of a mesh outside and inside of a region; new vertices lie on edges, one for all faces there.
 
-    Degenerate: vertices no farther from a plane than rounding are on it; a face in a plane belongs to the side where
+    Edge cases: vertices no farther from a plane than rounding are on it; a face in a plane belongs to the side where
     its body is. Faces that are not convex are divided into convex parts where they are cut; faces that are not
     present are left out.
     """
@@ -207,7 +160,7 @@ def section_sides(mesh: Mesh, region: HalfSpaces, number: int) -> Floats:
     """(2,s,3) the sides, from start to end, of the section of a closed mesh with one of the planes of a region: they
     run around the inside of the body counter-clockwise, seen from the side to which the normal leads.
 
-    Degenerate: a face in the plane counts to the side where its body is, so that a body that stands on the plane has
+    Edge cases: a face in the plane counts to the side where its body is, so that a body that stands on the plane has
     no section.
     """
     one = HalfSpaces(region.normals[number : number + 1], region.offsets[number : number + 1])
@@ -347,23 +300,7 @@ NONE = -1
 
 @dataclass(frozen=True, eq=False)
 class LevelBands:
-    """The parts of triangles between levels.
-
-    Attributes
-    ----------
-    points : (n, 3) array of float
-        Those of the triangles, and after them those where their sides meet the levels; neighbours share them.
-    values : (n,) array of float
-        The number at each.
-    corners : (c,) array of int
-        Convex polygons of three to five points, group after group; they turn as their triangles do.
-    offsets : (p+1,) array of int
-        Where each of them begins.
-    band : (p,) array of int
-        Below how many levels the part lies, counted from the lowest: 0, 1, ...
-    source : (p,) array of int
-        The triangle it is a part of, among those that are not left out.
-    """
+    """The parts of triangles between levels."""
 
     points: Floats
     values: Floats
@@ -382,26 +319,8 @@ class LevelBands:
 def level_bands(points: Floats, values: Floats, triangles: Ints, levels: Floats) -> LevelBands:
     """Cut triangles along lines of equal number.
 
-    Parameters
-    ----------
-    points : (n, 3 or more) array of float
-        Corners, and what else is linear between them.
-    values : (n,) array of float
-        The number at each, finite.
-    triangles : (t, 3) array of int
-        Of the points; those of which two corners are one place are left out.
-    levels : (k,) array of float
-        Ascending.
-
-    Returns
-    -------
-    LevelBands
-        Of k+1 bands. A triangle that is cut k times is k+1 parts.
-
-    Notes
-    -----
-    What is on a level but for rounding is on it: else a line of that level along sides would go to and fro. Triangles
-    whose corners are all on one level are in the band above it.
+    points: (n, 3 or more) corners, and what else is linear between them; values: (n,) the number at each, finite;
+    triangles: (t, 3) of the points; levels: (k,) ascending.
     """
     values = _levels_snapped(values, levels)
     triangles = triangles[_with_three_places(points[triangles])]

@@ -159,27 +159,9 @@ __all__ = [
 class Mending:
     """What was done to a mesh, and what is left, in numbers.
 
-    Parameters
-    ----------
-    welded : int
-        Vertices made one with others.
-    degenerate, repeated : int
-        Faces dropped as degenerate, and as repeated.
-    turned : int
-        Faces turned round.
-    boundary_edges, nonmanifold_edges : int
-        What is left: edges of one face, and of more than two.
-    one_sided : bool
-        Whether some piece is one-sided.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> flat = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2), (0, 1, 1)])
-    >>> mesh, done = geometry.repaired(flat, precision=2.0**-52)
-    >>> str(done)
-    'dropped 1 degenerate face; open mesh (3 boundary edges)'
+    welded: vertices made one with others; degenerate, repeated: faces dropped as degenerate, and as repeated; turned:
+    faces turned round; boundary_edges, nonmanifold_edges: what is left: edges of one face, and of more than two;
+    one_sided: whether some piece is one-sided.
     """
 
     welded: int = 0
@@ -225,31 +207,10 @@ def _many(count: int, one: str, many: str) -> str:
 class MeshReport:
     """What a mesh is like.
 
-    Parameters
-    ----------
-    vertices, faces, edges : int
-        How many there are.
-    boundary_edges : int
-        Edges of one face only.
-    nonmanifold_edges : int
-        Edges of more than two faces.
-    components : int
-        Pieces that hang together.
-    closed : bool
-        No boundary edge.
-    oriented : bool
-        Neighbours agree about the outside.
-    convex : bool
-        Closed, oriented and convex within 1e-9 of its extent.
-    bounds : ((float, float, float), (float, float, float))
-        Smallest and largest coordinates.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> report = geometry.mesh_report(geometry.box((1, 2, 3)))
-    >>> report.edges, report.closed, report.convex, report.bounds
-    (12, True, True, ((0.0, 0.0, 0.0), (1.0, 2.0, 3.0)))
+    vertices, faces, edges: how many there are; boundary_edges: edges of one face only; nonmanifold_edges: edges of more
+    than two faces; components: pieces that hang together; closed: no boundary edge; oriented: neighbours agree about
+    the outside; convex: closed, oriented and convex within 1e-9 of its extent; bounds: ((float, float, float), (float,
+    float, float)) smallest and largest coordinates.
     """
 
     vertices: int
@@ -279,7 +240,7 @@ def mesh_report(mesh: Mesh) -> MeshReport:
 
     Notes
     -----
-    Degenerate: a mesh without faces is closed and not convex.
+    Edge cases: a mesh without faces is closed and not convex.
 
     Examples
     --------
@@ -526,7 +487,7 @@ def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
 
     Vertices stay, and faces keep their numbers: corners name one of several vertices in one place. A face that is left
     with fewer than three corners is no longer present. Meshes without seams are returned themselves.
-    Degenerate: vertices in one place that no common edge joins stay apart; so do closed meshes that touch.
+    Edge cases: vertices in one place that no common edge joins stay apart; so do closed meshes that touch.
     """
     asked = _perhaps_open(meshes)
     result = list(meshes)

@@ -54,7 +54,7 @@ class Parts:
 
 
 def planes_of(normal: Floats, point: Floats) -> Floats:
-    """(4,n) planes through points (3,n): unit normals and constants. Degenerate: zeros where there is no normal."""
+    """(4,n) planes through points (3,n): unit normals and constants. Edge cases: zeros where there is no normal."""
     length = np.sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2])
     unit = normal / np.where(length > 0.0, length, 1.0)
     constant = unit[0] * point[0] + unit[1] * point[1] + unit[2] * point[2]
@@ -113,7 +113,7 @@ def crossings_of(
 def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tolerance: float) -> Parts:
     """What the planes leave of the polygons of pairs: those that nothing cuts keep every digit.
 
-    Arguments as of crossings_of. Degenerate: parts narrower than the tolerance are left out.
+    Arguments as of crossings_of. Edge cases: parts narrower than the tolerance are left out.
     Source: Hodgman and Sutherland; Glaeser, section 6.2.
     """
     found = [_no_parts()]
@@ -263,7 +263,7 @@ def clipped_by_convex(
 
     Notes
     -----
-    Degenerate: nothing is left by a convex polygon without area, or where only points of a side are common; a polygon
+    Edge cases: nothing is left by a convex polygon without area, or where only points of a side are common; a polygon
     that is not convex may get coincident edges along the sides, which enclose no area. A convex polygon that is not
     convex, as by rounding of corners that lie near together, clips as its hull does.
 
@@ -307,7 +307,7 @@ def inside_convex(
 
     Notes
     -----
-    Degenerate: nothing lies inside a polygon without area.
+    Edge cases: nothing lies inside a polygon without area.
 
     Source: Glaeser, section 6.2; erratum G6-04.
 

@@ -88,7 +88,7 @@ class Polylines(NumberedLines):
 
     points (p,d); offsets (m+1,): polyline i has the points offsets[i] to offsets[i+1]; closed (m,): the last point
     joins the first, which is not repeated.
-    Degenerate: no polylines at all is points (0,d), offsets (1,).
+    Edge cases: no polylines at all is points (0,d), offsets (1,).
     """
 
     points: Floats = field(metadata=EACH_POINT)
@@ -223,7 +223,7 @@ class Strokes:
 
     Notes
     -----
-    Degenerate: no strokes at all is points (0,3), offsets (1,).
+    Edge cases: no strokes at all is points (0,3), offsets (1,).
 
     Examples
     --------

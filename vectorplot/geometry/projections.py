@@ -66,28 +66,7 @@ def project(points: ArrayLike, distance: float) -> Floats:
 def unproject(images: ArrayLike, distance: float) -> Floats:
     """The inverse of T1: points from their images and depths.
 
-    Parameters
-    ----------
-    images : (..., 3) array_like of float
-        Image x and y, and depth.
-    distance : float
-        As of project.
-
-    Returns
-    -------
-    (..., 3) array of float
-        In the system.
-
-    Raises
-    ------
-    InputError
-        For depths on or behind the neutral plane.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.unproject([(2, 4, 5)], distance=10.0).tolist()
-    [[1.0, 2.0, 5.0]]
+    images: (..., 3) image x and y, and depth; result: (..., 3) in the system.
     """
     p = np.asarray(images, dtype=np.float64)
     points = p.copy()
@@ -122,7 +101,7 @@ def collineate(points: ArrayLike, distance: float, factor: float | None = None) 
     Linear: planes go to planes, and z* keeps the order of z. The image plane stays fixed for every k; the centre of the
     collineation is (0, 0, d (1 - k)) (erratum G2-04).
 
-    Degenerate: at an infinite distance lambda is 1, and k must be given, or is 1.
+    Edge cases: at an infinite distance lambda is 1, and k must be given, or is 1.
 
     Source: Glaeser, section 2.3, equations 17 to 21.
 
@@ -141,32 +120,8 @@ def collineate(points: ArrayLike, distance: float, factor: float | None = None) 
 def uncollineate(images: ArrayLike, distance: float, factor: float | None = None) -> Floats:
     """The inverse of T2: points from their images and depths z*.
 
-    Parameters
-    ----------
-    images : (..., 3) array_like of float
-        Image x and y, and z*.
-    distance, factor : float
-        As of collineate.
-
-    Returns
-    -------
-    (..., 3) array of float
-        In the system.
-
-    Raises
-    ------
-    InputError
-        For the factor 0.
-
-    Notes
-    -----
+    images: (..., 3) image x and y, and z*; result: (..., 3) in the system.
     Source: Glaeser, section 2.3, equation 22.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.uncollineate([(2, 4, 1)], distance=10.0).tolist()
-    [[1.0, 2.0, 5.0]]
     """
     p = np.asarray(images, dtype=np.float64)
     # z* = k d z / (d - z), hence 1 / lambda = k d / (k d + z*).
@@ -492,43 +447,11 @@ FARTHEST_OFF_AXIS_DEG = 60.0
 class Projection:
     """How a camera sees a scene: axes x right, y up, z towards the eye, the scene in the unit box.
 
-    Parameters
-    ----------
-    eye : (3,) array of float, optional
-        For a parallel projection None: then every ray runs along +z.
-    target : (3,) array of float
-        Where the camera looks.
-    focus : float
-        Depth of the image plane, which is put into the middle of the scene.
-    near : float
-        The smallest depth that is drawn.
-    picture_height : float
-        Of the camera's picture in the image plane.
-    tolerance : float
-        What counts as distance zero.
-    centre : (3,) array of float
-        The middle of the scene, in the world: the origin of the projection's coordinates.
-    scale : float
-        Half the largest side of the scene, in world units: the largest coordinate is about 1.
-    axes : (3, 3) array of float
-        Unit rows right, up and back, in the world.
-
-    Notes
-    -----
-    World from view: point = centre + scale * (p @ axes).
-
+    eye: (3,) for a parallel projection None: then every ray runs along +z; target: (3,) where the camera looks; near:
+    the smallest depth that is drawn; picture_height: of the camera's picture in the image plane; tolerance: what counts
+    as distance zero; centre: (3,) the middle of the scene, in the world: the origin of the projection's coordinates;
+    axes: (3, 3) unit rows right, up and back, in the world.
     Source: Glaeser, sections 2.1 and 2.4.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> bounds = np.array([(-2.0, -2.0, -2.0), (2.0, 2.0, 2.0)])
-    >>> top = geometry.projection_of(vp.Camera.view("top"), bounds)
-    >>> points = top.points_of(np.array([(2.0, 1.0, 2.0)]))
-    >>> points.T.tolist(), top.image_of(points).T.tolist(), top.world_of(points).tolist()
-    ([[1.0, 0.5, 1.0]], [[1.0, 0.5]], [[2.0, 1.0, 2.0]])
     """
 
     eye: Floats | None
@@ -544,35 +467,16 @@ class Projection:
     def depth_of(self, points: Floats) -> Floats:
         """The depths of points.
 
-        Parameters
-        ----------
-        points : (3, n) array of float
-            In the projection's coordinates.
-
-        Returns
-        -------
-        (n,) array of float
-            From the eye along the principal ray; in a parallel projection from the middle of the scene, away from the
-            eye.
+        points: (3, n) in the projection's coordinates; result: (n,) from the eye along the principal ray.
         """
         return np.asarray(-points[2] if self.eye is None else self.eye[2] - points[2], dtype=np.float64)
 
     def image_of(self, points: Floats) -> Floats:
         """The images of points.
 
-        Parameters
-        ----------
-        points : (3, n) array of float
-            In the projection's coordinates.
-
-        Returns
-        -------
-        (2, n) array of float
-            In the image plane, with the origin where the principal ray meets it.
-
-        Notes
-        -----
-        Degenerate: points nearer than the near plane get the image of a point at the near plane.
+        points: (3, n) in the projection's coordinates; result: (2, n) in the image plane, with the origin where the
+        principal ray meets it.
+        Edge cases: points nearer than the near plane get the image of a point at the near plane.
         """
         if self.eye is None:
             return points[:2] - self.target[:2, None]
@@ -582,30 +486,14 @@ class Projection:
     def points_of(self, world: Floats) -> Floats:
         """Points of the world in the projection's coordinates.
 
-        Parameters
-        ----------
-        world : (n, 3) array of float
-            In world units.
-
-        Returns
-        -------
-        (3, n) array of float
-            About -1 to 1 for what is in the scene.
+        world: (n, 3) in world units; result: (3, n) about -1 to 1 for what is in the scene.
         """
         return np.asarray(matmul(self.axes / self.scale, (world - self.centre).T), dtype=np.float64)
 
     def world_of(self, points: Floats) -> Floats:
         """Points of the projection in world coordinates.
 
-        Parameters
-        ----------
-        points : (3, n) array of float
-            In the projection's coordinates.
-
-        Returns
-        -------
-        (n, 3) array of float
-            In world units.
+        points: (3, n) in the projection's coordinates; result: (n, 3) in world units.
         """
         return np.ascontiguousarray((matmul(self.scale * self.axes.T, points)).T + self.centre)
 
@@ -633,15 +521,7 @@ class Projection:
     def reaches_too_far(self, *points: Floats) -> bool:
         """Whether any of some points is too near, or too far off the principal ray, to be fitted to a page.
 
-        Parameters
-        ----------
-        points : (3, n) array of float
-            In the projection's coordinates, as many arrays as there are.
-
-        Returns
-        -------
-        bool
-            False in a parallel projection; else True for points nearer than the near plane or more than 60 degrees off.
+        points: (3, n) in the projection's coordinates, as many arrays as there are.
         """
         if self.eye is None:
             return False
@@ -676,7 +556,7 @@ def projection_of(camera: Camera, bounds: Floats) -> Projection:
 
     Notes
     -----
-    Degenerate: a box without extent takes the camera's distance, or height, for its size.
+    Edge cases: a box without extent takes the camera's distance, or height, for its size.
 
     Examples
     --------

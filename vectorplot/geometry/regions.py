@@ -105,7 +105,7 @@ def cells_of(regions: Any, group: Ints, tolerance: float) -> tuple[Any, Ints]:
     """The cells that the borders of the regions (n,) of each of the groups 0, 1, ... cut the plane into, those without
     bounds left out: polygons (k,), and the group of each; no two of a group overlap by more than a few tolerances.
 
-    Borders move by less than that. Degenerate: narrower cells are left out; corners where nothing turns, too.
+    Borders move by less than that. Edge cases: narrower cells are left out; corners where nothing turns, too.
     """
     import shapely
 
@@ -143,7 +143,7 @@ def _are_areas(regions: Any) -> Bools:
 def grown(regions: Any, distance: float) -> Any:
     """(n,) regions and what is within a distance of them, with sharp corners; shrunk where it is negative.
 
-    Degenerate: the mitre of two sides that run back on each other is cut off; what floating point says of it is not
+    Edge cases: the mitre of two sides that run back on each other is cut off; what floating point says of it is not
     said on.
     """
     import shapely

@@ -53,26 +53,8 @@ def rotation_x(angle: ArrayLike) -> Floats:
 def rotation_y(angle: ArrayLike) -> Floats:
     """The rotations about the y-axis.
 
-    Parameters
-    ----------
-    angle : (...) array_like of float
-        In radians, from z to x.
-
-    Returns
-    -------
-    (..., 3, 3) array of float
-        Acts on points as rows: points @ rotation.
-
-    Notes
-    -----
+    angle: (...) in radians, from z to x; result: (..., 3, 3) acts on points as rows: points @ rotation.
     Source: Glaeser, equation 1.28.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> np.allclose((0, 0, 1) @ geometry.rotation_y(np.pi / 2), (1, 0, 0))
-    True
     """
     return _about_coordinate_axis(angle, 1)
 
@@ -163,7 +145,7 @@ def axis_frame(axis: ArrayLike) -> Floats:
 
     Notes
     -----
-    Degenerate: for an upright axis e is the x-axis.
+    Edge cases: for an upright axis e is the x-axis.
 
     Source: Glaeser, section 1.6, equation 30.
 
@@ -256,38 +238,10 @@ def rotated_about_line(points: ArrayLike, on_line: ArrayLike, axis: ArrayLike, a
 def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
     """The rotations that carry centres onto the positive z-axis, horizontal lines staying horizontal but for a twist.
 
-    Parameters
-    ----------
-    centres : (..., 3) array_like of float
-        Eyes or lamps, with the target as the origin.
-    twist : (...) array_like of float
-        In radians.
-
-    Returns
-    -------
-    (..., 3, 3) array of float
-        Z(-gamma) X(-beta) Z(-alpha), acts on points as rows: points @ rotation.
-
-    Raises
-    ------
-    InputError
-        For a centre in the origin.
-
-    Notes
-    -----
-    One line for the screen and all lights: only the screen has a twist. The inverse is the transposed matrix.
-
-    Degenerate: for a centre above or below the origin the azimuth is 0.
-
+    centres: (..., 3) eyes or lamps, with the target as the origin; twist: (...) in radians; result: (..., 3, 3)
+    Z(-gamma) X(-beta) Z(-alpha), acts on points as rows: points @ rotation.
+    Edge cases: for a centre above or below the origin the azimuth is 0.
     Source: Glaeser, sections 2.1, equations 1 to 4, and 2.4.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> rotation = geometry.look_rotation((0, -5, 0))
-    >>> np.allclose([(0, -5, 0), (1, 0, 0), (0, 0, 1)] @ rotation, [(0, 0, 5), (1, 0, 0), (0, 1, 0)])
-    True
     """
     spherical = spherical_coordinates(normalize(centres))
     gamma, beta = np.pi / 2.0 + spherical[..., 1], np.pi / 2.0 - spherical[..., 2]
@@ -311,7 +265,7 @@ def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:
 
     Notes
     -----
-    Degenerate: where beta is 0 or pi, gamma is pi/2, so that an upright view has the azimuth 0.
+    Edge cases: where beta is 0 or pi, gamma is pi/2, so that an upright view has the azimuth 0.
 
     Source: Glaeser, section 2.1, equations 9 and 10; erratum G2-01.
 
@@ -339,7 +293,7 @@ def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:
 def upright_turn(up: ArrayLike) -> Floats:
     """The rotation that takes the z-axis to a direction on the shortest way, exact where that is an axis.
 
-    up: (3,) not zero. Acts on points as rows. Degenerate: straight down it turns about the x-axis.
+    up: (3,) not zero. Acts on points as rows. Edge cases: straight down it turns about the x-axis.
     """
     x, y, z = (normalize(np.asarray(up, dtype=np.float64)) + 0.0).tolist()
     level = x * x + y * y

@@ -52,7 +52,7 @@ def own_box(points: ArrayLike) -> Floats:
     -----
     Taken of a shape before it is turned, and turned with it, it fits closer than one along the axes taken later.
 
-    Degenerate: a flat box is widened, to both sides alike, so that every side has a plane.
+    Edge cases: a flat box is widened, to both sides alike, so that every side has a plane.
 
     Source: Glaeser, section 5.8, figure 13.
 
@@ -168,29 +168,9 @@ def _outer_planes(mesh: Mesh) -> Floats:
 class Separations:
     """What keeps pairs of shapes apart.
 
-    Parameters
-    ----------
-    info : (p,) array of int8
-        0 where nothing is known; 1 where the first shape is on the side the plane's normal points to, -1 where it is on
-        the other one; 2 where spheres around both have no common points.
-    planes : (p, 4) array of float
-        Unit normal and constant, NaN where there is none.
-    spheres : (p, 2, 4) array of float
-        Of both shapes.
-
-    Notes
-    -----
+    info: (p,) 0 where nothing is known; planes: (p, 4) unit normal and constant, NaN where there is none; spheres: (p,
+    2, 4) of both shapes.
     Source: Glaeser, sections 5.5 and 5.8; errata G5-05 to G5-07.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> left, right = geometry.box((1, 1, 1)), geometry.box((1, 1, 1), placement=(1, 0, 0, 1.5, 0, 1, 0, 0, 0, 0, 1, 0))
-    >>> around = geometry.Surroundings.of([left, right])
-    >>> found = geometry.separations(around, np.array([0]), np.array([1]))
-    >>> found.nearer(eye=(-9, 0, 0)).tolist(), found.nearer(eye=(9, 0, 0)).tolist()
-    ([1], [-1])
     """
 
     info: Infos
@@ -205,20 +185,8 @@ class Separations:
     def nearer(self, eye: ArrayLike) -> Infos:
         """Which shape of each pair is in front.
 
-        Parameters
-        ----------
-        eye : (3,) or (4,) array_like of float
-            The eye, or (x, y, z, 0) for a direction towards it.
-
-        Returns
-        -------
-        (p,) array of int8
-            1 where the first shape is in front, -1 where the second is, 0 where neither can be told to be.
-
-        Notes
-        -----
-        Of disjoint spheres that one is in front which has the smaller power with respect to the eye.
-
+        eye: (3,) the eye, or (x, y, z, 0) for a direction towards it; result: (p,) 1 where the first shape is in front,
+        -1 where the second is, 0 where neither can be told to be.
         Source: Glaeser, section 5.5, figure 9; erratum G5-03.
         """
         place = np.asarray(eye, dtype=np.float64)
@@ -288,7 +256,7 @@ def separations(around: Surroundings, first: Ints, second: Ints, *, tolerance: f
     -----
     Of several sides the one with the widest gap is taken. Exchange of a pair exchanges the answer.
 
-    Degenerate: shapes that touch are apart.
+    Edge cases: shapes that touch are apart.
 
     Source: Glaeser, section 5.8; errata G5-06, G5-07.
 
@@ -324,44 +292,8 @@ def separations_after_moves(
 ) -> Separations:
     """What keeps the same pairs apart after some shapes have moved: only their pairs are looked at again.
 
-    Parameters
-    ----------
-    before : Separations
-        What kept the pairs apart.
-    around : Surroundings
-        The shapes where they are now.
-    first, second : (p,) array of int
-        Numbers of shapes.
-    moved : (n,) array of bool
-        Which of the shapes have moved.
-
-    Returns
-    -------
-    Separations
-        Of all pairs.
-
-    Raises
-    ------
-    InputError
-        Unless there is one of before for each pair.
-
-    Notes
-    -----
-    A plane found for a pair holds until one of the two moves.
-
+    first, second: (p,) numbers of shapes; moved: (n,) which of the shapes have moved.
     Source: Glaeser, section 5.8.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> def around(x):
-    ...     moving = geometry.box((1, 1, 1), placement=(1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0))
-    ...     return geometry.Surroundings.of([geometry.box((1, 1, 1)), moving])
-    >>> pair = np.array([0]), np.array([1])
-    >>> before = geometry.separations(around(1), *pair)
-    >>> geometry.separations_after_moves(before, around(9), *pair, moved=np.array([False, True])).info.tolist()
-    [2]
     """
     if not len(before.info) == len(first) == len(second):
         raise InputError(f"{len(first)} pairs need as many separations, not {len(before.info)}")

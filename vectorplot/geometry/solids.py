@@ -224,7 +224,7 @@ def has_convex_outline(mesh: Mesh) -> bool:
 
     Notes
     -----
-    Degenerate: faces without area say nothing; a vertex nearer to a plane than about 1e-9 of the extent lies in it.
+    Edge cases: faces without area say nothing; a vertex nearer to a plane than about 1e-9 of the extent lies in it.
 
     Examples
     --------
@@ -257,7 +257,7 @@ def _touch_hull(points: Floats, normals: Floats, constants: Floats, zero: float)
     """(f,) which planes normal . p = constant are, up to zero, faces' planes of the convex hull of points (n,3) around
     the origin: no point lies outside them. Of a plane with another place or direction nothing is said.
 
-    Degenerate: points in one plane have a hull of two faces; planes without a direction touch it.
+    Edge cases: points in one plane have a hull of two faces; planes without a direction touch it.
     """
     from scipy.spatial import ConvexHull, QhullError, cKDTree
 
@@ -322,7 +322,7 @@ def revolution(
     A meridian that ends where it begins sweeps a ring without caps. Of a meridian outside a half-plane the patches are
     cut into triangles.
 
-    Degenerate: points on the axis stay single vertices; a meridian that runs downwards has its faces turned outwards.
+    Edge cases: points on the axis stay single vertices; a meridian that runs downwards has its faces turned outwards.
 
     Source: Glaeser, section 3.4; errata G3-11, D-4.
 

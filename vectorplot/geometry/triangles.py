@@ -27,7 +27,7 @@ def overlapping(one: Floats, other: Floats) -> Bools:
     """(k,) whether triangles one (2,3,k) and other (2,3,k), of either sense, have inner points in common: they have
     none where a side of one of them has the other one beyond it, or on it.
 
-    Triangles that share corners are told apart exactly. Degenerate: those without area overlap nothing.
+    Triangles that share corners are told apart exactly. Edge cases: those without area overlap nothing.
     Source: the theorem of separating axes, of which sides are enough for convex polygons.
     """
     parts = [slice(first, first + PAIRS_AT_ONCE) for first in range(0, one.shape[2], PAIRS_AT_ONCE)]
@@ -73,7 +73,7 @@ class PlacedTriangles:
         """The places of those of some points (n,3) that are on the mesh, but for rounding: each in the triangle it is
         nearest to.
 
-        Degenerate: points off the mesh are left out where no rectangle of a triangle has them, seen along the axis in
+        Edge cases: points off the mesh are left out where no rectangle of a triangle has them, seen along the axis in
         which the mesh is thinnest; others have a place in the nearest triangle of those that have.
         """
         import shapely

@@ -95,7 +95,7 @@ def from_components(*components: ArrayLike) -> Floats:
 def norm(vectors: ArrayLike) -> Floats:
     """The lengths (...) of vectors (..., k), to the last bit those of np.linalg.norm along the last axis.
 
-    Degenerate: squares of lengths beyond 1e154 overflow, below 1e-154 they underflow; `length` does neither.
+    Edge cases: squares of lengths beyond 1e154 overflow, below 1e-154 they underflow; `length` does neither.
     """
     v = np.asarray(vectors, dtype=np.float64)
     if not 1 <= v.shape[-1] <= FEW_COMPONENTS:
@@ -180,27 +180,8 @@ def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
 def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:
     """The points of lines PQ at some parameters: 0 gives P, 1 gives Q, any number is allowed.
 
-    Parameters
-    ----------
-    p, q : (..., k) array_like of float
-        Two points of each line.
-    parameter : (...) array_like of float
-        In units of PQ.
-
-    Returns
-    -------
-    (..., k) array of float
-        Points of the lines; 0 and 1 give P and Q to the last digit.
-
-    Notes
-    -----
+    p, q: (..., k) two points of each line; parameter: (...) in units of PQ; result: (..., k) points of the lines.
     Source: Glaeser, section 1.1, equations 4 and 5.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.point_on_line((0, 0), (4, 2), [0.25, 2]).tolist()
-    [[1.0, 0.5], [8.0, 4.0]]
     """
     p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
     t = np.asarray(parameter, dtype=np.float64)[..., None]
@@ -211,32 +192,9 @@ def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:
 def point_at_distance(p: ArrayLike, q: ArrayLike, distance: ArrayLike) -> Floats:
     """The points of lines PQ at some distance from P, towards Q.
 
-    Parameters
-    ----------
-    p, q : (..., k) array_like of float
-        Two points of each line.
-    distance : (...) array_like of float
-        Negative distances lie beyond P.
-
-    Returns
-    -------
-    (..., k) array of float
-        Points of the lines.
-
-    Raises
-    ------
-    InputError
-        Where P is Q.
-
-    Notes
-    -----
+    p, q: (..., k) two points of each line; distance: (...) negative distances lie beyond P; result: (..., k) points of
+    the lines.
     Source: Glaeser, section 1.2, equation 13.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.point_at_distance((0, 0), (3, 4), [10, -5]).round(9).tolist()
-    [[6.0, 8.0], [-3.0, -4.0]]
     """
     p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
     size = np.maximum(np.abs(p).max(axis=-1), np.abs(q).max(axis=-1))
@@ -310,33 +268,9 @@ def angle(a: ArrayLike, b: ArrayLike) -> Floats:
 def angle_line_plane(direction: ArrayLike, normal: ArrayLike) -> Floats:
     """The angles between lines and planes given by their normals, in radians.
 
-    Parameters
-    ----------
-    direction : (..., 3) array_like of float
-        Of the lines.
-    normal : (..., 3) array_like of float
-        Of the planes.
-
-    Returns
-    -------
-    (...) array of float
-        -pi/2 to pi/2: 0 in the plane, positive towards the normal.
-
-    Raises
-    ------
-    InputError
-        For a vector without length.
-
-    Notes
-    -----
+    direction: (..., 3) of the lines; normal: (..., 3) of the planes; result: (...) -pi/2 to pi/2: 0 in the plane,
+    positive towards the normal.
     Source: Glaeser, section 1.2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> np.degrees(geometry.angle_line_plane((1, 0, 1), (0, 0, 1))).round(9).item()
-    45.0
     """
     return np.asarray(np.pi / 2.0 - angle(direction, normal))
 
@@ -344,31 +278,8 @@ def angle_line_plane(direction: ArrayLike, normal: ArrayLike) -> Floats:
 def angle_planes(normal: ArrayLike, other: ArrayLike) -> Floats:
     """The angles between planes: those of their normals, in radians.
 
-    Parameters
-    ----------
-    normal, other : (..., 3) array_like of float
-        Of any length but zero.
-
-    Returns
-    -------
-    (...) array of float
-        0 to pi.
-
-    Raises
-    ------
-    InputError
-        For a normal without length.
-
-    Notes
-    -----
+    normal, other: (..., 3) of any length but zero; result: (...) 0 to pi.
     Source: Glaeser, section 1.2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> np.degrees(geometry.angle_planes((0, 0, 1), (0, 3, 0))).round(9).item()
-    90.0
     """
     return angle(normal, other)
 
@@ -376,36 +287,9 @@ def angle_planes(normal: ArrayLike, other: ArrayLike) -> Floats:
 def lambert_cosine(normal: ArrayLike, point: ArrayLike, light: ArrayLike) -> Floats:
     """The cosines that say how brightly faces are lit: 1 facing the light, negative on the side turned away.
 
-    Parameters
-    ----------
-    normal : (..., 3) array_like of float
-        Of the faces, of any length but zero.
-    point : (..., 3) array_like of float
-        Their barycentres.
-    light : (..., 3) or (..., 4) array_like of float
-        Where the light stands, or (x, y, z, 0) for parallel rays that come from the direction (x, y, z).
-
-    Returns
-    -------
-    (...) array of float
-        -1 to 1.
-
-    Raises
-    ------
-    InputError
-        For a light in a barycentre, and a normal without length.
-
-    Notes
-    -----
+    normal: (..., 3) of the faces, of any length but zero; point: (..., 3) their barycentres; light: (..., 3) where the
+    light stands, or (x, y, z, 0) for parallel rays that come from the direction (x, y, z); result: (...) -1 to 1.
     Source: Glaeser, sections 1.2 and 4.5.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.lambert_cosine((0, 0, 1), (0, 0, 0), [(0, 0, 5), (0, 0, -5)]).tolist()
-    [1.0, -1.0]
-    >>> geometry.lambert_cosine((0, 0, 1), (7, 7, 0), (3, 0, 4, 0)).round(9).item()
-    0.8
     """
     light = np.asarray(light, dtype=np.float64)
     point = np.asarray(point, dtype=np.float64)
@@ -419,29 +303,10 @@ def lambert_cosine(normal: ArrayLike, point: ArrayLike, light: ArrayLike) -> Flo
 def spherical_coordinates(points: ArrayLike) -> Floats:
     """Distance from the origin, azimuth and elevation of points in space, angles in radians.
 
-    Parameters
-    ----------
-    points : (..., 3) array_like of float
-        In space.
-
-    Returns
-    -------
-    (..., 3) array of float
-        Distance, azimuth from the x-axis (-pi to pi), elevation above the xy-plane (-pi/2 to pi/2).
-
-    Notes
-    -----
-    Degenerate: on the z-axis the azimuth is 0; the origin is (0, 0, 0).
-
+    points: (..., 3) in space; result: (..., 3) distance, azimuth from the x-axis (-pi to pi), elevation above the
+    xy-plane (-pi/2 to pi/2).
+    Edge cases: on the z-axis the azimuth is 0; the origin is (0, 0, 0).
     Source: Glaeser, section 2.4.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> distance, azimuth, elevation = geometry.spherical_coordinates((0, 1, 1))
-    >>> round(distance.item(), 6), round(np.degrees(azimuth).item(), 6), round(np.degrees(elevation).item(), 6)
-    (1.414214, 90.0, 45.0)
     """
     p = np.asarray(points, dtype=np.float64)
     across = length(p[..., :2])
@@ -452,27 +317,8 @@ def spherical_coordinates(points: ArrayLike) -> Floats:
 def from_spherical_coordinates(coordinates: ArrayLike) -> Floats:
     """The points with some distances, azimuths and elevations.
 
-    Parameters
-    ----------
-    coordinates : (..., 3) array_like of float
-        As spherical_coordinates gives them, angles in radians.
-
-    Returns
-    -------
-    (..., 3) array of float
-        In space.
-
-    Notes
-    -----
+    coordinates: (..., 3) as spherical_coordinates gives them, angles in radians; result: (..., 3) in space.
     Source: Glaeser, section 2.4.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> points = np.array([(1.0, 2.0, 3.0), (0.0, 0.0, -4.0)])
-    >>> np.allclose(geometry.from_spherical_coordinates(geometry.spherical_coordinates(points)), points)
-    True
     """
     distance, azimuth, elevation = np.moveaxis(np.asarray(coordinates, dtype=np.float64), -1, 0)
     across = distance * np.cos(elevation)

@@ -35,7 +35,7 @@ def distinct_points(points: NDArray[np.floating[Any]]) -> tuple[Ints, Ints]:
 
     Points are equal when all coordinates are; -0 equals 0. Exact, whatever the hashes do: every point is compared with
     the one that stands for it, and what shares a slot with a different point goes into a round with another hash.
-    Errors: none. Degenerate: a point with a NaN equals itself or nothing.
+    Errors: none. Edge cases: a point with a NaN equals itself or nothing.
     """
     position = np.dtype(np.int32 if len(points) < 2**31 else np.int64)
     stand_in = np.zeros(len(points), dtype=position)

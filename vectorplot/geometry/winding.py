@@ -20,23 +20,8 @@ _PIECE = 1 << 15
 class EdgeUses:
     """The undirected edges of a mesh and the face corners that run along them.
 
-    Parameters
-    ----------
-    corner : (c,) array of int
-        Positions of corners, sorted by the edge from this corner to the next.
-    forward : (c,) array of bool
-        Whether that way leads to the larger vertex number.
-    first : (e,) array of int
-        Where the uses of an edge begin.
-    count : (e,) array of int
-        How many there are.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> uses = geometry.edge_uses(geometry.box((1, 1, 1)))
-    >>> len(uses.count), bool((uses.count == 2).all()), bool(uses.agree.all())
-    (12, True, True)
+    corner: (c,) positions of corners, sorted by the edge from this corner to the next; forward: (c,) whether that way
+    leads to the larger vertex number; first: (e,) where the uses of an edge begin; count: (e,) how many there are.
     """
 
     corner: Ints
@@ -116,7 +101,7 @@ def is_closed_oriented(mesh: Mesh) -> bool:
     No sort: every directed edge from a to b adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which
     cancels. A mesh that is not closed passes with a probability of about 2^-63.
 
-    Degenerate: a mesh without faces is closed.
+    Edge cases: a mesh without faces is closed.
 
     Examples
     --------
@@ -158,37 +143,7 @@ def _connected(count: int, one: Ints, other: Ints) -> tuple[int, Ints]:
 
 
 def consistent_winding(mesh: Mesh, uses: EdgeUses) -> tuple[Bools, bool]:
-    """Which faces to turn round so that neighbours agree, as few as possible, and whether all agree then.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        With f faces.
-    uses : EdgeUses
-        Of its edges, as of edge_uses.
-
-    Returns
-    -------
-    (f,) array of bool
-        The faces to turn.
-    bool
-        False where there is a one-sided piece: it stays as it is.
-
-    Notes
-    -----
-    Every face is taken twice, as listed and turned; across an edge each state of a face goes with one state of its
-    neighbour. In a one-sided piece (a Moebius band) both states of a face are connected.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> corners = [(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0), (0.5, 2, 0)]
-    >>> mesh = vp.Mesh.from_triangles(corners, [(0, 1, 2), (0, 2, 3), (2, 3, 4)])
-    >>> turn, agree = geometry.consistent_winding(mesh, geometry.edge_uses(mesh))
-    >>> turn.tolist(), agree
-    ([False, False, True], True)
-    """
+    """Which faces to turn round so that neighbours agree, as few as possible, and whether all agree then."""
     faces = mesh.face_count
     same = _face_pairs(mesh, uses, uses.agree)
     odd = _face_pairs(mesh, uses, uses.conflict)

@@ -26,39 +26,7 @@ from vectorplot.tolerances import ROUNDING
 
 
 def describe(scene: object) -> list[str]:
-    r"""The lines that say in words what is in a scene, as the command info prints them.
-
-    Parameters
-    ----------
-    scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is described, as of `scene_of`.
-
-    Returns
-    -------
-    list of str
-        One line for every item: counts, closedness and convexity of a mesh, or which surface it is and which lines
-        there are on it, or which curve, how large it is, and where it lies; then lines on fields, cuts and moved parts;
-        then one line on the whole.
-
-    Raises
-    ------
-    InputError
-        As of `scene_of`.
-    TypeError
-        For what has no shape.
-
-    Notes
-    -----
-    Meshes are counted with their seams joined. Sizes and places are those of boxes along the axes, in world units.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import io, surfaces
-    >>> print("\n".join(io.describe(vp.Scene((vp.Item("ball", surfaces.Sphere(2.0)),)))))
-    ball: surface (sphere), closed in u, size 4 x 4 x 4, from -2,-2,-2 to 2,2,2
-    1 item, 1 surface, 0 vertices, 0 edges, 0 faces, 0 lights, size 4 x 4 x 4, from -2,-2,-2 to 2,2,2
-    """
+    """The lines that say in words what is in a scene, as the command info prints them."""
     scene = scene_of(scene)
     low, high = scene.bounds
     joined = without_seams(scene)

@@ -606,32 +606,8 @@ def _unknown(kind: str, name: str, known: tuple[str, ...]) -> str:
 class Expression:
     """A formula in named variables: a function of whole arrays, and of its derivatives the source.
 
-    Parameters
-    ----------
-    text : str
-        The formula as it was written.
-    variables : tuple of str
-        The names it may use.
-    nodes : tuple of Node
-        Its operations in the order of evaluation, the result last.
-
-    Raises
-    ------
-    InputError
-        When it is called with names or shapes that do not fit, and for a derivative by what is no variable.
-
-    Notes
-    -----
-    Made by parse_expression and by derivative: nothing of a text is ever run as code.
-
-    Examples
-    --------
-    >>> from vectorplot import io
-    >>> saddle = io.parse_expression("u^2 - v^2", ("u", "v"))
-    >>> float(saddle(u=3, v=2))
-    5.0
-    >>> saddle.derivative("v")(u=[0, 1], v=2).tolist()
-    [-4.0, -4.0]
+    text: the formula as it was written; variables: the names it may use; nodes: its operations in the order of
+    evaluation, the result last.
     """
 
     text: str
@@ -641,28 +617,7 @@ class Expression:
     def __call__(self, **arrays: ArrayLike) -> NDArray[Any]:
         """The values of the formula.
 
-        Parameters
-        ----------
-        **arrays : array_like of float or complex
-            One for each variable that the formula uses; they are broadcast.
-
-        Returns
-        -------
-        array of float64 or complex128
-            Of the common shape of all arrays given; complex if one of them is.
-
-        Raises
-        ------
-        InputError
-            For a variable that the formula uses and that is missing, for a name it does not know, and for shapes that
-            do not broadcast.
-
-        Notes
-        -----
-        Complex arguments continue the real function from the real axis: abs, sign, min, max, floor, ceil and mod go by
-        real parts, so that a complex step gives the derivative; log, sqrt and powers take their principal values.
-
-        Degenerate: outside the domain of a function the value is NaN, at a pole infinite; no warnings.
+        Edge cases: outside the domain of a function the value is NaN, at a pole infinite; no warnings.
         """
         if not self.used <= arrays.keys() or not arrays.keys() <= set(self.variables):
             raise self._misnamed(arrays)
@@ -699,24 +654,7 @@ class Expression:
     def derivative(self, variable: str) -> Expression:
         """The exact partial derivative by a variable.
 
-        Parameters
-        ----------
-        variable : str
-            One of the formula's variables.
-
-        Returns
-        -------
-        Expression
-            In the same variables.
-
-        Raises
-        ------
-        InputError
-            For a variable the formula does not know, or a derivative of absurd length.
-
-        Notes
-        -----
-        Degenerate: at a kink (abs at 0, min and max of equal values) the slope of one side, or 0; at steps 0; where the
+        Edge cases: at a kink (abs at 0, min and max of equal values) the slope of one side, or 0; at steps 0; where the
         formula has no value the derivative may have one.
         """
         if variable not in self.variables:
@@ -727,48 +665,7 @@ class Expression:
 def parse_expression(
     text: str, variables: Sequence[str], *, file: str | None = None, line: int | None = None
 ) -> Expression:
-    """The expression that a text spells, such as ``sin(u)*cosh(v/2) - 3^-u``.
-
-    Parameters
-    ----------
-    text : str
-        The formula.
-    variables : sequence of str
-        The names it may use.
-    file : str, optional
-        What messages call the file.
-    line : int, optional
-        The line they name, from 1.
-
-    Returns
-    -------
-    Expression
-        A function of its variables.
-
-    Raises
-    ------
-    InputError
-        That names file, line, position (from 1), and what was expected; also for formulas longer than MAX_LENGTH
-        (10,000 characters), deeper than MAX_DEPTH (50) or of more operations than MAX_NODES (2,000), and for variables
-        that are no names or are taken by a function or a constant.
-
-    Notes
-    -----
-    Understood are numbers, the variables, the constants pi, e and tau; + - * / with ^ or ** for powers, which group
-    from the right and bind stronger than a sign; parentheses; sin cos tan asin acos atan sinh cosh tanh exp log log2
-    log10 sqrt cbrt abs sign floor ceil of one argument, atan2(y, x) and mod(x, y) of two, min max hypot of two or more.
-    Angles in radians; log is the natural logarithm; mod has the sign of its second argument.
-
-    Examples
-    --------
-    >>> from vectorplot import io
-    >>> wave = io.parse_expression("2*cos(pi*x)", ("x",))
-    >>> wave(x=[0, 1, 2]).tolist()
-    [2.0, -2.0, 2.0]
-    >>> io.parse_expression("2*cos(y)", ("x",), file="waves.scene", line=3)
-    Traceback (most recent call last):
-    vectorplot.errors.InputError: waves.scene:3: position 7 of '2*cos(y)': unknown name (known are x pi e tau), got 'y'
-    """
+    """The expression that a text spells, such as ``sin(u)*cosh(v/2) - 3^-u``."""
     names = tuple(variables)
     for name in names:
         if not re.fullmatch(r"[A-Za-z_][A-Za-z0-9_]*", name):

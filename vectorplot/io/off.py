@@ -27,7 +27,7 @@ def read_off(path: Path) -> MeshFile:
     """The polygons of an OFF file, one vertex or face a line; normals, colours and texture coordinates are passed over.
 
     Errors: InputError with the line for bad numbers, indices out of range, missing lines; for counts that the file
-    cannot hold; for binary and four- or n-dimensional files. Degenerate: faces of one or two corners are left out.
+    cannot hold; for binary and four- or n-dimensional files. Edge cases: faces of one or two corners are left out.
     Source: Geomview manual, section 4.2.5.
     """
     text, vertex_count, face_count = _header(text_file(path))

@@ -307,7 +307,7 @@ def read_ply(path: Path) -> MeshFile:
     """The polygons of a PLY file.
 
     Errors: InputError with the line, or face and byte, for bad numbers, coordinates that are not finite, indices out of
-    range; for a truncated file, counts that the file cannot hold, unknown types, no faces. Degenerate: polygons of one
+    range; for a truncated file, counts that the file cannot hold, unknown types, no faces. Edge cases: polygons of one
     or two corners are left out.
     Source: Turk, The PLY polygon file format (1994).
     """

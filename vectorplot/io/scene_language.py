@@ -55,44 +55,7 @@ MAX_ITEMS = 1_000_000
 def read_scene(path: str | os.PathLike[str]) -> Scene:
     """The scene that a file in the scene language describes.
 
-    Parameters
-    ----------
-    path : str or path
-        A text in UTF-8, of any suffix.
-
-    Returns
-    -------
-    Scene
-        With the items, lights, camera and page that the file names.
-
-    Raises
-    ------
-    InputError
-        With file, line, item and the word expected; for a file that cannot be read, is not UTF-8, is larger than 64 MiB
-        or has more than a million items.
-
-    Warns
-    -----
-    InputWarning
-        Where a colour is unknown: it is gray.
-
-    Notes
-    -----
-    `vp.read` tells this language from mesh formats by the suffix; the language stands in docs/scene-language.md.
-
     Source: Glaeser, chapter 3 and section 6.5.
-
-    Examples
-    --------
-    >>> import os, tempfile
-    >>> from vectorplot import io
-    >>> with tempfile.TemporaryDirectory() as folder:
-    ...     path = os.path.join(folder, "die.scene")
-    ...     with open(path, "w") as file:
-    ...         _ = file.write("DIE red box solid 2 2 2")
-    ...     scene = io.read_scene(path)
-    >>> [item.name for item in scene.items]
-    ['DIE']
     """
     name, file = printable(str(path)), Path(path)
     return _Reader(Words(_text(file, name), name), NamedFiles.of(file)).annotated()
@@ -142,7 +105,7 @@ def parse_scene(text: str, name: str = "<text>", *, beside: str | os.PathLike[st
 
     Notes
     -----
-    Degenerate: an empty text is an empty scene.
+    Edge cases: an empty text is an empty scene.
 
     Examples
     --------

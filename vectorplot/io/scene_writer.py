@@ -356,38 +356,7 @@ _WRITERS: dict[type, Callable[[Any], str]] = {
 def write_scene(scene: Scene) -> str:
     """A scene as a text in the scene language, with every digit.
 
-    Parameters
-    ----------
-    scene : Scene
-        What is written.
-
-    Returns
-    -------
-    str
-        ASCII, a line or more for every item; what is no bare word of the language is quoted.
-
-    Raises
-    ------
-    InputError
-        For what the language lacks, naming the item: a surface of a function in Python, lines of its own on a curve.
-
-    Notes
-    -----
-    parse_scene gives an equal scene back, to the last bit; angles of surfaces to rounding. Every polyhedron is written
-    by its vertices and faces, numbered from 1, surfaces by their words.
-
     Source: Glaeser, section 3.6; erratum G3-16.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import io
-    >>> text = io.write_scene(vp.Scene((), title="Nothing", page=vp.Page(100, 80, margin_mm=5)))
-    >>> print(text, end="")
-    title "Nothing"
-    page 100x80 margin 5
-    >>> io.parse_scene(text).title
-    'Nothing'
     """
     blocks: list[str] = []
     if scene.title:

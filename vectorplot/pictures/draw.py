@@ -205,7 +205,7 @@ def draw(
 
     Notes
     -----
-    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
+    Edge cases: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision, on a whole page.
 
     Source: Glaeser, sections 2.1, 4.4 and 7.2.

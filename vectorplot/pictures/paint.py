@@ -206,7 +206,7 @@ def paint(
 
     Notes
     -----
-    Degenerate: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
+    Edge cases: an empty scene gives an empty page. Where the scene reaches behind the eye, or more than 60 degrees off
     the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
     upper left, which casts no shadows.
 

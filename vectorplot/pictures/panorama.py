@@ -84,7 +84,7 @@ def panorama(
     -----
     Hidden lines are found exactly, by a camera for every quarter of the round; the visible parts are unrolled then, and
     divided until they are within half of the tolerance. Bearings are compass bearings, clockwise from y; the horizon,
-    elevation 0, is the height of the eye. Degenerate: what is just above or below the eye, beyond the elevations asked
+    elevation 0, is the height of the eye. Edge cases: what is just above or below the eye, beyond the elevations asked
     for, is not there.
 
     Examples

@@ -119,7 +119,7 @@ class Pipeline:
     def run(self, name: str, function: Callable[P, R], *args: P.args, **kwargs: P.kwargs) -> R:
         """The result of a stage.
 
-        Degenerate: numbers beyond the range of floats become infinite without a warning, for every test of size takes
+        Edge cases: numbers beyond the range of floats become infinite without a warning, for every test of size takes
         infinity for large; what is not a number is still warned of.
         """
         stage = self._stages[name]

@@ -207,7 +207,7 @@ class RoundEdge:
 def round_edges(mesh: Mesh, crease_angle_deg: float) -> tuple[RoundEdge, ...]:
     """The rings of sharp edges of a mesh that are circles across a coordinate axis.
 
-    Degenerate: rings that other sharp edges meet are none, nor are those of fewer than twelve sides.
+    Edge cases: rings that other sharp edges meet are none, nor are those of fewer than twelve sides.
     """
     ends = _sharp_edges(mesh, crease_angle_deg)
     if not len(ends):
@@ -777,7 +777,7 @@ def technical_sheet(
     -----
     The isometric view is a projection at the same scale: edges along the axes are 0.816 times as long in it.
 
-    Degenerate: a scene without extent is drawn 1:1.
+    Edge cases: a scene without extent is drawn 1:1.
 
     Source: ISO 128-30 and ISO 5456-2 (views), ISO 5455 (scales), ISO 5457 (frames), ISO 7200 (title blocks).
 

@@ -59,7 +59,7 @@ def with_lines(
 
     Notes
     -----
-    Degenerate: planes and angles that are given several times count once.
+    Edge cases: planes and angles that are given several times count once.
 
     Examples
     --------
@@ -83,29 +83,7 @@ def with_lines(
 def without_level_lines(scene: Scene, normal: Vector = (0.0, 0.0, 1.0)) -> Scene:
     """The scene without the level lines that its items ask for, for others in their place.
 
-    Parameters
-    ----------
-    scene : Scene
-        Such as that of a terrain.
-    normal : (float, float, float)
-        What heights are measured along, of any length but zero.
-
-    Returns
-    -------
-    Scene
-        Level lines are sections with index lines among them; other sections, and those between slices, stay.
-
-    Raises
-    ------
-    InputError
-        For a normal without length.
-
-    Examples
-    --------
-    >>> from vectorplot import scene
-    >>> hill = scene.terrain_scene([[0, 1, 0], [1, 9, 1], [0, 1, 0]])
-    >>> len(hill.items[0].curves.sections), len(scene.without_level_lines(hill).items[0].curves.sections)
-    (2, 0)
+    normal: (float, float, float) what heights are measured along, of any length but zero.
     """
     up = Section(normal, ()).normal
     return replace(scene, items=tuple(_without_levels(item, up) for item in scene.items))

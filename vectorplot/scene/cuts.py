@@ -297,23 +297,7 @@ AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 class Explosion:
     """The parts of a scene are moved apart along an axis, as `vp.exploded` does it, when the scene is shown.
 
-    Parameters
-    ----------
-    axis : {"x", "y", "z"} or (float, float, float)
-        The first part stays, the others move along it.
-    factor : float
-        As of `vp.exploded`; 1 or more.
-
-    Raises
-    ------
-    InputError
-        For another axis, and a factor out of range.
-
-    Examples
-    --------
-    >>> from vectorplot.scene import Explosion
-    >>> Explosion("z").way.tolist()
-    [0.0, 0.0, 1.0]
+    axis: the first part stays, the others move along it; factor: as of `vp.exploded`.
     """
 
     axis: str | tuple[float, float, float] = "z"
@@ -332,22 +316,7 @@ class Explosion:
     def transformed(self, matrix: ArrayLike) -> Explosion:
         """The explosion under a 4x4 matrix acting on columns.
 
-        Parameters
-        ----------
-        matrix : (4, 4) array_like of float
-            Rows 0 to 2: rotation, scale and translation.
-
-        Returns
-        -------
-        Explosion
-            Along the moved axis.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> from vectorplot.scene import Explosion
-        >>> Explosion("x").transformed(np.diag([-2.0, 1.0, 1.0, 1.0])).way.tolist()
-        [-1.0, 0.0, 0.0]
+        matrix: (4, 4) rows 0 to 2: rotation, scale and translation.
         """
         x, y, z = (matmul(np.asarray(matrix, dtype=np.float64)[:3, :3], self.way)).tolist()
         return replace(self, axis=(x, y, z))

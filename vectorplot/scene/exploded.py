@@ -58,7 +58,7 @@ def exploded(scene: Scene, axis: str | ArrayLike = "z", factor: float = 1.5, *, 
     beside each other that reach equally far along the axis, such as the bolts of a lid, move as one. A leader points at
     the smallest part in whose box its tip lies.
 
-    Degenerate: other parts with the same middle come in the order of the scene.
+    Edge cases: other parts with the same middle come in the order of the scene.
 
     Examples
     --------

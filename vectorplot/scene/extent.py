@@ -56,7 +56,7 @@ def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
     Errors: InputError for a surface without a finite point, for one that passes infinity on the grid, for an implicit
     one whose box has no extent along an axis, be it by rounding, and for what is no surface.
     Of balls, frusta and parts of balls they are exact.
-    Degenerate: where a surface runs off to infinity between the points of the first grid, it ends with them.
+    Edge cases: where a surface runs off to infinity between the points of the first grid, it ends with them.
     """
     found = bounds_of_balls([ball]) if (ball := ball_of(shape)) else None
     if found is None and (body := capped_quadric_of(shape)):

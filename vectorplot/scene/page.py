@@ -146,27 +146,7 @@ def length_mm(text: str) -> float:
 def sheet_size(text: str) -> tuple[float, float]:
     """Width and height in mm of a named sheet or of WIDTHxHEIGHT.
 
-    Parameters
-    ----------
-    text : str
-        a0 to a6, letter, legal, tabloid, ledger, executive, in capitals or not, or two numbers such as 100x80 or
-        100x80mm.
-
-    Returns
-    -------
-    (float, float)
-        In mm, both finite and positive.
-
-    Raises
-    ------
-    InputError
-        For anything else.
-
-    Examples
-    --------
-    >>> from vectorplot import scene
-    >>> scene.sheet_size("A4"), scene.sheet_size("100x80")
-    ((210.0, 297.0), (100.0, 80.0))
+    result: (float, float) in mm, both finite and positive.
     """
     word = text.strip().lower()
     if word in SHEETS:

@@ -33,27 +33,8 @@ FINEST_MM = 0.01
 class PenOverrides:
     """The style, the pens and the dashes that a scene asks for; what `vp.draw` is told comes before them.
 
-    Parameters
-    ----------
-    style : str, optional
-        The name of a style, or a file that ends in .toml; draw's own where None.
-    pens : mapping of str to str
-        As of `vp.draw`: kinds of lines, items, or item.kind, and WIDTH, COLOUR or WIDTH:COLOUR.
-    dashes : mapping of str to str
-        As of `vp.draw`: the same, and DASH,GAP or none.
-
-    Notes
-    -----
-    Draw says what is no pen, no style, and no item of the scene.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot.geometry import box
-    >>> from vectorplot.scene import PenOverrides
-    >>> scene = vp.Scene((vp.Item("die", box((1, 1, 1))),), inks=PenOverrides(pens={"contour": "0.8:red"}))
-    >>> next(layer.pen.width_mm for layer in vp.draw(scene).layers if layer.name == "contour")
-    0.8
+    style: the name of a style, or a file that ends in .toml; pens: as of `vp.draw`: kinds of lines, items, or
+    item.kind, and WIDTH, COLOUR or WIDTH:COLOUR; dashes: as of `vp.draw`: the same, and DASH,GAP or none.
     """
 
     style: str | None = None
@@ -61,24 +42,7 @@ class PenOverrides:
     dashes: Mapping[str, str] = field(default_factory=dict)
 
     def renamed(self, names: Mapping[str, str]) -> PenOverrides:
-        """The same of a scene whose items have other names.
-
-        Parameters
-        ----------
-        names : mapping of str to str
-            The new names by the old ones.
-
-        Returns
-        -------
-        PenOverrides
-            With targets of the new names.
-
-        Examples
-        --------
-        >>> from vectorplot.scene import PenOverrides
-        >>> PenOverrides(pens={"a.crease": "0.2", "contour": "1"}).renamed({"a": "b"}).pens
-        {'b.crease': '0.2', 'contour': '1'}
-        """
+        """The same of a scene whose items have other names."""
         pens, dashes = (
             {_joined(*_renamed(target, names)): said for target, said in own.items()}
             for own in (self.pens, self.dashes)

@@ -28,29 +28,8 @@ from vectorplot.words import unknown
 class Placement:
     """Where a picture is on the page.
 
-    Parameters
-    ----------
-    projection : Projection
-        That which the picture has: it says what the image is.
-    page : Page
-        The sheet of paper.
-    page_from_image : (3, 3) array of float
-        From homogeneous points (x, y, 1) of the image to mm, y upwards.
-    whole : bool
-        All of the scene is on the page; else the picture shows the camera's field of vision, and ends at the margins.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import scene
-    >>> from vectorplot.geometry import projection_of
-    >>> top = projection_of(vp.Camera.view("top"), bounds=np.array([(-2, -1, 0), (2, 1, 0)]))
-    >>> placement = scene.fitted_picture(top, vp.Page(100, 80), image=np.array([(-1, 1), (-0.5, 0.5)]))
-    >>> placement.scale, placement.on_page(np.array([(1.0,), (0.5,)])).tolist()
-    (40.0, [[90.0, 60.0]])
-    >>> (placement.page_from_world @ (2, 1, 0, 1))[:2].tolist()
-    [90.0, 60.0]
+    projection: that which the picture has: it says what the image is; page: the sheet of paper; page_from_image: (3, 3)
+    from homogeneous points (x, y, 1) of the image to mm, y upwards; whole: all of the scene is on the page.
     """
 
     projection: Projection
@@ -80,15 +59,7 @@ class Placement:
     def on_page(self, image: Floats) -> Floats:
         """Points of the image on the page.
 
-        Parameters
-        ----------
-        image : (2, n) array of float
-            In units of the image.
-
-        Returns
-        -------
-        (n, 2) array of float
-            In mm, y upwards.
+        image: (2, n) in units of the image; result: (n, 2) in mm, y upwards.
         """
         return np.asarray((matmul(self.page_from_image[:2, :2], image)).T + self.page_from_image[:2, 2])
 
@@ -128,36 +99,9 @@ def field_of_vision(projection: Projection, page: Page, fit: bool) -> Placement:
 def fitted_picture(projection: Projection, page: Page, image: Floats, border: float = 0.0) -> Placement:
     """The place of a picture that fills the page with points of the image.
 
-    Parameters
-    ----------
-    projection : Projection
-        That of the picture.
-    page : Page
-        The sheet of paper.
-    image : (2, n) array of float
-        What is inside the margin, in units of the image.
-    border : float
-        What part of what is inside the margin stays free on each side.
-
-    Returns
-    -------
-    Placement
-        Of a picture with all of the scene, in the middle of the page; its page is cut to it where it is to be.
-
-    Notes
-    -----
-    Degenerate: without points the origin is in the middle; points in one place go to the middle at the scale 1; those
+    image: (2, n) what is inside the margin, in units of the image.
+    Edge cases: without points the origin is in the middle; points in one place go to the middle at the scale 1; those
     on a line along the page's width or height fill that.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene
-    >>> top = geometry.projection_of(vp.Camera.view("top"), bounds=np.array([(-1, -1, 0), (1, 1, 0)]))
-    >>> square = np.array([(-1.0, 1.0), (-1.0, 1.0)])
-    >>> scene.fitted_picture(top, vp.Page(100, 80), square).on_page(square).tolist()
-    [[20.0, 10.0], [80.0, 70.0]]
     """
     if not image.shape[1]:
         return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2), border), whole=True)
@@ -175,7 +119,7 @@ def fitted_with_room(
     """The place of a picture that fills the page with points (2,n) of the image and with room beside them: rectangles
     from low_mm (2,n) to high_mm (2,n), counted from the points on the page. border: as of fitted_picture.
 
-    Degenerate: as of fitted_picture; so it is, without the room, where a page has no place for that at all.
+    Edge cases: as of fitted_picture; so it is, without the room, where a page has no place for that at all.
     """
     plain = fitted_picture(projection, page, image, border)
     most = (1.0 - 2.0 * border) * np.array(page.room)
@@ -209,7 +153,7 @@ def fitted(page: Page, low: Floats, high: Floats, border: float = 0.0) -> Floats
     """(3,3) matrix from image to page: the box from low to high (2,) fills the page but for its margin, in the middle.
     border: what part of what is inside the margin stays free on each side.
 
-    Degenerate: as of fitting_scale; the box goes to the middle.
+    Edge cases: as of fitting_scale; the box goes to the middle.
     """
     scale = fitting_scale(page, high - low, border)
     middle = np.array([page.width_mm, page.height_mm]) / 2.0
@@ -221,7 +165,7 @@ def fitting_scale(page: Page, size: Floats, border: float = 0.0) -> float:
     """How many mm a unit of the image is where a box of that size (2,) fills the page but for its margin. border: what
     part of what is inside the margin stays free on each side.
 
-    Degenerate: a box without extent has the scale 1; one without width or height fills the other.
+    Edge cases: a box without extent has the scale 1; one without width or height fills the other.
     """
     room = [(1.0 - 2.0 * border) * side for side in page.room]
     scales = [r / s for r, s in zip(room, size.tolist(), strict=True) if s > FLAT_PICTURE * size.max()]

@@ -229,20 +229,7 @@ class GeodesicsBetween:
 class KnownCurves:
     """Curves on a surface or a mesh that are known already, and are only to be drawn.
 
-    Parameters
-    ----------
-    curves : SurfaceCurves or MeshCurves
-        On the shape of their item, in world coordinates.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import features, geometry, scene
-    >>> cube = geometry.box((2, 2, 2))
-    >>> found = features.evenly_spaced_mesh_curves(cube, features.SteepestSlope(), 0.5)
-    >>> item = vp.Item("cube", cube, curves=vp.SurfaceLines(integral=(scene.KnownCurves(found),)))
-    >>> len(vp.draw(item, lines="integral").layers) > 0
-    True
+    curves: on the shape of their item, in world coordinates.
     """
 
     curves: SurfaceCurves | MeshCurves
@@ -520,7 +507,7 @@ class Section:
 
     Notes
     -----
-    Degenerate: an offset that is given several times counts once.
+    Edge cases: an offset that is given several times counts once.
 
     Source: Glaeser, sections 5.3 and 9.3.
 
@@ -588,22 +575,7 @@ class Section:
 class SurfacePath:
     """A curve on a parametrised surface; made by path_on_surface.
 
-    Parameters
-    ----------
-    function : NumericFunction
-        Gives u and v at t.
-    start, end : float
-        The range of t.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot.scene import path_on_surface
-    >>> path = path_on_surface(lambda t: (t, 0.5 * t), 0.0, 6.0)
-    >>> path.start, path.end
-    (0.0, 6.0)
-    >>> vp.SurfaceLines(paths=(path,)).paths == (path,)
-    True
+    function: gives u and v at t; start, end: the range of t.
     """
 
     function: NumericFunction
@@ -633,40 +605,8 @@ def _each_plane_once(sections: tuple[Section, ...]) -> tuple[Section, ...]:
 def path_on_surface(function: Callable[..., Any], start: float, end: float) -> SurfacePath:
     """The curve on a surface with the parameters function(t) = (u, v), start <= t <= end.
 
-    Parameters
-    ----------
-    function : callable
-        function(t) gives u and v, for a number or an array of them.
-    start, end : float
-        The range of t.
-
-    Returns
-    -------
-    SurfacePath
-        For the paths of SurfaceLines.
-
-    Raises
-    ------
-    InputError
-        For a range that is empty or not finite; naming the function, when it raises, returns complex numbers or the
-        wrong shape.
-
-    Notes
-    -----
-    Degenerate: where it leaves the surface, or is not finite, the curve is interrupted.
-
+    Edge cases: where it leaves the surface, or is not finite, the curve is interrupted.
     Source: Glaeser, section 8.2, equation 9.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot.scene import path_on_surface
-    >>> from vectorplot.surfaces import Torus
-    >>> knot = path_on_surface(lambda t: (2 * t, 3 * t), 0.0, 2 * np.pi)
-    >>> torus = vp.Item("torus", Torus(3.0, 1.0), curves=vp.SurfaceLines(paths=(knot,)))
-    >>> len(torus.curves.paths)
-    1
     """
     first, last = parameter_range("path", start, end)
     return SurfacePath(numeric_function(function, 2, (Range(first, last, False),)), first, last)
@@ -713,7 +653,7 @@ class SurfaceLines:
 
     Notes
     -----
-    Degenerate: planes and angles that are given several times count once.
+    Edge cases: planes and angles that are given several times count once.
 
     Source: Glaeser, sections 5.3, 8.2 and 9.3.
 

@@ -61,7 +61,7 @@ def round_heights(low: float, high: float, count: int = USUAL_COUNT) -> tuple[fl
 
     Notes
     -----
-    Degenerate: none where both heights are the same.
+    Edge cases: none where both heights are the same.
 
     Examples
     --------

@@ -61,7 +61,7 @@ class Pools:
 
 
 def pools(scene: Scene) -> Pools:
-    """The pools of a scene. Degenerate: those of an empty scene are empty."""
+    """The pools of a scene. Edge cases: those of an empty scene are empty."""
     meshes = [item.mesh for item in scene.items]
     counts = np.array([len(mesh.vertices) for mesh in meshes], dtype=np.intp)
     first_vertex = ragged.offsets(counts)
@@ -94,44 +94,11 @@ def _faces(meshes: list[Mesh], first_vertex: Ints) -> tuple[Ints, Ints, Ints]:
 class View(Projection):
     """A projection, and the faces of all items in its coordinates.
 
-    Parameters
-    ----------
-    eye, target, focus, near, picture_height, tolerance, centre, scale, axes : of Projection
-        As there.
-    points : (3, v) array of float
-        The vertices of all items in the view's coordinates.
-    corners : (c,) array of int
-        As of Mesh, but without the faces that are not present, and with those that are not planar and convex cut into
-        triangles.
-    offsets : (f+1,) array of int
-        Face i has the corners offsets[i] to offsets[i+1].
-    inner : (c,) array of bool
-        Marks the diagonals of faces that are cut: the edges that begin at these corners.
-    face_item : (f,) array of int
-        Of which item each face is.
-    item_vertices : (i+1,) array of int
-        Item k has the points item_vertices[k] to item_vertices[k+1], none if it is a smooth surface.
-    occludes : (i,) array of bool
-        Whether each item hides what is behind it.
-    face_look : (f,) array of int, optional
-        Which item each face looks like, where faces have looks of their own (None: the one it is of).
-
-    Notes
-    -----
-    Smooth surfaces have no faces.
-
+    points: (3, v) the vertices of all items in the view's coordinates; offsets: (f+1,) face i has the corners
+    offsets[i] to offsets[i+1]; inner: (c,) marks the diagonals of faces that are cut: the edges that begin at these
+    corners; face_item: (f,) of which item each face is; occludes: (i,) whether each item hides what is behind it;
+    face_look: (f,) which item each face looks like, where faces have looks of their own (None: the one it is of).
     Source: Glaeser, section 3.1 (the pools).
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene
-    >>> cubes = [vp.Item(name, geometry.box((1, 1, 1))) for name in ("one", "two")]
-    >>> view = scene.look(vp.Scene(tuple(cubes)), vp.Camera((5, 4, 3)))
-    >>> view.points.shape, view.face_count, view.item_vertices.tolist()
-    ((3, 16), 12, [0, 8, 16])
-    >>> bool((view.depth > 0).all())
-    True
     """
 
     points: Floats
@@ -169,29 +136,14 @@ class View(Projection):
     def after(self, position: Ints) -> Ints:
         """Where in corners the corners stand that follow those at some positions in their faces.
 
-        Parameters
-        ----------
-        position : (n,) array of int
-            Into corners.
-
-        Returns
-        -------
-        (n,) array of int
-            Into corners; after the last corner of a face comes its first.
+        position: (n,) into corners; result: (n,) into corners.
         """
         return next_positions(self.offsets, position)
 
     def only_sides(self, position: Ints) -> Bools:
         """Which of some sides no other one of them has the same two corners as.
 
-        Parameters
-        ----------
-        position : (n,) array of int
-            Into corners, where the sides start.
-
-        Returns
-        -------
-        (n,) array of bool
+        position: (n,) into corners, where the sides start; result: (n,).
         """
         a, b = self.corners[position], self.corners[self.after(position)]
         key = np.minimum(a, b) * self.points.shape[1] + np.maximum(a, b)
@@ -239,7 +191,7 @@ def look(scene: Scene, camera: Camera) -> View:
 
     Notes
     -----
-    Degenerate: an empty scene gives a view without points.
+    Edge cases: an empty scene gives a view without points.
 
     Examples
     --------
@@ -305,7 +257,7 @@ def are_in_one_place(one: Surface, other: Surface) -> bool:
     """Whether samples of each of two surfaces lie on the other one, and their borders there, too.
 
     Error: surfaces that differ by less than ONE_SURFACE of their extent are taken for one; so are those that differ
-    between the samples only. Degenerate: those with holes are not, nor are those of which a point is not found.
+    between the samples only. Edge cases: those with holes are not, nor are those of which a point is not found.
     Source: Gauss and Newton's method for the foot of a perpendicular.
     """
     return _lies_on(one, other) and _lies_on(other, one)

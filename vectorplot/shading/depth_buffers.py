@@ -44,7 +44,7 @@ class DepthCode:
 
     Notes
     -----
-    Degenerate: where all depths are the same, so are the codes.
+    Edge cases: where all depths are the same, so are the codes.
 
     Examples
     --------
@@ -437,34 +437,10 @@ FINEST_BITS = 48
 class DepthBuffer:
     """What is in front in every pixel, and how far.
 
-    Parameters
-    ----------
-    code : (rows, columns) array of int64
-        Codes of the depths, 0 where there is nothing.
-    triangle : (rows, columns) array of int32
-        Number in triangles, -1 where there is nothing.
-    depth_code : DepthCode
-        What the codes mean.
-    triangles : ScreenTriangles
-        What the picture is of.
-    top : int
-        The row of the whole picture that is row 0 here.
-
-    Notes
-    -----
+    code: (rows, columns) codes of the depths, 0 where there is nothing; triangle: (rows, columns) number in triangles,
+    -1 where there is nothing; depth_code: what the codes mean; triangles: what the picture is of; top: the row of the
+    whole picture that is row 0 here.
     Source: Glaeser, section 7.3.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import ScreenTriangles, depth_buffer
-    >>> points = np.array([(-1.0, -1, 1), (9, -1, 1), (-1, 9, 1), (-1, -1, 2), (3, -1, 2), (-1, 3, 2)])
-    >>> near_and_far = ScreenTriangles(points, np.array([(0, 1, 2), (3, 4, 5)]), np.arange(2))
-    >>> buffer = depth_buffer(near_and_far, columns=4, rows=2)
-    >>> buffer.triangle.tolist()
-    [[1, 1, 0, 0], [1, 0, 0, 0]]
-    >>> buffer.depth.round(6).tolist()
-    [[2.0, 2.0, 1.0, 1.0], [2.0, 1.0, 1.0, 1.0]]
     """
 
     code: NDArray[np.int64]
@@ -488,27 +464,8 @@ class DepthBuffer:
 def depth_range(triangles: ScreenTriangles) -> tuple[float, float]:
     """The smallest and the largest depth of the corners.
 
-    Parameters
-    ----------
-    triangles : ScreenTriangles
-        With their depths after T2.
-
-    Returns
-    -------
-    (float, float)
-        Points that are no corners do not count.
-
-    Notes
-    -----
-    Degenerate: (0, 0) without triangles.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import ScreenTriangles, depth_range
-    >>> points = np.array([(0, 0, 0.25), (9, 0, 0.5), (0, 9, 0.75)])
-    >>> depth_range(ScreenTriangles(points, np.array([(0, 1, 2)]), np.array([0])))
-    (0.25, 0.75)
+    result: (float, float) points that are no corners do not count.
+    Edge cases: (0, 0) without triangles.
     """
     depth = triangles.points[_used(triangles), 2]
     return (float(depth.min()), float(depth.max())) if len(depth) else (0.0, 0.0)
@@ -546,7 +503,7 @@ def depth_buffer(
 
     Notes
     -----
-    Triangles with a common edge leave no gap and share no pixel. Degenerate: no triangles leave it empty; triangles
+    Triangles with a common edge leave no gap and share no pixel. Edge cases: no triangles leave it empty; triangles
     without area cover nothing.
 
     Source: Glaeser, section 7.3.
@@ -674,7 +631,7 @@ class CoplanarFaces:
 
 def coplanar_faces(view: View) -> CoplanarFaces:
     """The faces of a view that share a plane with others, and which of them is seen where they overlap: the smaller one
-    in the image, as paint has it. Degenerate: faces without area, and those seen edge-on, have no rank."""
+    in the image, as paint has it. Edge cases: faces without area, and those seen edge-on, have no rank."""
     plane = _planes_of_faces(view)
     rank = np.full(view.face_count, -1, dtype=np.intp)
     shared = np.flatnonzero(plane >= 0)

@@ -74,7 +74,7 @@ def faceted(scene: Scene, demand: Callable[[int], Criterion], budget: Budget = U
     """The scene with meshes in place of smooth surfaces. demand: how fine the triangles of an item have to be, by its
     number; budget: how many there may be. An InputWarning names the items for which it did not do.
 
-    Errors: as of features.facets. Degenerate: a curve has no faces.
+    Errors: as of features.facets. Edge cases: a curve has no faces.
     Source: Glaeser, section 8.4 (polygonised surfaces and their normals).
     """
     smooth = [number for number, item in enumerate(scene.items) if _is_smooth(item)]

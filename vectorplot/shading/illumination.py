@@ -46,36 +46,11 @@ SHADOW_SHARE = 0.5
 class Finish:
     """What a material makes of light: diffuse * cos^exponent(alpha) + highlight * weight(alpha) * cos^sharpness(beta).
 
-    Parameters
-    ----------
-    exponent : float
-        Of the cosine of the angle alpha between normal and light, positive.
-    diffuse : float
-        How much a matt surface sends back, not negative.
-    highlight : float
-        0: no highlight at all.
-    sharpness : float
-        Of the cosine of the angle beta between reflected ray and eye, positive.
-    weight : float or tuple of (float, float)
-        A constant, or measured pairs of an angle in radians and a value, joined by a cubic spline.
-
-    Raises
-    ------
-    InputError
-        For factors that are negative or not finite, an exponent that is not positive, fewer than two measured pairs or
-        angles that do not rise.
-
-    Notes
-    -----
+    exponent: of the cosine of the angle alpha between normal and light, positive; diffuse: how much a matt surface
+    sends back, not negative; highlight: 0: no highlight at all; sharpness: of the cosine of the angle beta between
+    reflected ray and eye, positive; weight: A constant, or measured pairs of an angle in radians and a value, joined by
+    a cubic spline.
     Source: Glaeser, sections 4.5 (equation 2), 8.5 (equations 31 and 32).
-
-    Examples
-    --------
-    >>> from vectorplot.shading import FINISHES, Finish
-    >>> FINISHES["mat"]
-    Finish(exponent=0.5, diffuse=1.0, highlight=0.0, sharpness=1.0, weight=0.1)
-    >>> Finish.polished(256.0, diffuse=0.5) == FINISHES["shiny"]
-    True
     """
 
     exponent: float = 1.0
@@ -98,27 +73,6 @@ class Finish:
     def polished(cls, sharpness: float, diffuse: float = 0.4, exponent: float = 1.0) -> Finish:
         """A reflecting material.
 
-        Parameters
-        ----------
-        sharpness : float
-            Of the highlight, 2 to 1024.
-        diffuse : float
-            0.2 to 0.5; 0.9 for what is clear, the colour of which is what is seen of it.
-        exponent : float
-            As of Finish.
-
-        Returns
-        -------
-        Finish
-            Its highlight is the logarithm of the sharpness to the base 2.
-
-        Raises
-        ------
-        InputError
-            For a sharpness of 1 or less, and for what Finish refuses.
-
-        Notes
-        -----
         Source: Glaeser, section 8.5, equation 32.
         """
         if not sharpness > 1.0:
@@ -128,15 +82,7 @@ class Finish:
     def weight_at(self, cosine: Floats) -> Floats:
         """The weight of the highlight where the light comes in at some angle.
 
-        Parameters
-        ----------
-        cosine : (...) array of float
-            Of the angle between normal and light.
-
-        Returns
-        -------
-        (...) array of float
-            Never negative.
+        cosine: (...) of the angle between normal and light; result: (...) never negative.
         """
         if isinstance(self.weight, float | int):
             return np.full(cosine.shape, max(float(self.weight), 0.0))
@@ -293,7 +239,7 @@ def brightness(cos_alpha: ArrayLike, cos_beta: ArrayLike, finish: Finish) -> Flo
 
 def towards(points: ArrayLike, source: ArrayLike) -> Floats:
     """(n, 3) unit vectors from points (n, 3) to an eye or a lamp at (x, y, z, 1), or against parallel rays that come
-    from the direction (x, y, z, 0). Degenerate: a point in the lamp has no direction: zeros."""
+    from the direction (x, y, z, 0). Edge cases: a point in the lamp has no direction: zeros."""
     p, s = np.asarray(points, dtype=np.float64), np.asarray(source, dtype=np.float64)
     if s.shape != (4,) or not np.isfinite(s).all():
         raise InputError("a light or an eye needs four finite homogeneous coordinates")
@@ -351,34 +297,8 @@ def light_cosines(
 def distance_factor(light_distance: float, depth: ArrayLike, nearest: float) -> Floats:
     """How much less light arrives at depths in a light's system than at the nearest one.
 
-    Parameters
-    ----------
-    light_distance : float
-        From the light to the origin of its system.
-    depth : (...) array_like of float
-        Larger = closer to the light.
-    nearest : float
-        The largest depth that there is.
-
-    Returns
-    -------
-    (...) array of float
-        The square of the ratio of distances, at most 1.
-
-    Raises
-    ------
-    InputError
-        Where a depth or the nearest one is not below the light.
-
-    Notes
-    -----
+    depth: (...) larger = closer to the light; result: (...) the square of the ratio of distances, at most 1.
     Source: Glaeser, section 4.5, equation 4.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import distance_factor
-    >>> distance_factor(10.0, [5.0, 0.0], nearest=5.0).tolist()
-    [1.0, 0.25]
     """
     z = np.asarray(depth, dtype=np.float64)
     if not (nearest < light_distance and (z <= nearest).all()):
@@ -405,7 +325,7 @@ def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
 
     Notes
     -----
-    Degenerate: a scene without depth gets all of it.
+    Edge cases: a scene without depth gets all of it.
 
     Source: Glaeser, section 4.5, equation 5, figure 6.
 
@@ -459,7 +379,7 @@ def fitting_factor(shares: ArrayLike, intensity: ArrayLike) -> float:
     """What intensities (l,) or (l, 3) are taken times, so that the brightest point of shares (l, n) just reaches the
     end of the lights' part of the palette.
 
-    For one picture; in a movie keep that of the first frame, or it flickers. Degenerate: in the dark it is 1.
+    For one picture; in a movie keep that of the first frame, or it flickers. Edge cases: in the dark it is 1.
     Source: Glaeser, section 4.5, equation 7.
     """
     most = float(
@@ -487,7 +407,7 @@ own bulb, or the ceiling it hangs from, would leave none for the rest. So nothin
 
 def lamp_reach(view: View, light: Light) -> float:
     """How far from a lamp, in the view, light keeps what it has: as far as the nearest point of the faces, or a quarter
-    of the way to the farthest. Degenerate: without end for light that does not fade, as parallel light never does,
+    of the way to the farthest. Edge cases: without end for light that does not fade, as parallel light never does,
     and for a scene without faces."""
     if not light.fading or light.parallel or not view.face_count:
         return np.inf
@@ -540,7 +460,7 @@ LEAST = 0.2
 def depth_shades(depth: ArrayLike, farthest: float, nearest: float) -> Floats:
     """(...) shades from 0.2 for depths at the farthest limit, and beyond, to 1 at the nearest, and before it.
 
-    Depths grow towards the eye. Degenerate: without depth between the limits everything is near.
+    Depths grow towards the eye. Edge cases: without depth between the limits everything is near.
     Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
     """
     z = np.asarray(depth, dtype=np.float64)
@@ -579,7 +499,7 @@ def shadow_shades(
     shares (l,n), intensity (l,) or (l,3), which makes (3,n) shades, and cue as of shades, with the cue at
     the depth of each point, so that large shadows vary with it; lacking (n,): bit k for light k, as of Decals; dimmed
     (n,): a light that gets there in part, as in a border, or -1; step (n,): how far into the border, 1 to LEVELS - 1.
-    Degenerate: points that no light reaches anyway keep their shade.
+    Edge cases: points that no light reaches anyway keep their shade.
     Source: Glaeser, section 6.3; decision D-5.
     """
     strength = np.asarray(intensity, dtype=np.float64)

@@ -37,38 +37,10 @@ Bytes = NDArray[np.uint8]
 
 
 def png_bytes(pixels: ArrayLike, colours: ArrayLike | None = None, dpi: float | None = None) -> bytes:
-    r"""The picture as a PNG file: row 0 on top, colours in sRGB.
+    """The picture as a PNG file: row 0 on top, colours in sRGB.
 
-    Parameters
-    ----------
-    pixels : (rows, columns, 3) or (rows, columns) array_like of uint8
-        Red, green and blue; or gray; or, with colours, indices into them.
-    colours : (n, 3) array_like of uint8, optional
-        Up to 256 colours that the pixels are numbers of.
-    dpi : float, optional
-        The dots per inch that the file says, None for none.
-
-    Returns
-    -------
-    bytes
-        The same for the same pixels.
-
-    Raises
-    ------
-    InputError
-        For other shapes or types, for an empty picture, for an index without a colour.
-
-    Notes
-    -----
+    pixels: (rows, columns, 3) red, green and blue; colours: (n, 3) up to 256 colours that the pixels are numbers of.
     Source: W3C, Portable Network Graphics, sections 5 and 11.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import shading
-    >>> content = shading.png_bytes(np.zeros((40, 60), dtype=np.uint8), dpi=96)
-    >>> content[:4], int.from_bytes(content[16:20], "big"), int.from_bytes(content[20:24], "big")
-    (b'\x89PNG', 60, 40)
     """
     p = np.ascontiguousarray(pixels)
     if p.dtype != np.uint8 or p.ndim not in (2, 3) or not p.size or (p.ndim == 3 and p.shape[2] != 3):

@@ -13,27 +13,9 @@ from vectorplot.words import check_word
 class MapSettings:
     """How shadow maps are made.
 
-    Parameters
-    ----------
-    size : int
-        Texels along the side of a map, were it a square.
-    bits : int
-        Of a depth: 8, 16 or 32.
-    casting : {"all", "away"}
-        Which faces the map is made of, all or those that turn away from the light.
-    wanted_focus : float, optional
-        The part of the texels that what is in focus should get of a trapezoidal map; None: as it comes.
-
-    Raises
-    ------
-    InputError
-        For other words, and for a part that is not between 0 and 1.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import MapSettings
-    >>> MapSettings(size=2048, casting="away")
-    MapSettings(size=2048, bits=32, casting='away', wanted_focus=None)
+    size: texels along the side of a map, were it a square; bits: of a depth: 8, 16 or 32; casting: which faces the map
+    is made of, all or those that turn away from the light; wanted_focus: the part of the texels that what is in focus
+    should get of a trapezoidal map.
     """
 
     size: int = 1024

@@ -61,39 +61,8 @@ def ramp(lower: ArrayLike, upper: ArrayLike, count: int = PALETTE_SIZE) -> Float
 def spectrum(lower: ArrayLike, upper: ArrayLike, count: int = PALETTE_SIZE, levels: int = 256) -> Ints:
     """The shades of a ramp for a device with some levels of red, green and blue each, no two neighbours equal.
 
-    Parameters
-    ----------
-    lower, upper : (3,) array_like of float
-        The darkest and the brightest colour, 0 to 1.
-    count : int
-        How many shades, 2 to 256.
-    levels : int
-        How many levels each component has, 2 or more.
-
-    Returns
-    -------
-    (count, 3) array of int
-        0 to levels - 1.
-
-    Raises
-    ------
-    InputError
-        For fewer than two levels or shades, limits outside 0 to 1.
-
-    Notes
-    -----
-    Of a shade that equals the one before it one component is raised, the one that grows most; where all are at the top
-    the last one is lowered.
-
+    lower, upper: (3,) the darkest and the brightest colour, 0 to 1; result: (count, 3) 0 to levels - 1.
     Source: Glaeser, section 4.3; errata G4-01, G4-02.
-
-    Examples
-    --------
-    >>> from vectorplot import shading
-    >>> shading.spectrum((0, 0, 0), (1, 1, 1), count=4, levels=4).tolist()
-    [[0, 0, 0], [1, 1, 1], [2, 2, 2], [3, 3, 3]]
-    >>> shading.spectrum((0, 0, 0), (0.2, 0.2, 1), count=4, levels=3).tolist()
-    [[0, 0, 0], [0, 0, 1], [0, 0, 2], [1, 0, 2]]
     """
     limits = np.array((lower, upper), dtype=np.float64)
     if levels < 2 or limits.shape != (2, 3) or not ((limits >= 0.0) & (limits <= 1.0)).all():
@@ -333,7 +302,7 @@ def colour_map(names: Sequence[str], colours: int = COLOUR_MAP, offset: int = 0)
     -----
     All eight palettes have 32 shades each in a map of 256.
 
-    Degenerate: without palettes all parents are in it.
+    Edge cases: without palettes all parents are in it.
 
     Source: Glaeser, section 4.3; erratum G4-02.
 

@@ -256,7 +256,7 @@ def line_pixels(start: ArrayLike, end: ArrayLike, columns: int, rows: int) -> It
 
     A line has max(|dx|, |dy|) + 1 pixels, both ends among them, and none is further from it than half a pixel. It has
     the same pixels from either end, and the same where a part of it lies outside.
-    Degenerate: a line without length is one pixel.
+    Edge cases: a line without length is one pixel.
     Source: Glaeser, section 4.6 (Bresenham); erratum G4-09.
     """
     p, q = whole_pixels(start), whole_pixels(end)
@@ -329,7 +329,7 @@ def polygon_pixels(polygons: Polygons, columns: int, rows: int) -> Iterator[Poly
     The further columns, shades or colours, are interpolated linearly along the edges and along the scan lines. Polygons
     need not be convex: a centre is inside when the scan line has crossed an odd number of edges.
     Errors: InputError for corners that are not finite or beyond the guard band.
-    Degenerate: a polygon without area has no pixels, see with_specks_grown.
+    Edge cases: a polygon without area has no pixels, see with_specks_grown.
     Source: Glaeser, section 4.6, figure 7 (filling, Gouraud shading); errata G4-10 to G4-13.
     """
     for spans in _spans(polygons, columns, rows):

@@ -73,22 +73,8 @@ class ScreenTriangles:
 class HalfSpace:
     """Homogeneous points p with normal . p >= limit.
 
-    Parameters
-    ----------
-    normal : (float, float, float, float)
-        What the coordinates x, y, z and weight of a point are multiplied by.
-    limit : float
-        The smallest product.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import shading
-    >>> system = shading.raster_system(vp.Camera((0, 0, 5), up=(0, 1, 0), parallel=True, height=8.0), 8, 8)
-    >>> points = system.homogeneous([(-3, -3, 0), (3, -3, 0), (-3, 3, 0)])
-    >>> right = shading.HalfSpace((1.0, 0.0, 0.0, -3.5))
-    >>> shading.screen_triangles(points, [(0, 1, 2)], sides=[right]).points[:, 0].max().item()
-    6.5
+    normal: (float, float, float, float) what the coordinates x, y, z and weight of a point are multiplied by; limit:
+    the smallest product.
     """
 
     normal: tuple[float, float, float, float]
@@ -98,26 +84,7 @@ class HalfSpace:
 def raster_size(columns: int, rows: int) -> tuple[int, int]:
     """The size in pixels, if there can be such a raster.
 
-    Parameters
-    ----------
-    columns, rows : int
-        1 to 32767 each, and no more than 2^27 pixels together.
-
-    Returns
-    -------
-    (int, int)
-        Columns and rows.
-
-    Raises
-    ------
-    InputError
-        For other sizes.
-
-    Examples
-    --------
-    >>> from vectorplot import shading
-    >>> shading.raster_size(640, 480)
-    (640, 480)
+    result: (int, int) columns and rows.
     """
     if not (1 <= columns <= LARGEST_SIDE_PIXELS and 1 <= rows <= LARGEST_SIDE_PIXELS):
         raise InputError(f"a raster of {columns} x {rows} pixels: sides must be 1 to {LARGEST_SIDE_PIXELS}")
@@ -168,7 +135,7 @@ def picture_placement(view: View, columns: int, rows: int, fit: bool, beside: Fl
     """The place of a picture of a view on a page whose millimetres are pixels: if it is to fit, all points fill the
     raster but for a border. beside (n,3): further points of the world.
 
-    Degenerate: without points, and where the scene reaches too far, it shows the camera's field of vision.
+    Edge cases: without points, and where the scene reaches too far, it shows the camera's field of vision.
     """
     page = Page(columns, rows, 0.0)
     others = view.points_of(np.zeros((0, 3)) if beside is None else beside)

@@ -25,28 +25,9 @@ FOCUS = 0.3
 class SeenRegion:
     """A part of the world that a picture shows.
 
-    Parameters
-    ----------
-    points : (k, 3) array of float
-        Its corners, none where nothing is in the frustum.
-    near, far, focus : (3,) array of float
-        The centres of its planes.
-    focus_points : (l, 3) array of float
-        Corners of the part before the focus plane.
-
-    Notes
-    -----
+    points: (k, 3) its corners, none where nothing is in the frustum; near, far, focus: (3,) the centres of its planes;
+    focus_points: (l, 3) corners of the part before the focus plane.
     Source: Martin and Tan, recipe, and Ressler, Notes on implementation of trapezoidal shadow maps, section 2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import shading
-    >>> system = shading.raster_system(vp.Camera((0, 0, 10), up=(0, 1, 0)), 60, 40)
-    >>> behind = np.array([(0.0, 0.0, 20.0), (1.0, 0.0, 20.0), (0.0, 1.0, 20.0)])
-    >>> len(shading.region_in_picture(system, 60, 40, behind, np.array([(0, 1, 2)])).points)
-    0
     """
 
     points: Floats
@@ -104,7 +85,7 @@ def region_in_picture(system: CoordinateSystem, columns: int, rows: int, points:
 
     Error: nearer than the near plane of the system nothing is seen.
 
-    Degenerate: no points where nothing is in the frustum.
+    Edge cases: no points where nothing is in the frustum.
 
     Source: Wimmer, Scherzer and Purgathofer, Light space perspective shadow maps, section 4 (the focus).
 
@@ -154,7 +135,7 @@ def focus_of_depths(near: float, far: float) -> float:
     """The part of the depth from near to far, before the eye, that is to get FOCUS_LINE of the map, so that at a right
     angle to the light all that is seen is equally sharp in the picture, as far as one perspective can do it.
 
-    Such a map's base is sqrt(far / near) as wide as its top line. Degenerate: without depth nothing is widened.
+    Such a map's base is sqrt(far / near) as wide as its top line. Edge cases: without depth nothing is widened.
     Source: Wimmer, Scherzer and Purgathofer, Light space perspective shadow maps, section 4 (the best n); Ressler,
     section 2, solved for the focus.
     """

@@ -52,31 +52,10 @@ HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
 class Shades:
     """How bright n points are in the light of l lights.
 
-    Parameters
-    ----------
-    shares : (l, n) array of float
-        What a light of intensity 1 gives, 1 and more being as bright as can be.
-    matt : (l, n) array of float
-        The same without highlights.
-    backlit : (l, n) array of bool
-        Whether a light shines on their far side.
-    intensity : (l,) or (l, 3) array of float
-        Of the lights, or of their red, green and blue where one of them is coloured.
-    cue : (n,) array of float
-        What is added because they are near the eye.
-
-    Notes
-    -----
+    shares: (l, n) what a light of intensity 1 gives, 1 and more being as bright as can be; matt: (l, n) the same
+    without highlights; backlit: (l, n) whether a light shines on their far side; intensity: (l,) of the lights, or of
+    their red, green and blue where one of them is coloured; cue: (n,) what is added because they are near the eye.
     Source: Glaeser, sections 4.5 and 8.5.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import Shades
-    >>> shares = np.array([[0.5, 1.0], [0.25, 0.5]])
-    >>> shades = Shades(shares, shares, np.zeros((2, 2), dtype=bool), np.array([1.0, 1.0]), np.zeros(2))
-    >>> shades.total.round(6).tolist(), shades.of_light(1).round(6).tolist()
-    ([0.6, 0.8], [0.2, 0.4])
     """
 
     shares: Floats
@@ -98,15 +77,7 @@ class Shades:
     def of_light(self, number: int) -> Floats:
         """Shades if only one of the lights were on.
 
-        Parameters
-        ----------
-        number : int
-            Of the light, from 0.
-
-        Returns
-        -------
-        (n,) or (3, n) array of float
-            0 to 1; of red, green and blue in coloured light.
+        result: (n,) 0 to 1.
         """
         return shades(self.shares[number : number + 1], self.intensity[number : number + 1], self.cue)
 
@@ -191,7 +162,7 @@ def face_shades(view: View, items: Sequence[Item], lights: Sequence[Light]) -> S
 
     Notes
     -----
-    Degenerate: faces without area have no normal; to them all lights come in flat.
+    Edge cases: faces without area have no normal; to them all lights come in flat.
 
     Source: Glaeser, section 4.5; errata G4-06 to G4-08.
 
@@ -263,7 +234,7 @@ def faded(view: View, found: Shades, lights: Sequence[Light], points: Floats) ->
 
 def depth_limits(view: View) -> tuple[float, float]:
     """Smallest and largest z of the scene in the view, no farther than five times the eye's distance from its target,
-    and no nearer than a fifth of it. Degenerate: zeros without points.
+    and no nearer than a fifth of it. Edge cases: zeros without points.
 
     Source: Glaeser, section 4.4; erratum G4-04.
     """
@@ -271,7 +242,7 @@ def depth_limits(view: View) -> tuple[float, float]:
 
 
 def limited_depths(view: View, depths: Floats) -> tuple[float, float]:
-    """Smallest and largest of depths (n,) z in the view, within the same limits. Degenerate: zeros without any."""
+    """Smallest and largest of depths (n,) z in the view, within the same limits. Edge cases: zeros without any."""
     if not len(depths):
         return 0.0, 0.0
     low, high = float(depths.min()), float(depths.max())
@@ -297,7 +268,7 @@ def face_middles(view: View) -> Floats:
 
     Notes
     -----
-    Degenerate: no columns for a view without faces.
+    Edge cases: no columns for a view without faces.
 
     Examples
     --------
@@ -487,7 +458,7 @@ def corner_normals(
     than the crease angle. given (n, 3), known (n,): vertices of true surfaces have their true normals; on_edge (n,):
     those of them on sharp edges that of one side, for the triangles there. own (t, 3): the unit normals of the plane
     faces that triangles are parts of, where they are not faces themselves.
-    Degenerate: triangles without area have no say; alone they get the normals of their faces, or zeros.
+    Edge cases: triangles without area have no say; alone they get the normals of their faces, or zeros.
     """
     faces = mesh_face_normals(points, triangles)
     if own is None:
@@ -556,7 +527,7 @@ def plane_numbers(view: View) -> Ints:
 
     A corner may be off the plane by FLAT_OF_EXTENT; where a region would be bent more than that, as on surfaces of very
     small faces, only what is flat within the tolerance of the view is taken together.
-    Degenerate: faces wound against each other, and those without area, stand alone.
+    Edge cases: faces wound against each other, and those without area, stand alone.
     """
     count = view.face_count
     number = np.arange(count)
@@ -666,7 +637,7 @@ def exposed_scene(view: View, scene: Scene) -> tuple[Scene, tuple[Light, ...]]:
     """A scene with lights as its exposure has them, and these in the view: at least one, as of view_lights.
 
     view: of the scene, surfaces as triangles. A fitted exposure is such that the brightest of the faces that are seen,
-    wherever shadows fall, just reaches the end of the lights' part of the palette. Degenerate: in the dark it is 1.
+    wherever shadows fall, just reaches the end of the lights' part of the palette. Edge cases: in the dark it is 1.
     Source: Glaeser, section 4.5.
     """
     here = view_lights(view, scene.lights)

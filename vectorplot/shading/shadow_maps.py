@@ -50,25 +50,9 @@ HALF_TURN = np.diag([-1.0, -1.0, 1.0])
 class SquareMap:
     """The map of a trapezoid onto the square from -1 to 1.
 
-    Parameters
-    ----------
-    matrix : (3, 3) array of float
-        First corner to (-1, -1), second to (1, -1), third to (1, 1), fourth to (-1, 1).
-    shift : float
-        d, how far the meeting point of the sides was moved.
-    stretch : float
-        u; both infinite for the affine map of a near-rectangle.
-
-    Notes
-    -----
+    matrix: (3, 3) first corner to (-1, -1), second to (1, -1), third to (1, 1), fourth to (-1, 1); shift: d, how far
+    the meeting point of the sides was moved; stretch: u.
     Source: Ressler, sections 4 and 5.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import square_map
-    >>> found = square_map([(-2, 0), (2, 0), (2, 4), (-2, 4)])
-    >>> (found.matrix @ (2, 4, 1)).tolist(), found.shift
-    ([1.0, 1.0, 1.0], inf)
     """
 
     matrix: Floats
@@ -98,7 +82,7 @@ def square_map(corners: ArrayLike) -> SquareMap:
     -----
     A trapezoid whose base is the shorter one is turned by half a turn before and after.
 
-    Degenerate: for parallel sides the affine map of the rectangle between first and third corner.
+    Edge cases: for parallel sides the affine map of the rectangle between first and third corner.
 
     Source: Ressler, sections 4 and 5, equations 20 to 42; errata N-03, N-05, N-06.
 
@@ -354,32 +338,10 @@ POINTS_AT_ONCE = 1 << 17
 class ShadowMap:
     """The depths that a lamp sees.
 
-    Parameters
-    ----------
-    system : CoordinateSystem
-        The lamp's.
-    texel_from_light : (3, 3) array of float
-        From (x, y, 1) of its image plane to column, row and weight.
-    code : (rows, columns) array of uint8, uint16 or uint32
-        0 where the lamp sees nothing.
-    depth_code : DepthCode
-        What the codes mean.
-    biased : bool
-        Whether depths are compared with a margin, against faces that shade themselves.
-
-    Notes
-    -----
+    system: the lamp's; texel_from_light: (3, 3) from (x, y, 1) of its image plane to column, row and weight; code:
+    (rows, columns) 0 where the lamp sees nothing; depth_code: what the codes mean; biased: whether depths are compared
+    with a margin, against faces that shade themselves.
     Source: Glaeser, section 8.6; Martin and Tan, recipe, polygon offset.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import shading
-    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
-    >>> (found,) = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=8, bits=16).maps
-    >>> (found.code > 0).sum(axis=1).tolist()
-    [0, 6, 6, 6, 6, 6, 6, 0]
     """
 
     system: CoordinateSystem
@@ -401,15 +363,7 @@ class ShadowMap:
     def depths(self, code: NDArray[np.unsignedinteger[Any]]) -> Floats:
         """Depths in the lamp's system of codes of this map.
 
-        Parameters
-        ----------
-        code : (...) array of uint8, uint16 or uint32
-            As the map holds them.
-
-        Returns
-        -------
-        (...) array of float
-            -inf where the lamp sees nothing.
+        code: (...) as the map holds them; result: (...) -inf where the lamp sees nothing.
         """
         return np.asarray(np.where(code > 0, self.depth_code.depth(code), -np.inf))
 
@@ -425,7 +379,7 @@ def light_plane(system: CoordinateSystem, points: ArrayLike) -> Floats:
 def standard_frame(images: Floats) -> Floats:
     """(3, 3) the map of the rectangle about images (n, 2) onto the square from -1 to 1.
 
-    Degenerate: a rectangle without width or height gets a billionth of the other.
+    Edge cases: a rectangle without width or height gets a billionth of the other.
     """
     low, high = images.min(axis=0), images.max(axis=0)
     size = max(float((high - low).max()), ZERO_OF_EXTENT * float(np.abs(images).max())) or 1.0
@@ -478,7 +432,7 @@ def shadow_map(
 
     frame (3, 3): what part of the lamp's image plane it shows, as a map onto the square from -1 to 1, of weight 1 on
     the line where it shows most; bits: 8, 16 or 32 for a depth; near: the smallest weight in the lamp's system.
-    Errors: InputError for other bits and impossible sizes. Degenerate: without triangles nothing is in the shadow.
+    Errors: InputError for other bits and impossible sizes. Edge cases: without triangles nothing is in the shadow.
     Source: Glaeser, section 8.6; Martin and Tan, recipe.
     """
     if bits not in BITS:
@@ -594,7 +548,7 @@ def _constant_bias(found: ShadowMap, depth: Floats) -> Floats:
 
 def slopes(system: CoordinateSystem, points: Floats, normals: Floats) -> tuple[Floats, Floats]:
     """How the depth after T2 of planes through world points (n, 3) with normals (n, 3) grows along x and y of a lamp's
-    image plane, each (n,). Degenerate: a plane through the lamp rises without end: a very large number."""
+    image plane, each (n,). Edge cases: a plane through the lamp rises without end: a very large number."""
     n = matmul(normals, system.rotation)
     if system.distance == INFINITE:
         facing = n[:, 2]
@@ -667,24 +621,8 @@ SIDES = np.concatenate([np.eye(3), -np.eye(3)])
 class ShadowBuffer:
     """The maps of one light: a single one, or six around a lamp within the scene.
 
-    Parameters
-    ----------
-    maps : tuple of ShadowMap
-        Empty where nothing casts shadows.
-
-    Notes
-    -----
+    maps: empty where nothing casts shadows.
     Source: Glaeser, section 8.6.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import shading
-    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
-    >>> buffer = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=64)
-    >>> buffer.blocks(points=[(0, 0, 0), (3, 3, 0)], normals=[(0, 0, 1), (0, 0, 1)]).tolist()
-    [True, False]
     """
 
     maps: tuple[ShadowMap, ...]
@@ -692,22 +630,8 @@ class ShadowBuffer:
     def blocks(self, points: ArrayLike, normals: ArrayLike) -> Bools:
         """Whether something stands between the light and points of the world.
 
-        Parameters
-        ----------
-        points : (n, 3) array_like of float
-            In the world.
-        normals : (n, 3) array_like of float
-            Of the faces they lie on, of any length.
-
-        Returns
-        -------
-        (n,) array of bool
-            False for points outside the maps and behind the lamp.
-
-        Notes
-        -----
-        Error: about a texel along the borders of shadows; what rises less above a face than the bias casts none on it.
-
+        points: (n, 3) in the world; normals: (n, 3) of the faces they lie on, of any length; result: (n,) false for
+        points outside the maps and behind the lamp.
         Source: Glaeser, section 8.6.
         """
         p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
@@ -771,7 +695,7 @@ def shadow_buffer(
 
     Notes
     -----
-    Degenerate: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard;
+    Edge cases: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard;
     without points there is no map.
 
     Source: Glaeser, section 8.6; Martin and Tan, recipe.
@@ -839,7 +763,7 @@ def shadow_buffers(
     """For every light the function of places (m, 3), normals of their faces (m, 3), and triangles (m,), which it does
     not need, that tells which of them it does not reach; with a region maps are trapezoids around it.
 
-    Degenerate: maps of more texels together than MOST_TEXELS are made smaller, all alike, and an InputWarning says so.
+    Edge cases: maps of more texels together than MOST_TEXELS are made smaller, all alike, and an InputWarning says so.
     """
     frame: Frame = "standard" if region is None else "trapezoid"
     size = _affordable_size(lights, points, maps)

@@ -34,25 +34,9 @@ SEARCH_STEP = 0.05
 class Axis:
     """The line of sight in the lamp's image plane.
 
-    Parameters
-    ----------
-    origin : (2,) array of float
-        N, the image of the centre of the near plane.
-    direction : (2,) array of float
-        Unit vector to F, that of the far plane.
-    top, base : float
-        Distances from N, along the direction, of the two parallel lines of the trapezoid.
-
-    Notes
-    -----
+    origin: (2,) N, the image of the centre of the near plane; direction: (2,) unit vector to F, that of the far plane;
+    top, base: distances from N, along the direction, of the two parallel lines of the trapezoid.
     Source: Ressler, equations 1 to 4.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import line_of_sight
-    >>> axis = line_of_sight([(-1, 0), (1, 0), (3, 4), (-3, 4)], near=(0, 0), far=(0, 4))
-    >>> axis.direction.tolist(), axis.top, axis.base, axis.length
-    ([0.0, 1.0], 0.0, 4.0, 4.0)
     """
 
     origin: Floats
@@ -73,30 +57,14 @@ class Axis:
     def along(self, points: ArrayLike) -> Floats:
         """Distances of points from N, measured along the direction.
 
-        Parameters
-        ----------
-        points : (..., 2) array_like of float
-            In the lamp's image plane.
-
-        Returns
-        -------
-        (...) array of float
-            Positive towards F.
+        points: (..., 2) in the lamp's image plane; result: (...) positive towards F.
         """
         return np.asarray(matmul(np.asarray(points, dtype=np.float64) - self.origin, self.direction))
 
     def across(self, points: ArrayLike) -> Floats:
         """Distances of points from the line of sight.
 
-        Parameters
-        ----------
-        points : (..., 2) array_like of float
-            In the lamp's image plane.
-
-        Returns
-        -------
-        (...) array of float
-            Positive on the left.
+        points: (..., 2) in the lamp's image plane; result: (...) positive on the left.
         """
         return np.asarray(matmul(np.asarray(points, dtype=np.float64) - self.origin, self.left))
 
@@ -123,7 +91,7 @@ def line_of_sight(points: ArrayLike, near: ArrayLike, far: ArrayLike) -> Axis:
 
     Notes
     -----
-    Degenerate: where both centres have one image, as the lamp shines along the line of sight, the axis is x.
+    Edge cases: where both centres have one image, as the lamp shines along the line of sight, the axis is x.
 
     Source: Ressler, equations 1 to 4.
 
@@ -268,7 +236,7 @@ def bounding_trapezoid(points: ArrayLike, axis: Axis, focus: float, line: float 
 
     Notes
     -----
-    Degenerate: where its sides all but run parallel (duelling frusta), the rectangle.
+    Edge cases: where its sides all but run parallel (duelling frusta), the rectangle.
 
     Source: Ressler, section 3.
 
@@ -293,7 +261,7 @@ def taper_of_focus(axis: Axis, focus: float, line: float = FOCUS_LINE) -> float:
 
     It fades to 0 as the centre of the near plane moves from the top line to the middle of the frustum: so the map goes
     over to the rectangle without a jump when eye and lamp begin to look at each other.
-    Degenerate: a focus on or before the top line takes the largest taper; a frustum without length has none.
+    Edge cases: a focus on or before the top line takes the largest taper; a frustum without length has none.
     Source: after Ressler, section 2, and erratum N-02.
     """
     if not axis.length > 0.0:
@@ -309,7 +277,7 @@ def tapered_map(points: ArrayLike, axis: Axis, taper: float) -> Floats:
 
     With tau = 0 on the top line and 1 on the base, its last row is 1 + taper tau. Up to a factor it is the matrix of
     the trapezoid's corners; and it has neither pole nor branch where the trapezoid becomes a rectangle.
-    Degenerate: points on a line get a square of a billionth of their extent across, a single point one of size 1.
+    Edge cases: points on a line get a square of a billionth of their extent across, a single point one of size 1.
     Source: after Ressler, sections 4 and 5.
     """
     p = np.asarray(points, dtype=np.float64)
@@ -341,7 +309,7 @@ def projective_images(matrix: Floats, points: ArrayLike) -> Floats:
 
 
 def focus_area(matrix: Floats, focus_points: ArrayLike) -> float:
-    """The area that the convex hull of points (n, 2) has in the map, as part of it. Degenerate: 0 on a line."""
+    """The area that the convex hull of points (n, 2) has in the map, as part of it. Edge cases: 0 on a line."""
     p = projective_images(matrix, focus_points)
     hull = convex_hull(p)
     after = np.roll(hull, -1, axis=0)

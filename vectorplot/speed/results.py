@@ -237,20 +237,7 @@ def _measured(entry: dict[str, Any]) -> Measured:
 
 
 def plot(log: Log, before: Log | None = None) -> Drawing:
-    """The seconds of all pictures over their sizes, and what one thing costs in points, with an earlier log dashed.
-
-    Parameters
-    ----------
-    log : Log
-        What is plotted.
-    before : Log, optional
-        Pictures of the same names are drawn as dashed lines from the first of their sizes to the last.
-
-    Returns
-    -------
-    Drawing
-        Two panels with logarithmic axes; `vectorplot.save` writes it in any format.
-    """
+    """The seconds of all pictures over their sizes, and what one thing costs in points, with an earlier log dashed."""
     numbers = {one.name: number for number, one in enumerate(log.pictures)}
     seconds = [Curve(one.name, one.sizes, one.seconds, numbers[one.name]) for one in log.pictures]
     points = [Curve(one.name, one.sizes, _points(one, log), numbers[one.name]) for one in log.pictures]

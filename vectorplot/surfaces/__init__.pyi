@@ -1,22 +1,12 @@
-from .algebraic import AlgebraicSurface, first_form, gaussian_curvature, implicitized, mean_curvature, second_form
+from .algebraic import AlgebraicSurface, first_form, gaussian_curvature, implicitized, mean_curvature
 from .capped_bodies import Capped, Frustum, rod
-from .function_surface import FunctionSurface, surface_of_function
-from .graphs import (
-    Disc,
-    Graph,
-    PolarGraph,
-    PolygonRegion,
-    Region,
-    densified_grid,
-    graph,
-    graph_over_disc,
-    grid_of_scattered,
-)
-from .implicit import BoxedImplicit, CutImplicit, ImplicitFunction, implicit_of_function
-from .inversion import InvertedImplicit, InvertedSurface, inverted
-from .minimal import IsotropicCurve, MinimalSurface, helicoid_to_catenoid, minimal_spiral_surface
-from .of_equations import Parametrised, parametrised
-from .placed_surface import PlacedImplicit, PlacedSurface
+from .function_surface import surface_of_function
+from .graphs import Disc, Graph, PolygonRegion, graph, graph_over_disc
+from .implicit import implicit_of_function
+from .inversion import inverted
+from .minimal import helicoid_to_catenoid, minimal_spiral_surface
+from .of_equations import parametrised
+from .placed_surface import PlacedSurface
 from .quadrics import (
     Cone,
     Cylinder,
@@ -37,11 +27,7 @@ from .splines import SplineSurface, landscape, nurbs_surface, spline_surface
 from .stacked import unit_normals
 from .surface import Domain, ImplicitSurface, Surface
 from .swept import (
-    Motion,
-    Rotoid,
     Screw,
-    SpiralMotion,
-    Swept,
     Translation,
     helical_surface,
     revolution_surface,
@@ -52,55 +38,37 @@ from .swept import (
 )
 from .terrains import Terrain, densified_terrain, exaggerated, terrain, terrain_of_points, thinned_terrain
 from .tori import ImplicitCyclide, ImplicitTorus, ImplicitTorusByDistance, Torus, dupin_cyclide
-from .trimmed import CutSurface, TrimmedSurface
+from .trimmed import TrimmedSurface
 
 __all__ = [
     "AlgebraicSurface",
-    "BoxedImplicit",
     "Capped",
     "Cone",
-    "CutImplicit",
-    "CutSurface",
     "Cylinder",
     "Disc",
     "Domain",
     "Ellipsoid",
     "Frustum",
-    "FunctionSurface",
     "Graph",
     "HyperbolicParaboloid",
     "Hyperboloid",
     "HyperboloidSheet",
     "ImplicitCyclide",
-    "ImplicitFunction",
     "ImplicitSurface",
     "ImplicitTorus",
     "ImplicitTorusByDistance",
-    "InvertedImplicit",
-    "InvertedSurface",
-    "IsotropicCurve",
-    "MinimalSurface",
-    "Motion",
     "Paraboloid",
-    "Parametrised",
-    "PlacedImplicit",
     "PlacedSurface",
-    "PolarGraph",
     "PolygonRegion",
     "Quadric",
-    "Region",
-    "Rotoid",
     "Screw",
     "Sphere",
-    "SpiralMotion",
     "SplineSurface",
     "Surface",
-    "Swept",
     "Terrain",
     "Torus",
     "Translation",
     "TrimmedSurface",
-    "densified_grid",
     "densified_terrain",
     "dupin_cyclide",
     "exaggerated",
@@ -108,7 +76,6 @@ __all__ = [
     "gaussian_curvature",
     "graph",
     "graph_over_disc",
-    "grid_of_scattered",
     "helical_surface",
     "helicoid_to_catenoid",
     "implicit_cone",
@@ -127,7 +94,6 @@ __all__ = [
     "revolution_surface",
     "rod",
     "rotoidal_surface",
-    "second_form",
     "spiral_surface",
     "spline_surface",
     "surface_of_function",

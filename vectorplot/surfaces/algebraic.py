@@ -205,29 +205,8 @@ def first_form(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, 
 def second_form(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
     """The second fundamental form L, M, N of a surface, which measures how it bends.
 
-    Parameters
-    ----------
-    surface : Surface
-        With its partials and second partials.
-    u, v : (...) array of float
-        Parameters.
-
-    Returns
-    -------
-    three (...) arrays of float
-        The parts of x_uu, x_uv, x_vv along the unit normal, in world units.
-
-    Notes
-    -----
-    Degenerate: NaN where unit_normals are.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> cylinder = surfaces.Cylinder(radius=3.0)  # bends away from its normals, which point outwards
-    >>> [abs(round(float(part), 9)) for part in surfaces.second_form(cylinder, np.array(0.5), np.array(0.0))]
-    [3.0, 0.0, 0.0]
+    u, v: (...) parameters.
+    Edge cases: NaN where unit_normals are.
     """
     n = unit_normals(surface, u, v)
     uu, uv, vv = surface.second_partials(u, v)
@@ -251,7 +230,7 @@ def gaussian_curvature(surface: Surface, u: Floats, v: Floats) -> Floats:
 
     Notes
     -----
-    Degenerate: NaN at poles and singular points.
+    Edge cases: NaN at poles and singular points.
 
     Examples
     --------
@@ -284,7 +263,7 @@ def mean_curvature(surface: Surface, u: Floats, v: Floats) -> Floats:
 
     Notes
     -----
-    Degenerate: NaN at poles and singular points.
+    Edge cases: NaN at poles and singular points.
 
     Examples
     --------

@@ -31,30 +31,9 @@ def ranges_of(domain: Domain) -> tuple[Range, Range]:
 class FunctionSurface(MovableSurface):
     """The surface of a user's function, with its derivatives.
 
-    Parameters
-    ----------
-    domain : Domain
-        Where it is defined.
-    function : NumericFunction
-        The points.
-    first : tuple of NumericFunction
-        The derivatives by u and by v, or empty: they are found from the points.
-    second : tuple of NumericFunction
-        The second derivatives by uu, uv and vv, or empty.
-    jets : tuple of NumericFunction
-        Points and first derivatives at once, and these with the second derivatives; or empty.
-
-    Notes
-    -----
-    Made by `surface_of_function`. Where the function has no value the points are NaN.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> plane = surfaces.surface_of_function(lambda u, v: (u, v, u + v), surfaces.Domain(0, 1, 0, 1))
-    >>> isinstance(plane, surfaces.FunctionSurface), plane.points(np.array(0.5), np.array(1.0)).tolist()
-    (True, [0.5, 1.0, 1.5])
+    domain: where it is defined; function: the points; first: the derivatives by u and by v, or empty: they are found
+    from the points; second: the second derivatives by uu, uv and vv, or empty; jets: points and first derivatives at
+    once, and these with the second derivatives.
     """
 
     domain: Domain
@@ -150,7 +129,7 @@ def surface_of_function(
 
     Notes
     -----
-    Degenerate: where the function is not finite the surface has a hole, NaN; a function that runs to infinity is cut
+    Edge cases: where the function is not finite the surface has a hole, NaN; a function that runs to infinity is cut
     off (see `limits_of`), and pictures of it say so.
 
     Source: Glaeser, section 8.2, equation 9.

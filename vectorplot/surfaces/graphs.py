@@ -25,23 +25,7 @@ from vectorplot.words import check_word
 
 
 class Region(Protocol):
-    """What every part of the plane can do.
-
-    Notes
-    -----
-    A protocol: domain is the rectangle around it, a Domain; contains(x, y) says of points, arrays of one shape (...),
-    whether they are inside or on the border, (...) of bool.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> def share(region: surfaces.Region) -> float:
-    ...     x, y = np.meshgrid(*region.domain.grid(100, 100))
-    ...     return float(region.contains(x, y).mean())
-    >>> round(share(surfaces.Disc()), 1)  # pi / 4
-    0.8
-    """
+    """What every part of the plane can do."""
 
     @property
     def domain(self) -> Domain:
@@ -279,7 +263,7 @@ def graph(
     -----
     For a disc with a smooth border see `graph_over_disc`.
 
-    Degenerate: where the function is not finite the graph has a hole, NaN; a function that runs to infinity is cut off
+    Edge cases: where the function is not finite the graph has a hole, NaN; a function that runs to infinity is cut off
     (see `limits_of`), and pictures of it say so.
 
     Examples
@@ -309,26 +293,8 @@ def graph(
 class PolarGraph(MovableSurface):
     """The points (x0 + u cos v, y0 + u sin v, f) above a disc, normals upwards.
 
-    Parameters
-    ----------
-    domain : Domain
-        The distances from the centre, and the angles.
-    centre : (float, float)
-        x0 and y0.
-    plane : Graph
-        f above the square around the disc.
-
-    Notes
-    -----
-    Made by `graph_over_disc`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> dome = surfaces.graph_over_disc(lambda x, y: 4.0 - x * x - y * y, surfaces.Disc(2.0))
-    >>> isinstance(dome, surfaces.PolarGraph), dome.points(np.array(2.0), np.array(0.0)).tolist()
-    (True, [2.0, 0.0, 0.0])
+    domain: the distances from the centre, and the angles; centre: (float, float) x0 and y0; plane: f above the square
+    around the disc.
     """
 
     domain: Domain
@@ -412,7 +378,7 @@ def graph_over_disc(
 
     Notes
     -----
-    Degenerate: as of `graph`.
+    Edge cases: as of `graph`.
 
     Examples
     --------
@@ -507,41 +473,8 @@ def grid_of_scattered(
 ) -> Floats:
     """A regular grid of points whose heights are interpolated from scattered points.
 
-    Parameters
-    ----------
-    points : (n, 3) array_like of float
-        In world units, three or more.
-    columns, rows : int
-        Cells of the grid along x and y, over the box of the points.
-    between : {"smooth", "linear", "nearest"}
-        Cubic pieces over a Delaunay triangulation, its triangles, or the height of the nearest point.
-    beyond : {"hole", "nearest"}
-        What is outside the convex hull of the points: NaN, or the height of the nearest point. Nearest is measured in
-        the box of the points, made a square.
-
-    Returns
-    -------
-    (columns+1, rows+1, 3) array of float
-        The grid.
-
-    Raises
-    ------
-    InputError
-        For fewer than three points or more than 2^20, points that are not finite or lie all on one line, fewer than one
-        or more than 2^24 cells, other words.
-
-    Notes
-    -----
-    The surface passes through all points. Degenerate: of points above one another the first counts.
-
+    points: (n, 3) in world units, three or more; result: (columns+1, rows+1, 3) the grid.
     Source: Glaeser, section 9.3; Clough and Tocher (1965), as scipy has it.
-
-    Examples
-    --------
-    >>> from vectorplot import surfaces
-    >>> grid = surfaces.grid_of_scattered([(0, 0, 1), (2, 0, 3), (0, 2, 1), (2, 2, 3), (1, 1, 2)], columns=2, rows=2)
-    >>> grid[..., 2].round(6).tolist()
-    [[1.0, 1.0, 1.0], [2.0, 2.0, 2.0], [3.0, 3.0, 3.0]]
     """
     from scipy.interpolate import CloughTocher2DInterpolator, LinearNDInterpolator, NearestNDInterpolator
     from scipy.spatial import QhullError
@@ -580,35 +513,10 @@ def grid_of_scattered(
 def densified_grid(grid: ArrayLike, factor: int) -> Floats:
     """A grid with extra points between neighbours, on Akima's splines along its lines.
 
-    Parameters
-    ----------
-    grid : (m, n, 3) array_like of float
-        Points, two or more each way.
-    factor : int
-        Each step becomes so many: factor - 1 extra points.
-
-    Returns
-    -------
-    ((m-1) factor + 1, (n-1) factor + 1, 3) array of float
-        The points of the grid stay, to the last bit.
-
-    Raises
-    ------
-    InputError
-        For a grid of another shape, points that are not finite, a factor below 1, and more than 2^24 cells.
-
-    Notes
-    -----
-    Degenerate: with two points along a line the spline is straight.
-
+    grid: (m, n, 3) points, two or more each way; result: ((m-1) factor + 1, (n-1) factor + 1, 3) the points of the grid
+    stay, to the last bit.
+    Edge cases: with two points along a line the spline is straight.
     Source: Glaeser, sections 9.1 and 9.3.
-
-    Examples
-    --------
-    >>> from vectorplot import surfaces
-    >>> finer = surfaces.densified_grid([[(0, 0, 0), (0, 2, 0)], [(2, 0, 0), (2, 2, 4)]], 2)
-    >>> finer.shape, finer[1, 1].round(9).tolist()
-    ((3, 3, 3), [1.0, 1.0, 1.0])
     """
     from scipy.interpolate import Akima1DInterpolator
 

@@ -26,30 +26,8 @@ _SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 class ImplicitFunction(MovableImplicit):
     """The zeros of a user's function within a box.
 
-    Parameters
-    ----------
-    box : (2, 3) array of float
-        The smallest and the largest coordinates.
-    function : NumericFunction
-        F.
-    gradient : NumericFunction, optional
-        Its gradient; without it, it is found from F.
-    degree : int, optional
-        That of an algebraic surface, if known.
-    bends : NumericFunction, optional
-        The second derivatives by xx, xy, xz, yy, yz and zz; without it, they are found from the first ones.
-
-    Notes
-    -----
-    Made by `implicit_of_function`. Where the function is not finite F is NaN.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> saddle = surfaces.implicit_of_function(lambda x, y, z: x * y - z, [(-1, -1, -1), (1, 1, 1)])
-    >>> isinstance(saddle, surfaces.ImplicitFunction), float(saddle.values(np.array([1.0, 0.5, 0.0])))
-    (True, 0.5)
+    box: (2, 3) the smallest and the largest coordinates; function: F; gradient: its gradient; degree: that of an
+    algebraic surface, if known; bends: the second derivatives by xx, xy, xz, yy, yz and zz.
     """
 
     box: Floats
@@ -167,25 +145,7 @@ class PartOfImplicit(MovableImplicit):
 class BoxedImplicit(PartOfImplicit):
     """The part of an implicit surface within a box of its own.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F.
-    box : (2, 3) array of float
-        Smallest and largest coordinates of the part that is looked at, in world units.
-
-    Notes
-    -----
-    It ends on the sides of the box, exactly.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> ball = surfaces.implicit_sphere(1.0)
-    >>> bowl = surfaces.BoxedImplicit(ball, np.array([(-1.1, -1.1, -1.1), (1.1, 1.1, 0.0)]))
-    >>> bowl.values(np.array([(0.0, 0.0, -1.0)])).tolist()
-    [0.0]
+    surface: F; box: (2, 3) smallest and largest coordinates of the part that is looked at, in world units.
     """
 
     box: Floats
@@ -198,27 +158,7 @@ class BoxedImplicit(PartOfImplicit):
 class CutImplicit(PartOfImplicit):
     """What is left of an implicit surface outside of some regions, or inside of one.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        What is cut.
-    regions : tuple of HalfSpaces
-        Where nothing of it is left.
-    within : HalfSpaces, optional
-        And where all is that is left.
-
-    Notes
-    -----
-    F is that of the surface, everywhere; it is looked at only where something is left, and ends on the planes, exactly.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> from vectorplot.geometry import HalfSpaces
-    >>> bowl = surfaces.CutImplicit(surfaces.implicit_sphere(1.0), (HalfSpaces(((0.6, 0.0, 0.8),), (0.0,)),))
-    >>> bowl.beyond(np.array([(0.0, 0.0, 1.0), (0.0, 0.0, -1.0)])).tolist()
-    [0.8, -0.8]
+    surface: what is cut; regions: where nothing of it is left; within: and where all is that is left.
     """
 
     regions: tuple[HalfSpaces, ...]

@@ -39,7 +39,7 @@ def inverted(points: ArrayLike, centre: ArrayLike, radius: float) -> Floats:
 
     Notes
     -----
-    Degenerate: the centre goes to infinity, NaN.
+    Edge cases: the centre goes to infinity, NaN.
 
     Source: Glaeser, section 8.3, equation 21, with the centre added: erratum G8-07.
 
@@ -64,34 +64,8 @@ def _over_square(q: Floats) -> Floats:
 class InvertedSurface(MovableSurface):
     """A parametrised surface inverted in a sphere.
 
-    Parameters
-    ----------
-    surface : Surface
-        What is inverted.
-    centre : (3,) array_like of float
-        Of the sphere, in world units.
-    radius : float
-        Of the sphere, positive.
-
-    Raises
-    ------
-    InputError
-        For a radius that is not positive, a centre that is not three finite numbers.
-
-    Notes
-    -----
-    Inversion turns normals over: x_u cross x_v changes its side. Degenerate: where the surface passes through the
-    centre it has a hole, its image runs to infinity.
-
+    surface: what is inverted; centre: (3,) of the sphere, in world units; radius: of the sphere, positive.
     Source: as of inverted.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> image = surfaces.InvertedSurface(surfaces.Sphere(2.0), (0, 0, 0), 1.0)
-    >>> image.points(np.array(0.0), np.array(0.0)).tolist()
-    [0.5, 0.0, 0.0]
     """
 
     surface: Surface
@@ -145,36 +119,10 @@ class InvertedSurface(MovableSurface):
 class InvertedImplicit(MovableImplicit):
     """An implicit surface inverted in a sphere, the zeros of F(inverse of x), within a box.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        F.
-    centre : (3,) array_like of float
-        Of the sphere, in world units.
-    radius : float
-        Of the sphere, positive.
-    box : (2, 3) array of float
-        The smallest and the largest coordinates of the part that is looked at.
-
-    Raises
-    ------
-    InputError
-        For a radius that is not positive, an empty box, a centre that is not three finite numbers.
-
-    Notes
-    -----
-    Degenerate: at the centre of the sphere it is NaN.
-
+    surface: F; centre: (3,) of the sphere, in world units; radius: of the sphere, positive; box: (2, 3) the smallest
+    and the largest coordinates of the part that is looked at.
+    Edge cases: at the centre of the sphere it is NaN.
     Source: as of inverted.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> box = np.array([(-1.0, -1.0, -1.0), (1.0, 1.0, 1.0)])
-    >>> image = surfaces.InvertedImplicit(surfaces.implicit_sphere(2.0), (0, 0, 0), 1.0, box)
-    >>> float(image.values(np.array([0.5, 0.0, 0.0])))
-    0.0
     """
 
     surface: ImplicitSurface

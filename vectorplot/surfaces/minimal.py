@@ -26,22 +26,7 @@ Complexes = NDArray[np.complex128]
 class IsotropicCurve(Protocol):
     """What every curve P(w) in complex space can do whose tangents have the length zero: P'.P' = 0.
 
-    Notes
-    -----
-    A protocol: points(w) are P, tangents(w) P' and second_derivatives(w) P'', (..., 3) of complex numbers each, at
-    complex parameters w (...). The real part of such a curve is a minimal surface, of which u and v are the parts of w.
-
     Source: Glaeser, section 8.2, figure 8.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> def length_of_tangent(curve: surfaces.IsotropicCurve, w: complex) -> complex:
-    ...     tangent = curve.tangents(np.array(w))
-    ...     return complex((tangent * tangent).sum())
-    >>> abs(length_of_tangent(surfaces.helicoid_to_catenoid(0.0).curve, 1.0 + 2.0j)) < 1e-12
-    True
     """
 
     def points(self, w: Complexes) -> Complexes:
@@ -61,28 +46,7 @@ class IsotropicCurve(Protocol):
 class MinimalSurface(MovableSurface):
     """The real part of exp(i bending) P(u + iv), P an isotropic curve in complex space.
 
-    Parameters
-    ----------
-    curve : IsotropicCurve
-        P, whose tangents have the length zero: P'.P' = 0.
-    bending : float
-        In radians.
-    domain : Domain
-        The ranges of u and v.
-
-    Notes
-    -----
-    u and v run in perpendicular directions, equally fast. Bending leaves the first fundamental form and the normals as
-    they are, and the mean curvature zero. Made by `helicoid_to_catenoid` and `minimal_spiral_surface`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> surface = surfaces.helicoid_to_catenoid(bending=1.0)
-    >>> by_u, by_v = surface.partials(np.array(0.5), np.array(2.0))
-    >>> isinstance(surface, surfaces.MinimalSurface), bool(abs(by_u @ by_v) < 1e-12)
-    (True, True)
+    curve: P, whose tangents have the length zero: P'.P' = 0; bending: in radians; domain: the ranges of u and v.
     """
 
     curve: IsotropicCurve

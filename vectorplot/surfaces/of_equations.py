@@ -50,19 +50,7 @@ MONOMIALS = (
 class Parametrised:
     """What an equation describes, as parametrised surfaces.
 
-    Parameters
-    ----------
-    kind : str
-        Such as "ellipsoid" or "two parallel planes".
-    parts : tuple of Surface
-        One, or two of a surface in two pieces.
-
-    Examples
-    --------
-    >>> from vectorplot.surfaces import ImplicitTorus, parametrised
-    >>> found = parametrised(ImplicitTorus(3.0, 1.0))
-    >>> found.kind, len(found.parts)
-    ('torus', 1)
+    kind: such as "ellipsoid" or "two parallel planes"; parts: one, or two of a surface in two pieces.
     """
 
     kind: str

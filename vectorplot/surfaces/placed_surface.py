@@ -152,31 +152,8 @@ def placed_once(surface: Surface, matrix: ArrayLike, shift: ArrayLike, origin: A
 class PlacedImplicit(Placed, MovableImplicit):
     """An implicit surface moved to where it is wanted: its points x at x @ matrix + shift.
 
-    Parameters
-    ----------
-    surface : ImplicitSurface
-        What is placed.
-    matrix : (3, 3) array_like of float
-        Turns, mirrors and scales, such as the rotations of the room geometry.
-    shift : (3,) array_like of float
-        What is added, in world units.
-
-    Raises
-    ------
-    InputError
-        For a matrix that cannot be inverted, a shift that is not three numbers.
-
-    Notes
-    -----
-    The box is the one around the moved box.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> ball = surfaces.PlacedImplicit(surfaces.implicit_sphere(1.0), 2.0 * np.eye(3), (10, 0, 0))
-    >>> ball.values(np.array([(10.0, 0.0, 0.0), (12.0, 0.0, 0.0)])).tolist()
-    [-1.0, 0.0]
+    surface: what is placed; matrix: (3, 3) turns, mirrors and scales, such as the rotations of the room geometry;
+    shift: (3,) what is added, in world units.
     """
 
     surface: ImplicitSurface

@@ -303,7 +303,7 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
     surface passes through its axis (spindle torus) the normals of the two sides are opposite, and that side decides. At
     a pole the normals are as good as the second partials.
 
-    Degenerate: NaN in holes, and where the first derivative of the cross product vanishes too.
+    Edge cases: NaN in holes, and where the first derivative of the cross product vanishes too.
 
     Examples
     --------
@@ -349,7 +349,7 @@ def normal_partials(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Flo
 
     n = x_u cross x_v, n_u = x_uu cross x_v + x_u cross x_uv. At a pole the derivatives are those a millionth of the
     domain inside.
-    Degenerate: NaN in holes, and where the normals are NaN. Error: as good as the second partials.
+    Edge cases: NaN in holes, and where the normals are NaN. Error: as good as the second partials.
     """
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
     return _normal_partials(surface, u, v, surface.partials(u, v), surface.second_partials(u, v))
@@ -457,7 +457,7 @@ def jumps(surface: Surface, start: Floats, end: Floats) -> Bools:
     """(k,) whether the surface jumps, or runs through a pole, on the straight way in the domain from start to end
     (k,2).
 
-    The half of the way with the longer chord is taken, again and again. Degenerate: where the middle of what is left
+    The half of the way with the longer chord is taken, again and again. Edge cases: where the middle of what is left
     of the way is in a hole, the surface is interrupted, which is as good as a jump.
     """
     start, end = start.copy(), end.copy()

@@ -30,23 +30,7 @@ from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets
 class Motion(Protocol):
     """What every motion of space can do that carries a generating line along a surface.
 
-    Notes
-    -----
-    A protocol: affine maps of space that depend on the time v. moved(points, weight, v) is where points (..., 3) are at
-    v (...), velocities its first and accelerations its second derivatives by v, (..., 3) each; weight is 1 for points,
-    0 for directions, which a translation leaves alone: so one formula serves a curve and its derivatives.
-    repeats(start, end) says whether all points are back, and go on as before, after v ran from start to end.
-
     Source: Glaeser, section 8.2, equations 10 to 14.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> def after(motion: surfaces.Motion, v: float) -> list[float]:
-    ...     return motion.moved(np.array([1.0, 0.0, 0.0]), 1.0, np.array(v)).round(9).tolist()
-    >>> after(surfaces.Screw(rise=1.0), np.pi / 2) == [0.0, 1.0, 1.570796327]
-    True
     """
 
     def moved(self, points: Floats, weight: float, v: Floats) -> Floats:
@@ -177,27 +161,8 @@ class Screw:
 class Rotoid:
     """Turning by ratio v about an axis b, which itself turns by v about the z-axis.
 
-    Parameters
-    ----------
-    ratio : float
-        Turns about b for each turn of b.
-    distance : float
-        Of b from the z-axis, in world units.
-
-    Notes
-    -----
-    At v = 0 the axis b is x = distance, z = 0, parallel to y; it is perpendicular to the z-axis and skew. It repeats
-    where both turns are whole ones.
-
+    ratio: turns about b for each turn of b; distance: of b from the z-axis, in world units.
     Source: Glaeser, section 8.2, equation 13, in the general form of erratum G8-06.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.surfaces import Rotoid
-    >>> half_turns = Rotoid(ratio=0.5, distance=3.0)
-    >>> half_turns.repeats(0.0, 2.0 * np.pi), half_turns.repeats(0.0, 4.0 * np.pi)
-    (False, True)
     """
 
     ratio: float
@@ -248,24 +213,8 @@ class Rotoid:
 class SpiralMotion:
     """Turning about the z-axis by v and growing from the origin by exp(growth v): a similarity.
 
-    Parameters
-    ----------
-    growth : float
-        A whole turn enlarges by exp(2 pi growth).
-
-    Notes
-    -----
-    It repeats after whole turns where nothing grows.
-
+    growth: A whole turn enlarges by exp(2 pi growth).
     Source: Glaeser, section 8.2, equation 14.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.surfaces import SpiralMotion
-    >>> doubling = SpiralMotion(growth=np.log(2.0) / (2.0 * np.pi))
-    >>> bool(np.allclose(doubling.moved(np.array([1.0, 0.0, 3.0]), 1.0, np.array(2.0 * np.pi)), (2.0, 0.0, 6.0)))
-    True
     """
 
     growth: float
@@ -300,34 +249,8 @@ class SpiralMotion:
 class Swept(MovableSurface):
     """The points x(u, v) of a generating curve g(u) after a motion for the time v.
 
-    Parameters
-    ----------
-    generator : Curve
-        g; a line sweeps a ruled surface, a circle a tubular one.
-    motion : Motion
-        What carries it.
-    start, end : float
-        The range of v.
-
-    Raises
-    ------
-    InputError
-        For an empty range of v.
-
-    Notes
-    -----
-    The domain closes in u where the curve is a loop, in v where the motion repeats. Derivatives are exact where the
-    curve's are.
-
+    generator: g; motion: what carries it; start, end: the range of v.
     Source: Glaeser, section 8.2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves, surfaces
-    >>> pipe = surfaces.Swept(curves.Circle(), surfaces.Translation(curves.Line((0, 0, 0), (0, 0, 1))), 0.0, 5.0)
-    >>> pipe.points(np.array(0.0), np.array(5.0)).tolist()
-    [1.0, 0.0, 5.0]
     """
 
     generator: Curve
@@ -446,7 +369,7 @@ def revolution_surface(generator: Curve, *, start: float = 0.0, end: float = 2.0
 
     Notes
     -----
-    Degenerate: where the curve meets the axis the surface has a pole; see `unit_normals`.
+    Edge cases: where the curve meets the axis the surface has a pole; see `unit_normals`.
 
     Source: Glaeser, section 8.2, equation 11.
 

@@ -183,7 +183,7 @@ def terrain_of_points(
 
     Notes
     -----
-    Degenerate: of points above one another the first counts.
+    Edge cases: of points above one another the first counts.
 
     Source: Glaeser, sections 9.3 and 9.5; the interpolators are scipy's.
 

@@ -43,7 +43,7 @@ class Torus(EllipticSections):
 
     Notes
     -----
-    v = 0 is the inner equator, v = pi the outer one; the normals point into the tube. Closed both ways. Degenerate: a <
+    v = 0 is the inner equator, v = pi the outer one; the normals point into the tube. Closed both ways. Edge cases: a <
     b, the spindle torus, meets its axis and itself there.
 
     Source: Glaeser, section 8.3, equation 18; erratum G8-15.
@@ -180,7 +180,7 @@ class ImplicitTorusByDistance(MovableImplicit):
 
     Notes
     -----
-    Degenerate: on the axis F has a ridge and the gradient no horizontal part; of a spindle torus (a < b) the lobe about
+    Edge cases: on the axis F has a ridge and the gradient no horizontal part; of a spindle torus (a < b) the lobe about
     the axis is no zero of it.
 
     Source: Glaeser, section 8.3, equation 19.
@@ -271,7 +271,7 @@ def dupin_cyclide(major: float, minor: float, centre: ArrayLike, radius: float) 
 
     Notes
     -----
-    Degenerate: a centre on the torus gives a cyclide that runs to infinity, with a hole there.
+    Edge cases: a centre on the torus gives a cyclide that runs to infinity, with a hole there.
 
     Source: Glaeser, section 8.3, equation 21; erratum G8-07.
 

@@ -103,27 +103,7 @@ def _part(name: str, wanted: Range | None, start: float, end: float, closed: boo
 class CutSurface(MovableSurface):
     """What is left of a parametrised surface outside of some regions, or inside of one.
 
-    Parameters
-    ----------
-    surface : Surface
-        What is cut.
-    regions : tuple of HalfSpaces
-        Where nothing of it is left.
-    within : HalfSpaces, optional
-        And where all is that is left.
-
-    Notes
-    -----
-    Its points are those of the surface, exactly; what is cut away is a hole.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> from vectorplot.geometry import HalfSpaces
-    >>> bowl = surfaces.CutSurface(surfaces.Sphere(), (HalfSpaces(((0.0, 0.0, 1.0),), (0.0,)),))
-    >>> bowl.points(np.zeros(2), np.array([-0.5, 0.5]))[:, 2].round(6).tolist()
-    [-0.479426, nan]
+    surface: what is cut; regions: where nothing of it is left; within: and where all is that is left.
     """
 
     surface: Surface
@@ -237,7 +217,7 @@ def covered_once(surface: Surface) -> Surface:
     what a circle sweeps does that is run through four times.
 
     In each direction it is compared with itself a full turn on, and a half, a third, ... of the domain on.
-    Degenerate: a surface that comes back mirrored, as a Möbius strip does, stays as it is, and so does one that repeats
+    Edge cases: a surface that comes back mirrored, as a Möbius strip does, stays as it is, and so does one that repeats
     itself after another way.
     """
     if is_embedded(surface):

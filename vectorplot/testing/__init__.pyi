@@ -1,5 +1,4 @@
 from .curves import (
-    BranchCount,
     assert_closed,
     assert_contour,
     assert_isophote,
@@ -12,12 +11,10 @@ from .curves import (
 )
 from .drawings import assert_drawing_is_right, assert_drawings_equal, edge_points
 from .integral_curves import assert_geodesic, assert_integral_curve
-from .rays import Sight, visible_by_rays
+from .rays import visible_by_rays
 from .shapes import hard_shapes
 
 __all__ = [
-    "BranchCount",
-    "Sight",
     "assert_closed",
     "assert_contour",
     "assert_drawing_is_right",

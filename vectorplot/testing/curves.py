@@ -225,7 +225,7 @@ def hausdorff(a: Curves, b: Curves, *, closed: bool = False, accuracy: float | N
     -----
     Error: the true distance is larger by no more than the accuracy, and not smaller but for rounding.
 
-    Degenerate: a single point is a curve too.
+    Edge cases: a single point is a curve too.
 
     Examples
     --------
@@ -460,7 +460,7 @@ def assert_on_surface(points: Curves, surface: AnySurface, tolerance: float) -> 
     The distance from an implicit surface is taken as abs(F) / abs(gradient of F), right to first order; from a
     parametrised one it is that of the nearest point found from a grid of parameters.
 
-    Degenerate: where F is 0 the distance is 0, whatever the gradient.
+    Edge cases: where F is 0 the distance is 0, whatever the gradient.
 
     Examples
     --------
@@ -532,7 +532,7 @@ def assert_contour(points: Curves, surface: AnySurface, eye: Camera | ArrayLike,
 
     Notes
     -----
-    Degenerate: of several sheets that meet in a point, one that fits is enough.
+    Edge cases: of several sheets that meet in a point, one that fits is enough.
 
     Source: Glaeser, section 8.4, equation 27.
 
@@ -587,7 +587,7 @@ def assert_isophote(
 
     Notes
     -----
-    Degenerate: of several sheets that meet in a point, one that fits is enough.
+    Edge cases: of several sheets that meet in a point, one that fits is enough.
 
     Source: Glaeser, section 8.4, equation 28.
 
@@ -687,20 +687,8 @@ def assert_closed(curve: Curves, tolerance: float | None = None) -> None:
 class BranchCount(NamedTuple):
     """How many connected pieces curves have.
 
-    Parameters
-    ----------
-    closed : int
-        Pieces without a loose end.
-    open : int
-        Pieces with one or more.
-    nodes : int
-        At how many places more than two ends meet.
-
-    Examples
-    --------
-    >>> from vectorplot.testing import branch_count
-    >>> branch_count([[(0, 0), (1, 0)], [(0, 0), (0, 1)], [(0, 0), (-1, 0)]])
-    BranchCount(closed=0, open=1, nodes=1)
+    closed: pieces without a loose end; open: pieces with one or more; nodes: at how many places more than two ends
+    meet.
     """
 
     closed: int
@@ -732,7 +720,7 @@ def branch_count(curves: Curves, tolerance: float | None = None) -> BranchCount:
 
     Notes
     -----
-    Degenerate: polylines of one place do not count at all; curves that cross between their ends are not joined.
+    Edge cases: polylines of one place do not count at all; curves that cross between their ends are not joined.
 
     Examples
     --------

@@ -46,7 +46,7 @@ def assert_drawings_equal(a: Drawing, b: Drawing, tolerance_mm: float = 0.01) ->
     of such a line in the other. The order, direction and splitting of the strokes, layers and pens do not matter; nor
     does it matter whether a line is stroked once or twice.
 
-    Degenerate: strokes of no length count as points.
+    Edge cases: strokes of no length count as points.
 
     Examples
     --------

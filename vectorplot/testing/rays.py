@@ -60,7 +60,7 @@ from vectorplot.tolerances import (
 def triangulated(mesh: Mesh) -> tuple[Ints, Ints]:
     """Triangles (t,3) of vertex indices that cover the faces that are there, and (t,) the face each belongs to.
 
-    Degenerate: a convex face without area gives triangles without area; ears without area are left out. A face that is
+    Edge cases: a convex face without area gives triangles without area; ears without area are left out. A face that is
     not planar is the triangles that convex_faces makes of it: nothing but that convention says which surface
     it is.
     """
@@ -451,7 +451,7 @@ def nearest_places(surface: Surface, points: Floats, near: Floats | float = 0.0)
     near (n,): how far points may be from the surface. Points that stay further away, and further than FOOT_OF_EXTENT of
     the extent, are tried again from a finer grid.
     Error: parameters of points on the surface are good to rounding; of points at a distance d to about 1e-8 d.
-    Degenerate: holes are never a place; at a pole one of its parameters is arbitrary.
+    Edge cases: holes are never a place; at a pole one of its parameters is arbitrary.
     Errors: InputError for a surface that is nowhere finite.
     """
     feet = _from_grid(surface, points, CELLS[0])
@@ -1086,23 +1086,8 @@ def _feet(field: _Field, rays: Rays) -> tuple[Bools, Bools, Bools]:
 class Sight(NamedTuple):
     """What rays find between points and the eye.
 
-    Parameters
-    ----------
-    hidden_by : (n,) array of int
-        How many items hide each point.
-    clearance : (n,) array of float
-        How sure that is, see visible_by_rays.
-    on_contour : (n,) array of bool
-        Whether the point is one of the contour of a smooth surface, and judged as such.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, testing
-    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
-    >>> sight = testing.visible_by_rays(cube, vp.Camera.view("top"), [(1, 1, 2), (1, 1, 0)])
-    >>> sight.hidden_by.tolist(), sight.on_contour.any().item()
-    ([0, 1], False)
+    hidden_by: (n,) how many items hide each point; clearance: (n,) how sure that is, see visible_by_rays; on_contour:
+    (n,) whether the point is one of the contour of a smooth surface, and judged as such.
     """
 
     hidden_by: Ints

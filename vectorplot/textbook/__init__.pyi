@@ -1,7 +1,6 @@
 from .device import DepthCueing, Device
 from .field_steps import euler_curves, runge_kutta_curves
 from .framebuffer import (
-    Erased,
     Framebuffer,
     cleared,
     depth_planes,
@@ -15,13 +14,11 @@ from .framebuffer import (
     with_lines,
     with_pixels,
     with_polygons,
-    with_rubber_bands,
     with_smooth_polygons,
 )
-from .intersections import LineCut, Plane, line_and_line, line_and_plane, polygons_common_segment, segments
+from .intersections import Plane, line_and_line, line_and_plane, polygons_common_segment, segments
 from .orders import (
     Position,
-    RelativePosition,
     graph_order,
     graph_triangles,
     in_convex_polygon,
@@ -33,43 +30,32 @@ from .orders import (
 from .viewing import (
     Frustum,
     ViewVolume,
-    basis_of,
     basis_of_gaze,
     camera_matrix,
     changed_coordinates,
-    dehomogenized,
-    frame_from_world,
     homogeneous,
     pixel_matrix,
     segments_to_pixels,
     transformed,
     viewport,
     window_transform,
-    with_target_as_origin,
-    world_from_frame,
 )
 
 __all__ = [
     "DepthCueing",
     "Device",
-    "Erased",
     "Framebuffer",
     "Frustum",
-    "LineCut",
     "Plane",
     "Position",
-    "RelativePosition",
     "ViewVolume",
-    "basis_of",
     "basis_of_gaze",
     "camera_matrix",
     "changed_coordinates",
     "cleared",
-    "dehomogenized",
     "depth_planes",
     "erasing_edges",
     "euler_curves",
-    "frame_from_world",
     "graph_order",
     "graph_triangles",
     "homogeneous",
@@ -97,8 +83,5 @@ __all__ = [
     "with_lines",
     "with_pixels",
     "with_polygons",
-    "with_rubber_bands",
     "with_smooth_polygons",
-    "with_target_as_origin",
-    "world_from_frame",
 ]

@@ -51,7 +51,7 @@ def euler_curves(surface: Surface, field: TangentField, starts: ArrayLike, lengt
     Notes
     -----
     The error is like the first power of the step: on curves that bend one way it always falls to the same side, and
-    closed ones do not close. Degenerate: at poles there is no step.
+    closed ones do not close. Edge cases: at poles there is no step.
 
     Source: Glaeser, section 9.4, equations 18 and 19, errata G9-13 and G9-14: derivatives are exact here, and the
     length of a step is one on the surface.

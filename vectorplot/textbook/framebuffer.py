@@ -357,7 +357,7 @@ def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: Ar
 
     Notes
     -----
-    Degenerate: a line without length is one pixel.
+    Edge cases: a line without length is one pixel.
 
     Source: Glaeser, section 4.6 (Bresenham); erratum G4-09.
 
@@ -378,37 +378,8 @@ def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: Ar
 def with_rubber_bands(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colour: Colour) -> Framebuffer:
     """The framebuffer with lines drawn by exclusive or: drawn again they vanish, and what was there is back.
 
-    Parameters
-    ----------
-    frame : Framebuffer
-        As it is.
-    start, end : (n, 2 or more) array_like of float
-        Column and row.
-    colour : int or (int, int, int)
-        As the pages hold it.
-
-    Returns
-    -------
-    Framebuffer
-        With a new drawn page.
-
-    Raises
-    ------
-    InputError
-        For what with_lines refuses.
-
-    Notes
-    -----
+    start, end: (n, 2 or more) column and row.
     Source: Glaeser, section 4.6.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import Framebuffer, cleared, with_rubber_bands
-    >>> before = cleared(Framebuffer.of_numbers(6, 3), 12)
-    >>> band = with_rubber_bands(before, [(0, 0)], [(5, 2)], 255)
-    >>> after = with_rubber_bands(band, [(0, 0)], [(5, 2)], 255)
-    >>> bool((band.pages == before.pages).all()), bool((after.pages == before.pages).all())
-    (False, True)
     """
     value = value_of(frame, colour)
     pages = frame.pages.copy()
@@ -710,24 +681,8 @@ def _first(wanted: Bools, starts: Ints) -> Ints:
 class Erased:
     """A sequence of fills in the colour of the paper and of edges, which leaves the lines that one sees.
 
-    Parameters
-    ----------
-    start, end : (3, e) array of float
-        The edges in the image, as of ImageFaces.
-    first : (n+1,) array of int
-        After the polygon k of the painted faces is filled, the edges first[k] to first[k+1] are drawn.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot.geometry import box
-    >>> from vectorplot.scene import look
-    >>> from vectorplot.textbook import erasing_edges
-    >>> from vectorplot.visibility import painters_order
-    >>> view = look(vp.Scene((vp.Item("cube", box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
-    >>> erased = erasing_edges(view, painters_order(view).faces)
-    >>> len(erased), erased.first.tolist()
-    (12, [0, 4, 8, 12])
+    start, end: (3, e) the edges in the image, as of ImageFaces; first: (n+1,) after the polygon k of the painted faces
+    is filled, the edges first[k] to first[k+1] are drawn.
     """
 
     start: Floats

@@ -157,26 +157,10 @@ class Plane:
 class LineCut:
     """Where lines are cut.
 
-    Parameters
-    ----------
-    point : (..., k) array of float
-        In the plane or in space.
-    parameter : (...) array of float
-        How many directions from the line's first point.
-    parallel : (...) array of bool
-        Whether the line is parallel to what should cut it.
-
-    Notes
-    -----
-    Degenerate: a line that lies in what should cut it is cut at its first point, parameter 0; one that never meets it
+    point: (..., k) in the plane or in space; parameter: (...) how many directions from the line's first point;
+    parallel: (...) whether the line is parallel to what should cut it.
+    Edge cases: a line that lies in what should cut it is cut at its first point, parameter 0; one that never meets it
     is cut infinitely far out. Both are flagged parallel.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import line_and_line
-    >>> cut = line_and_line((0, 0), (1, 0), (3, 1), (1, 0))
-    >>> cut.parallel.item(), cut.parameter.item()
-    (True, inf)
     """
 
     point: Floats
@@ -201,7 +185,7 @@ def line_and_plane(start: ArrayLike, direction: ArrayLike, plane: Plane) -> Line
 
     Notes
     -----
-    Degenerate: for lines that are parallel to the plane see LineCut.
+    Edge cases: for lines that are parallel to the plane see LineCut.
 
     Source: Glaeser, section 1.3, equation 16; erratum G1-03.
 
@@ -242,7 +226,7 @@ def line_and_line(a: ArrayLike, d: ArrayLike, b: ArrayLike, e: ArrayLike) -> Lin
     In space the equation is read along d x e, so lines in any plane will do, upright ones too. Of two skew lines it is
     the point of the first that is nearest to the second.
 
-    Degenerate: for parallel lines see LineCut.
+    Edge cases: for parallel lines see LineCut.
 
     Source: Glaeser, section 1.3, equations 17 to 20; erratum G1-01.
 
@@ -301,7 +285,7 @@ def segments(p1: ArrayLike, q1: ArrayLike, p2: ArrayLike, q2: ArrayLike) -> tupl
     -----
     The segments themselves cross where both parameters lie in [0, 1].
 
-    Degenerate: where the lines are parallel, or identical, the flag is False and both parameters are infinite.
+    Edge cases: where the lines are parallel, or identical, the flag is False and both parameters are infinite.
 
     Source: Glaeser, section 1.3 (segments).
 
@@ -344,7 +328,7 @@ def polygons_common_segment(first: ArrayLike, second: ArrayLike) -> tuple[Floats
 
     Notes
     -----
-    Degenerate: none for parallel or coplanar polygons, and for polygons that touch in a single point; an edge of one
+    Edge cases: none for parallel or coplanar polygons, and for polygons that touch in a single point; an edge of one
     that lies in the other counts.
 
     Source: Glaeser, section 1.3, equations 21 and 22; errata G1-01, G1-02, G1-03.

@@ -143,21 +143,8 @@ class Position(Enum):
 class RelativePosition:
     """The position of two outlines, and which of them is nearer.
 
-    Parameters
-    ----------
-    position : Position
-        How the first lies on the second.
-    first_depth, second_depth : float
-        The depths of the first and of the second at one common point of the image, where they differ most of all points
-        looked at; NaN where there is none.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import relative_position
-    >>> low = [(0, 0, 1), (2, 0, 1), (2, 2, 1), (0, 2, 1)]
-    >>> far_off = [(5, 0, 3), (6, 0, 3), (6, 1, 3)]
-    >>> relative_position(low, far_off)
-    RelativePosition(position=<Position.DISJOINT: 'no common inner points'>, first_depth=nan, second_depth=nan)
+    position: how the first lies on the second; first_depth, second_depth: the depths of the first and of the second at
+    one common point of the image, where they differ most of all points looked at.
     """
 
     position: Position
@@ -192,7 +179,7 @@ def in_convex_polygon(points: ArrayLike, polygon: ArrayLike) -> tuple[Bools, Flo
     The chord from the first corner through a point leaves the polygon at a side; what lies on the chord is inside, and
     the depth on it is linear.
 
-    Degenerate: a polygon without area contains nothing.
+    Edge cases: a polygon without area contains nothing.
 
     Source: Glaeser, section 6.2, equations 1 and 2, figure 2; errata G6-05, G6-06.
 
@@ -249,7 +236,7 @@ def relative_position(first: ArrayLike, second: ArrayLike) -> RelativePosition:
     The depths are compared where the borders cross and at corners of one inside the other; of these points that one
     counts where they differ most, so that a difference that rounding could make is told by another.
 
-    Degenerate: outlines that only touch are disjoint; of two in the same place the first lies inside the second.
+    Edge cases: outlines that only touch are disjoint; of two in the same place the first lies inside the second.
 
     Source: Glaeser, section 6.2; errata G5-02, G6-05, G6-06.
 

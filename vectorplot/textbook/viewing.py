@@ -24,30 +24,8 @@ from vectorplot.tolerances import INFINITE, PARALLEL_SINE
 def basis_of(vector: ArrayLike, other: ArrayLike | None = None) -> Floats:
     """An orthonormal right-handed frame of rows u, v, w with w along a vector.
 
-    Parameters
-    ----------
-    vector : (3,) array_like of float
-        Of any length but zero.
-    other : (3,) array_like of float, optional
-        Any vector that is not collinear; u is normal to both. Where None, the axis that encloses the largest angle.
-
-    Returns
-    -------
-    (3, 3) array of float
-        Its rows are unit vectors.
-
-    Raises
-    ------
-    InputError
-        For vectors without length, or collinear ones.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.textbook import basis_of
-    >>> frame = basis_of((1, 2, 2))
-    >>> np.allclose(frame @ frame.T, np.eye(3)), np.allclose(frame[2], (1 / 3, 2 / 3, 2 / 3))
-    (True, True)
+    vector: (3,) of any length but zero; other: (3,) any vector that is not collinear; result: (3, 3) its rows are unit
+    vectors.
     """
     w = normalize(vector)
     t = np.eye(3)[np.argmin(np.abs(w))] if other is None else normalize(other)
@@ -91,28 +69,9 @@ def basis_of_gaze(gaze: ArrayLike, up: ArrayLike) -> Floats:
 def world_from_frame(origin: ArrayLike, basis: ArrayLike) -> Floats:
     """The matrix from coordinates in a frame to the world's: its columns are the basis vectors and the origin.
 
-    Parameters
-    ----------
-    origin : (k,) array_like of float
-        Of the frame, in the world.
-    basis : (k, k) array_like of float
-        Rows u, v (and w).
-
-    Returns
-    -------
-    (k+1, k+1) array of float
-        Acts on homogeneous columns.
-
-    Notes
-    -----
+    origin: (k,) of the frame, in the world; basis: (k, k) rows u, v (and w); result: (k+1, k+1) acts on homogeneous
+    columns.
     Source: lecture; erratum V-01.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import transformed, world_from_frame
-    >>> matrix = world_from_frame((5, 0), [(0, 1), (-1, 0)])
-    >>> transformed(matrix, (2, 0)).tolist()
-    [5.0, 2.0]
     """
     e, rows = np.asarray(origin, dtype=np.float64), np.asarray(basis, dtype=np.float64)
     matrix = np.eye(len(e) + 1)
@@ -123,28 +82,9 @@ def world_from_frame(origin: ArrayLike, basis: ArrayLike) -> Floats:
 def frame_from_world(origin: ArrayLike, basis: ArrayLike) -> Floats:
     """The matrix from the world's coordinates to those in an orthonormal frame.
 
-    Parameters
-    ----------
-    origin : (k,) array_like of float
-        Of the frame, in the world.
-    basis : (k, k) array_like of float
-        Rows u, v (and w).
-
-    Returns
-    -------
-    (k+1, k+1) array of float
-        Acts on homogeneous columns.
-
-    Notes
-    -----
+    origin: (k,) of the frame, in the world; basis: (k, k) rows u, v (and w); result: (k+1, k+1) acts on homogeneous
+    columns.
     Source: lecture; erratum V-02.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import frame_from_world, transformed
-    >>> matrix = frame_from_world((5, 0), [(0, 1), (-1, 0)])
-    >>> transformed(matrix, (5, 2)).tolist()
-    [2.0, 0.0]
     """
     e, rows = np.asarray(origin, dtype=np.float64), np.asarray(basis, dtype=np.float64)
     matrix = np.eye(len(e) + 1)
@@ -194,28 +134,8 @@ def changed_coordinates(points: ArrayLike, source: CoordinateSystem, target: Coo
 def with_target_as_origin(target: ArrayLike, *pools: ArrayLike) -> tuple[Floats, ...]:
     """Pools of points, centres of projection among them, moved so that the target is the origin.
 
-    Parameters
-    ----------
-    target : (3,) array_like of float
-        In the world.
-    pools : (..., 3) array_like of float
-        As many as there are.
-
-    Returns
-    -------
-    tuple of (..., 3) array of float
-        As many.
-
-    Notes
-    -----
+    target: (3,) in the world; pools: (..., 3) as many as there are.
     Source: Glaeser, section 2.4.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import with_target_as_origin
-    >>> vertices, eye = with_target_as_origin((1, 1, 0), [(1, 1, 1), (2, 1, 0)], (1, -9, 0))
-    >>> vertices.tolist(), eye.tolist()
-    ([[0.0, 0.0, 1.0], [1.0, 0.0, 0.0]], [0.0, -10.0, 0.0])
     """
     centre = np.asarray(target, dtype=np.float64)
     return tuple(np.asarray(np.asarray(pool, dtype=np.float64) - centre) for pool in pools)
@@ -343,26 +263,7 @@ def homogeneous(points: ArrayLike) -> Floats:
 def dehomogenized(points: ArrayLike) -> Floats:
     """The points of homogeneous coordinates, which may carry any common factor.
 
-    Parameters
-    ----------
-    points : (..., k+1) array_like of float
-        Homogeneous.
-
-    Returns
-    -------
-    (..., k) array of float
-        Divided by the last component.
-
-    Raises
-    ------
-    InputError
-        For points at infinity (last component 0).
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import dehomogenized
-    >>> dehomogenized([(6, 8, 2)]).tolist()
-    [[3.0, 4.0]]
+    points: (..., k+1) homogeneous; result: (..., k) divided by the last component.
     """
     p = np.asarray(points, dtype=np.float64)
     if np.any(p[..., -1] == 0.0):

@@ -336,7 +336,7 @@ def moving(scene: Scene) -> Moving:
     """The edges of meshes and the lines on smooth surfaces, no more than MOST_SEGMENTS, evenly chosen; the boxes round
     items; the shades of their colours, darkest first.
 
-    Degenerate: nothing for an empty scene.
+    Edge cases: nothing for an empty scene.
     """
     meshes = [item for item in scene.items if isinstance(item.shape, Mesh)]
     others = tuple(item for item in scene.items if not isinstance(item.shape, Mesh))

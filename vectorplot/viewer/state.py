@@ -217,7 +217,7 @@ def first_state(scene: Scene) -> ViewerState:
 
     Notes
     -----
-    Degenerate: where the scene reaches behind the eye, or there is nothing in it, the camera keeps its field of vision.
+    Edge cases: where the scene reaches behind the eye, or there is nothing in it, the camera keeps its field of vision.
 
     Examples
     --------

@@ -50,15 +50,7 @@ def _without_imports(script: str) -> str:
 class ViewerWidget(anywidget.AnyWidget):
     """The page of `vectorplot try` in a notebook; made by `vp.show`.
 
-    Parameters
-    ----------
-    source : Source or Given
-        The scene that is looked at.
-
-    Attributes
-    ----------
-    state : dict
-        The fields of a `ViewerState`, as last seen in the page. What is set is shown.
+    source: the scene that is looked at.
     """
 
     _esm = widget_script()
@@ -71,18 +63,7 @@ class ViewerWidget(anywidget.AnyWidget):
         self.on_msg(self._heard)
 
     def picture(self) -> Drawing | Image:
-        """What is seen, by the verb of its mode.
-
-        Returns
-        -------
-        Drawing or Image
-            Of the scene as it was given, or as its file is, from where it is looked at.
-
-        Raises
-        ------
-        InputError
-            As of the verbs, and for a state that makes no sense.
-        """
+        """What is seen, by the verb of its mode."""
         return picture(ViewerState.of(self.state), self._answers.source.scene(None))
 
     def close(self) -> None:

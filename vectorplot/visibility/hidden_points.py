@@ -29,39 +29,7 @@ other side, for no direction is more than 28 degrees off all of them."""
 def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Floats) -> Ints:
     """(n,) how many items hide each of some points.
 
-    Parameters
-    ----------
-    scene : Scene
-        What may hide them.
-    view : View
-        Of the scene.
-    faces : ProjectedFaces
-        Of the view.
-    points : (3, n) array of float
-        In the view's coordinates, before the near plane.
-
-    Returns
-    -------
-    (n,) array of int
-        0 for visible points.
-
-    Notes
-    -----
-    What touches a point does not hide it, and neither does an item on the border of which it lies in the image, as of
-    lines; edges between faces are no border where the item goes on on both sides: nothing is seen through them. A point
-    that lies no more than 1e-4 of the extent off a surface (NEAR_SURFACE_OF_EXTENT), be it inside of a body, is as
-    visible as the place of the surface that is nearest to it.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> cube = vp.Scene((vp.Item("cube", geometry.box((2, 2, 2))),))
-    >>> view = scene.look(cube, vp.Camera.view("top"))
-    >>> points = view.points_of(np.array([(1, 1, 2), (1, 1, 0)]))
-    >>> visibility.points_hidden_by(cube, view, visibility.project_faces(view), points).tolist()
-    [0, 1]
+    points: (3, n) in the view's coordinates, before the near plane; result: (n,) 0 for visible points.
     """
     hides = _by_items(scene, view, faces, points)
     covered = np.flatnonzero(hides.any(axis=1))

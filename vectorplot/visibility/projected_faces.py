@@ -27,27 +27,8 @@ EVERYWHERE = np.float32(1e30)
 class ProjectedFaces:
     """Faces in the image: which side they show, and the box each one fills.
 
-    Parameters
-    ----------
-    facing : (f,) array of int8
-        1 for a face that shows its outside, -1 its inside, 0 edge-on: then it hides nothing.
-    box : (4, f) array of float32
-        Smallest and largest x, smallest and largest y in the image, rounded outwards.
-    nearest : (f,) array of float32
-        The smallest depth.
-
-    Notes
-    -----
-    A face behind the near plane has an infinite nearest depth, one that reaches through it fills the whole image.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
-    >>> faces = visibility.project_faces(view)
-    >>> isinstance(faces, visibility.ProjectedFaces), len(faces), faces.box.shape
-    (True, 6, (4, 6))
+    facing: (f,) 1 for a face that shows its outside, -1 its inside, 0 edge-on: then it hides nothing; box: (4, f)
+    smallest and largest x, smallest and largest y in the image, rounded outwards; nearest: (f,) the smallest depth.
     """
 
     facing: Bytes

@@ -8,19 +8,20 @@ from hypothesis.extra import numpy as arrays
 from support.paths import DATA
 
 import vectorplot as vp
-from vectorplot.animation import (
+from vectorplot.animation import packed
+from vectorplot.animation.movies import (
     Movie,
     MovieFrame,
     MoviePalette,
+    coloured_polygons,
     decoded,
     encoded,
     frame_drawings,
     movie_of,
-    packed,
+    pruned,
     read_movie,
     unpacked,
 )
-from vectorplot.animation.movies import coloured_polygons, pruned
 from vectorplot.backends.cairo import drawing_pixels
 from vectorplot.backends.raster import painted
 from vectorplot.drawing import Fills

@@ -11,7 +11,7 @@ import shapely
 from ezdxf.path import make_path
 
 import vectorplot as vp
-from vectorplot.backends import dxf_bytes
+from vectorplot.backends.dxf import dxf_bytes
 from vectorplot.surfaces import Sphere
 
 

@@ -9,8 +9,8 @@ import pytest
 from PIL import Image
 
 import vectorplot as vp
-from vectorplot.backends import tikz_bytes
 from vectorplot.backends.cairo import drawing_pixels
+from vectorplot.backends.tikz import tikz_bytes
 from vectorplot.errors import InputError
 
 DOCUMENT = (

@@ -15,10 +15,10 @@ from vectorplot.curves import (
     BSpline,
     CubicSpline,
     InterpolatingSpline,
-    SplineCurve,
     nurbs_curve,
     spline_curve,
 )
+from vectorplot.curves.splines import SplineCurve
 from vectorplot.errors import InputError
 
 ORDINATES = np.array([0, 1, 1.5, 4, 4.2, 5.0])

@@ -14,6 +14,7 @@ import vectorplot as vp
 from vectorplot import features
 from vectorplot.backends.cairo import png_bytes
 from vectorplot.drawing.hatching import _farthest_first, place_ranks
+from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
 from vectorplot.geometry import box
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.pictures.fills import field_of
@@ -180,7 +181,7 @@ def test_terrains_are_hatched_as_water_runs_and_what_has_no_lines_along_the_page
 def test_many_lines_that_run_together_are_compared_with_few():
     x, y = np.meshgrid(np.linspace(0, 6, 19), np.linspace(0, 4, 13), indexing="ij")
     land = terrain_mesh(terrain(0.5 * np.abs(y - 2.0) + 0.2 * x, x=(0, 6), y=(0, 4)))
-    curves = features.evenly_spaced_mesh_curves(land, features.SteepestSlope(), 0.12)
+    curves = evenly_spaced_mesh_curves(land, features.SteepestSlope(), 0.12)
     middle = np.array([curves[k][len(curves[k]) // 2] for k in range(len(curves))])
     assert len(curves) > 30
     assert (np.abs(middle[:, 1] - 2.0) < 1e-9).sum() <= 2, "water in a valley is one line"

@@ -6,14 +6,17 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.curves import Circle, CutCurve, Helix, Line
-from vectorplot.curves.cut_curve import parts_outside
+from vectorplot.curves import Circle, Helix, Line
+from vectorplot.curves.cut_curve import CutCurve, parts_outside
 from vectorplot.effects import cut_scene
 from vectorplot.errors import InputError
 from vectorplot.features import polygonized
-from vectorplot.geometry import HalfSpaces, box
-from vectorplot.io import parse_scene, scene_of, write_scene
-from vectorplot.surfaces import CutImplicit, ImplicitTorus, Torus, implicit_sphere
+from vectorplot.geometry import box
+from vectorplot.geometry.mesh_cuts import HalfSpaces
+from vectorplot.io import parse_scene, scene_of
+from vectorplot.io.scene_writer import write_scene
+from vectorplot.surfaces import ImplicitTorus, Torus, implicit_sphere
+from vectorplot.surfaces.implicit import CutImplicit
 from vectorplot.testing import assert_drawing_is_right
 
 CAMERA = vp.Camera((7.0, -11.0, 6.0), (0.0, 0.0, 0.0))

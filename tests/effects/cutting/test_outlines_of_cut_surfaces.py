@@ -10,8 +10,10 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot import features, surfaces
+from vectorplot.features.contours_and_isophotes import parallel_contour
 from vectorplot.features.parameter_curves import domain_borders
-from vectorplot.geometry import HalfSpaces
+from vectorplot.geometry.mesh_cuts import HalfSpaces
+from vectorplot.surfaces.trimmed import CutSurface
 
 FAMILIES = {
     "sphere": "sphere radius 2",
@@ -69,11 +71,11 @@ def test_contours_of_notched_balls_are_as_long_as_in_closed_form(parallel):
         normals /= np.linalg.norm(normals, axis=1)[:, None]
         offsets = random.uniform(-0.6, 0.6, 2)
         region = HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(offsets.tolist()))
-        ball = surfaces.CutSurface(surfaces.Sphere(1.0), (region,))
+        ball = CutSurface(surfaces.Sphere(1.0), (region,))
         eye = random.normal(size=3)
         eye *= random.uniform(1.5, 6.0) / np.linalg.norm(eye)
         near = 0.0 if parallel else 1.0 / np.linalg.norm(eye)
-        found = features.parallel_contour(ball, eye) if parallel else features.contour(ball, eye)
+        found = parallel_contour(ball, eye) if parallel else features.contour(ball, eye)
         assert np.isfinite(found.points).all()
         total = 0.0
         for start, end, closed in zip(found.offsets[:-1], found.offsets[1:], found.closed, strict=True):
@@ -103,7 +105,7 @@ def test_rims_of_notched_cylinders_are_as_long_as_in_closed_form():
         place = rims[1][int(random.integers(len(angle)))]
         offsets = normals @ place - random.uniform(0.0005, 0.05, 2) if number % 2 else random.uniform(-1.0, 1.0, 2)
         region = HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(offsets.tolist()))
-        found = domain_borders(surfaces.CutSurface(surfaces.Cylinder(1.0, 0.0, 1.0), (region,)), features.Tracing())
+        found = domain_borders(CutSurface(surfaces.Cylinder(1.0, 0.0, 1.0), (region,)), features.Tracing())
         total = 0.0
         for start, end, closed in zip(found.offsets[:-1], found.offsets[1:], found.closed, strict=True):
             points = found.points[[*range(start, end), *([start] if closed else [])]]

@@ -15,7 +15,8 @@ from vectorplot.effects.scales import COLOUR_MAPS, axis_numbers, coloured, map_c
 from vectorplot.errors import InputError
 from vectorplot.geometry import box as solid_box
 from vectorplot.geometry import ragged
-from vectorplot.io import parse_scene, write_scene
+from vectorplot.io import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import BoxAxes, Colouring, terrain_scene
 from vectorplot.surfaces import Sphere
 

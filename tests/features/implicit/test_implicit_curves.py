@@ -16,7 +16,6 @@ from vectorplot.features.implicit_curves import (
     implicit_plane_sections,
     implicit_point_light_isophotes,
 )
-from vectorplot.features.implicit_cusps import implicit_contour_cusps, implicit_parallel_contour_cusps
 from vectorplot.features.implicit_meshes import implicit_mesh
 from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.surfaces.implicit import implicit_of_function
@@ -246,45 +245,6 @@ def test_borders_lie_on_the_sides_of_the_box_and_meet_at_its_edges():
     corner = np.abs(rim.points) == 2.0
     assert corner.any(axis=1).all() and (corner.sum(axis=1) == 2).sum() == 2 * len(rim)
     assert not rim.closed.any() and total > 8.0
-
-
-def test_apparent_contour_of_the_torus_has_four_cusps_in_closed_form():
-    # The image is the curve at distance 1 from an ellipse with semi-axes 3 and 3 cos(tilt): it has cusps where that
-    # ellipse has the radius of curvature 1.
-    tilt = 1.2
-    d = np.array([0.0, np.sin(tilt), np.cos(tilt)])
-    surface = ImplicitTorus(3.0, 1.0)
-    curves = implicit_parallel_contour(surface, d)
-    cusps, after = implicit_parallel_contour_cusps(surface, d, curves)
-    a, b = 3.0, 3.0 * np.cos(tilt)
-    # (a^2 sin^2 + b^2 cos^2)^(3/2) = a b.
-    square = ((a * b) ** (2 / 3) - b * b) / (a * a - b * b)
-    angle = np.arcsin(np.sqrt(square))
-    expected = []
-    for sx in (1, -1):
-        for sy in (1, -1):
-            c, s = sx * np.cos(angle), sy * np.sin(angle)
-            inward = -np.array([b * c, a * s]) / np.hypot(b * c, a * s)
-            expected.append(np.array([a * c, b * s]) + inward)
-    up = np.cross(d, (1.0, 0, 0))
-    image = np.stack([cusps[:, 0], cusps @ up], axis=1)
-    assert len(cusps) == 4
-    assert all(np.linalg.norm(image - e, axis=1).min() < 1e-10 for e in np.array(expected))
-    # Each lies on the chord that begins at the point it is said to be behind, but for what chords are off the curve.
-    begin, end = curves.points[after], curves.points[after + 1]
-    on_chord = np.linalg.norm(cusps - begin, axis=1) + np.linalg.norm(end - cusps, axis=1)
-    assert on_chord == pytest.approx(np.linalg.norm(end - begin, axis=1), rel=1e-2)
-
-
-@pytest.mark.slow
-def test_cusps_for_a_central_eye_are_those_of_both_equations_and_a_sphere_has_none():
-    eye = np.array([6.0, 0.5, 2.0])
-    one, two = ImplicitTorus(3, 1), ImplicitTorusByDistance(3, 1)
-    cusps = [implicit_contour_cusps(s, eye, implicit_contour(s, eye))[0] for s in (one, two)]
-    assert len(cusps[0]) == len(cusps[1]) == 4
-    assert all(np.linalg.norm(cusps[1] - c, axis=1).min() < 1e-10 for c in cusps[0])
-    ball = implicit_sphere(1.0)
-    assert len(implicit_contour_cusps(ball, eye, implicit_contour(ball, eye))[0]) == 0
 
 
 @pytest.mark.slow

@@ -9,11 +9,10 @@ from vectorplot.curves import Loxodrome
 from vectorplot.errors import InputError
 from vectorplot.features import Accuracy, Sites, Tracing, geodesics, integral_curves
 from vectorplot.features.tangent_fields import principal
-from vectorplot.geometry import HalfSpaces
+from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.scene import FieldLines
 from vectorplot.surfaces import (
     Cone,
-    CutSurface,
     Cylinder,
     Domain,
     Ellipsoid,
@@ -25,6 +24,7 @@ from vectorplot.surfaces import (
     graph,
     helicoid_to_catenoid,
 )
+from vectorplot.surfaces.trimmed import CutSurface
 from vectorplot.testing import assert_geodesic, assert_integral_curve
 
 FINE, COARSE = Tracing(tolerance=1e-3), Tracing(tolerance=0.05)

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features import Accuracy, IsophoteDirections, Sites, Tracing, face_sites, integral_curves
+from vectorplot.features import Accuracy, Sites, Tracing, face_sites, integral_curves
+from vectorplot.features.tangent_fields import IsophoteDirections
 from vectorplot.geometry import box
 from vectorplot.surfaces import Domain, Sphere, Torus, graph
 from vectorplot.testing import assert_integral_curve

@@ -8,6 +8,9 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot import curves, features, surfaces
+from vectorplot.features.conditions import CentralContour, ParallelContour
+from vectorplot.features.contours_and_isophotes import parallel_contour
+from vectorplot.features.cusps import contour_with_cusps
 from vectorplot.features.holes import wrapped
 from vectorplot.features.pinch_points import pinch_points
 from vectorplot.surfaces.stacked import unit_normals
@@ -49,9 +52,9 @@ BESIDE = 0.01
 
 def wrong_part(surface, eye, parallel):
     """The part of a contour, with its cusps, along which the surface does not turn away; and its length."""
-    condition = (features.ParallelContour if parallel else features.CentralContour)(surface, eye)
-    found = (features.parallel_contour if parallel else features.contour)(surface, eye)
-    found, _ = features.contour_with_cusps(condition, found)
+    condition = (ParallelContour if parallel else CentralContour)(surface, eye)
+    found = (parallel_contour if parallel else features.contour)(surface, eye)
+    found, _ = contour_with_cusps(condition, found)
     wrong = total = 0.0
     share = (np.arange(8) + 0.5) / 8.0
     for start, end in zip(found.offsets[:-1], found.offsets[1:], strict=True):
@@ -134,7 +137,7 @@ def changed(surface, swap, u_scale, v_scale):
 
 
 def found_contour(surface, eye, parallel):
-    return (features.parallel_contour if parallel else features.contour)(surface, np.array(eye) * (1, 3)[not parallel])
+    return (parallel_contour if parallel else features.contour)(surface, np.array(eye) * (1, 3)[not parallel])
 
 
 def ends_inside(surface, found):

@@ -10,7 +10,7 @@ import vectorplot as vp
 from vectorplot import features
 from vectorplot.errors import InputError
 from vectorplot.features.terrain_serpentines import draped
-from vectorplot.features.terrain_water import Ground
+from vectorplot.features.terrain_water import Ground, places_on_terrain
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import Serpentine
@@ -75,7 +75,7 @@ def test_roads_lie_on_the_terrain_keep_their_slope_between_bends_and_come_to_the
     _, _, start, end, _ = CASES[name]
     assert 0.8 * SLOPE <= road.levels[0] <= SLOPE
     assert np.allclose(road[0][[0, -1], :2], [start, end], rtol=0, atol=1e-12)
-    on = features.places_on_terrain(mesh, road[0][:, :2])[1]
+    on = places_on_terrain(mesh, road[0][:, :2])[1]
     assert np.abs(on - road[0]).max() < 1e-9
     lengths = np.linalg.norm(np.diff(road[0], axis=0), axis=1)
     assert lengths[keeps].sum() > 0.6 * lengths.sum()
@@ -185,11 +185,11 @@ def test_lines_of_the_plan_are_laid_on_every_triangle_they_cross():
     mesh = land(gaussian, 9)
     plan = np.array([[-3.2, -2.9], [0.3, 1.4], [3.1, -0.7]])
     points, faces = draped(Ground(mesh), plan)
-    on = features.places_on_terrain(mesh, points[:, :2])[1]
+    on = places_on_terrain(mesh, points[:, :2])[1]
     assert np.allclose(on, points, rtol=0, atol=1e-12)
     # Between two points the terrain is straight.
     middles = 0.5 * (points[:-1] + points[1:])
-    assert np.allclose(features.places_on_terrain(mesh, middles[:, :2])[1], middles, rtol=0, atol=1e-12)
+    assert np.allclose(places_on_terrain(mesh, middles[:, :2])[1], middles, rtol=0, atol=1e-12)
     assert (np.diff(faces) != 0).sum() >= len(points) - 3
     assert Ground(mesh).below(np.array([[9.0, 0.0]]))[0].tolist() == [-1]
 

@@ -6,6 +6,7 @@ import pytest
 import vectorplot as vp
 from vectorplot import features
 from vectorplot.errors import InputError
+from vectorplot.features.terrain_water import places_on_terrain
 from vectorplot.geometry.rotations import rotation_z
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
@@ -127,7 +128,7 @@ def test_labels_stand_on_straight_parts_and_apart():
     left = np.cross([0, 0, 1], found.directions)
     for point, way, height in zip(found.points, left, found.heights, strict=True):
         inside = np.abs(point[:2] + 0.1 * way[:2]).max() < 4
-        assert not inside or features.places_on_terrain(mesh, point[:2] + 0.1 * way[:2])[1][0, 2] > height
+        assert not inside or places_on_terrain(mesh, point[:2] + 0.1 * way[:2])[1][0, 2] > height
     ring = features.mesh_level_lines(land(cone), [3.9])
     assert len(features.label_places(ring, length=0.5, apart=1.0).heights) == 0
 

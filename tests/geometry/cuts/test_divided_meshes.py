@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 
 from vectorplot.features import mesh_of_grid
-from vectorplot.geometry import HalfSpaces, Mesh, box
+from vectorplot.geometry import Mesh, box
 from vectorplot.geometry.mesh_cuts import (
+    HalfSpaces,
     PlaneFrame,
     divided_mesh,
     mesh_of_regions,

@@ -7,7 +7,8 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.geometry import rotation_z
-from vectorplot.io import parse_scene, write_scene
+from vectorplot.io import parse_scene
+from vectorplot.io.scene_writer import write_scene
 
 TETRAHEDRON = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n"
 TREE = "TRUNK orange box 1 1 3\nCROWN green surface sphere 2 translation 0.5 0.5 5\nlight SUN position 0 0 9"

@@ -7,8 +7,11 @@ import pytest
 import vectorplot as vp
 from vectorplot.drawing.pens import STYLES
 from vectorplot.errors import InputError
-from vectorplot.io import parse_scene, read_scene, write_scene
-from vectorplot.scene import Explosion, PenOverrides
+from vectorplot.io import parse_scene
+from vectorplot.io.scene_language import read_scene
+from vectorplot.io.scene_writer import write_scene
+from vectorplot.scene.cuts import Explosion
+from vectorplot.scene.pens import PenOverrides
 from vectorplot.words import STYLE_WORDS, WIRE_STYLES
 
 DIE = "DIE red box solid 2 2 2"

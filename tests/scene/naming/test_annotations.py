@@ -11,6 +11,7 @@ import shapely
 import vectorplot as vp
 from vectorplot import io
 from vectorplot.geometry import box
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.annotations import label_anchors
 
 CUBE = vp.Item("CUBE", box((2, 2, 2)))
@@ -64,7 +65,7 @@ def test_arrowheads_point_on_and_ticks_stand_across() -> None:
 
 def test_scene_files_keep_them() -> None:
     scene = io.scene_of([CUBE, vp.axes(4, ticks=2), vp.angle((0, 0, 2), (1, 0, 2), (0, 1, 2), 0.5)])
-    again = io.parse_scene(io.write_scene(scene))
+    again = io.parse_scene(write_scene(scene))
     assert again.labels == scene.labels and [i.lines for i in again.items] == [i.lines for i in scene.items]
 
 

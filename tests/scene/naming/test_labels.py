@@ -9,6 +9,7 @@ import vectorplot as vp
 from vectorplot import io
 from vectorplot.curves import Circle
 from vectorplot.geometry import box
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.annotations import label_anchors
 from vectorplot.scene.labels import capital_height
 from vectorplot.surfaces import Sphere
@@ -50,7 +51,7 @@ def test_scene_files_say_the_same_as_python() -> None:
         vp.Label("T", vp.OnPage(10.0, 20.0), size_mm=2.0, mark="dot"),
         vp.Label("e", vp.OnCurve("RING", 0.5), mark="tick"),
     )
-    again = io.parse_scene(io.write_scene(scene))
+    again = io.parse_scene(write_scene(scene))
     assert again.labels == scene.labels
 
 

@@ -11,7 +11,8 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry import box
-from vectorplot.io import parse_scene, write_scene
+from vectorplot.io import parse_scene
+from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import look
 from vectorplot.shading import face_shades, palette, view_lights
 from vectorplot.shading.illumination import DIRECT_SHARE

@@ -7,7 +7,8 @@ from hypothesis import strategies as st
 
 from vectorplot.geometry.camera import Camera, PixelWindow
 from vectorplot.geometry.projections import CoordinateSystem
-from vectorplot.textbook import changed_coordinates, with_target_as_origin
+from vectorplot.textbook import changed_coordinates
+from vectorplot.textbook.viewing import with_target_as_origin
 
 EYE, TARGET = (10.0, 5.0, 7.0), (1.0, 2.0, -1.0)
 BOOK = Camera(eye=EYE, target=TARGET, twist_deg=np.degrees(0.3))

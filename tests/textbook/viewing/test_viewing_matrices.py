@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot import textbook as vw
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera, PixelWindow
 from vectorplot.geometry.projections import CoordinateSystem
+from vectorplot.textbook import viewing as vw
 from vectorplot.textbook.viewing import ViewVolume
 
 EYE, GAZE, UP, P = (3, 2, 6), (-1, -0.5, -2), (0, 1, 0), (0.5, 0.25, -1)

@@ -2,50 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import click
 
+from vectorplot.cli.commands import draw, paint, render
 from vectorplot.cli.many import (
     FPS,
     FRAME_FORMAT,
     FRAMES_OUT,
-    WORKER_OPTIONS,
     WorkerOptions,
     check_out,
     is_sequence,
     write_frames,
 )
-from vectorplot.cli.option_values import chosen, pixels
+from vectorplot.cli.option_values import chosen
 from vectorplot.cli.options import (
-    BACKGROUND,
-    BUDGET,
-    CAMERA_OPTIONS,
-    CUT_OPTIONS,
-    DEPTH_CUE,
-    EXPLAIN,
-    EXPOSURE,
-    FACE_OPTIONS,
-    FRAME,
-    HALO,
-    HATCHING_OPTIONS,
-    JOBS,
-    LAYERS,
-    LIGHTS,
-    LINE_OPTIONS,
-    PAGE_OPTIONS,
-    QUIET,
-    STROKE_OPTIONS,
-    TITLE,
-    TOLERANCE,
-    CameraOptions,
-    CutOptions,
-    LineOptions,
-    PageOptions,
+    Told,
     camera_from,
     crease_angle_option,
-    hatching_from,
     lines_option,
     page_from,
     shadows_option,
@@ -59,16 +36,8 @@ if TYPE_CHECKING:
 
 MODE_WORDS = ("wire", "lines", "shading", "shadows", "erasing", "pixels")
 
-_LINES = ("lines", "crease_angle_deg", "style", "pens", "dashes", "depth_cue", "background")
-
-_HATCH = ("hatch", "spacing", "angle", "cross", "along", "stipple", "hatch_width")
-
-VERBS = {
-    "draw": {*_LINES, "hidden", "halo_mm", *_HATCH, "layers", "tolerance_mm", "title"},
-    "paint": {*_LINES, "lights", "exposure", "shadows", "aura_mm", "palette", "flat", "tolerance_mm", "title"},
-    "render": {*_LINES, "lights", "exposure", "shadows"},
-}
-"""The options that go with each verb, beside those for camera, page, lines on all that is shown, cuts and work."""
+VERBS = {"draw": draw, "paint": paint, "render": render}
+"""What makes frames: the options of its command, and what they are to its function."""
 
 
 @click.command(short_help="Make the frames of a moving scene.", context_settings={"show_default": True})
@@ -85,31 +54,9 @@ VERBS = {
     click.option("--frames", type=click.IntRange(1), metavar="N", help="How many.  [default: that of the animation]"),
     FPS,
     FRAME_FORMAT,
-    *CAMERA_OPTIONS,
-    *PAGE_OPTIONS,
-    click.option("--size", type=pixels, default="800x600", metavar="WxH", help="Columns and rows of pixels."),
     lines_option("Kinds of lines", default=None, note="  [default: as of the verbs]"),
     crease_angle_option("Sharper edges are creases."),
-    *STROKE_OPTIONS,
-    HALO,
-    *HATCHING_OPTIONS,
-    LAYERS,
-    LIGHTS,
-    EXPOSURE,
-    shadows_option(("auto", "none"), "Whether lights cast shadows."),
-    *FACE_OPTIONS,
-    DEPTH_CUE,
-    BACKGROUND,
-    TOLERANCE,
-    TITLE,
-    FRAME,
-    *LINE_OPTIONS,
-    *CUT_OPTIONS,
-    BUDGET,
-    JOBS,
-    *WORKER_OPTIONS,
-    EXPLAIN,
-    QUIET,
+    shadows_option(render.SHADOWS, "Whether lights cast shadows, and how pixels find them."),
 )
 def animate(
     data_file: str,
@@ -128,9 +75,10 @@ def animate(
     to OUT, or record them as a movie of polygons.
 
     SCENE is looked for in the current folder and in the folder data, with and without .scene; the animation in the
-    current folder and in the folder anim, with and without .anim. One fit holds for the whole film. Camera options
-    replace the fields of the camera in the scene file one by one, before it moves; sections and levels are of the scene
-    at rest and move with its items, and cuts stand still.
+    current folder and in the folder anim, with and without .anim. One fit holds for the whole film. Options are those
+    of the verb that makes the frames: draw (modes wire and lines), paint (shading, shadows and erasing) or render
+    (pixels). Camera options replace the fields of the camera in the scene file one by one, before it moves; sections
+    and levels are of the scene at rest and move with its items, and cuts stand still.
     """
     from vectorplot.animation.animation import MODES
     from vectorplot.animation.animation_file import read_animation
@@ -148,12 +96,15 @@ def animate(
         raise click.UsageError("--workers and --cluster make frames into a folder alone: give -o FOLDER/, no -v")
     if workers.given and explain:
         raise click.UsageError("--explain is of work in this process: it does not go with --workers and --cluster")
-    camera, page = CameraOptions.of(told), PageOptions.of(told)
+    if told["text"] == "latex":
+        raise click.UsageError("--text latex is of one picture")
+    asked = Told.of(told)
+    assert asked.page is not None
     reports: list[StageReport] = []
     with reported_warnings(quiet=quiet), progress_bar(quiet=quiet) as progress:
-        added, cuts = LineOptions.of(told), CutOptions.of(told)
-        scene, kinds = added.in_scene(cuts.of_scene(added.with_materials(read(found(data_file)))))
-        scene = replace(scene, camera=camera_from(camera, scene), page=page_from(page, scene))
+        cut = asked.cuts.of_scene(asked.added.with_materials(read(found(data_file))))
+        scene, kinds = asked.added.in_scene(cut)
+        scene = replace(scene, camera=camera_from(asked.camera, scene), page=page_from(asked.page, scene))
         moving = read_animation(animation_file(animation), scene)
         moving = replace(
             moving,
@@ -161,7 +112,7 @@ def animate(
             fps=chosen(fps, moving.fps),
             mode=chosen(mode, moving.mode),
         )
-        options = _of_verb(MODES[moving.mode].verb, told)
+        options = _of_verb(MODES[moving.mode].verb, asked.rest)
         # Workers are as many as there is room for: threads of theirs would only be in each other's way.
         options["jobs"] = told["jobs"] or (1 if workers.given else None)
         if "lines" in options:
@@ -169,9 +120,7 @@ def animate(
         if explain:
             options["explain"] = reports.append
         with located(scene):
-            film = film_of(
-                moving, width=told["width"], size=told["size"], fit=told["fit"], progress=progress, **options
-            )
+            film = film_of(moving, width=told["width"], size=told["size"], progress=progress, **options)
             if not sequence:
                 write_frames(film, len(film), frames_out, video, film.fps, frame_format, progress)
     if sequence and frames_out is not None:
@@ -183,23 +132,24 @@ def animate(
         click.echo(table(summed(reports)), err=True)
 
 
-def _of_verb(verb: str, told: dict[str, Any]) -> dict[str, Any]:
-    """The options of the verb that makes frames. Bad usage for others that were given."""
+NOT_OF_FRAMES = {"scene_file", "out", "format_", "exaggeration", "panorama", "strips"}
+"""Parameters of the verbs that frames have not."""
+
+KNOWN = {verb: {str(option.name): option for option in getattr(made, verb).params} for verb, made in VERBS.items()}
+"""The parameters of each verb, by their names."""
+
+_own = {option.name for option in animate.params}
+_of_verbs = {name: option for options in KNOWN.values() for name, option in options.items()}
+animate.params += [option for name, option in _of_verbs.items() if name not in _own | NOT_OF_FRAMES]
+
+
+def _of_verb(verb: str, told: Mapping[str, Any]) -> dict[str, Any]:
+    """The keywords of the verb that makes frames. Bad usage for options of others that were given."""
     context = click.get_current_context()
-    known, every = VERBS[verb], set().union(*VERBS.values())
-    for name in sorted(every - known):
-        if context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE:
-            option = next(param for param in context.command.params if param.name == name).opts[0]
-            raise click.UsageError(f"{option} does not go with frames that the verb {verb} makes")
-    given = {name: told[name] for name in known if told[name] is not None}
-    if verb == "draw":
-        hatch, given = hatching_from({**dict.fromkeys(_HATCH), **given})
-        given = {**given, "hatch": hatch}
-    if verb == "paint":
-        given["smooth"] = not given.pop("flat")
-    own = {name: told[name] for name in ("budget", "jobs")}
-    if verb != "render":
-        own["frame"] = told["frame"]
-    elif "lines" not in given:
-        given["lines"] = ()
-    return {**given, **own}
+    for name, option in _of_verbs.items():
+        given = context.get_parameter_source(name) is click.core.ParameterSource.COMMANDLINE
+        if given and name not in KNOWN[verb]:
+            raise click.UsageError(f"{option.opts[0]} does not go with frames that the verb {verb} makes")
+    known = {name: value for name, value in told.items() if name in KNOWN[verb] and name not in ("size", "width")}
+    found = {name: value for name, value in VERBS[verb].keywords(known).items() if value is not None}
+    return found if verb == "draw" else {"lines": (), **found}

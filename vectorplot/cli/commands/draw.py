@@ -87,13 +87,20 @@ def draw(scene: Scene, **told: Any) -> Drawing:
     """
     from vectorplot.pictures.draw import draw as draw_scene
 
-    hatch, rest = hatching_from(told)
+    rest = keywords(told)
     standing, strips = rest.pop("panorama"), rest.pop("strips")
     if standing is not None:
-        return _all_round(scene, standing, strips, hatch is not None, rest)
+        hatched = rest.pop("hatch") is not None
+        return _all_round(scene, standing, strips, hatched, rest)
     if strips is not None:
         raise click.UsageError("--strips goes with --panorama")
-    return draw_scene(scene, hatch=hatch, **rest)
+    return draw_scene(scene, **rest)
+
+
+def keywords(told: dict[str, Any]) -> dict[str, Any]:
+    """What the options of the command are to the function. Bad usage as of hatching_from."""
+    hatch, rest = hatching_from(told)
+    return {**rest, "hatch": hatch}
 
 
 def _all_round(

@@ -54,7 +54,7 @@ if TYPE_CHECKING:
     FRAME,
     TEXT,
 )
-def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:
+def paint(scene: Scene, **told: Any) -> Drawing:
     """Paint INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain
     (asc, xyz), and write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
@@ -62,4 +62,10 @@ def paint(scene: Scene, *, flat: bool, **told: Any) -> Drawing:
     """
     from vectorplot.pictures.paint import paint as paint_scene
 
-    return paint_scene(scene, smooth=not flat, **told)
+    return paint_scene(scene, **keywords(told))
+
+
+def keywords(told: dict[str, Any]) -> dict[str, Any]:
+    """What the options of the command are to the function."""
+    rest = dict(told)
+    return {"smooth": not rest.pop("flat"), **rest}

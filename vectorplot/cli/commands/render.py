@@ -73,7 +73,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     DEPTH_CUE,
     BACKGROUND,
 )
-def render(scene: Scene, *, shadow_bits: str, **told: Any) -> Image:
+def render(scene: Scene, **told: Any) -> Image:
     """Render INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain
     (asc, xyz), as a PNG picture OUT.
 
@@ -81,4 +81,9 @@ def render(scene: Scene, *, shadow_bits: str, **told: Any) -> Image:
     """
     from vectorplot.pictures.render import render as render_scene
 
-    return render_scene(scene, shadow_bits=int(shadow_bits), **told)
+    return render_scene(scene, **keywords(told))
+
+
+def keywords(told: dict[str, Any]) -> dict[str, Any]:
+    """What the options of the command are to the function."""
+    return {**told, "shadow_bits": int(told["shadow_bits"])}

@@ -447,7 +447,7 @@ def cut_into_slices(points: ArrayLike, offsets: Ints, axis: int, levels: ArrayLi
     Notes
     -----
     All polygons are halved at once, so that the price grows with the pieces and the logarithm of the levels.
-    Degenerate: a polygon in one of the planes lies in the slice above it.
+    Edge cases: a polygon in one of the planes lies in the slice above it.
 
     Source: Glaeser, section 5.4, figure 6 (horizontal slices).
 
@@ -588,7 +588,7 @@ def in_slices(view: View, faces: ImageFaces, planes: Section) -> Slices:
     """Faces of a view cut by planes of the world.
 
     The planes of the pieces are those of the faces, to the last digit; corners within the tolerance of the view of a
-    plane lie on it. Degenerate: pieces narrower than the tolerance
+    plane lie on it. Edge cases: pieces narrower than the tolerance
     of the view are left out; a face in one of the planes lies in the slice above it.
     Source: Glaeser, section 5.3.
     """

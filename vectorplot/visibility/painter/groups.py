@@ -42,31 +42,8 @@ from vectorplot.visibility.projected_faces import project_faces
 class Objects:
     """Items, or groups of them, as an eye or a lamp sees them.
 
-    Parameters
-    ----------
-    view : View
-        As of scene.look.
-    faces : ImageFaces
-        Those drawn.
-    owner : (n,) array of int
-        The object of each face, -1 for none.
-    box : (6, k) array of float
-        Smallest and largest x, y and height of each object in the image; inside out where nothing of it is drawn.
-    around : Surroundings
-        Boxes and spheres in the view.
-
-    Notes
-    -----
-    Made by view_objects.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
-    >>> objects = visibility.view_objects(view)
-    >>> isinstance(objects, visibility.Objects), len(objects), objects.owner.tolist()
-    (True, 1, [0, 0, 0])
+    view: as of scene.look; faces: those drawn; owner: (n,) the object of each face, -1 for none; box: (6, k) smallest
+    and largest x, y and height of each object in the image; around: boxes and spheres in the view.
     """
 
     view: View
@@ -264,30 +241,8 @@ def demands(table: Codes) -> tuple[Ints, Ints]:
 def wholly_hidden(objects: Objects) -> Bools:
     """The objects of which nothing is seen, since one convex body in front of them covers them: they need not be drawn.
 
-    Parameters
-    ----------
-    objects : Objects
-        As of view_objects.
-
-    Returns
-    -------
-    (k,) array of bool
-        True where the outline of the object lies inside that of one closed convex item in front of it. Objects of which
-        nothing is drawn anyway count as hidden.
-
-    Notes
-    -----
+    result: (k,) true where the outline of the object lies inside that of one closed convex item in front of it.
     Source: Glaeser, section 5.5, case 3; errata G5-02, G6-05.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> behind = geometry.box((1, 1, 1), placement=(1, 0, 0, -3, 0, 1, 0, 1, 0, 0, 1, 1))
-    >>> items = (vp.Item("wall", geometry.box((1, 4, 4))), vp.Item("cube", behind))
-    >>> view = scene.look(vp.Scene(items), vp.Camera((20, 2, 2), target=(0, 2, 2)))
-    >>> visibility.wholly_hidden(visibility.view_objects(view)).tolist()
-    [False, True]
     """
     view, faces, count = objects.view, objects.faces, len(objects)
     corner_owner = np.repeat(objects.owner, np.diff(faces.offsets))
@@ -330,24 +285,8 @@ def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
 class ObjectOrder:
     """An order of whole objects, and the knots that have none.
 
-    Parameters
-    ----------
-    order : (n,) array of int
-        Objects back to front.
-    knots : tuple of arrays of int
-        The objects that lie on one another in circles, circle by circle.
-    critical : bool
-        Whether the second, slower pass was needed.
-    undone : tuple of int
-        Groups that had to be taken apart.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import visibility
-    >>> found = visibility.grouped_order(3, before=np.array([2]), after=np.array([0]), group=np.array([-1, -1, -1]))
-    >>> isinstance(found, visibility.ObjectOrder), found.knots
-    (True, ())
+    order: (n,) objects back to front; knots: the objects that lie on one another in circles, circle by circle;
+    critical: whether the second, slower pass was needed; undone: groups that had to be taken apart.
     """
 
     order: Ints
@@ -517,33 +456,8 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
 def group_ranks(count: int, before: Ints, after: Ints, owner: Ints) -> tuple[Ints, tuple[int, ...]]:
     """The ranks of groups among each other, and of what belongs to none.
 
-    Parameters
-    ----------
-    count : int
-        How many things there are: 0 to count - 1.
-    before, after : (d,) array of int
-        before[k] has to be drawn before after[k].
-    owner : (count,) array of int
-        The group of each thing, -1 for none.
-
-    Returns
-    -------
-    ranks : (count,) array of int
-        Of each thing; equal for what is in one group or lies in a circle.
-    undone : tuple of int
-        The groups that were taken apart, as in grouped_order.
-
-    Notes
-    -----
+    before, after: (d,) before[k] has to be drawn before after[k]; owner: (count,) the group of each thing, -1 for none.
     Source: Glaeser, section 5.7.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import visibility
-    >>> ranks, undone = visibility.group_ranks(3, np.array([2]), np.array([0]), owner=np.array([0, 0, -1]))
-    >>> ranks.tolist(), undone
-    ([1, 1, 0], ())
     """
     undone: set[int] = set()
     while True:

@@ -26,34 +26,11 @@ from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
 class ImageFaces:
     """Convex polygons in the image, after the projective map that makes all sight lines parallel.
 
-    Parameters
-    ----------
-    points : (3, c) array of float
-        x and y in the image plane, and the height above it, which grows towards the eye; counter-clockwise.
-    offsets : (n+1,) array of int
-        Polygon i has the points offsets[i] to offsets[i+1].
-    planes : (5, n) array of float
-        x, y and height of a point of each plane and its two slopes.
-    source : (n,) array of int
-        The face of the view each polygon is (a part of).
-    rank : (n,) array of int
-        The order in which faces that lie in one plane are drawn.
-    bulges : (12, n) array of float, optional
-        How far the surfaces in whose place they are bulge over them, as of with_bulges.
-
-    Notes
-    -----
-    Planes stay planes, and every face is a convex polygon over its image. Made by image_faces.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
-    >>> faces = visibility.image_faces(view, np.arange(6))
-    >>> len(faces), faces.take(np.array([0, 1])).offsets.tolist()
-    (6, [0, 4, 8])
+    points: (3, c) x and y in the image plane, and the height above it, which grows towards the eye; offsets: (n+1,)
+    polygon i has the points offsets[i] to offsets[i+1]; planes: (5, n) x, y and height of a point of each plane and its
+    two slopes; source: (n,) the face of the view each polygon is (a part of); rank: (n,) the order in which faces that
+    lie in one plane are drawn; bulges: (12, n) how far the surfaces in whose place they are bulge over them, as of
+    with_bulges.
     """
 
     points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)

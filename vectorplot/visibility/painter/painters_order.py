@@ -52,32 +52,11 @@ LEVELS = 12
 class Painted:
     """Polygons in the painter's order, back to front.
 
-    Parameters
-    ----------
-    faces : ImageFaces
-        Their points are places in the image and heights above it; their source is the face of the view that each one is
-        or is a part of.
-    uncut : int
-        How many there were before the cutting.
-    knots : (i,) array of int
-        The items that pierce one another, or lie on one another in circles.
-    undone : tuple of int
-        Groups that could not stay together.
-    ribbons : mapping of int to int
-        How many ribbons the items have that are painted slice by slice.
-    guessed : (k,) array of int
-        The items parts of which are in order by their heights alone: that they pierce one another took too many cuts.
-    crowded : (k,) array of int
-        The items whose faces overlap in too many pairs; they, and what they overlap, are in order by depth alone.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), vp.Camera((5, 4, 3)))
-    >>> painted = visibility.painters_order(view)
-    >>> isinstance(painted, visibility.Painted), len(painted), painted.uncut
-    (True, 3, 3)
+    faces: their points are places in the image and heights above it; uncut: how many there were before the cutting;
+    knots: (i,) the items that pierce one another, or lie on one another in circles; undone: groups that could not stay
+    together; ribbons: how many ribbons the items have that are painted slice by slice; guessed: (k,) the items parts of
+    which are in order by their heights alone: that they pierce one another took too many cuts; crowded: (k,) the items
+    whose faces overlap in too many pairs.
     """
 
     faces: ImageFaces
@@ -143,7 +122,7 @@ def painters_order(
     Convex bodies are compared as wholes; only where they pierce one another, or lie on one another in circles, their
     faces are, and cut where there is no other way. Faces whose images do not overlap may stand in any order; of faces
     that overlap in one plane the larger one comes first. Nothing depends on the order of the items, except which of two
-    faces in the same place is seen. Degenerate: faces seen edge-on are left out.
+    faces in the same place is seen. Edge cases: faces seen edge-on are left out.
 
     Source: Glaeser, sections 5.1 and 5.5 to 5.7; Newell, Newell and Sancha (1972).
 

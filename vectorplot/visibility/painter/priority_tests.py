@@ -25,32 +25,9 @@ from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces, ne
 class Bodies:
     """Convex bodies with their outlines in the image.
 
-    Parameters
-    ----------
-    item : (b,) array of int
-        Which item of the view each is.
-    corners : (2, c) array of float
-        Of the outlines.
-    offsets : (b+1,) array of int
-        Body k has the outline offsets[k] to offsets[k+1].
-    shown : (s,) array of int
-        Image faces that bodies show.
-    first : (b+1,) array of int
-        Body k shows the image faces shown[first[k]] to shown[first[k+1]].
-    sphere : (4, b) array of float
-        Centres and radii of spheres around them in the view.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import visibility
-    >>> from vectorplot.geometry import box
-    >>> from vectorplot.scene import look
-    >>> view = look(vp.Scene((vp.Item("cube", box((2, 2, 2))),)), vp.Camera((6, 5, 4)))
-    >>> bodies = visibility.convex_bodies(view, visibility.painters_order(view).faces, np.array([0]))
-    >>> len(bodies), bodies.offsets.tolist(), bodies.first.tolist()
-    (1, [0, 6], [0, 3])
+    item: (b,) which item of the view each is; corners: (2, c) of the outlines; offsets: (b+1,) body k has the outline
+    offsets[k] to offsets[k+1]; shown: (s,) image faces that bodies show; first: (b+1,) body k shows the image faces
+    shown[first[k]] to shown[first[k+1]]; sphere: (4, b) centres and radii of spheres around them in the view.
     """
 
     item: Ints

@@ -18,21 +18,8 @@ from vectorplot.visibility.painter.image_faces import ImageFaces
 class TopologicalSort:
     """An order of things, and what has none.
 
-    Parameters
-    ----------
-    order : (n,) array of int
-        What is drawn, back to front.
-    knot : (k,) array of int
-        What lies on one another in circles, and what lies between such circles, in ascending order: the things that
-        could not be taken off from either side. They stand in the middle of the order, without promise.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import visibility
-    >>> found = visibility.topological_order(4, before=np.array([0, 1, 2]), after=np.array([1, 2, 1]))
-    >>> found.order.tolist(), found.knot.tolist()
-    ([0, 3, 1, 2], [1, 2])
+    order: (n,) what is drawn, back to front; knot: (k,) what lies on one another in circles, and what lies between such
+    circles, in ascending order: the things that could not be taken off from either side.
     """
 
     order: Ints
@@ -146,29 +133,8 @@ def component_ranks(count: int, before: Ints, after: Ints) -> Ints:
 class Precedence:
     """What is known of the order of one item's faces: of two that overlap in the image, which comes first.
 
-    Parameters
-    ----------
-    face : (n,) array of int
-        Faces of the item, by their numbers in the view, each one once, and -1 for gaps, which hide nothing but pass on
-        what comes before what. The item's other faces are compared with all.
-    before, after : (k,) array of int
-        Positions in face: before[k] has to be drawn before after[k].
-
-    Notes
-    -----
-    Faces that no chain of demands links, or that make circles, do not overlap or have to be compared.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import scene, visibility
-    >>> corners = [(x, y, z) for z in (0, 1, 2) for x, y in ((0, 0), (4, 0), (4, 4), (0, 4))]
-    >>> cards = vp.Mesh.from_polygons(corners, [(8, 9, 10, 11), (0, 1, 2, 3), (4, 5, 6, 7)])
-    >>> view = scene.look(vp.Scene((vp.Item("cards", cards),)), vp.Camera((2, 2, 9)))
-    >>> upwards = visibility.Precedence.of_order(np.array([1, 2, 0]))
-    >>> visibility.painters_order(view, known={0: upwards}).faces.source.tolist()
-    [1, 2, 0]
+    face: (n,) faces of the item, by their numbers in the view, each one once, and -1 for gaps, which hide nothing but
+    pass on what comes before what; before, after: (k,) positions in face: before[k] has to be drawn before after[k].
     """
 
     face: Ints

@@ -89,7 +89,7 @@ def coverage(region: Any, polygon: Ints, below: Ints, grid: float) -> tuple[Ints
 
     region (n,): of shapely, all of one plane; polygon, below (k,): pairs of numbers of regions, the second of which
     covers something of the first; grid: corners that are no farther apart are one, and so far a side may reach into a
-    polygon without crossing it. Degenerate: of polygons that are not convex it is only said that they may be covered in
+    polygon without crossing it. Edge cases: of polygons that are not convex it is only said that they may be covered in
     part.
     """
     number, of = np.unique(polygon, return_inverse=True)
@@ -244,7 +244,7 @@ def in_sheets(
     that do not overlap, of one item, or of several that are equally transparent, which are in conflict. Polygons are
     cut where parts of them belong to different sheets. Opaque ones stand as they stood, as far as that allows. width:
     what overlaps by less lies side by side. most: corners of what lies behind others that are looked at.
-    Degenerate: without transparent polygons they are the same.
+    Edge cases: without transparent polygons they are the same.
     """
     clear = np.flatnonzero(item >= 0)
     if not len(clear):

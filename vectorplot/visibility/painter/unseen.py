@@ -31,7 +31,7 @@ def unseen_faces(view: View, projected: ProjectedFaces, asked: Bools, cut: Bools
     on one side only in the image; so a face none of whose sides is seen, and over which no such side is seen, is not
     seen either. That holds for faces that nothing pierces.
     cut (f,): the faces that the painter had to cut; where they are, something may pierce another, and all is seen.
-    Degenerate: nothing is unseen where faces reach through the near plane, or where so many lie on each other that
+    Edge cases: nothing is unseen where faces reach through the near plane, or where so many lie on each other that
     finding out costs more than the budget's pairs; a face along the border of what covers it is seen.
     Source: Glaeser, section 7.2 (visibility changes only at contours).
     """

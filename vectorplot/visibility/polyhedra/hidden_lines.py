@@ -426,26 +426,8 @@ Progress = Callable[[float], None]
 class Visibility:
     """Parts of segments, and by how many items each is hidden.
 
-    Parameters
-    ----------
-    segment : (k,) array of int
-        The segment each is a part of, ascending.
-    low, high : (k,) array of float
-        From which parameter of the segment to which, 0 to 1; ascending along each segment.
-    hidden_by : (k,) array of int
-        By how many items each part is hidden, 0 for visible ones.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> view = scene.look(vp.Scene((vp.Item("wall", geometry.box((1, 2, 2))),)), vp.Camera((9, 1, 1), target=(0, 1, 1)))
-    >>> faces = visibility.project_faces(view)
-    >>> line = visibility.Segments(*(view.points_of(np.array([(2.0, y, 1.0)])) for y in (0.0, 2.0)))
-    >>> parts = visibility.visible_parts(view, faces, visibility.solid_items(view, faces), line, lambda share: None)
-    >>> isinstance(parts, visibility.Visibility), len(parts), parts.hidden_by.tolist()  # in front of the wall
-    (True, 1, [0])
+    segment: (k,) the segment each is a part of, ascending; low, high: (k,) from which parameter of the segment to
+    which, 0 to 1; hidden_by: (k,) by how many items each part is hidden, 0 for visible ones.
     """
 
     segment: Ints
@@ -549,40 +531,8 @@ def counted_parts(
 ) -> Visibility:
     """All parts of straight segments, with the number of items that hide each.
 
-    Parameters
-    ----------
-    view : View
-        As of scene.look.
-    faces : ProjectedFaces
-        As of project_faces.
-    solid : (i,) array of bool
-        As of solid_items: the items that hide as convex solids.
-    segments : Segments
-        In the view's coordinates.
-    progress : callable
-        progress(share) is called while it works.
-
-    Returns
-    -------
-    Visibility
-        An item that hides itself counts once. The visible parts are those of visible_parts.
-
-    Notes
-    -----
+    solid: (i,) as of solid_items: the items that hide as convex solids.
     Source: Glaeser, section 7.2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> camera = vp.Camera((9, 1, 1), target=(0, 1, 1), parallel=True)
-    >>> view = scene.look(vp.Scene((vp.Item("wall", geometry.box((1, 2, 2))),)), camera)
-    >>> faces = visibility.project_faces(view)
-    >>> line = visibility.Segments(*(view.points_of(np.array([(-3.0, y, 1.0)])) for y in (-1.0, 3.0)))
-    >>> parts = visibility.counted_parts(view, faces, visibility.solid_items(view, faces), line, lambda share: None)
-    >>> parts.low.round(9).tolist(), parts.hidden_by.tolist()
-    ([0.0, 0.25, 0.75], [0, 1, 0])
     """
     gap = _gaps(view, segments)
     if not len(segments):
@@ -611,18 +561,6 @@ def counted_parts(
 def tried_pairs(view: View, faces: ProjectedFaces, solid: Bools, segments: Segments) -> int:
     """How many pairs of a piece of a segment and an occluder in one cell of the image visible_parts may try: what its
     work grows with, found in the time that it takes to sort them into cells.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> from vectorplot.visibility.polyhedra.hidden_lines import tried_pairs
-    >>> view = scene.look(vp.Scene((vp.Item("wall", geometry.box((1, 2, 2))),)), vp.Camera((9, 1, 1), target=(0, 1, 1)))
-    >>> faces = visibility.project_faces(view)
-    >>> line = visibility.Segments(*(view.points_of(np.array([(-2.0, y, 1.0)])) for y in (0.5, 1.5)))
-    >>> tried_pairs(view, faces, visibility.solid_items(view, faces), line) > 0
-    True
     """
     if not len(segments):
         return 0

@@ -51,41 +51,11 @@ if TYPE_CHECKING:
 class Lines:
     """Straight lines in the view's coordinates.
 
-    Parameters
-    ----------
-    start, end : (3, n) array of float
-        Their ends.
-    kind : (n,) array of int
-        LineKind values.
-    item : (n,) array of int
-        Of which item each is a line.
-    side : (n,) array of int
-        1 or -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other
-        lines; and for outlines of which only `sides` tells it.
-    smooth : (n,) array of bool
-        A chord of a smooth curve, both of its ends on it.
-    behind : (n,) array of int
-        How many smooth surfaces hide all of it.
-    aside : (3, n) array of float
-        How far from it the line lies that is hidden where it is: contours across faces are seen as what is just outside
-        of these faces is. Zero for most lines.
-    chords : ChordParts, optional
-        Which parts of smooth curves they are, if some are.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import visibility
-    >>> from vectorplot.scene import look
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> scene = vp.Scene((vp.Item("triangle", triangle),))
-    >>> view = look(scene, vp.Camera.view("top"))
-    >>> wanted = frozenset({vp.LineKind.BOUNDARY})
-    >>> faces = visibility.project_faces(view)
-    >>> lines = visibility.edge_lines(scene, view, faces, wanted, 25.0, np.zeros(1, dtype=bool))
-    >>> len(lines), lines.take(np.array([0])).item.tolist()
-    (3, [0])
+    start, end: (3, n) their ends; kind: (n,) lineKind values; item: (n,) of which item each is a line; side: (n,) 1 or
+    -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other lines;
+    smooth: (n,) A chord of a smooth curve, both of its ends on it; behind: (n,) how many smooth surfaces hide all of
+    it; aside: (3, n) how far from it the line lies that is hidden where it is: contours across faces are seen as what
+    is just outside of these faces is; chords: which parts of smooth curves they are, if some are.
     """
 
     start: Floats = field(metadata=IN_COLUMNS)
@@ -104,15 +74,7 @@ class Lines:
     def take(self, which: Ints | Bools) -> Lines:
         """Some of the lines, in the order asked for.
 
-        Parameters
-        ----------
-        which : (k,) array of int, or (n,) array of bool
-            Their numbers, or whether each is wanted.
-
-        Returns
-        -------
-        Lines
-            With all that is said of them.
+        which: (k,) their numbers, or whether each is wanted.
         """
         if which.dtype == np.bool_:
             which = np.flatnonzero(which)
@@ -131,37 +93,14 @@ class Lines:
     def sides(self, view: View) -> Ints:
         """The sides of all outlines, as of side, those of smooth surfaces too.
 
-        Parameters
-        ----------
-        view : View
-            What the lines are lines of.
-
-        Returns
-        -------
-        (n,) array of int
-            1, -1 or 0.
+        result: (n,) 1, -1 or 0.
         """
         return self.side + self.chords.sides(view) if self.chords else self.side
 
     def ends(self, view: View, which: Ints, low: Floats, high: Floats) -> tuple[Floats, Floats]:
         """Both ends of parts of lines.
 
-        Parameters
-        ----------
-        view : View
-            What the lines are lines of.
-        which : (k,) array of int
-            Of which line each is a part.
-        low, high : (k,) array of float
-            From where to where, 0 to 1.
-
-        Returns
-        -------
-        (3, k) array of float
-            The first ends. Where a part goes on to an end of its line it is exactly that; inside of a chord it is on
-            the curve.
-        (3, k) array of float
-            The second ends.
+        which: (k,) of which line each is a part; low, high: (k,) from where to where, 0 to 1.
         """
         start, end = _divided(self.start.take(which, axis=1), self.end.take(which, axis=1), low, high)
         if self.chords:
@@ -169,18 +108,7 @@ class Lines:
         return start, end
 
     def cut(self, view: View, which: Ints, low: Floats, high: Floats) -> Lines:
-        """Parts of lines as lines.
-
-        Parameters
-        ----------
-        view, which, low, high : View and array
-            As of ends.
-
-        Returns
-        -------
-        Lines
-            k of them.
-        """
+        """Parts of lines as lines."""
         some = self.take(which)
         start, end = _divided(some.start, some.end, low, high)
         if not some.chords:

@@ -64,7 +64,7 @@ def are_homothetic(balls: Balls, one: Ints, two: Ints) -> tuple[Bools, Floats]:
 def balls_with_balls(balls: Balls, one: Ints, two: Ints, wants: Bools) -> Found:
     """The circles of pairs of balls that are_homothetic; wants (n,): the balls that want them.
 
-    A circle belongs to the item, of those that want it, that comes first in the scene. Degenerate: balls that touch, or
+    A circle belongs to the item, of those that want it, that comes first in the scene. Edge cases: balls that touch, or
     are one, have none.
     """
     kept = (wants[one] | wants[two]) & (balls.same[one] != balls.same[two])
@@ -91,7 +91,7 @@ def balls_with_balls(balls: Balls, one: Ints, two: Ints, wants: Bools) -> Found:
 def balls_with_faces(view: View, balls: Balls, wants: Bools) -> Found:
     """The arcs in which balls meet the faces of polyhedra; wants (i,): the items that want them.
 
-    An arc belongs to the item, of those that want it, that comes first in the scene. Degenerate: a face that a ball
+    An arc belongs to the item, of those that want it, that comes first in the scene. Edge cases: a face that a ball
     touches has none.
     """
     sight = balls.sight
@@ -182,7 +182,7 @@ class Convex:
 def are_apart(one: Convex, other: Convex, guesses: Iterator[Floats], tolerance: float) -> Bools:
     """(k,) which pairs of bodies have a plane between them, or one that both touch.
 
-    guesses: normals (k,3) of planes that may be such. Degenerate: bodies that touch in a plane that is not among the
+    guesses: normals (k,3) of planes that may be such. Edge cases: bodies that touch in a plane that is not among the
     guesses, or are nearer to each other than about a thousandth of their size, may not be found to be apart.
     Source: Gilbert, Johnson and Keerthi, a fast procedure for computing the distance between complex objects; of it the
     step along a line, which needs the points farthest in a direction only.
@@ -342,7 +342,7 @@ def circles_on_one_axis(bodies: Bodies, ball: Ints, capped: Ints, wants: Bools) 
     """The circles in which balls and capped bodies (k,) that are on_one_axis meet; wants (n,): the bodies that want
     them.
 
-    A circle belongs to the item, of those that want it, that comes first in the scene. Degenerate: what touches has
+    A circle belongs to the item, of those that want it, that comes first in the scene. Edge cases: what touches has
     none.
     """
     square, linear, constant = _along_axis(bodies, ball, capped)

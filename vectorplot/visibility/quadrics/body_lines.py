@@ -409,7 +409,7 @@ class _Planes:
 def capped_sections(view: View, bodies: CappedBodies, before: int, items: Sequence[Item], wants: Wants) -> list[Found]:
     """The sections and index lines that items with capped bodies ask for.
 
-    Degenerate: planes that touch a body, or in which a cap lies, have no line in common with it.
+    Edge cases: planes that touch a body, or in which a cap lies, have no line in common with it.
     """
     found = []
     for kind in (LineKind.SECTION, LineKind.INDEX):

@@ -359,7 +359,7 @@ def parts_inside(
     angle.
 
     circles: middles and conjugate radii (n,3); forms (p,4) of unit gradient, negative outside, each for a circle (p,).
-    Parts below ten tolerances are left out. Degenerate: what is not finite cuts nothing.
+    Parts below ten tolerances are left out. Edge cases: what is not finite cuts nothing.
     """
     middle, first, second = circles
     # Outside of the plane where base + reach cos(t - turn) < 0.

@@ -279,7 +279,7 @@ def chords_across(discs: Discs, quadrics: Quadrics) -> Discs:
 def cap_meetings(one: Discs, two: Discs, tolerance: float) -> tuple[Floats, Floats, Bools]:
     """Start and end (k,3) of what caps in the same rows have in common, and whether it is anything.
 
-    Degenerate: caps in one plane, but for the tolerance, have no line in common.
+    Edge cases: caps in one plane, but for the tolerance, have no line in common.
     """
     n, m = one.normal, two.normal
     way = cross(n, m)
@@ -335,7 +335,7 @@ def zeros_of(values: Values, low: Floats, high: Floats, goes_round: bool, touchi
     """The zeros of functions (k,) from low to high (k,).
 
     goes_round: after high follows what follows low. touching: the part of the largest absolute value below which an
-    extremum counts as zero. Functions with no finite values have no zeros. Degenerate: of two zeros beyond two samples
+    extremum counts as zero. Functions with no finite values have no zeros. Edge cases: of two zeros beyond two samples
     nearer than these, two extrema between, none is seen; a function that is zero all over has zeros anywhere.
     """
     count = len(low)
@@ -459,14 +459,6 @@ def ruled_meetings(
     that have lines in common, or touch along them, or nearly do.
 
     Chords deviate from the curves by no more than the tolerance, measured in the picture, or in space.
-
-    Notes
-    -----
-    A line meets a quadric where a v^2 + 2 b v + c = 0. Both meetings are one where b^2 - a c = 0; a curve begins or
-    ends at a border of one of both. These places, zeros of trigonometric polynomials, are found first; between them
-    each of both meetings is on both surfaces everywhere or nowhere, as one of them is in the middle. Degenerate: what
-    is nearer than ONE_BREAK_OF_DOMAIN is one place.
-
     Source: Levin, Mathematical models for determining the intersections of quadric surfaces (1979).
     """
     open_ = _left_open(ruled, quadrics)
@@ -817,7 +809,7 @@ class QuadricsMeet:
 
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords: in the plane across the chord to where both quadrics are, by Newton's
-        method. Degenerate: where they touch, the chord."""
+        method. Edge cases: where they touch, the chord."""
         start, end = chords.points
         way = end - start
         base, size = start + part[:, None] * way, np.sqrt(dot(way, way))

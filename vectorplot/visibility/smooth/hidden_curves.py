@@ -412,7 +412,7 @@ def _on_chords(curves: Curves, chord: Ints, part: Floats) -> Floats:
 def without_short_runs(view: View, curves: Curves, pieces: Pieces, hidden_by: Ints, shortest: float) -> Ints:
     """(p,) the same numbers; runs shorter than this in the image have that of the nearest longer one on their curve.
 
-    Degenerate: a curve that has only short runs stays as it is.
+    Edge cases: a curve that has only short runs stays as it is.
     """
     if not len(pieces):
         return hidden_by

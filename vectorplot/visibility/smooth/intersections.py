@@ -132,7 +132,7 @@ def near_sheets(points: Sequence[Floats]) -> list[tuple[int, int]]:
     """The pairs of sheets, each once and in order, that their hulls do not separate; points (k,3): of the tessellation
     of each, NaN in holes.
 
-    Degenerate: a sheet without points is near none.
+    Edge cases: a sheet without points is near none.
     """
     finite = [own[all_finite(own)] for own in points]
     known = np.flatnonzero([len(own) > 0 for own in finite])

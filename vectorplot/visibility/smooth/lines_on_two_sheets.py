@@ -80,7 +80,7 @@ def with_second_sheets(curves: Curves, borders: Curves, sheets: Sheets) -> Curve
     """The curves; those that lie on a double curve, or on a border, of sheets that hide, all along, know the second
     sheet.
 
-    borders: the edges of sheets, those that are no borders among them. Degenerate: a line that lies on a second sheet
+    borders: the edges of sheets, those that are no borders among them. Edge cases: a line that lies on a second sheet
     in part, and one whose second place jumps, stays as it is.
     """
     families = [isinstance(f, ParameterCurves | ConditionCurves) and f.second == NONE for f in curves.families]

@@ -456,7 +456,7 @@ def parametric_sheets(
 ) -> list[ParametricSheet]:
     """The sheets of surfaces that are given in the view's coordinates, made together as far as these are alike.
 
-    Degenerate: triangles beneath which a surface jumps are left out; those with a corner in a hole end at its rim.
+    Edge cases: triangles beneath which a surface jumps are left out; those with a corner in a hole end at its rim.
     """
     sheets: dict[int, ParametricSheet] = {}
     for part in stacks(surfaces, (FEWEST + 1) ** 2):
@@ -709,7 +709,7 @@ class ImplicitSheet:
 def implicit_sheet(view: View, surface: ImplicitSurface, item: int, hides: bool) -> ImplicitSheet:
     """The sheet of a surface in the world as a view sees it.
 
-    Errors: as for `polygonized`. Degenerate: F of one sign gives a sheet without triangles.
+    Errors: as for `polygonized`. Edge cases: F of one sign gives a sheet without triangles.
     """
     placed = placed_in_view(view, surface)
     cells = FEWEST_IMPLICIT

@@ -97,7 +97,7 @@ class Curves:
     def at(self, chord: Ints, part: Floats) -> Along:
         """The curves between two of their points: at the part (k,) of the chords that begin at the points chord (k,).
 
-        A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord. Degenerate: over a hole
+        A part a little below 0 or above 1 lies on the curve too, beyond the ends of the chord. Edge cases: over a hole
         of its surface, which may reach between two points of a curve, it is its chord.
         """
         return _between(self.families, self.chords_from(chord), self.family[self.owner[chord]], part)

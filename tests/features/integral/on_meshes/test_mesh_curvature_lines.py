@@ -8,9 +8,11 @@ from support.paths import MODELS
 import vectorplot as vp
 from vectorplot import Mesh, features, geometry
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.features import AsymptoticDirections, PrincipalDirections, mesh_integral_curves
-from vectorplot.features.mesh_integration import FaceFieldFlow, mesh_sides
+from vectorplot.features import AsymptoticDirections, PrincipalDirections
+from vectorplot.features.mesh_integration import FaceFieldFlow, mesh_integral_curves, mesh_sides
 from vectorplot.features.mesh_lines import face_triangles
+from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
+from vectorplot.features.surface_points import FaceSites
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_integral_curve
@@ -144,7 +146,7 @@ def test_straight_lines_of_a_tube_are_of_both_sorts_and_its_lids_have_none():
     for field in (PrincipalDirections(1), PrincipalDirections(2), AsymptoticDirections(1)):
         known = np.isfinite(field.tangents(features.face_sites(can))[0]).all(axis=1)
         assert known[:-2].all() and not known[-2:].any()
-    lines = features.evenly_spaced_mesh_curves(can, AsymptoticDirections(2), 0.4)
+    lines = evenly_spaced_mesh_curves(can, AsymptoticDirections(2), 0.4)
     assert len(lines) >= 14
     assert all(np.ptp(line, axis=0)[:2].max() < 0.01 for line in (lines[k] for k in range(len(lines))))
 
@@ -179,7 +181,7 @@ def test_a_plate_says_that_it_has_none_in_files_and_hatched():
 @pytest.mark.capability("G9.4-polyhedron")
 def test_evenly_spaced_ones_follow_their_field_and_end_after_a_round():
     mesh = ring_mesh(16)
-    found = features.evenly_spaced_mesh_curves(mesh, PrincipalDirections(2), 0.5)
+    found = evenly_spaced_mesh_curves(mesh, PrincipalDirections(2), 0.5)
     lines = [found[k] for k in range(len(found))]
     assert_integral_curve(lines, mesh, PrincipalDirections(2), 1e-6)
     # Around the tube, and no line more than once.
@@ -246,7 +248,7 @@ def test_senseless_fields_are_told():
     with pytest.raises(InputError, match="a crease angle of 200 degrees"):
         mesh_integral_curves(CUBE, PrincipalDirections(), 0, crease_angle_deg=200.0)
     with pytest.raises(InputError, match="planes of faces do not say how a mesh bends"):
-        PrincipalDirections().tangents(features.FaceSites(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])))
+        PrincipalDirections().tangents(FaceSites(np.zeros((1, 3)), np.array([[0.0, 0.0, 1.0]])))
 
 
 @pytest.mark.slow
@@ -258,7 +260,7 @@ def test_models_have_lines_on_what_bends_and_none_on_what_is_flat(name):
         pytest.skip("no models")
     mesh = vp.read(path).items[0].mesh
     extent = np.ptp(mesh.bounds, axis=0).max()
-    lines = features.evenly_spaced_mesh_curves(mesh, PrincipalDirections(1), 0.05 * extent)
+    lines = evenly_spaced_mesh_curves(mesh, PrincipalDirections(1), 0.05 * extent)
     assert len(lines) > 40
     # The one is round but for what its coarse faces leave open, the other is made of planes and of what is rolled.
     known = np.isfinite(PrincipalDirections(1).tangents(features.face_sites(mesh))[0]).all(axis=1)

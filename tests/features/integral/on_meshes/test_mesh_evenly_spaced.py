@@ -6,7 +6,7 @@ from scipy.spatial import cKDTree
 
 from vectorplot import Mesh, features
 from vectorplot.errors import InputError
-from vectorplot.features.mesh_streamlines import _away
+from vectorplot.features.mesh_streamlines import _away, evenly_spaced_mesh_curves
 from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_integral_curve
 from vectorplot.testing.shapes import box
@@ -29,7 +29,7 @@ def test_they_follow_the_field_keep_apart_and_leave_no_wide_gaps(scale, offset):
     ball = features.polygonized(implicit_sphere(1.0), 10)
     ball = Mesh(ball.vertices * scale + offset, ball.corners, ball.offsets)
     field, apart = features.TurnedField(features.SteepestSlope(), 1.2), 0.3 * scale
-    found = features.evenly_spaced_mesh_curves(ball, field, apart)
+    found = evenly_spaced_mesh_curves(ball, field, apart)
     assert len(found) > 5
     if offset == 0.0:
         assert_integral_curve([found[k] for k in range(len(found))], ball, field, 1e-7)
@@ -44,7 +44,7 @@ def test_they_follow_the_field_keep_apart_and_leave_no_wide_gaps(scale, offset):
 
 @pytest.mark.capability("G9.4-polyhedron")
 def test_large_faces_are_covered_and_lines_without_end_are_not_too_many():
-    found = features.evenly_spaced_mesh_curves(CUBE, features.SteepestSlope(), 0.2)
+    found = evenly_spaced_mesh_curves(CUBE, features.SteepestSlope(), 0.2)
     upright = [found[k].round(12) for k in range(len(found))]
     assert all(np.array_equal(np.ptp(line, axis=0), (0.0, 0.0, 2.0)) for line in upright)
     for axis in (0, 1):
@@ -57,13 +57,13 @@ def test_large_faces_are_covered_and_lines_without_end_are_not_too_many():
 def test_mistakes_about_them_are_told():
     slope = features.SteepestSlope()
     for call, cause in (
-        (lambda: features.evenly_spaced_mesh_curves(CUBE, slope, 0.0), "distance"),
-        (lambda: features.evenly_spaced_mesh_curves(CUBE, slope, 1e-3), "expected 0.004 or more"),
-        (lambda: features.evenly_spaced_mesh_curves(CUBE, features.loxodromes(1.0), 0.1), "only surfaces with param"),
+        (lambda: evenly_spaced_mesh_curves(CUBE, slope, 0.0), "distance"),
+        (lambda: evenly_spaced_mesh_curves(CUBE, slope, 1e-3), "expected 0.004 or more"),
+        (lambda: evenly_spaced_mesh_curves(CUBE, features.loxodromes(1.0), 0.1), "only surfaces with param"),
     ):
         with pytest.raises(InputError, match=cause):
             call()
-    assert len(features.evenly_spaced_mesh_curves(Mesh.from_polygons(CUBE.vertices, []), slope, 0.1)) == 0
+    assert len(evenly_spaced_mesh_curves(Mesh.from_polygons(CUBE.vertices, []), slope, 0.1)) == 0
 
 
 @pytest.mark.slow
@@ -75,7 +75,7 @@ def test_every_part_of_a_mesh_of_many_is_covered_with_one_even_family_a_face():
         (CUBE.corners + count * np.arange(len(away))[:, None]).ravel(),
         np.append((CUBE.offsets[:-1] + len(CUBE.corners) * np.arange(len(away))[:, None]).ravel(), len(away) * 24),
     )
-    found = features.evenly_spaced_mesh_curves(town, features.SteepestSlope(), 0.2)
+    found = evenly_spaced_mesh_curves(town, features.SteepestSlope(), 0.2)
     walls = np.flatnonzero(np.abs(town.face_normals[:, 2]) < 0.5)
     lines = np.bincount(found.faces[found.offsets[:-1]], minlength=town.face_count)[walls]
     assert lines.min() >= 9 and lines.max() <= 11
