@@ -13,6 +13,7 @@ from support.paths import DATA, ROOT
 import vectorplot as vp
 from vectorplot.animation.animation import MODES
 from vectorplot.animation.movies import frame_drawings, read_movie
+from vectorplot.cli.commands.animate import KNOWN, NOT_OF_FRAMES, animate
 from vectorplot.cli.main import run
 from vectorplot.save import write
 
@@ -87,6 +88,32 @@ def test_options_mean_what_they_mean_to_the_verbs(workplace):
     assert len(list(Path("c").glob("*.png"))) == 3
 
 
+def test_frames_have_every_option_of_the_verbs_that_make_them(workplace):
+    own = {option.name for option in animate.params}
+    assert len(own) > 60 and all(set(options) - NOT_OF_FRAMES <= own for options in KNOWN.values())
+    fine = [
+        "--thin-ends",
+        "--curves",
+        "polyline",
+        "--longest",
+        "20",
+        "--text",
+        "real",
+        "--title",
+        "Die",
+        "--frames",
+        "1",
+    ]
+    assert run(["animate", "die", "-a", "turn", "-o", "a.svg", "--title", "Die", *fine]) == 0
+    assert "<text" in Path("a.svg").read_text(encoding="utf-8")
+    seen = ["--mode", "shading", "--fills", "visible", "--frames", "1", "-o"]
+    for more in ([], ["--sections", "z,2"]):
+        assert run(["animate", "die", "-a", "turn", *seen, "b.svg" if more else "c.svg", *more]) == 0
+    assert "section" in Path("b.svg").read_text(encoding="utf-8") and "section" not in Path("c.svg").read_text("utf-8")
+    small = ["--mode", "pixels", "--size", "20x15", "--samples", "1", "--shadows", "exact", "--frames", "1"]
+    assert run(["animate", "die", "-a", "turn", "-o", "d/", *small]) == 0
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("arguments", "status", "cause"),
@@ -99,12 +126,18 @@ def test_options_mean_what_they_mean_to_the_verbs(workplace):
         (["animate", "die", "-a", "turn", "-o", "no/a.pdf"], 1, "no: No such file or directory"),
         (["animate", "die", "-a", "turn", "-o", "a.pdf", "--format", "svg"], 2, "--format is that of single frames"),
         (["animate", "die", "-a", "turn", "-o", "a.pdf", "--mode", "shadows", "--hidden", "solid"], 2, "--hidden does"),
+        (
+            ["animate", "die", "-a", "turn", "-o", "a.pdf", "--samples", "2"],
+            2,
+            "--samples does not go with frames that",
+        ),
+        (["animate", "die", "-a", "turn", "-o", "a.pdf", "--text", "latex"], 2, "--text latex is of one picture"),
         (["animate", "die", "-a", "turn", "-o", "a.pdf", "--fps", "0"], 1, "0 frames a second"),
         (["animate", "die", "-a", "turn", "-v", "a", "--mode", "pixels"], 1, "frames of pixels do not go into a movie"),
         (["replay", "none"], 1, "no such movie: neither none.vd1 nor video/none.vd1"),
         (["replay", "bad"], 1, "bad.vd1: byte 0: the movie breaks off here"),
     ],
-    ids=range(12),
+    ids=range(14),
 )
 def test_what_is_wrong_is_one_line_and_nothing_is_written(arguments, status, cause, workplace, capsys):
     Path("bad.vd1").write_bytes(b"")
