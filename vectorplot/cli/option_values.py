@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Sequence
+from functools import cache
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
 from vectorplot.errors import InputError
+from vectorplot.pictures.options import OPTIONS
 from vectorplot.words import LINE_WORDS, format_hint, line_words
 
 if TYPE_CHECKING:
@@ -55,6 +57,19 @@ def between(low: float, high: float) -> Callable[[str], float]:
         return value
 
     return read
+
+
+@cache
+def of_option(name: str) -> click.ParamType[Any] | Callable[[str], float]:
+    """How to read what an argument of the verbs may be, by its name: a word, a whole number or a number of a range."""
+    option = OPTIONS[name]
+    if option.words:
+        return click.Choice(option.words)
+    return (
+        click.IntRange(int(option.least), int(option.most))
+        if option.whole
+        else at_least(option.least, at_most=option.most)
+    )
 
 
 def point(text: str) -> tuple[float, float, float]:

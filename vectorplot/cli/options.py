@@ -30,6 +30,7 @@ from vectorplot.cli.option_values import (
     length,
     light,
     number,
+    of_option,
     page_size,
     pen,
     point,
@@ -39,6 +40,8 @@ from vectorplot.cli.option_values import (
 )
 from vectorplot.cli.picture import Report, Source, make_picture, picture_contents, picture_made, warn_of_nothing
 from vectorplot.errors import InputError
+from vectorplot.pictures.options import SHADOWS
+from vectorplot.words import TEXT_WORDS
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
@@ -553,7 +556,6 @@ Option = Callable[[Command], Command]
 DRAWING_FORMATS = ("svg", "ps", "eps", "pdf", "png", "tex", "dxf", "json")
 """What a drawing on a page is written as."""
 
-ANGLE = at_least(0.0, at_most=180.0)
 POSITIVE = between(0.0, math.inf)
 
 LIGHTS = click.option(
@@ -587,7 +589,12 @@ BACKGROUND = click.option(
 )
 
 TOLERANCE = click.option(
-    "--tolerance", "tolerance_mm", type=POSITIVE, default=0.02, metavar="MM", help="For approximations."
+    "--tolerance",
+    "tolerance_mm",
+    type=of_option("tolerance_mm"),
+    default=0.02,
+    metavar="MM",
+    help="For approximations.",
 )
 
 TITLE = click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the lower margin.")
@@ -596,7 +603,7 @@ FRAME = click.option("--frame", is_flag=True, help="A rectangle in the margin.")
 
 TEXT = click.option(
     "--text",
-    type=click.Choice(["strokes", "real", "latex"]),
+    type=click.Choice([*TEXT_WORDS, "latex"]),
     default="strokes",
     help="Letters: strokes of the pen; in fonts of the reader; or, with a .pdf or .eps, in a .tex beside it.",
 )
@@ -654,12 +661,19 @@ def lines_option(meaning: str, *, default: str | None = "none", note: str = "") 
 
 def crease_angle_option(meaning: str) -> Option:
     """``--crease-angle``, with what sharper edges are to the verb."""
-    return click.option("--crease-angle", "crease_angle_deg", type=ANGLE, default=25.0, metavar="DEG", help=meaning)
+    return click.option(
+        "--crease-angle",
+        "crease_angle_deg",
+        type=of_option("crease_angle_deg"),
+        default=25.0,
+        metavar="DEG",
+        help=meaning,
+    )
 
 
-def shadows_option(ways: Sequence[str], meaning: str) -> Option:
-    """``--shadows``, with the ways that the verb has of finding them; auto is one of them."""
-    return click.option("--shadows", type=click.Choice(ways), default="auto", help=meaning)
+def shadows_option(verb: str, meaning: str) -> Option:
+    """``--shadows``, with the ways that a verb has of finding them; auto is one of them."""
+    return click.option("--shadows", type=click.Choice(SHADOWS[verb]), default="auto", help=meaning)
 
 
 @dataclass(frozen=True)
@@ -808,12 +822,12 @@ FACE_OPTIONS = (
     click.option(
         "--aura",
         "aura_mm",
-        type=at_least(0.0),
+        type=of_option("aura_mm"),
         default=0.0,
         metavar="MM",
         help="Width of the soft border of shadows.",
     ),
-    click.option("--palette", type=click.IntRange(2, 256), default=32, metavar="N", help="Shades of every colour."),
+    click.option("--palette", type=of_option("palette"), default=32, metavar="N", help="Shades of every colour."),
     click.option("--flat", is_flag=True, help="One shade for every plane: no gradients, nothing looks round."),
 )
 
@@ -889,7 +903,7 @@ _STYLE, _HIDDEN, _PEN, _DASH = (
     ),
     click.option(
         "--hidden",
-        type=click.Choice(["none", "dashed", "solid"]),
+        type=of_option("hidden"),
         help="How hidden lines look.  [default: none, or what the style says]",
     ),
     click.option(
@@ -920,7 +934,7 @@ OVERLAID_OPTIONS = (_STYLE, _PEN, _DASH)
 HALO = click.option(
     "--halo",
     "halo_mm",
-    type=at_least(0.0),
+    type=of_option("halo_mm"),
     default=0.0,
     metavar="MM",
     help="Gap beside lines that lie in front.",

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Literal
 
 from vectorplot.drawing.drawing import Drawing, Paths
-from vectorplot.drawing.pen_layers import line_list, pen_scale
+from vectorplot.drawing.pen_layers import layer_words, line_list, pen_scale
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
 from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
@@ -24,7 +24,7 @@ from vectorplot.pictures.lines import (
     placed_lines,
     traceable,
 )
-from vectorplot.pictures.options import check_line_options, check_longest, check_look, check_types
+from vectorplot.pictures.options import check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene
@@ -35,7 +35,7 @@ from vectorplot.scene.pens import DepthCue, depth_cue_of
 from vectorplot.scene.placement import Placement, page_of
 from vectorplot.scene.view import look
 from vectorplot.visibility.projected_faces import project_faces
-from vectorplot.words import DRAWN, TEXT_WORDS, WIRES, check_word, line_kinds
+from vectorplot.words import DRAWN, WIRES, line_kinds
 
 # The strokes that hatch faces of a scene, on a picture of it that has its place.
 
@@ -222,15 +222,13 @@ def draw(
     >>> [layer.name for layer in drawing.layers if len(layer.strokes[0])]
     ['contour', 'hidden']
     """
-    check_types(locals())
+    check_options(locals())
     given = scene_of(scene) if lines is not None else with_default_lines(scene_of(scene))
     chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)
     hidden = chosen.hidden if hidden is None else hidden
     layers = chosen.layers if layers is None else layers
-    check_line_options(hidden, layers, curves, halo_mm, crease_angle_deg, tolerance_mm)
-    check_longest(longest_mm)
-    check_word("text", text, TEXT_WORDS)
+    layer_words(layers)
     allowed, threads = budget_of(budget), threads_of(jobs)
     others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(asked)}
     others["depth_cue"] = depth_cue_of(depth_cue) is not None

@@ -1,34 +1,75 @@
-"""What the arguments of the verbs may be: of another type each is one sentence, before any work."""
+"""What the arguments of the verbs may be, each described once.
+
+Of another type, out of range or another word each is one sentence, before any work; the command reads its options by
+the same ranges and words."""
 
 from __future__ import annotations
 
+import math
 import os
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
 from numbers import Real
 
-import numpy as np
-
-from vectorplot.drawing.drawing import Pen
-from vectorplot.drawing.pen_layers import layer_words
-from vectorplot.drawing.pens import Style
 from vectorplot.errors import InputError
-from vectorplot.scene.hatching import Hatching, Stippling
-from vectorplot.scene.pens import DepthCue
 from vectorplot.tolerances import LEAST_TOLERANCE_MM
-from vectorplot.words import check_word
+from vectorplot.words import TEXT_WORDS, check_word
 
 _LONGEST = 60
 """So much of a wrong argument is shown."""
 
-Fits = Callable[[object], bool]
+
+@dataclass(frozen=True)
+class Option:
+    """What one argument may be.
+
+    expected, fits: its type, in words and as a test; optional: None is left out; words: all that a text may be; least,
+    most: the range of a number, which is finite; whole: a whole one; said: what messages call the number.
+    """
+
+    expected: str
+    fits: Callable[[object], bool]
+    optional: bool = True
+    words: tuple[str, ...] = ()
+    least: float = -math.inf
+    most: float = math.inf
+    whole: bool = False
+    said: str = ""
+
+    @property
+    def range(self) -> str:
+        """The range, in words."""
+        return f"{self.least:g} or more" if self.most == math.inf else f"{self.least:g} to {self.most:g}"
+
+    def check(self, name: str, given: object) -> None:
+        """InputError for what is of another type, out of range, or another word."""
+        if given is None and self.optional:
+            return
+        if not self.fits(given):
+            shown = repr(given)
+            shown = shown if len(shown) <= _LONGEST else f"{shown[: _LONGEST - 3]}..."
+            raise InputError(f"{name}: expected {self.expected}, got {shown}")
+        if self.words and isinstance(given, str):
+            check_word(name, given, self.words)
+        if self.said and isinstance(given, Real):
+            value = float(given)
+            # NaN lies between no two numbers.
+            within = self.least <= value <= self.most and value < math.inf
+            if not within or (self.whole and not value.is_integer()):
+                raise InputError(f"{self.said.format(given)}: expected {self.range}")
 
 
-def _is(*types: type) -> Fits:
+def _is(*types: type) -> Callable[[object], bool]:
     return lambda given: isinstance(given, types)
 
 
 def _is_number(given: object) -> bool:
     return isinstance(given, Real) and not isinstance(given, bool)
+
+
+def _is_truth(given: object) -> bool:
+    """Python's or numpy's."""
+    return isinstance(given, bool) or getattr(given, "dtype", None) == "bool"
 
 
 def _are_texts(given: object) -> bool:
@@ -40,96 +81,83 @@ def _are_texts(given: object) -> bool:
     return not isinstance(given, tuple | list | set | frozenset) or all(isinstance(one, str) for one in given)
 
 
-_NUMBER = "a number", _is_number
-_LENGTH = (
-    "a number of mm, or a text with a unit such as '8cm'",
-    lambda given: isinstance(given, str) or _is_number(given),
-)
-_YES = "True or False", _is(bool, np.bool_)
-_TEXT = "a text", _is(str)
-_WORDS = "a text with commas between words, or several words", _are_texts
-_PENS = (
-    "a text such as '0.3' or 'contour=0.5:black', several, a mapping or a Pen",
-    lambda given: isinstance(given, Pen | Mapping) or _are_texts(given),
-)
-_DASHES = (
-    "a text such as 'hidden=3,1', several, or a mapping",
-    lambda given: isinstance(given, Mapping) or _are_texts(given),
-)
-_CALLED = "a function", callable
+def _is_a(*classes: str, texts: tuple[type, ...] = (str,)) -> Callable[[object], bool]:
+    """Whether something is a text, or of one of these classes of ours, by their names: nothing is imported for it."""
+    return lambda given: (
+        isinstance(given, texts)
+        or any(one.__name__ in classes and one.__module__.startswith("vectorplot.") for one in type(given).__mro__)
+    )
 
-_EXPECTED: dict[str, tuple[str, Fits]] = {
-    "width": _LENGTH,
+
+def _number(said: str, least: float, most: float = math.inf, *, whole: bool = False, optional: bool = False) -> Option:
+    return Option("a number", _is_number, optional, (), least, most, whole, said)
+
+
+def _word(*words: str, optional: bool = False) -> Option:
+    return Option("a text", _is(str), optional, words)
+
+
+_ANY_NUMBER = Option("a number", _is_number, optional=False)
+_YES = Option("True or False", _is_truth, optional=False)
+_TEXT = Option("a text", _is(str), optional=False)
+_WORDS = Option("a text with commas between words, or several words", _are_texts)
+_CALLED = Option("a function", callable)
+
+OPTIONS: dict[str, Option] = {
+    "width": Option(
+        "a number of mm, or a text with a unit such as '8cm'",
+        lambda given: isinstance(given, str) or _is_number(given),
+    ),
     "fit": _YES,
     "lines": _WORDS,
-    "crease_angle_deg": _NUMBER,
-    "style": ("a Style or a text such as 'book'", _is(Style, str, os.PathLike)),
-    "pens": _PENS,
-    "dashes": _DASHES,
+    "hidden": _word("none", "dashed", "solid", optional=True),
+    "curves": _word("bezier", "polyline"),
+    "text": _word(*TEXT_WORDS),
+    "fills": _word("painted", "visible", "erasing"),
+    "transparency": _word("blended", "sparse"),
+    "crease_angle_deg": _number("a crease angle of {:g} degrees", 0.0, 180.0),
+    "style": Option("a Style or a text such as 'book'", _is_a("Style", texts=(str, os.PathLike))),
+    "pens": Option(
+        "a text such as '0.3' or 'contour=0.5:black', several, a mapping or a Pen",
+        lambda given: _is_a("Pen", texts=(Mapping,))(given) or _are_texts(given),
+    ),
+    "dashes": Option(
+        "a text such as 'hidden=3,1', several, or a mapping",
+        lambda given: isinstance(given, Mapping) or _are_texts(given),
+    ),
     "scale_pens": _YES,
     "thin_ends": _YES,
-    "depth_cue": ("a DepthCue or a text such as 'width', 'shade,8' or 'none'", _is(DepthCue, str)),
-    "halo_mm": _NUMBER,
-    "hatch": ("a Hatching such as vp.Hatching('tone'), or a Stippling", _is(Hatching, Stippling)),
-    "layers": ("a text such as 'kind' or 'kind,colour'", _is(str)),
+    "depth_cue": Option("a DepthCue or a text such as 'width', 'shade,8' or 'none'", _is_a("DepthCue")),
+    "halo_mm": _number("a halo of {:g} mm", 0.0),
+    "hatch": Option("a Hatching such as vp.Hatching('tone'), or a Stippling", _is_a("Hatching", "Stippling", texts=())),
+    "layers": Option("a text such as 'kind' or 'kind,colour'", _is(str)),
     "unplotted": _WORDS,
-    "tolerance_mm": _NUMBER,
+    "tolerance_mm": _number("a tolerance of {:g} mm", LEAST_TOLERANCE_MM),
     "title": _TEXT,
     "frame": _YES,
-    "longest_mm": _NUMBER,
-    "budget": _NUMBER,
-    "exposure": ("a number or 'fitted'", lambda given: isinstance(given, str) or _is_number(given)),
-    "aura_mm": _NUMBER,
-    "palette": _NUMBER,
+    # Shorter parts of strokes would be dots.
+    "longest_mm": _number("longest strokes of {:g} mm", 1.0, optional=True),
+    "budget": _ANY_NUMBER,
+    "exposure": Option("a number or 'fitted'", lambda given: isinstance(given, str) or _is_number(given)),
+    "aura_mm": _number("an aura of {:g} mm", 0.0),
+    "palette": _number("a palette of {:g} shades", 2, 256, whole=True),
     "smooth": _YES,
-    "shadow_focus": _NUMBER,
+    "samples": _number("{:g} samples", 1, 8, whole=True, optional=True),
+    "shadow_focus": Option("a number", _is_number),
     "progress": _CALLED,
     "explain": _CALLED,
 }
+"""What the arguments of the verbs may be, by their names; cameras, pages and lights are checked where they are read."""
 
-_NEVER_NONE = (_NUMBER, _YES, _TEXT)
-_MAY_BE_NONE = {"longest_mm", "shadow_focus", *(name for name, one in _EXPECTED.items() if one not in _NEVER_NONE)}
-"""What is left out where it is None; lines of paint and render are looked at where they are read."""
-
-
-def check_types(arguments: Mapping[str, object]) -> None:
-    """An InputError for the first of a verb's arguments, by their names, that is of another type than the verb's own.
-
-    Words, cameras and pages are looked at where they are read.
-    """
-    for name, (told, fits) in _EXPECTED.items():
-        if name not in arguments or (arguments[name] is None and name in _MAY_BE_NONE) or fits(arguments[name]):
-            continue
-        shown = repr(arguments[name])
-        shown = shown if len(shown) <= _LONGEST else f"{shown[: _LONGEST - 3]}..."
-        raise InputError(f"{name}: expected {told}, got {shown}")
+SHADOWS = {"paint": ("auto", "none"), "render": ("auto", "none", "buffer", "trapezoid", "exact")}
+"""The ways that the verbs have of finding shadows."""
 
 
-# What options of draw may be.
-
-SHORTEST_MM = 1.0
-"""To parts shorter than this no stroke is cut: it would be dots."""
-
-
-def check_line_options(
-    hidden: str, layers: str, curves: str, halo_mm: float, crease_angle_deg: float, tolerance_mm: float
-) -> None:
-    """InputError for unknown words, and for numbers out of range."""
-    check_word("hidden", hidden, ("none", "dashed", "solid"))
-    layer_words(layers)
-    check_word("curves", curves, ("bezier", "polyline"))
-    if not 0.0 <= halo_mm < np.inf:
-        raise InputError(f"a halo of {halo_mm:g} mm: expected a width that is finite and not negative")
-    if not 0.0 <= crease_angle_deg <= 180.0:
-        raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
-    if not LEAST_TOLERANCE_MM <= tolerance_mm < np.inf:
-        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected {LEAST_TOLERANCE_MM:g} or more")
-
-
-def check_longest(longest_mm: float | None) -> None:
-    """InputError for strokes that would be cut too short."""
-    if longest_mm is not None and not longest_mm >= SHORTEST_MM:
-        raise InputError(f"longest strokes of {longest_mm:g} mm: expected {SHORTEST_MM:g} mm or more")
+def check_options(arguments: Mapping[str, object]) -> None:
+    """An InputError for the first of a verb's arguments, by their names, that is not what it may be."""
+    for name, option in OPTIONS.items():
+        if name in arguments:
+            option.check(name, arguments[name])
 
 
 def check_look(style: str, **others: bool) -> None:

@@ -24,7 +24,7 @@ from vectorplot.pictures.facet_errors import outline_error
 from vectorplot.pictures.fills import VisiblePolygons, border_tolerance_mm, coloured, ordered_faces, paper, seen_on_page
 from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
-from vectorplot.pictures.options import check_types
+from vectorplot.pictures.options import SHADOWS, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import accuracy_of_paint, plan_paint, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
@@ -39,8 +39,7 @@ from vectorplot.shading.facet_resolution import picture_fineness
 from vectorplot.shading.painted_colours import Lighting, painted_normals
 from vectorplot.shading.palettes import PALETTE_SIZE, shaded_colours
 from vectorplot.shading.shaded_faces import exposed_scene, item_colours
-from vectorplot.tolerances import LEAST_TOLERANCE_MM
-from vectorplot.words import LINE_WORDS, TEXT_WORDS, LineKind, check_word, line_kinds
+from vectorplot.words import LINE_WORDS, LineKind, check_word, line_kinds
 
 # Blank polygons with the visible lines on them: hidden lines by erasing.
 
@@ -222,9 +221,8 @@ def paint(
     >>> [layer.name for layer in drawing.layers]
     ['fills', 'visible', 'contour']
     """
-    check_types(locals())
-    _check_options(shadows, aura_mm, palette, fills, crease_angle_deg, tolerance_mm)
-    check_word("text", text, TEXT_WORDS)
+    check_options(locals())
+    check_word("shadows", shadows, SHADOWS["paint"])
     if fills == "erasing" and depth_cue_of(depth_cue) is not None:
         raise InputError("depth_cue does not go with fills that are erasing, whose lines have the shades of items")
     budget_of(budget)
@@ -331,18 +329,3 @@ def paint(
     layers = titled(layers, placement, title, frame, over.border(letters), text=text)
     drawing = Drawing(page.width_mm, page.height_mm, layers, names, scene.title, world)
     return beside_bar(drawing, bar, strip, scene.background)
-
-
-def _check_options(
-    shadows: str, aura_mm: float, palette: int, fills: str, crease_angle_deg: float, tolerance_mm: float
-) -> None:
-    check_word("shadows", shadows, ("auto", "none"))
-    check_word("fills", fills, ("painted", "visible", "erasing"))
-    if not 0.0 <= aura_mm < np.inf:
-        raise InputError(f"an aura of {aura_mm:g} mm: expected a width that is finite and not negative")
-    if not (2 <= palette <= 256 and float(palette).is_integer()):
-        raise InputError(f"a palette of {palette} shades: expected 2 to 256")
-    if not 0.0 <= crease_angle_deg <= 180.0:
-        raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
-    if not LEAST_TOLERANCE_MM <= tolerance_mm < np.inf:
-        raise InputError(f"a tolerance of {tolerance_mm:g} mm: expected {LEAST_TOLERANCE_MM:g} or more")

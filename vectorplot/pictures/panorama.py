@@ -15,7 +15,7 @@ from vectorplot.geometry.budget import threads_of
 from vectorplot.geometry.camera import Camera, Panorama
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.lines import OutputStyle, lines_in_place
-from vectorplot.pictures.options import check_types
+from vectorplot.pictures.options import check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import plan_panorama
 from vectorplot.scene.added_lines import with_default_lines
@@ -96,7 +96,7 @@ def panorama(
     >>> sum(len(strokes) for layer in round_about.layers for strokes in layer.strokes) > 10
     True
     """
-    check_types(locals())
+    check_options(locals())
     given = scene_of(scene) if lines is not None else with_default_lines(scene_of(scene))
     given = shown_apart(given)
     chosen, own = style_of_scene(given.inks, style)

@@ -24,9 +24,8 @@ from vectorplot.shading.image import Bytes, averaged
 from vectorplot.shading.lighting import Blocked, Lighting, lighting_of
 from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.scene_pixels import Picture, opaque_buffer, shaded, with_glass, with_mirrors
-from vectorplot.shading.screen import LARGEST_RASTER_PIXELS, LARGEST_SIDE_PIXELS, SceneTriangles, raster_size
+from vectorplot.shading.screen import LARGEST_RASTER_PIXELS, LARGEST_SIDE_PIXELS, SceneTriangles
 from vectorplot.tolerances import LARGEST_VIEW
-from vectorplot.words import check_word
 
 if TYPE_CHECKING:
     from vectorplot.effects.scales import ColourBar
@@ -115,9 +114,6 @@ def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int
 
 # What options of render may be.
 
-MOST_SAMPLES = 8
-"""Along each side of a pixel."""
-
 SAMPLES = 2
 """Along each side of a pixel, unless told otherwise."""
 
@@ -137,20 +133,6 @@ def default_shadow_size(size: tuple[int, int]) -> int:
     side of the picture, 256 to 4096."""
     needed = 1 << (int(max(size)) - 1).bit_length()
     return min(max(needed, FEWEST_TEXELS), MOST_TEXELS)
-
-
-def check_render_options(
-    size: tuple[int, int], shadows: str, transparency: str, samples: int, crease_angle_deg: float
-) -> None:
-    """InputError for unknown words, and for numbers out of range."""
-    check_word("transparency", transparency, ("blended", "sparse"))
-    check_word("shadows", shadows, ("auto", "none", "buffer", "trapezoid", "exact"))
-    if not 1 <= samples <= MOST_SAMPLES:
-        raise InputError(f"{samples} samples: expected 1 to {MOST_SAMPLES}")
-    if not 0.0 <= crease_angle_deg <= 180.0:
-        raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
-    raster_size(*size)
-    raster_size(size[0] * samples, size[1] * samples)
 
 
 def check_whole(**counts: int) -> None:

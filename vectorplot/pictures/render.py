@@ -21,13 +21,12 @@ from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.facet_errors import facet_error
 from vectorplot.pictures.lines import LineOverlay, places_beside_faces
-from vectorplot.pictures.options import check_types
+from vectorplot.pictures.options import SHADOWS, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.pixels import (
     PIXELS_PER_MM,
     ShadowMaps,
     check_lights,
-    check_render_options,
     check_whole,
     default_samples,
     default_shadow_size,
@@ -51,10 +50,10 @@ from vectorplot.shading.image import Image, averaged_light
 from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.palettes import palette
 from vectorplot.shading.scene_pixels import picture_of
-from vectorplot.shading.screen import picture_placement, pixel_system, scene_triangles
+from vectorplot.shading.screen import picture_placement, pixel_system, raster_size, scene_triangles
 from vectorplot.shading.shaded_faces import exposed_scene
 from vectorplot.visibility.painter.image_faces import outer_sides
-from vectorplot.words import LineKind, line_kinds
+from vectorplot.words import LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
     pass
@@ -204,11 +203,13 @@ def render(
     >>> vp.render(scene, size=(60, 40), background="#ffffff")
     <Image 'Tetrahedron': 60 x 40 pixels>
     """
-    check_types(locals())
+    check_options(locals())
+    check_word("shadows", shadows, SHADOWS["render"])
     kinds = line_kinds(lines)
     samples = default_samples(size) if samples is None else samples
-    check_whole(columns=size[0], rows=size[1], samples=samples)
-    check_render_options(size, shadows, transparency, samples, crease_angle_deg)
+    check_whole(columns=size[0], rows=size[1])
+    for times in (1, samples):
+        raster_size(size[0] * times, size[1] * times)
     texels = default_shadow_size(size) if shadow_size is None else shadow_size
     check_whole(shadow_size=texels)
     settings = MapSettings(texels, shadow_bits, shadow_casters, shadow_focus)

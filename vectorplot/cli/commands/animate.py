@@ -56,7 +56,7 @@ VERBS = {"draw": draw, "paint": paint, "render": render}
     FRAME_FORMAT,
     lines_option("Kinds of lines", default=None, note="  [default: as of the verbs]"),
     crease_angle_option("Sharper edges are creases."),
-    shadows_option(render.SHADOWS, "Whether lights cast shadows, and how pixels find them."),
+    shadows_option("render", "Whether lights cast shadows, and how pixels find them."),
 )
 def animate(
     data_file: str,

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.option_values import at_least, place
+from vectorplot.cli.option_values import of_option, place
 from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
@@ -64,9 +64,7 @@ if TYPE_CHECKING:
         show_default=False,
         help="Layers that plotters skip.  [default: none]",
     ),
-    click.option(
-        "--curves", type=click.Choice(["bezier", "polyline"]), default="bezier", help="How smooth curves leave."
-    ),
+    click.option("--curves", type=of_option("curves"), default="bezier", help="How smooth curves leave."),
     TOLERANCE,
     TITLE,
     FRAME,
@@ -74,7 +72,7 @@ if TYPE_CHECKING:
     click.option(
         "--longest",
         "longest_mm",
-        type=at_least(1.0),
+        type=of_option("longest_mm"),
         metavar="MM",
         help="Longer strokes leave in parts.  [default: whole]",
     ),

@@ -6,6 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
+from vectorplot.cli.option_values import of_option
 from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
@@ -36,11 +37,11 @@ if TYPE_CHECKING:
     *PAGE_OPTIONS,
     LIGHTS,
     EXPOSURE,
-    shadows_option(("auto", "none"), "Whether lights cast shadows."),
+    shadows_option("paint", "Whether lights cast shadows."),
     *FACE_OPTIONS,
     click.option(
         "--fills",
-        type=click.Choice(["painted", "visible", "erasing"]),
+        type=of_option("fills"),
         default="painted",
         help="Painted one over the other, only what is seen of each, or blank with edges.",
     ),

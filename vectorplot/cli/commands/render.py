@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.option_values import between, pixels
+from vectorplot.cli.option_values import between, of_option, pixels
 from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
@@ -26,7 +26,6 @@ if TYPE_CHECKING:
 
 
 FORMATS = ("png",)
-SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
 
 
 @picture_verb(
@@ -36,7 +35,7 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
     fit_option("picture"),
     LIGHTS,
     EXPOSURE,
-    shadows_option(SHADOWS, "How shadows are found."),
+    shadows_option("render", "How shadows are found."),
     click.option(
         "--shadow-size",
         type=click.IntRange(8, 8192),
@@ -59,11 +58,11 @@ SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
         help="Trapezoids grow until what is near the eye has this part of --shadow-size squared.",
     ),
     click.option(
-        "--samples", type=click.IntRange(1, 8), metavar="N", help="N x N samples in every pixel.  [default: 2]"
+        "--samples", type=of_option("samples"), metavar="N", help="N x N samples in every pixel.  [default: 2]"
     ),
     click.option(
         "--transparency",
-        type=click.Choice(["blended", "sparse"]),
+        type=of_option("transparency"),
         default="blended",
         help="Transparent items: mixed with what is behind them, or every second, third or fourth pixel.",
     ),
