@@ -14,7 +14,8 @@ import vectorplot as vp
 from vectorplot.drawing import FillKind, Fills
 from vectorplot.geometry import box, prism, revolution, translated
 from vectorplot.scene import look
-from vectorplot.visibility import APART, priorities, view_objects
+from vectorplot.textbook import priorities, view_objects
+from vectorplot.visibility import APART
 
 
 def placed(name: str, mesh: vp.Mesh, place: tuple[float, float, float], colour: str) -> vp.Item:

@@ -11,8 +11,9 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.effects import shadow_decals
-from vectorplot.geometry import box, revolution, spatial_hull, translated
+from vectorplot.geometry import box, revolution, translated
 from vectorplot.scene import look
+from vectorplot.textbook import spatial_hull
 
 LAMP = vp.Light((-5.0, -4.0, 9.0), intensity=0.9)
 LATITUDE = np.linspace(-np.pi / 2, np.pi / 2, 13)

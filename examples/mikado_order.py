@@ -14,14 +14,8 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.geometry import box, placed
 from vectorplot.scene import look
-from vectorplot.visibility import (
-    cyclic_overlap_report,
-    cyclic_overlaps,
-    demands,
-    priorities,
-    topological_order,
-    view_objects,
-)
+from vectorplot.textbook import cyclic_overlap_report, cyclic_overlaps, demands, priorities, view_objects
+from vectorplot.visibility import topological_order
 
 COLOURS = ("orange", "green", "blue", "yellow", "pink", "cyan")
 STICK = placed(box((9, 0.4, 0.3)), (1, 0, 0, -4.5, 0, 1, 0, -0.2, 0, 0, 1, 0))

@@ -13,7 +13,7 @@ import numpy as np
 import vectorplot as vp
 from vectorplot.geometry import box, revolution, translated
 from vectorplot.scene import look
-from vectorplot.visibility import demands, grouped_order, priorities, view_objects
+from vectorplot.textbook import demands, grouped_order, priorities, view_objects
 
 
 def block(name: str, lengths: tuple[float, float, float], place: tuple[float, float, float], colour: str) -> vp.Item:

@@ -11,7 +11,8 @@ import numpy as np
 from diagrams import BLUE, GREY, INK, RED, drawn, tinted, with_arrows
 
 import vectorplot as vp
-from vectorplot.geometry import own_box, prism, rotation_about
+from vectorplot.geometry import prism, rotation_about
+from vectorplot.textbook import own_box
 
 HOUSE = prism([(-1, -2, 0), (1, -2, 0), (1, -2, 1.4), (0, -2, 2.4), (-1, -2, 1.4)], (0, 4, 0))
 FACES = [(0, 1, 5, 4), (1, 3, 7, 5), (3, 2, 6, 7), (2, 0, 4, 6), (4, 5, 7, 6), (2, 3, 1, 0)]

@@ -10,7 +10,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry import Surroundings, box, placed, revolution, separations
+from vectorplot.geometry import box, placed, revolution
+from vectorplot.textbook import Surroundings, separations
 
 EYES = ((7.0, -15.0, 7.0), (-7.0, 15.0, 7.0))
 LIGHT = vp.Light((-3, -5, 7), parallel=True, intensity=0.9)

@@ -11,7 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry import body_record, has_convex_outline, polyhedron_intersection, revolution, translated
+from vectorplot.geometry import has_convex_outline, polyhedron_intersection, revolution, translated
+from vectorplot.textbook import body_record
 
 PRISM = revolution([(4, 0, -14), (4, 0, 14)], 6)
 

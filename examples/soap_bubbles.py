@@ -13,8 +13,9 @@ import shapely
 from diagrams import BLUE, INK, drawn, tinted
 
 import vectorplot as vp
-from vectorplot.geometry import box, hull_mesh, placed, polygons_of, revolution, rotation_about, spheres_power
+from vectorplot.geometry import box, hull_mesh, placed, polygons_of, revolution, rotation_about
 from vectorplot.surfaces import PlacedSurface, Sphere
+from vectorplot.textbook import spheres_power
 
 SPHERES = np.array(
     [

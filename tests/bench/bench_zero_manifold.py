@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from vectorplot.features.zero_curves import zero_manifold_of_f_uv
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.surfaces.surface import Domain
 
 pytestmark = pytest.mark.bench

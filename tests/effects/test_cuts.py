@@ -10,11 +10,11 @@ import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.curves import Circle
 from vectorplot.effects.cuts import between_planes, depths
-from vectorplot.geometry.adjacency import body_record
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.surfaces import Sphere, Torus, implicit_sphere
 from vectorplot.testing.shapes import box, without
+from vectorplot.textbook.polyhedra import body_record
 
 VERBS = ["draw", "paint", "render"]
 

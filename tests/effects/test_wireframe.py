@@ -8,8 +8,8 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.geometry.adjacency import mesh_edges
 from vectorplot.geometry.solids import revolution
+from vectorplot.geometry.winding import mesh_edges
 from vectorplot.shading.palettes import palette
 from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
 from vectorplot.surfaces.tori import Torus

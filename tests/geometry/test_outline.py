@@ -7,10 +7,11 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.contour_polygons import concat, contour_branches, contour_edges, counterclockwise, spatial_hull
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.rotations import rotation_about
+from vectorplot.textbook.polyhedra import contour_branches, contour_edges, counterclockwise, spatial_hull
 
 CUBE = Mesh.from_polygons(
     [(x, y, z) for z in (-1, 1) for y in (-1, 1) for x in (-1, 1)],

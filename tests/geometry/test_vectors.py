@@ -9,9 +9,16 @@ from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
 from vectorplot.geometry import vectors as v
-from vectorplot.geometry.adjacency import face_records
 from vectorplot.geometry.solids import box
 from vectorplot.shading.pixel_coverage import whole_pixels
+from vectorplot.textbook.intersections import (
+    angle_line_plane,
+    angle_planes,
+    from_spherical_coordinates,
+    lambert_cosine,
+    point_at_distance,
+)
+from vectorplot.textbook.polyhedra import face_records
 
 component = st.floats(-1e3, 1e3)
 vector3 = st.tuples(component, component, component).map(np.array)
@@ -149,11 +156,11 @@ def test_vectors_without_length_are_reported_not_divided():
 @pytest.mark.capability("G1.2-at-distance")
 @given(vector3, direction, st.floats(-50, 50))
 def test_points_at_a_distance_on_a_line(p, d, distance):
-    r = v.point_at_distance(p, p + d, distance)
+    r = point_at_distance(p, p + d, distance)
     assert v.length(r - p) == pytest.approx(abs(distance), abs=1e-11)
     assert v.dot(r - p, d) * distance >= 0.0
     with pytest.raises(InputError):
-        v.point_at_distance(p, p, distance)
+        point_at_distance(p, p, distance)
 
 
 @pytest.mark.capability("G1.4-translate-pool")
@@ -182,36 +189,36 @@ def test_tiny_and_straight_angles_keep_their_digits():
 
 @pytest.mark.capability("G1.2-angle-line-plane")
 def test_angle_of_a_line_with_a_plane():
-    assert v.angle_line_plane((1, 2, 0), (0, 0, 3)) == 0.0
-    assert v.angle_line_plane((1, 0, 1), (0, 0, 3)) == pytest.approx(np.pi / 4, abs=1e-15)
-    assert v.angle_line_plane((0, 0, -2), (0, 0, 3)) == pytest.approx(-np.pi / 2, abs=1e-15)
+    assert angle_line_plane((1, 2, 0), (0, 0, 3)) == 0.0
+    assert angle_line_plane((1, 0, 1), (0, 0, 3)) == pytest.approx(np.pi / 4, abs=1e-15)
+    assert angle_line_plane((0, 0, -2), (0, 0, 3)) == pytest.approx(-np.pi / 2, abs=1e-15)
 
 
 @pytest.mark.capability("G1.2-angle-planes")
 def test_coordinate_planes_are_at_right_angles():
     normals = np.eye(3)
-    assert np.allclose(v.angle_planes(normals, np.roll(normals, 1, axis=0)), np.pi / 2, atol=1e-15)
-    assert v.angle_planes((1, 0, 0), (1, 1, 0)) == pytest.approx(np.pi / 4, abs=1e-15)
+    assert np.allclose(angle_planes(normals, np.roll(normals, 1, axis=0)), np.pi / 2, atol=1e-15)
+    assert angle_planes((1, 0, 0), (1, 1, 0)) == pytest.approx(np.pi / 4, abs=1e-15)
 
 
 @pytest.mark.capability("G1.2-lambert")
 def test_brightness_under_near_and_parallel_light():
     centres = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0], [0.0, 0.0, 9.0]])
     up = np.array([0.0, 0.0, 2.0])
-    parallel = v.lambert_cosine(up, centres, (0.0, 3.0, 4.0, 0.0))
+    parallel = lambert_cosine(up, centres, (0.0, 3.0, 4.0, 0.0))
     assert np.allclose(parallel, 0.8, atol=1e-15)
-    near = v.lambert_cosine(up, centres, (0.0, 0.0, 5.0))
+    near = lambert_cosine(up, centres, (0.0, 0.0, 5.0))
     assert np.allclose(near, (1.0, np.sqrt(0.5), -1.0), atol=1e-15)
     # Of the faces of a body: to the sun all points of a face are alike, to a lamp its barycentre counts.
     records = face_records(box((2.0, 4.0, 6.0)))
     ways = np.array([3.0, 4.0, 12.0, 0.0])
-    assert np.allclose(v.lambert_cosine(records.normals, records.barycentres, ways), records.normals @ ways[:3] / 13.0)
+    assert np.allclose(lambert_cosine(records.normals, records.barycentres, ways), records.normals @ ways[:3] / 13.0)
     lamp = np.array([1.0, 2.0, 16.0])
-    (top,) = v.lambert_cosine(records.normals, records.barycentres, lamp)[records.normals[:, 2] > 0.9]
+    (top,) = lambert_cosine(records.normals, records.barycentres, lamp)[records.normals[:, 2] > 0.9]
     assert top == 1.0, "it stands above the middle of the top"
     arms = lamp - records.barycentres
     expected = (records.normals * arms).sum(axis=1) / np.linalg.norm(arms, axis=1)
-    assert np.allclose(v.lambert_cosine(records.normals, records.barycentres, lamp), expected, atol=1e-15)
+    assert np.allclose(lambert_cosine(records.normals, records.barycentres, lamp), expected, atol=1e-15)
 
 
 @pytest.mark.capability("G2.4-spherical")
@@ -220,7 +227,7 @@ def test_spherical_coordinates_go_there_and_back(p):
     distance, azimuth, elevation = v.spherical_coordinates(p)
     assert distance == pytest.approx(np.linalg.norm(p), rel=1e-15)
     assert -np.pi <= azimuth <= np.pi and -np.pi / 2 <= elevation <= np.pi / 2
-    assert np.allclose(v.from_spherical_coordinates((distance, azimuth, elevation)), p, atol=1e-12)
+    assert np.allclose(from_spherical_coordinates((distance, azimuth, elevation)), p, atol=1e-12)
 
 
 @pytest.mark.capability("G2.4-spherical")

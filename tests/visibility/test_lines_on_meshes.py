@@ -9,8 +9,8 @@ from support.smooth_scenes import lit, views
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing
 from vectorplot.errors import InputError
 from vectorplot.features.implicit_surfaces import polygonized
-from vectorplot.geometry.adjacency import mesh_edges
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.winding import mesh_edges
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.pictures.draw import draw

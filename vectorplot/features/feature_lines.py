@@ -13,7 +13,7 @@ from vectorplot.features.holes import wrapped
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.chord_refinement import Traces, refined
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.elementary import arctan2, power
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.geometry.weld import chained

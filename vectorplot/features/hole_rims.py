@@ -21,8 +21,7 @@ from vectorplot.features.holes import (
 )
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, bisected, refined
-from vectorplot.geometry.connectivity import edges_of
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat, edges_of
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import all_components, any_component
 from vectorplot.surfaces.surface import Surface

@@ -35,7 +35,7 @@ from vectorplot.features.implicit_tracing import (
 )
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, refined
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.geometry.vectors import normalize
 from vectorplot.geometry.winding import edge_uses

@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit_surfaces import BOXED, Plane, SpatialCondition, checked_values, sides_of
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul, pseudo_inverse, singular_decomposition, symmetric_eigen
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import Polylines, closed_round
 from vectorplot.geometry.weld import chained, distinct_points, one_each

@@ -26,7 +26,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse, symmetric_eigen
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.chord_refinement import Traces
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import (
     APART,

@@ -44,7 +44,7 @@ from vectorplot.features.triangle_intersections import (
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.vectors import cross, norm
 from vectorplot.geometry.weld import close_points

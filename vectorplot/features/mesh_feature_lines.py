@@ -32,7 +32,7 @@ from vectorplot.features.mesh_lines import (
 )
 from vectorplot.geometry.algebra import linear_solution
 from vectorplot.geometry.budget import slices
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.surfaces.surface import ImplicitSurface

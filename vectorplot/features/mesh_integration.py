@@ -17,13 +17,12 @@ from vectorplot.features.surface_integration import USUAL_LENGTH
 from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.geometry import ragged
-from vectorplot.geometry.adjacency import face_barycentres
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import with_points_kept
 from vectorplot.geometry.vectors import all_finite, cross, dot, norm, point_on_line
-from vectorplot.geometry.winding import edge_uses
+from vectorplot.geometry.winding import edge_uses, face_barycentres
 from vectorplot.tolerances import (
     CLOSED_OF_EXTENT,
     LEAST_DIVISOR,

@@ -15,10 +15,9 @@ from vectorplot.curves.curve import vector
 from vectorplot.errors import InputError
 from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.geometry import ragged
-from vectorplot.geometry.adjacency import face_barycentres
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import slices
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
@@ -32,7 +31,7 @@ from vectorplot.geometry.polylines import (
     with_points_kept,
 )
 from vectorplot.geometry.vectors import all_components, any_component, component_sum, cross, norm, normalize
-from vectorplot.geometry.winding import edge_uses
+from vectorplot.geometry.winding import edge_uses, face_barycentres
 from vectorplot.tolerances import LEAST_DIVISOR, LEAST_VALUE, NO_NORMAL, ROUNDING, ROUNDING_OF_TERMS, ZERO_OF_EXTENT
 from vectorplot.words import LineKind
 

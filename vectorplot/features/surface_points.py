@@ -16,11 +16,11 @@ from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.features.mesh_feature_lines import noisy_bending
 from vectorplot.features.mesh_lines import face_triangles
 from vectorplot.geometry import ragged
-from vectorplot.geometry.adjacency import face_barycentres
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import all_finite, cross, dot, from_components
+from vectorplot.geometry.winding import face_barycentres
 from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets, Surface, first_jets, is_parametrised, second_jets
 from vectorplot.tolerances import AT_POLE, LEAST_DIVISOR
 

@@ -50,7 +50,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.chord_refinement import Traces
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round
 from vectorplot.geometry.vectors import all_components, all_finite, component_sum

@@ -1,9 +1,7 @@
 from . import ragged
-from .adjacency import body_record, face_barycentres
 from .budget import Budget
 from .camera import Camera, focal_length_mm
 from .clipping import Box, Polygons, Window, clip_lines_2d, clip_polygons_2d, cut_polygons, region_codes
-from .contour_polygons import spatial_hull
 from .convex_bodies import convex_revolution_parts, polyhedron_intersection
 from .convex_polygons import convex_hull, hull_mesh
 from .mesh import Mesh
@@ -21,10 +19,9 @@ from .rotations import (
     rotation_x,
     rotation_z,
 )
-from .separating_planes import Surroundings, own_box, separations, spheres_power
 from .solids import box, has_convex_outline, placed, polyhedron, prism, regular_polygon, revolution
 from .vectors import angle, length, normalize, translated
-from .winding import edge_uses, is_closed_oriented
+from .winding import edge_uses, face_barycentres, is_closed_oriented
 
 __all__ = [
     "Box",
@@ -34,11 +31,9 @@ __all__ = [
     "Mesh",
     "Polygons",
     "Strokes",
-    "Surroundings",
     "Window",
     "angle",
     "axis_frame",
-    "body_record",
     "box",
     "clip_lines_2d",
     "clip_polygons_2d",
@@ -59,7 +54,6 @@ __all__ = [
     "length",
     "mesh_report",
     "normalize",
-    "own_box",
     "placed",
     "polygons_of",
     "polyhedron",
@@ -76,9 +70,6 @@ __all__ = [
     "rotation_about",
     "rotation_x",
     "rotation_z",
-    "separations",
-    "spatial_hull",
-    "spheres_power",
     "translated",
     "welded",
 ]

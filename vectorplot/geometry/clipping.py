@@ -2,9 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, field
-from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,7 +10,6 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
-from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import EACH_POINT
 
 # Windows and boxes to clip by, and where points lie about them.
@@ -183,8 +180,6 @@ def region_codes(points: ArrayLike, region: Window | Box) -> Codes:
 
 # Lines clipped by windows and boxes.
 
-Drawn = TypeVar("Drawn")
-
 
 @dataclass(frozen=True, eq=False)
 class ClippedLines:
@@ -241,50 +236,10 @@ def clip_lines_2d(start: ArrayLike, end: ArrayLike, window: Window) -> ClippedLi
     return ClippedLines(p, q, ~gone, clipped)
 
 
-def clip_lines_3d(start: ArrayLike, end: ArrayLike, box: Box) -> ClippedLines:
-    """The parts of segments inside a box, wherever the eye is.
-
-    start, end: (n, 4) homogeneous, as CoordinateSystem.homogeneous gives them.
-    Source: Glaeser, section 2.5; errata G2-08 to G2-10.
-    """
-    p, q = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
-    low, high, exists, clipped = _inside_part(matmul(p, box.planes.T), matmul(q, box.planes.T))
-    ends = [
-        np.where((t < 0.5)[:, None], p + t[:, None] * (q - p), q - (1.0 - t)[:, None] * (q - p)) for t in (low, high)
-    ]
-    flat = [divided(e, exists) for e in ends]
-    return ClippedLines(flat[0], flat[1], exists, clipped)
-
-
-def _inside_part(p: Floats, q: Floats) -> tuple[Floats, Floats, Bools, Bools]:
-    """From distances (n, planes) of both ends: parameters of the part inside, whether there is one, whether any is
-    cut."""
-    out_p, out_q = p < 0.0, q < 0.0
-    share = p / np.where(out_p != out_q, p - q, 1.0)
-    low = np.where(out_p & ~out_q, share, 0.0).max(axis=-1)
-    high = np.where(out_q & ~out_p, share, 1.0).min(axis=-1)
-    exists = ~(out_p & out_q).any(axis=-1) & (low <= high)
-    return low, high, np.asarray(exists), np.asarray((out_p | out_q).any(axis=-1))
-
-
 def divided(points: Floats, exists: Bools) -> Floats:
     """(n,3) homogeneous points (n,4) in space; of those that do not exist no meaning."""
     weight = np.where(exists & (points[:, 3] > 0.0), points[:, 3], 1.0)
     return np.asarray(points[:, :3] / weight[:, None])
-
-
-def clip_and_draw(
-    start: ArrayLike,
-    end: ArrayLike,
-    clip: Callable[[ArrayLike, ArrayLike], ClippedLines],
-    draw: Callable[[Floats, Floats], Drawn],
-) -> Drawn:
-    """What draw makes of the segments that clip leaves: any way of clipping goes with any way of drawing.
-
-    start, end: (n, 2 or more) the segments.
-    """
-    lines = clip(start, end)
-    return draw(lines.start[lines.exists], lines.end[lines.exists])
 
 
 # Polygons clipped by planes, windows and boxes.
@@ -414,14 +369,3 @@ def clip_polygons_2d(polygons: Polygons, window: Window) -> Polygons:
         polygons, is_new = cut_polygons(polygons, sign * (polygons.points[:, axis] - limit))
         polygons.points[is_new, axis] = limit
     return polygons
-
-
-def clip_polygons_3d(polygons: Polygons, box: Box) -> Polygons:
-    """The parts of polygons inside a box, wherever the eye is.
-
-    Source: Glaeser, section 2.5; errata G2-09, G2-12.
-    """
-    for plane in box.planes:
-        polygons, _ = cut_polygons(polygons, matmul(polygons.points, plane))
-    points = polygons.points
-    return Polygons(divided(points, np.ones(len(points), dtype=np.bool_)), polygons.offsets)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from itertools import pairwise
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Ints
 from vectorplot.geometry import ragged
@@ -165,3 +166,118 @@ def edges_of(triangles: Ints, count: int) -> tuple[Ints, Ints, Ints]:
     key = np.minimum(triangles, after) * count + np.maximum(triangles, after)
     keys, sides, uses = np.unique(key.ravel(), return_inverse=True, return_counts=True)
     return np.stack(np.divmod(keys, max(count, 1)), axis=1), sides.reshape(-1, 3), uses
+
+
+@dataclass(frozen=True, eq=False)
+class Branches:
+    """Polylines of vertex indices.
+
+    points: (p,) of all branches, one after the other; offsets: (b+1,) branch i has the points offsets[i] to
+    offsets[i+1]; closed: (b,) the last point joins the first, which is not repeated.
+    """
+
+    points: Ints
+    offsets: Ints
+    closed: Bools
+
+    def __len__(self) -> int:
+        return len(self.offsets) - 1
+
+    def __getitem__(self, index: int) -> Ints:
+        return self.points[self.offsets[index] : self.offsets[index + 1]]
+
+
+def concat(edges: ArrayLike) -> Branches:
+    """The branches, open or closed, that edges (e, 2) of vertex indices form when joined end to end, each edge used
+    once.
+
+    A branch runs forward along the edge of it that is listed first, a closed one starts there; branches come in the
+    order of these edges. At a vertex where more than two edges meet they are joined in pairs, in the order of the
+    list, heads to tails as far as possible.
+    Edge cases: edges from a vertex to itself are left out.
+    Source: Glaeser, sections 6.1 and 8.4; erratum G8-11.
+    """
+    pairs = np.asarray(edges, dtype=np.intp).reshape(-1, 2)
+    pairs = pairs[pairs[:, 0] != pairs[:, 1]]
+    if not len(pairs):
+        return Branches(np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp), np.zeros(0, dtype=np.bool_))
+    # A dart 2 e + s runs along edge e, starting at its end s; darts follow one another where ends are joined.
+    following = _joined_ends(pairs)[np.arange(2 * len(pairs)) ^ 1]
+    chain, first_edge, closed = _chains(following)
+    # A branch is found twice, once each way; the way that runs forward along its first edge is kept.
+    kept = np.flatnonzero(chain[2 * first_edge] == chain)
+    rank = _ranks(following, closed, first_edge)[kept]
+    # Ranks count the darts still to come.
+    order = kept[np.lexsort((-rank, first_edge[kept]))]
+    return _branches(pairs, order, first_edge[order], closed[order])
+
+
+def _branches(pairs: Ints, darts: Ints, branch: Ints, closed: Bools) -> Branches:
+    """Branches from their darts in order: the start of every dart, and of open branches the end of the last."""
+    start = pairs[darts >> 1, darts & 1]
+    last = np.concatenate([branch[1:] != branch[:-1], [True]])
+    copies = 1 + (last & ~closed)
+    points = np.repeat(start, copies)
+    ends = np.cumsum(copies)
+    opened = last & ~closed
+    points[ends[opened] - 1] = pairs[darts[opened] >> 1, 1 - (darts[opened] & 1)]
+    return Branches(points, np.concatenate([[0], ends[last]]), closed[last])
+
+
+def _joined_ends(pairs: Ints) -> Ints:
+    """(2 e,) for the end s of edge e, number 2 e + s, the end it is joined to at their vertex, or -1."""
+    ends = np.arange(2 * len(pairs))
+    vertex, side = pairs.ravel(), ends & 1
+    rank = _ranks_within(2 * vertex + side)
+    tails, heads = (np.bincount(pairs[:, s], minlength=int(pairs.max()) + 1) for s in (0, 1))
+    matched = np.minimum(tails, heads)[vertex]
+    # Heads go with tails of the same rank; what is left over of one sort goes by twos.
+    group = np.where(rank < matched, rank, matched + (rank - matched) // 2)
+    order = np.lexsort((group, vertex))
+    same = (vertex[order][1:] == vertex[order][:-1]) & (group[order][1:] == group[order][:-1])
+    joined = np.full(len(ends), -1)
+    joined[order[:-1][same]] = order[1:][same]
+    joined[order[1:][same]] = order[:-1][same]
+    return joined
+
+
+def _ranks_within(keys: Ints) -> Ints:
+    """(n,) how many equal keys stand before each."""
+    order = np.argsort(keys, kind="stable")
+    ordered = keys[order]
+    starts = np.concatenate([[True], ordered[1:] != ordered[:-1]])
+    position = np.arange(len(keys))
+    rank = np.zeros(len(keys), dtype=np.intp)
+    rank[order] = position - np.maximum.accumulate(np.where(starts, position, 0))
+    return rank
+
+
+def _chains(following: Ints) -> tuple[Ints, Ints, Bools]:
+    """(n,) a dart that stands for the chain of each dart, the smallest edge in the chain, and whether the chain is
+    closed.
+
+    Source: pointer jumping.
+    """
+    here = np.arange(len(following))
+    jump = np.where(following < 0, here, following)
+    least = here.copy()
+    for _ in range(len(following).bit_length()):
+        least = np.minimum(least, least[jump])
+        jump = jump[jump]
+    closed = following[jump] >= 0
+    # An open chain saw only what comes after each dart: gather at its last dart.
+    smallest = here.copy()
+    np.minimum.at(smallest, jump[~closed], least[~closed])
+    return np.where(closed, least, jump), np.where(closed, least, smallest[jump]) >> 1, np.asarray(closed)
+
+
+def _ranks(following: Ints, closed: Bools, first_edge: Ints) -> Ints:
+    """(n,) how many darts come after each in its chain; closed chains are cut before their first edge's dart."""
+    cut = closed & (following == 2 * first_edge)
+    here = np.arange(len(following))
+    jump = np.where((following < 0) | cut, here, following)
+    rank = (jump != here).astype(np.intp)
+    for _ in range(len(following).bit_length()):
+        rank = rank + rank[jump]
+        jump = jump[jump]
+    return np.asarray(rank)

@@ -189,18 +189,6 @@ def point_on_line(p: ArrayLike, q: ArrayLike, parameter: ArrayLike) -> Floats:
     return np.asarray(np.where(t < 0.5, p + t * (q - p), q - (1.0 - t) * (q - p)))
 
 
-def point_at_distance(p: ArrayLike, q: ArrayLike, distance: ArrayLike) -> Floats:
-    """The points of lines PQ at some distance from P, towards Q.
-
-    p, q: (..., k) two points of each line; distance: (...) negative distances lie beyond P; result: (..., k) points of
-    the lines.
-    Source: Glaeser, section 1.2, equation 13.
-    """
-    p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
-    size = np.maximum(np.abs(p).max(axis=-1), np.abs(q).max(axis=-1))
-    return np.asarray(p + np.asarray(distance)[..., None] * normalize(q - p, magnitude=size))
-
-
 def translated(points: ArrayLike, vector: ArrayLike) -> Floats:
     """Points moved by a vector.
 
@@ -265,41 +253,6 @@ def angle(a: ArrayLike, b: ArrayLike) -> Floats:
     return np.asarray(arctan2(sine, dot(a, b)))
 
 
-def angle_line_plane(direction: ArrayLike, normal: ArrayLike) -> Floats:
-    """The angles between lines and planes given by their normals, in radians.
-
-    direction: (..., 3) of the lines; normal: (..., 3) of the planes; result: (...) -pi/2 to pi/2: 0 in the plane,
-    positive towards the normal.
-    Source: Glaeser, section 1.2.
-    """
-    return np.asarray(np.pi / 2.0 - angle(direction, normal))
-
-
-def angle_planes(normal: ArrayLike, other: ArrayLike) -> Floats:
-    """The angles between planes: those of their normals, in radians.
-
-    normal, other: (..., 3) of any length but zero; result: (...) 0 to pi.
-    Source: Glaeser, section 1.2.
-    """
-    return angle(normal, other)
-
-
-def lambert_cosine(normal: ArrayLike, point: ArrayLike, light: ArrayLike) -> Floats:
-    """The cosines that say how brightly faces are lit: 1 facing the light, negative on the side turned away.
-
-    normal: (..., 3) of the faces, of any length but zero; point: (..., 3) their barycentres; light: (..., 3) where the
-    light stands, or (x, y, z, 0) for parallel rays that come from the direction (x, y, z); result: (...) -1 to 1.
-    Source: Glaeser, sections 1.2 and 4.5.
-    """
-    light = np.asarray(light, dtype=np.float64)
-    point = np.asarray(point, dtype=np.float64)
-    if light.shape[-1] == 4:
-        ray = light[..., :3] - light[..., 3:] * point
-    else:
-        ray = light - point
-    return dot(normalize(normal), normalize(ray))
-
-
 def spherical_coordinates(points: ArrayLike) -> Floats:
     """Distance from the origin, azimuth and elevation of points in space, angles in radians.
 
@@ -312,14 +265,3 @@ def spherical_coordinates(points: ArrayLike) -> Floats:
     across = length(p[..., :2])
     azimuth = np.where(across > 0.0, arctan2(p[..., 1], p[..., 0]), 0.0)
     return np.stack([length(p), azimuth, arctan2(p[..., 2], across)], axis=-1)
-
-
-def from_spherical_coordinates(coordinates: ArrayLike) -> Floats:
-    """The points with some distances, azimuths and elevations.
-
-    coordinates: (..., 3) as spherical_coordinates gives them, angles in radians; result: (..., 3) in space.
-    Source: Glaeser, section 2.4.
-    """
-    distance, azimuth, elevation = np.moveaxis(np.asarray(coordinates, dtype=np.float64), -1, 0)
-    across = distance * np.cos(elevation)
-    return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), distance * np.sin(elevation)], axis=-1)

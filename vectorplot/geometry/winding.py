@@ -233,3 +233,44 @@ def _boxed_in(low: Floats, high: Floats, inner: Ints, outer: Ints) -> Bools:
         below = np.all(high[some][:, None] < high[outer], axis=2)
         found[start : start + rows] = np.any(above & below, axis=1)
     return found
+
+
+NO_FACE = -1
+
+
+def mesh_edges(mesh: Mesh) -> Ints:
+    """(e,2) the edges of the mesh, smaller vertex number first, sorted: the sides of all faces, each once.
+
+    Source: Glaeser, section 3.3; erratum G3-09: edges are pairs of consecutive corners, so the border of an open body
+    belongs to them, and two faces that share vertices that are not neighbours get no false edge.
+    """
+    uses = edge_uses(mesh)
+    corner = uses.corner[uses.first]
+    ends = np.stack([mesh.corners[corner], mesh.corners[mesh.next_corner[corner]]], axis=1)
+    return np.sort(ends, axis=1)
+
+
+def face_barycentres(mesh: Mesh) -> Floats:
+    """The mean of the corners of every face.
+
+    Parameters
+    ----------
+    mesh : Mesh
+        With f faces.
+
+    Returns
+    -------
+    (f, 3) array of float
+        In world units.
+
+    Examples
+    --------
+    >>> from vectorplot import geometry
+    >>> geometry.face_barycentres(geometry.box((2, 2, 2)))[4:].tolist()
+    [[1.0, 1.0, 0.0], [1.0, 1.0, 2.0]]
+    """
+    if not mesh.face_count:
+        return np.zeros((0, 3))
+    first = mesh.vertices[mesh.corners[mesh.offsets[:-1]]]
+    arms = mesh.vertices[mesh.corners] - first[mesh.corner_face]
+    return np.asarray(first + np.add.reduceat(arms, mesh.offsets[:-1], axis=0) / mesh.face_sizes[:, None])

@@ -15,7 +15,6 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.adjacency import mesh_edges
 from vectorplot.geometry.algebra import determinant, matmul
 from vectorplot.geometry.convex_bodies import polyhedron_intersection
 from vectorplot.geometry.mesh import Mesh
@@ -37,7 +36,7 @@ from vectorplot.geometry.solids import (
     swept_polygon,
     turned_outwards,
 )
-from vectorplot.geometry.winding import edge_uses
+from vectorplot.geometry.winding import edge_uses, mesh_edges
 from vectorplot.io.scene_words import Words
 from vectorplot.io.surface_line_words import CurveDraft
 from vectorplot.scene.face_looks import FaceLook, FaceLooks

@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.adjacency import mesh_edges
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import Mesh, next_positions
 from vectorplot.geometry.mesh_repair import joined_seams
 from vectorplot.geometry.projections import Projection, projection_of
+from vectorplot.geometry.winding import mesh_edges
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.surface import Surface, is_parametrised

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
-from vectorplot.geometry.vectors import cross, dot, length, point_on_line
+from vectorplot.geometry.vectors import angle, cross, dot, length, normalize, point_on_line
 from vectorplot.tolerances import INFINITE, PARALLEL_SINE, ROUNDING, ZERO_OF_EXTENT
 
 # Planes in space, many at once.
@@ -387,3 +387,61 @@ def _trace(
     first = np.take_along_axis(points, low.argmin(axis=-1)[..., None, None], axis=-2)[..., 0, :]
     last = np.take_along_axis(points, high.argmax(axis=-1)[..., None, None], axis=-2)[..., 0, :]
     return low.min(axis=-1), high.max(axis=-1), first, last
+
+
+def point_at_distance(p: ArrayLike, q: ArrayLike, distance: ArrayLike) -> Floats:
+    """The points of lines PQ at some distance from P, towards Q.
+
+    p, q: (..., k) two points of each line; distance: (...) negative distances lie beyond P; result: (..., k) points of
+    the lines.
+    Source: Glaeser, section 1.2, equation 13.
+    """
+    p, q = np.asarray(p, dtype=np.float64), np.asarray(q, dtype=np.float64)
+    size = np.maximum(np.abs(p).max(axis=-1), np.abs(q).max(axis=-1))
+    return np.asarray(p + np.asarray(distance)[..., None] * normalize(q - p, magnitude=size))
+
+
+def angle_line_plane(direction: ArrayLike, normal: ArrayLike) -> Floats:
+    """The angles between lines and planes given by their normals, in radians.
+
+    direction: (..., 3) of the lines; normal: (..., 3) of the planes; result: (...) -pi/2 to pi/2: 0 in the plane,
+    positive towards the normal.
+    Source: Glaeser, section 1.2.
+    """
+    return np.asarray(np.pi / 2.0 - angle(direction, normal))
+
+
+def angle_planes(normal: ArrayLike, other: ArrayLike) -> Floats:
+    """The angles between planes: those of their normals, in radians.
+
+    normal, other: (..., 3) of any length but zero; result: (...) 0 to pi.
+    Source: Glaeser, section 1.2.
+    """
+    return angle(normal, other)
+
+
+def lambert_cosine(normal: ArrayLike, point: ArrayLike, light: ArrayLike) -> Floats:
+    """The cosines that say how brightly faces are lit: 1 facing the light, negative on the side turned away.
+
+    normal: (..., 3) of the faces, of any length but zero; point: (..., 3) their barycentres; light: (..., 3) where the
+    light stands, or (x, y, z, 0) for parallel rays that come from the direction (x, y, z); result: (...) -1 to 1.
+    Source: Glaeser, sections 1.2 and 4.5.
+    """
+    light = np.asarray(light, dtype=np.float64)
+    point = np.asarray(point, dtype=np.float64)
+    if light.shape[-1] == 4:
+        ray = light[..., :3] - light[..., 3:] * point
+    else:
+        ray = light - point
+    return dot(normalize(normal), normalize(ray))
+
+
+def from_spherical_coordinates(coordinates: ArrayLike) -> Floats:
+    """The points with some distances, azimuths and elevations.
+
+    coordinates: (..., 3) as spherical_coordinates gives them, angles in radians; result: (..., 3) in space.
+    Source: Glaeser, section 2.4.
+    """
+    distance, azimuth, elevation = np.moveaxis(np.asarray(coordinates, dtype=np.float64), -1, 0)
+    across = distance * np.cos(elevation)
+    return np.stack([across * np.cos(azimuth), across * np.sin(azimuth), distance * np.sin(elevation)], axis=-1)

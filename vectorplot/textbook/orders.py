@@ -11,9 +11,9 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.separating_planes import spheres_power
 from vectorplot.geometry.vectors import cross
 from vectorplot.scene.view import View
+from vectorplot.textbook.separating_planes import spheres_power
 from vectorplot.visibility.painter.face_splitting import eye_coordinate, slice_order
 from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.painter.priority_tests import (

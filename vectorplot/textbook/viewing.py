@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -11,7 +13,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.clipping import Box
+from vectorplot.geometry.clipping import Box, ClippedLines, Polygons, cut_polygons, divided
 from vectorplot.geometry.elementary import tan
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.projections import CoordinateSystem, depth_of
@@ -590,3 +592,57 @@ def segments_to_pixels(
         kept = np.where((above > 0.0)[:, None], at_near, point)[seen]
         image[seen] = dehomogenized(matmul(kept, matrix.T))
     return images[0], images[1], np.asarray(seen)
+
+
+Drawn = TypeVar("Drawn")
+
+
+def clip_lines_3d(start: ArrayLike, end: ArrayLike, box: Box) -> ClippedLines:
+    """The parts of segments inside a box, wherever the eye is.
+
+    start, end: (n, 4) homogeneous, as CoordinateSystem.homogeneous gives them.
+    Source: Glaeser, section 2.5; errata G2-08 to G2-10.
+    """
+    p, q = np.asarray(start, dtype=np.float64), np.asarray(end, dtype=np.float64)
+    low, high, exists, clipped = _inside_part(matmul(p, box.planes.T), matmul(q, box.planes.T))
+    ends = [
+        np.where((t < 0.5)[:, None], p + t[:, None] * (q - p), q - (1.0 - t)[:, None] * (q - p)) for t in (low, high)
+    ]
+    flat = [divided(e, exists) for e in ends]
+    return ClippedLines(flat[0], flat[1], exists, clipped)
+
+
+def _inside_part(p: Floats, q: Floats) -> tuple[Floats, Floats, Bools, Bools]:
+    """From distances (n, planes) of both ends: parameters of the part inside, whether there is one, whether any is
+    cut."""
+    out_p, out_q = p < 0.0, q < 0.0
+    share = p / np.where(out_p != out_q, p - q, 1.0)
+    low = np.where(out_p & ~out_q, share, 0.0).max(axis=-1)
+    high = np.where(out_q & ~out_p, share, 1.0).min(axis=-1)
+    exists = ~(out_p & out_q).any(axis=-1) & (low <= high)
+    return low, high, np.asarray(exists), np.asarray((out_p | out_q).any(axis=-1))
+
+
+def clip_and_draw(
+    start: ArrayLike,
+    end: ArrayLike,
+    clip: Callable[[ArrayLike, ArrayLike], ClippedLines],
+    draw: Callable[[Floats, Floats], Drawn],
+) -> Drawn:
+    """What draw makes of the segments that clip leaves: any way of clipping goes with any way of drawing.
+
+    start, end: (n, 2 or more) the segments.
+    """
+    lines = clip(start, end)
+    return draw(lines.start[lines.exists], lines.end[lines.exists])
+
+
+def clip_polygons_3d(polygons: Polygons, box: Box) -> Polygons:
+    """The parts of polygons inside a box, wherever the eye is.
+
+    Source: Glaeser, section 2.5; errata G2-09, G2-12.
+    """
+    for plane in box.planes:
+        polygons, _ = cut_polygons(polygons, matmul(polygons.points, plane))
+    points = polygons.points
+    return Polygons(divided(points, np.ones(len(points), dtype=np.bool_)), polygons.offsets)

@@ -24,10 +24,10 @@ from vectorplot.animation.movies import encoded, movie_of
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
-from vectorplot.geometry.adjacency import mesh_edges
 from vectorplot.geometry.camera import Camera, Point
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.winding import mesh_edges
 from vectorplot.pictures.draw import draw
 from vectorplot.pictures.film import Film
 from vectorplot.save import write

@@ -1,13 +1,4 @@
 from .painter.face_splitting import cut_into_slices, slice_order, sliced_order
-from .painter.groups import (
-    cyclic_overlap_report,
-    cyclic_overlaps,
-    demands,
-    grouped_order,
-    object_order,
-    priorities,
-    view_objects,
-)
 from .painter.image_faces import image_faces, image_points
 from .painter.painters_order import painters_order
 from .painter.priority_tests import APART, BEHIND, IN_FRONT, convex_bodies
@@ -24,21 +15,14 @@ __all__ = [
     "Segments",
     "convex_bodies",
     "cut_into_slices",
-    "cyclic_overlap_report",
-    "cyclic_overlaps",
-    "demands",
     "edge_lines",
-    "grouped_order",
     "image_faces",
     "image_points",
-    "object_order",
     "painters_order",
-    "priorities",
     "project_faces",
     "slice_order",
     "sliced_order",
     "solid_items",
     "topological_order",
-    "view_objects",
     "visible_parts",
 ]

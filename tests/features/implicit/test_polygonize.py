@@ -5,11 +5,11 @@ import pytest
 
 from vectorplot.errors import InputError
 from vectorplot.features.implicit_surfaces import polygonized, settled_mesh
-from vectorplot.geometry.adjacency import body_record
 from vectorplot.geometry.winding import edge_uses, is_closed_oriented
 from vectorplot.surfaces.implicit import implicit_of_function
 from vectorplot.surfaces.quadrics import implicit_cone, implicit_cylinder, implicit_plane, implicit_sphere
 from vectorplot.surfaces.tori import ImplicitTorus, ImplicitTorusByDistance
+from vectorplot.textbook.polyhedra import body_record
 
 BOX = np.array([[-2.0] * 3, [2.0] * 3])
 

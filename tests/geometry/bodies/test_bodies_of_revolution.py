@@ -8,9 +8,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.adjacency import body_record, face_constants, neighbour_faces
 from vectorplot.geometry.solids import MAX_ORDER, has_convex_outline, revolution
 from vectorplot.geometry.winding import is_closed_oriented
+from vectorplot.textbook.polyhedra import body_record, face_constants, neighbour_faces
 
 CONE = [[4, 0, 0], [0, 0, 7]]
 CYLINDER = [[2.5, 0, -5], [2.5, 0, 5]]

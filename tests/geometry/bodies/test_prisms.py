@@ -8,10 +8,10 @@ from support.drawn import drawn
 
 import vectorplot as vp
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.geometry.adjacency import body_record
 from vectorplot.geometry.solids import prism, regular_polygon
 from vectorplot.geometry.winding import is_closed_oriented
 from vectorplot.testing import assert_drawing_is_right
+from vectorplot.textbook.polyhedra import body_record
 
 SWEEP = [[0, 2, 0], [0, -1.4, 0], [0, -2, 0.6], [0, -2, 1.2], [0, -1.4, 1.6], [0, 2, 1.6]]
 

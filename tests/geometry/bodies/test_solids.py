@@ -8,10 +8,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.adjacency import body_record, mesh_edges
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import BOTTOM, TOP, box, has_convex_outline, placed, polyhedron, prism, turned_outwards
-from vectorplot.geometry.winding import is_closed_oriented
+from vectorplot.geometry.winding import is_closed_oriented, mesh_edges
+from vectorplot.textbook.polyhedra import body_record
 
 lengths = st.floats(0.01, 100).flatmap(lambda x: st.sampled_from([x, -x]))
 

@@ -13,7 +13,7 @@ from vectorplot.geometry import clipping as clipped_polygons
 from vectorplot.geometry.camera import Camera, PixelWindow
 from vectorplot.geometry.clipping import Box, Polygons, Window
 from vectorplot.geometry.projections import CoordinateSystem, collineate, depth_of
-from vectorplot.textbook.viewing import Frustum
+from vectorplot.textbook.viewing import Frustum, clip_and_draw, clip_lines_3d, clip_polygons_3d
 
 HUNDRED = Window(0, 100, 0, 100)
 SCREEN = CoordinateSystem.of_screen(Camera(eye=(9, -7, 6), target=(1, 0, 1), twist_deg=15), PixelWindow(800, 600))
@@ -143,9 +143,9 @@ def test_any_clipping_goes_with_any_drawing():
     def nothing_clipped(p, q):
         return clipped_lines.ClippedLines(p, q, np.ones(len(p), dtype=bool), np.zeros(len(p), dtype=bool))
 
-    assert clipped_lines.clip_and_draw(start, end, window, solid) == [("line", 1, 2, 3, 4), ("line", 0, 50, 50, 50)]
-    assert clipped_lines.clip_and_draw(start, end, window, length) == pytest.approx(50 + 8**0.5)
-    assert len(clipped_lines.clip_and_draw(start, end, nothing_clipped, solid)) == 3
+    assert clip_and_draw(start, end, window, solid) == [("line", 1, 2, 3, 4), ("line", 0, 50, 50, 50)]
+    assert clip_and_draw(start, end, window, length) == pytest.approx(50 + 8**0.5)
+    assert len(clip_and_draw(start, end, nothing_clipped, solid)) == 3
 
 
 @pytest.mark.capability("G2.5-z-region")
@@ -179,7 +179,7 @@ def test_lines_after_t2_agree_with_the_frustum_in_the_world_also_across_the_eye(
     count = several(500, long=2000)
     p, q = rng.uniform(-14, 14, (2, count, 3)) + SCREEN.centre / 2
     assert SCREEN.forbidden(p).sum() > 0.15 * count
-    lines = clipped_lines.clip_lines_3d(SCREEN.homogeneous(p), SCREEN.homogeneous(q), BOX)
+    lines = clip_lines_3d(SCREEN.homogeneous(p), SCREEN.homogeneous(q), BOX)
     found = 0
     for k in range(len(p)):
         part = inside_by_sampling(p[k], q[k], frustum)
@@ -205,17 +205,17 @@ def test_both_images_beyond_the_right_edge_yet_the_line_crosses_the_window():
     p, q = np.array([[4.0, 0.0, 0.0]]), np.array([[-3.0, 0.0, 14.0]])
     raw = np.concatenate([system.homogeneous(p), system.homogeneous(q)])
     assert (raw[:, 0] / raw[:, 3] > 600).all()
-    lines = clipped_lines.clip_lines_3d(raw[:1], raw[1:], Box(Window.of_size(600, 600)))
+    lines = clip_lines_3d(raw[:1], raw[1:], Box(Window.of_size(600, 600)))
     assert lines.exists[0] and lines.start[0, 0] == pytest.approx(600) and lines.end[0, 0] < 600
     # A point in the neutral plane itself does no harm.
-    level = clipped_lines.clip_lines_3d(raw[:1], system.homogeneous([[1.0, 0.0, 10.0]]), Box(Window.of_size(600, 600)))
+    level = clip_lines_3d(raw[:1], system.homogeneous([[1.0, 0.0, 10.0]]), Box(Window.of_size(600, 600)))
     assert np.isfinite(level.end).all()
 
 
 @pytest.mark.capability("G2.5-clip3d-line")
 def test_a_parallel_projection_is_clipped_in_its_own_depths():
     system = CoordinateSystem.of_image(Camera.view("top"))
-    lines = clipped_lines.clip_lines_3d(
+    lines = clip_lines_3d(
         system.homogeneous([[0.5, 0.5, -9.0]]), system.homogeneous([[0.5, 0.5, 9.0]]), Box(Window.of_size(1, 1), -2, 3)
     )
     assert np.allclose([lines.start[0], lines.end[0]], [(0.5, 0.5, -2), (0.5, 0.5, 3)], atol=1e-15)
@@ -291,7 +291,7 @@ def test_polygons_in_the_box_agree_with_the_frustum_in_the_world():
     assert (SCREEN.forbidden(triangles).any(axis=1) & ~SCREEN.forbidden(triangles).all(axis=1)).sum() > 100
     count = len(triangles)
     polygons = Polygons(SCREEN.homogeneous(triangles).reshape(-1, 4), np.arange(0, 3 * count + 1, 3))
-    clipped = clipped_polygons.clip_polygons_3d(polygons, BOX)
+    clipped = clip_polygons_3d(polygons, BOX)
     planes, mesh = [], frustum.mesh
     for first, normal in zip(mesh.corners[mesh.offsets[:-1]], mesh.face_normals, strict=True):
         planes.append((-normal, normal @ mesh.vertices[first]))
@@ -315,9 +315,7 @@ def test_polygons_in_the_box_agree_with_the_frustum_in_the_world():
 def test_a_polygon_around_the_eye_fills_the_window():
     system = CoordinateSystem.of_screen(Camera(eye=(0, 0, 10), up=(0, 1, 0)), PixelWindow(600, 600))
     floor = [(-1e3, -1, -1e3), (1e3, -1, -1e3), (1e3, -1, 1e3), (-1e3, -1, 1e3)]
-    clipped = clipped_polygons.clip_polygons_3d(
-        Polygons.of(system.homogeneous(floor)), Box(Window.of_size(600, 600), -0.99, 100.0)
-    )
+    clipped = clip_polygons_3d(Polygons.of(system.homogeneous(floor)), Box(Window.of_size(600, 600), -0.99, 100.0))
     assert clipped[0][:, 1].min() == pytest.approx(0.0, abs=1e-9)
     assert np.abs(area(clipped[0])) == pytest.approx(600 * clipped[0][:, 1].max(), rel=1e-9)
 

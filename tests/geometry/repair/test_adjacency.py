@@ -8,18 +8,18 @@ import numpy as np
 import pytest
 from support.paths import DATA
 
-from vectorplot.geometry.adjacency import NO_FACE, body_record, common_edge, face_records, mesh_edges, neighbour_faces
 from vectorplot.geometry.camera import Camera
-from vectorplot.geometry.contour_polygons import contour_branches
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.separating_planes import FIRST_ABOVE, separations
 from vectorplot.geometry.solids import box, polyhedron
+from vectorplot.geometry.winding import NO_FACE, mesh_edges
 from vectorplot.io.read_file import read
 from vectorplot.pictures.draw import draw
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import look
 from vectorplot.shading.shaded_faces import face_middles, face_normals, face_shades, view_lights
-from vectorplot.visibility.painter.groups import priorities, view_objects, wholly_hidden
+from vectorplot.textbook.object_orders import priorities, view_objects, wholly_hidden
+from vectorplot.textbook.polyhedra import body_record, common_edge, contour_branches, face_records, neighbour_faces
+from vectorplot.textbook.separating_planes import FIRST_ABOVE, separations
 from vectorplot.visibility.painter.priority_tests import BEHIND, IN_FRONT
 from vectorplot.words import MATERIALS, check_colour
 

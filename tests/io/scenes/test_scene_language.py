@@ -11,13 +11,13 @@ from support.scene_texts import PYRAMID
 
 import vectorplot as vp
 from vectorplot.errors import InputWarning
-from vectorplot.geometry.adjacency import body_record
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.solids import box, revolution
 from vectorplot.geometry.winding import is_closed_oriented
 from vectorplot.io.scene_language import parse_scene, read_scene
 from vectorplot.scene.light import Light
 from vectorplot.scene.page import Page
+from vectorplot.textbook.polyhedra import body_record
 from vectorplot.words import PALETTES
 
 

@@ -7,11 +7,12 @@ from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.cli.main import run
-from vectorplot.geometry.adjacency import body_record, mesh_edges
+from vectorplot.geometry.winding import mesh_edges
 from vectorplot.io.read_file import read
 from vectorplot.scene.view import pools
 from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
+from vectorplot.textbook.polyhedra import body_record
 
 FILES = sorted(DATA.glob("*.scene"))
 

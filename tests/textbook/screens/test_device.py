@@ -18,6 +18,7 @@ from vectorplot.shading.illumination import LEAST, depth_shades
 from vectorplot.testing.shapes import box
 from vectorplot.textbook import framebuffer as drawn_pixels
 from vectorplot.textbook.device import DepthCueing, Device
+from vectorplot.textbook.viewing import clip_and_draw, clip_lines_3d
 
 COLUMNS, ROWS = 60, 45
 
@@ -218,10 +219,10 @@ def test_every_way_of_clipping_goes_with_solid_exclusive_or_and_buffered_lines(s
             expected |= drawn_on(line(blank(), a, b))
         frame = blank().frame
 
-        plain = clipped_lines.clip_and_draw(start, end, clip, solid(blank()))
+        plain = clip_and_draw(start, end, clip, solid(blank()))
         assert drawn_on(plain) == expected, name
-        banded = clipped_lines.clip_and_draw(start, end, clip, by_or(frame))
-        again = clipped_lines.clip_and_draw(start, end, clip, by_or(banded))
+        banded = clip_and_draw(start, end, clip, by_or(frame))
+        again = clip_and_draw(start, end, clip, by_or(banded))
         assert np.array_equal(again.pages, frame.pages) and (banded.pages != frame.pages).any(), name
         # Buffered: on the page that is not seen, until the pages are exchanged.
         assert not plain.frame.picture().any() and plain.swapped().frame.picture().any()
@@ -240,15 +241,15 @@ def test_lines_of_space_are_drawn_where_they_are_inside_and_not_at_all_outside()
     start, end = (system.homogeneous(np.array([pair[k] for pair in (inside, crossing, outside)])) for k in (0, 1))
 
     def clip(p, q):
-        return clipped_lines.clip_lines_3d(p, q, space)
+        return clip_lines_3d(p, q, space)
 
     clipped = clip(start, end)
     assert clipped.exists.tolist() == [True, True, False] and clipped.clipped.tolist() == [False, True, True]
     expected = [system.from_world(np.array(p))[:2] for p in inside]
     assert np.allclose([clipped.start[0, :2], clipped.end[0, :2]], expected, atol=1e-9)
     separate = [drawn_on(line(blank(), clipped.start[k, :2], clipped.end[k, :2])) for k in range(2)]
-    assert drawn_on(clipped_lines.clip_and_draw(start, end, clip, solid(blank()))) == separate[0] | separate[1]
-    assert not drawn_on(clipped_lines.clip_and_draw(start[2:], end[2:], clip, solid(blank())))
+    assert drawn_on(clip_and_draw(start, end, clip, solid(blank()))) == separate[0] | separate[1]
+    assert not drawn_on(clip_and_draw(start[2:], end[2:], clip, solid(blank())))
 
 
 @dataclass

@@ -22,8 +22,7 @@ from vectorplot.testing.shapes import (
     scene_of,
     torus_mesh,
 )
-from vectorplot.textbook.orders import sphere_order
-from vectorplot.visibility.painter.groups import (
+from vectorplot.textbook.object_orders import (
     cyclic_overlap_report,
     cyclic_overlaps,
     demands,
@@ -34,6 +33,7 @@ from vectorplot.visibility.painter.groups import (
     which_first,
     wholly_hidden,
 )
+from vectorplot.textbook.orders import sphere_order
 from vectorplot.visibility.painter.image_faces import drawn_faces, image_faces
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.priority_tests import (

@@ -16,7 +16,7 @@ from vectorplot.features.curve_tracing import Tracing
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import inverse_matrix, matmul, symmetric_eigen
 from vectorplot.geometry.chord_refinement import HALVINGS, Traces, bisected, refined, straight_between
-from vectorplot.geometry.contour_polygons import concat
+from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot

@@ -1,4 +1,4 @@
-"""Painter's orders of whole objects and of groups of objects, cyclic overlaps, and items that overlap in a crowd."""
+"""Painter's orders of whole objects and of groups of objects, by priorities and cyclic overlaps."""
 
 from __future__ import annotations
 
@@ -15,9 +15,10 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.convex_polygons import convex_hulls
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polygon_cuts import inside_convex
-from vectorplot.geometry.separating_planes import Surroundings, separations
 from vectorplot.scene.view import View
+from vectorplot.textbook.separating_planes import Surroundings, separations
 from vectorplot.visibility.painter.image_faces import ImageFaces, drawn_faces, image_faces
+from vectorplot.visibility.painter.painters_order import group_ranks
 from vectorplot.visibility.painter.priority_tests import (
     APART,
     BEHIND,
@@ -25,17 +26,11 @@ from vectorplot.visibility.painter.priority_tests import (
     STRADDLING,
     Codes,
     box_pairs,
-    boxes_of_items,
     face_relations,
     outlined_items,
-    pairs_across,
 )
 from vectorplot.visibility.painter.topological_order import component_ranks, topological_order
 from vectorplot.visibility.projected_faces import project_faces
-
-# Which of two objects is in front of the other, in the system of an eye or of a lamp: tables of decisions.
-#
-# The painter itself compares only what overlaps, and cuts where nothing else helps; these are the decisions one by one.
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,10 +74,10 @@ def view_objects(view: View, object_of: ArrayLike | None = None) -> Objects:
     Examples
     --------
     >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
+    >>> from vectorplot import geometry, scene, textbook
     >>> cubes = tuple(vp.Item(name, geometry.box((1, 1, 1))) for name in ("one", "two", "three"))
     >>> view = scene.look(vp.Scene(cubes), vp.Camera((5, 4, 3)))
-    >>> len(visibility.view_objects(view)), len(visibility.view_objects(view, [0, 0, 1]))
+    >>> len(textbook.view_objects(view)), len(textbook.view_objects(view, [0, 0, 1]))
     (3, 2)
     """
     items = len(view.item_vertices) - 1
@@ -196,10 +191,10 @@ def priorities(objects: Objects, subset: ArrayLike | None = None, *, critical: b
     Examples
     --------
     >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
+    >>> from vectorplot import geometry, scene, textbook, visibility
     >>> above = geometry.box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2))
     >>> boxes = (vp.Item("high", above), vp.Item("low", geometry.box((1, 1, 1))))
-    >>> table = visibility.priorities(visibility.view_objects(scene.look(vp.Scene(boxes), vp.Camera((2, 3, 9)))))
+    >>> table = textbook.priorities(textbook.view_objects(scene.look(vp.Scene(boxes), vp.Camera((2, 3, 9)))))
     >>> bool(table[0, 1] == visibility.IN_FRONT), bool(table[1, 0] == visibility.BEHIND)
     (True, True)
     """
@@ -228,9 +223,9 @@ def demands(table: Codes) -> tuple[Ints, Ints]:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot import visibility
+    >>> from vectorplot import textbook
     >>> from vectorplot.visibility import APART, BEHIND, IN_FRONT
-    >>> before, after = visibility.demands(np.array([[APART, IN_FRONT], [BEHIND, APART]]))
+    >>> before, after = textbook.demands(np.array([[APART, IN_FRONT], [BEHIND, APART]]))
     >>> before.tolist(), after.tolist()
     ([1], [0])
     """
@@ -317,8 +312,8 @@ def cyclic_overlaps(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot import visibility
-    >>> knots = visibility.cyclic_overlaps(4, before=np.array([0, 2, 3, 1]), after=np.array([2, 3, 0, 0]))
+    >>> from vectorplot import textbook
+    >>> knots = textbook.cyclic_overlaps(4, before=np.array([0, 2, 3, 1]), after=np.array([2, 3, 0, 0]))
     >>> [knot.tolist() for knot in knots]
     [[0, 2, 3]]
     """
@@ -346,8 +341,8 @@ def cyclic_overlap_report(knots: Sequence[Ints], names: Sequence[str]) -> tuple[
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot import visibility
-    >>> visibility.cyclic_overlap_report((np.array([0, 2, 3]),), ["oak", "elm", "ash", "fir"])
+    >>> from vectorplot import textbook
+    >>> textbook.cyclic_overlap_report((np.array([0, 2, 3]),), ["oak", "elm", "ash", "fir"])
     ('oak, ash and fir lie on one another in a circle, or pierce each other',)
     """
     sentences = []
@@ -386,11 +381,11 @@ def object_order(view: View, names: Sequence[str]) -> ObjectOrder:
     Examples
     --------
     >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
+    >>> from vectorplot import geometry, scene, textbook
     >>> above = geometry.box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2))
     >>> boxes = (vp.Item("high", above), vp.Item("low", geometry.box((1, 1, 1))))
     >>> view = scene.look(vp.Scene(boxes), vp.Camera((2, 3, 9)))
-    >>> visibility.object_order(view, ["high", "low"]).order.tolist()
+    >>> textbook.object_order(view, ["high", "low"]).order.tolist()
     [1, 0]
     """
     objects = view_objects(view)
@@ -436,11 +431,11 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot import visibility
-    >>> found = visibility.grouped_order(3, before=np.array([2]), after=np.array([0]), group=np.array([0, -1, 0]))
+    >>> from vectorplot import textbook
+    >>> found = textbook.grouped_order(3, before=np.array([2]), after=np.array([0]), group=np.array([0, -1, 0]))
     >>> found.order.tolist()
     [2, 0, 1]
-    >>> between = visibility.grouped_order(3, np.array([2, 1]), np.array([1, 0]), group=np.array([0, -1, 0]))
+    >>> between = textbook.grouped_order(3, np.array([2, 1]), np.array([1, 0]), group=np.array([0, -1, 0]))
     >>> between.order.tolist(), between.undone  # 1 lies between the two of group 0
     ([2, 1, 0], (0,))
     """
@@ -451,102 +446,3 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
     within[topological_order(count, before, after).order] = np.arange(count)
     rank, undone = group_ranks(count, before, after, owner)
     return ObjectOrder(np.lexsort((within, rank)), cyclic_overlaps(count, before, after), undone=undone)
-
-
-def group_ranks(count: int, before: Ints, after: Ints, owner: Ints) -> tuple[Ints, tuple[int, ...]]:
-    """The ranks of groups among each other, and of what belongs to none.
-
-    before, after: (d,) before[k] has to be drawn before after[k]; owner: (count,) the group of each thing, -1 for none.
-    Source: Glaeser, section 5.7.
-    """
-    undone: set[int] = set()
-    while True:
-        whole = (owner >= 0) & ~np.isin(owner, list(undone))
-        _, unit = np.unique(np.where(whole, owner, owner.max(initial=-1) + 1 + np.arange(count)), return_inverse=True)
-        units = int(unit.max(initial=-1)) + 1
-        across = unit[before] != unit[after]
-        rank = component_ranks(units, unit[before[across]], unit[after[across]])
-        circled = np.bincount(rank, minlength=1)[rank[unit]] > 1 if count else np.zeros(0, dtype=np.bool_)
-        broken = set(owner[circled & whole].tolist())
-        if not broken:
-            return rank[unit], tuple(sorted(undone))
-        undone |= broken
-
-
-# Items whose faces overlap in the image in more pairs than can be compared, and the order that is left for them.
-
-OF_THE_BUDGET = 8
-"""Two faces are compared in so small a part of the time of other pairs that the budget means so many more of them."""
-
-OF_EACH = 32
-"""So many pairs may be compared for each thing, if that is more in all: large meshes have some ten of each."""
-
-ROUNDS = 4
-"""So often the items with the most pairs are taken away before all are."""
-
-
-def pairs_allowed(pairs: int, things: int) -> int:
-    """How many pairs of a number of things may be compared with a budget of pairs."""
-    return max(OF_THE_BUDGET * pairs, OF_EACH * things)
-
-
-def crowded_items(
-    box: Floats, item: Ints, field: Ints, tolerance: float, most: int
-) -> tuple[Ints, tuple[Ints, Ints] | None]:
-    """The items to be left out so that no more than most pairs remain to be compared, in ascending order; and the pairs
-    that remain, as of pairs_across, where they are known and so few that they come in one lot.
-
-    box (4,t), item (t,), field (t,): of things, as of pairs_across. They are those that have most pairs of all, as far
-    as these were counted; what is done follows most, not how many pairs there are.
-    """
-    pairs: tuple[Ints, Ints] | None = None
-    kept = np.arange(box.shape[1])
-    out = np.zeros(int(item.max(initial=-1)) + 1, dtype=np.bool_)
-    for _ in range(ROUNDS):
-        if len(kept) * (len(kept) - 1) // 2 <= most:
-            break
-        tally, total = np.zeros(len(out), dtype=np.intp), 0
-        pairs = kept[:0], kept[:0]
-        for first, second in pairs_across(box[:, kept], field[kept], tolerance):
-            pairs = (kept[first], kept[second]) if total == 0 else None
-            total += len(first)
-            for ends in (first, second):
-                tally += np.bincount(item[kept[ends]], minlength=len(out))
-            if total > most:
-                break
-        if total <= most:
-            break
-        by_number = np.argsort(-tally, kind="stable")
-        out[by_number[: int(np.searchsorted(np.cumsum(tally[by_number]), total)) + 1]] = True
-        kept = np.flatnonzero(~out[item])
-    else:
-        out[item] = True
-    return np.flatnonzero(out), pairs
-
-
-def around(box: Floats, item: Ints, some: Ints, tolerance: float) -> Bools:
-    """(i,) some items, and what they overlap in the image, and what that overlaps, and so on, by the boxes of items.
-
-    box (4 or more, n), item (n,): of polygons.
-    """
-    from scipy.sparse import coo_array
-    from scipy.sparse.csgraph import connected_components
-
-    count = int(item.max(initial=-1)) + 1
-    bounds = boxes_of_items(box, item, count)
-    there = np.flatnonzero(bounds[0] <= bounds[1])
-    label = np.arange(count)
-    for first, second in box_pairs(bounds[:, there], tolerance):
-        ends = label[there[first]], label[there[second]]
-        graph = coo_array((np.ones(len(first), dtype=np.int8), ends), shape=(count, count))
-        label = connected_components(graph, directed=False)[1].astype(np.intp)[label]
-    return np.isin(label, label[some])
-
-
-def by_depth(faces: ImageFaces) -> ImageFaces:
-    """The faces by where they reach farthest from the eye, those that do so farther first.
-
-    Right where neighbours are small, as triangles of surfaces are, and apart in depth.
-    Source: Newell, Newell and Sancha (1972), their first order.
-    """
-    return faces.take(np.lexsort((faces.rank, faces.box[4])))

@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.geometry import separating_planes
 from vectorplot.geometry.convex_polygons import hull_mesh
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.separating_planes import (
+from vectorplot.testing.shapes import box, prism, rotation
+from vectorplot.textbook import separating_planes
+from vectorplot.textbook.separating_planes import (
     FIRST_ABOVE,
     FIRST_BELOW,
     NOT_FOUND,
@@ -20,7 +21,6 @@ from vectorplot.geometry.separating_planes import (
     separations_after_moves,
     spheres_power,
 )
-from vectorplot.testing.shapes import box, prism, rotation
 
 SQUARE = Mesh.from_polygons([(0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)], [[0, 1, 2, 3]])
 

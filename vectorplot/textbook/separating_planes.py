@@ -58,8 +58,8 @@ def own_box(points: ArrayLike) -> Floats:
 
     Examples
     --------
-    >>> from vectorplot import geometry
-    >>> geometry.own_box([(0, 0, 0), (1, 2, 3)])[[0, 1, 2, 4]].tolist()
+    >>> from vectorplot import textbook
+    >>> textbook.own_box([(0, 0, 0), (1, 2, 3)])[[0, 1, 2, 4]].tolist()
     [[0.0, 0.0, 0.0], [1.0, 0.0, 0.0], [0.0, 2.0, 0.0], [0.0, 0.0, 3.0]]
     """
     p = np.asarray(points, dtype=np.float64)
@@ -98,8 +98,8 @@ class Surroundings:
 
     Examples
     --------
-    >>> from vectorplot import geometry
-    >>> around = geometry.Surroundings.of([geometry.box((2, 2, 2)), geometry.box((1, 1, 1))])
+    >>> from vectorplot import geometry, textbook
+    >>> around = textbook.Surroundings.of([geometry.box((2, 2, 2)), geometry.box((1, 1, 1))])
     >>> len(around), around.spheres[0].round(6).tolist(), around.plane_offsets.tolist()
     (2, [1.0, 1.0, 1.0, 1.732051], [0, 6, 12])
     """
@@ -223,8 +223,8 @@ def spheres_power(spheres: Floats, eye: ArrayLike) -> Floats:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> geometry.spheres_power(np.array([(0, 0, 0, 1.0), (3, 0, 0, 1.5)]), eye=(5, 0, 0)).tolist()
+    >>> from vectorplot import textbook
+    >>> textbook.spheres_power(np.array([(0, 0, 0, 1.0), (3, 0, 0, 1.5)]), eye=(5, 0, 0)).tolist()
     [24.0, 1.75]
     """
     place = np.asarray(eye, dtype=np.float64)
@@ -263,9 +263,9 @@ def separations(around: Surroundings, first: Ints, second: Ints, *, tolerance: f
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot import geometry
+    >>> from vectorplot import geometry, textbook
     >>> shapes = [geometry.box((1, 1, 1), placement=(1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0)) for x in (0, 1, 9)]
-    >>> found = geometry.separations(geometry.Surroundings.of(shapes), np.array([0, 0]), np.array([1, 2]))
+    >>> found = textbook.separations(textbook.Surroundings.of(shapes), np.array([0, 0]), np.array([1, 2]))
     >>> found.info.tolist(), found.planes[0].tolist()
     ([-1, 2], [1.0, 0.0, 0.0, 1.0])
     """
