@@ -144,7 +144,7 @@ def check_render_options(
 ) -> None:
     """InputError for unknown words, and for numbers out of range."""
     check_word("transparency", transparency, ("blended", "sparse"))
-    check_word("shadows", shadows, ("auto", "none", "buffer", "trapezoid", "exact"))
+    check_word("shadows", shadows, ("auto", "none", "buffer", "trapezoid", "perspective", "exact"))
     if not 1 <= samples <= MOST_SAMPLES:
         raise InputError(f"{samples} samples: expected 1 to {MOST_SAMPLES}")
     if not 0.0 <= crease_angle_deg <= 180.0:
@@ -231,7 +231,7 @@ def tapered_for(
     triangles: SceneTriangles, system: CoordinateSystem, size: tuple[int, int], shadows: str
 ) -> SeenRegion | None:
     """What is seen, for shadow maps that are tapered for it; None for others."""
-    if shadows != "trapezoid":
+    if shadows not in ("trapezoid", "perspective"):
         return None
     from vectorplot.shading.seen_region import region_in_picture
 

@@ -22,7 +22,9 @@ class MapSettings:
     casting : {"all", "away"}
         Which faces the map is made of, all or those that turn away from the light.
     wanted_focus : float, optional
-        The part of the texels that what is in focus should get of a trapezoidal map; None: as it comes.
+        The part of the texels that what is in focus should get of a tapered map; None: as it comes.
+    tapered : {"trapezoid", "perspective"}
+        How those are made that go by what is seen.
 
     Raises
     ------
@@ -33,15 +35,17 @@ class MapSettings:
     --------
     >>> from vectorplot.shading import MapSettings
     >>> MapSettings(size=2048, casting="away")
-    MapSettings(size=2048, bits=32, casting='away', wanted_focus=None)
+    MapSettings(size=2048, bits=32, casting='away', wanted_focus=None, tapered='trapezoid')
     """
 
     size: int = 1024
     bits: int = 32
     casting: Literal["all", "away"] = "all"
     wanted_focus: float | None = None
+    tapered: Literal["trapezoid", "perspective"] = "trapezoid"
 
     def __post_init__(self) -> None:
         check_word("shadow casters", self.casting, ("all", "away"))
+        check_word("tapered maps", self.tapered, ("trapezoid", "perspective"))
         if self.wanted_focus is not None and not 0.0 < self.wanted_focus < 1.0:
             raise InputError(f"a shadow focus of {self.wanted_focus:g}: expected a part of the map, between 0 and 1")

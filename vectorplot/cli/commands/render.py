@@ -26,7 +26,7 @@ if TYPE_CHECKING:
 
 
 FORMATS = ("png",)
-SHADOWS = ("auto", "none", "buffer", "trapezoid", "exact")
+SHADOWS = ("auto", "none", "buffer", "trapezoid", "perspective", "exact")
 
 
 @picture_verb(
