@@ -134,6 +134,8 @@ class FaceLooks:
         eye: (x, y, z, 1), or (x, y, z, 0) for parallel rays from there; distance: what is no farther from a face lies
         on it. Where faces meet, the one that is turned to the eye counts, of several the one listed first.
         """
+        if not mesh.face_count:
+            return np.full(len(points), -1, dtype=np.intp)
         point, face = PlacedTriangles(mesh).faces_at(points, distance)
         if mesh.present is not None:
             point, face = point[mesh.present[face]], face[mesh.present[face]]
