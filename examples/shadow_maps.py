@@ -48,7 +48,8 @@ def main(folder: Path, width: int = 1600) -> None:
     colours = ["#efe9dc", *["orange", "cyan", "yellow"] * 50]
     items = tuple(vp.Item(f"B{k}", mesh, colours[k]) for k, mesh in enumerate(meshes))
     scene = vp.Scene(items, (LIGHT,), title="Shadow maps")
-    size = (width // 3, width * 5 // 24)
+    unit = width // 320
+    size, side, gap = (106 * unit, 66 * unit), 78 * unit, 2 * unit
     options = {"size": size, "fit": False, "samples": 3, "shadow_size": MAP}
     pictures = [
         vp.render(scene, CAMERA, shadows=how, **options).pixels for how in ("buffer", "trapezoid", "perspective")
@@ -63,7 +64,6 @@ def main(folder: Path, width: int = 1600) -> None:
         return shadow_buffer(LIGHT, points, corners, size=side, rows=side, frame=frame, region=region).maps[0]
 
     maps = {frame: map_of(frame, MAP) for frame in ("standard", "box", "trapezoid", "perspective")}
-    side, gap = width * 31 // 128, width // 160
     page = np.full((size[1] + gap + side, width, 3), 255, dtype=np.uint8)
     for k, picture in enumerate(pictures):
         left = k * (width - size[0]) // 2
