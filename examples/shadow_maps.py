@@ -1,7 +1,9 @@
-"""Three shadow maps of one size for one view: the whole scene, the box about what is seen, the trapezoid around it.
+"""Four shadow maps of one size for one view: the scene, the box about what is seen, a trapezoid, after the perspective.
 
-The trapezoid gives most of the map to what is near the eye. Above the pictures, below the maps; the light falls in from
-the left. Sources: Martin and Tan, Trapezoidal shadow maps, recipe; Ressler, Notes on implementation.
+The trapezoid around what is seen, and what the light sees of it after the camera's perspective, give most of the map to
+what is near the eye. Above the pictures with the first and the last two, below the maps; the light falls in from the
+left. Sources: Martin and Tan, Trapezoidal shadow maps, recipe; Ressler, Notes on implementation; Stamminger and
+Drettakis, Perspective shadow maps, 2002.
 """
 
 import sys
@@ -46,9 +48,12 @@ def main(folder: Path, width: int = 1600) -> None:
     colours = ["#efe9dc", *["orange", "cyan", "yellow"] * 50]
     items = tuple(vp.Item(f"B{k}", mesh, colours[k]) for k, mesh in enumerate(meshes))
     scene = vp.Scene(items, (LIGHT,), title="Shadow maps")
-    size = (width // 2, width * 5 // 16)
+    unit = width // 320
+    size, side, gap = (106 * unit, 66 * unit), 78 * unit, 2 * unit
     options = {"size": size, "fit": False, "samples": 3, "shadow_size": MAP}
-    plain, tapered = (vp.render(scene, CAMERA, shadows=how, **options).pixels for how in ("buffer", "trapezoid"))
+    pictures = [
+        vp.render(scene, CAMERA, shadows=how, **options).pixels for how in ("buffer", "trapezoid", "perspective")
+    ]
 
     first = np.cumsum([0, *(len(mesh.vertices) for mesh in meshes)])
     points = np.concatenate([mesh.vertices for mesh in meshes])
@@ -58,12 +63,13 @@ def main(folder: Path, width: int = 1600) -> None:
     def map_of(frame, side):
         return shadow_buffer(LIGHT, points, corners, size=side, rows=side, frame=frame, region=region).maps[0]
 
-    maps = {frame: map_of(frame, MAP) for frame in ("standard", "box", "trapezoid")}
-    side, gap = width * 5 // 16, width // 160
+    maps = {frame: map_of(frame, MAP) for frame in ("standard", "box", "trapezoid", "perspective")}
     page = np.full((size[1] + gap + side, width, 3), 255, dtype=np.uint8)
-    page[: size[1], : size[0] - gap], page[: size[1], size[0] + gap :] = plain[:, gap:], tapered[:, gap:]
+    for k, picture in enumerate(pictures):
+        left = k * (width - size[0]) // 2
+        page[: size[1], left : left + size[0] - gap] = picture[:, gap:]
     for k, frame in enumerate(maps):
-        left = k * (width - side) // 2
+        left = k * (width - side) // 3
         page[-side:, left : left + side] = coloured(map_of(frame, side).code)
     vp.save(vp.Image(page, "Maps"), folder / "shadow_maps.png")
 
@@ -71,6 +77,7 @@ def main(folder: Path, width: int = 1600) -> None:
     texels = {frame: texels_per_unit(found, near).mean() for frame, found in maps.items()}
     assert texels["trapezoid"] > 8 * texels["standard"], "texels for the same ground before the eye"
     assert texels["trapezoid"] > 5 * texels["box"] > 5 * texels["standard"]
+    assert texels["perspective"] > 4 * texels["trapezoid"]
 
 
 if __name__ == "__main__":

@@ -38,7 +38,7 @@ MAP_LIGHTS = {
 @pytest.mark.slow
 @pytest.mark.capability("N6-z")
 @pytest.mark.spread
-@pytest.mark.parametrize("shadows", ["buffer", "trapezoid"])
+@pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "perspective"])
 @pytest.mark.parametrize("light", MAP_LIGHTS)
 def test_maps_of_what_turns_away_from_the_light_show_the_same_shadows_without_a_margin(shadows, light):
     camera = vp.Camera((6, -11, 9), (0, 0, 0), fov_deg=35)
@@ -118,7 +118,7 @@ def off_the_ball(place, light):
 @pytest.mark.slow
 @pytest.mark.capability("G8.6-shadow-buffer", "RN-in-B8.6")
 @pytest.mark.spread
-@pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "exact"])
+@pytest.mark.parametrize("shadows", ["buffer", "trapezoid", "perspective", "exact"])
 @pytest.mark.parametrize("light", [SUN, vp.Light((-2.0, -4.0, 5.0), intensity=1.0)], ids=["sun", "lamp"])
 def test_the_shadow_of_a_ball_is_where_geometry_puts_it(shadows, light):
     camera = vp.Camera((2.0, -9.0, 8.0), (0, 0, -1), fov_deg=35.0)

@@ -961,6 +961,10 @@ UNSOLVED = 1e12
 RANK_OF_EQUATION = 1e-11
 """A singular value below this part of the largest one is zero."""
 
+LOST_IN_DIFFERENCES = 1e-3
+"""The root of a difference smaller than this part of what is subtracted has lost digits that another expression for it
+has."""
+
 OFF_EQUATION = 1e-9
 """So far points of the surface may be off its equation, in parts of its extent."""
 

@@ -52,7 +52,7 @@ def test_layers_by_kind_come_in_the_order_of_the_conventions():
 def test_empty_layers_at_the_end_are_left_out_and_others_keep_their_number():
     assert layers_by_kind(Paths.empty()) == ()
     assert layers_by_object(Paths.empty(), ["A"]) == ()
-    assert layers_by_colour(Paths.empty(), ["red"]) == ()
+    assert layers_by_colour(Paths.empty(), ["red"], Paths.empty().item) == ()
     layers = layers_by_kind(strokes([LineKind.CONTOUR]))
     assert [(layer.name, places(layer)) for layer in layers] == [("visible", []), ("contour", [0])]
 
@@ -70,7 +70,7 @@ def test_a_layer_for_each_object_in_the_order_of_the_scene():
 
 def test_a_layer_for_each_colour_with_its_ink():
     paths = strokes([LineKind.CREASE] * 4, item=[2, 0, 1, 0], hidden_by=[0, 0, 0, 1])
-    layers = layers_by_colour(paths, ["green", "lightcyan", "green"])
+    layers = layers_by_colour(paths, ["green", "lightcyan", "green"], paths.item)
     assert [(layer.name, places(layer), layer.plotted) for layer in layers] == [
         ("green", [0, 1], True),
         ("lightcyan", [2], True),

@@ -63,3 +63,56 @@ def test_borders_of_smooth_surfaces_are_sections(shape: str, at: float) -> None:
     assert length(border) > 20.0
     assert length(border) == pytest.approx(length(inside), rel=0.02)
     assert length(beyond) == 0.0
+
+
+BALL = 'surface implicit "x^2 + y^2 + z^2 - 2" box -5 5 -5 5 -1 1'
+PIPE = 'surface implicit "x^2 + y^2 - 1" box -5 5 -5 5 -1 1'
+WAVE = 'surface implicit "sin(x)/2 - z" box -5 5 -1 1 -2 2'
+RING = 'surface implicit "(x^2 + y^2 + z^2 + 8)^2 - 36*(x^2 + y^2)" box -5 5 -5 5 -2 2'
+TOUCHED = [
+    ("surface torus 3 1", "z at 1", 6.0 * np.pi),
+    ("surface torus 3 1", "z at -1, 1", 12.0 * np.pi),
+    ('surface graph "(x^2 + y^2 - 1)^2" x -1.2 1.2 y -1.2 1.2', "z at 0", 2.0 * np.pi),
+    ('surface graph "sin(x)/2" x -5 5 y -2 2', "z at 0.5", 8.0),
+    ("surface cylinder 1 -1 1", "x at 1", 2.0),
+    (RING, "z at 1", 6.0 * np.pi),
+    (WAVE, "z at 0.5", 4.0),
+    (PIPE, "x at 1", 2.0),
+]
+
+
+def world_length(scene: vp.Scene) -> float:
+    """How long the sections are in space, hidden or not."""
+    found = 0.0
+    for layer in vp.draw(scene, lines=("section",), hidden="solid", curves="polyline", tolerance_mm=0.005).layers:
+        for paths in layer.strokes:
+            long = np.linalg.norm(np.diff(paths.points3d, axis=0), axis=1)
+            long[paths.offsets[1:-1] - 1] = 0.0
+            found += float(long.sum())
+            for begin, end in zip(paths.offsets[:-1][paths.closed], paths.offsets[1:][paths.closed], strict=True):
+                found += float(np.linalg.norm(paths.points3d[begin] - paths.points3d[end - 1]))
+    return found
+
+
+@pytest.mark.parametrize(("shape", "planes", "expected"), TOUCHED)
+@pytest.mark.parametrize("turned", [False, True])
+@pytest.mark.spread
+@pytest.mark.filterwarnings("error")
+def test_a_plane_that_touches_a_surface_along_a_line_has_that_line_as_section(
+    shape: str, planes: str, expected: float, turned: bool
+) -> None:
+    scene = parse_scene(f"S {shape} sections {planes}")
+    # A surface that its box cuts off is another one in a turned box.
+    if turned and shape not in (WAVE, PIPE):
+        scene = scene.turned((1.0, 2.0, 0.5), 33.0).moved(40.0, -70.0, 20.0)
+    assert world_length(scene) == pytest.approx(expected, rel=2e-3)
+
+
+@pytest.mark.parametrize(("shape", "expected"), [(BALL, 2.0 * np.pi), (PIPE, 2.0 * np.pi)])
+@pytest.mark.parametrize("at", [-1.0, 1.0])
+@pytest.mark.parametrize("side", [-1.0, 1.0])
+def test_a_border_of_an_implicit_surface_in_the_plane_of_a_section_is_one(
+    shape: str, expected: float, at: float, side: float
+) -> None:
+    scene = parse_scene(f"camera eye 9 6 7 parallel S {shape} sections normal 0 0 {side} at {side * at}")
+    assert world_length(scene) == pytest.approx(expected, rel=2e-3)

@@ -193,3 +193,80 @@ def test_colours_of_faces_in_ply_files_are_their_looks(tmp_path: Path, kind: str
     shown = [item.face_looks.looks[k] for k in item.face_looks.of_face]
     assert [look.colour for look in shown] == ["#ff0000", "#00ff00", "#0000ff", "#000000"]
     assert [look.material for look in shown] == [None, None, Material("normal", opacity=0.0), None]
+
+
+def inks(drawing: vp.Drawing) -> dict[str, float]:
+    """How long the strokes of each layer are in the world."""
+    found: dict[str, float] = {}
+    for layer in drawing.layers:
+        for paths in layer.strokes:
+            way = np.diff(paths.points3d, axis=0)
+            way[paths.offsets[1:-1] - 1] = 0.0
+            found[layer.name] = found.get(layer.name, 0.0) + float(np.sqrt((way**2).sum(axis=1)).sum())
+    return {name: length for name, length in found.items() if length}
+
+
+SIDES = "faces 1 2 6 5 red, 2 3 7 6 green, 5 6 7 8, 3 4 8 7 , 4 1 5 8, 4 3 2 1 yellow"
+CORNERS = "vertices 0 0 0, 2 0 0, 2 2 0, 0 2 0, 0 0 2, 2 0 2, 2 2 2, 0 2 2"
+SHOWN = vp.Camera((7.0, -9.0, 6.0), (1.0, 1.0, 1.0))
+
+
+@pytest.mark.capability("G3.2-face")
+@pytest.mark.parametrize("move", [1.0, 1e6])
+def test_layers_by_colour_go_by_the_face_that_is_seen_and_listed_first(move: float) -> None:
+    scene = parse_scene(f"B blue general {CORNERS} {SIDES}").moved(move, 0.0, 0.0)
+    camera = vp.Camera((7.0 + move, -9.0, 6.0), (1.0 + move, 1.0, 1.0))
+    length = inks(vp.draw(scene, camera, layers="colour", lines=("contour", "crease")))
+    # The front is red, with all four of its edges; the right side has two of what is left, and the top two.
+    assert {name: round(one, 3) for name, one in length.items()} == {"red": 8.0, "green": 6.0, "blue": 4.0}
+    by_kind = inks(vp.draw(scene, camera, layers="kind,colour", lines=("contour", "crease")))
+    assert round(by_kind["visible red"], 3) == 4.0
+    assert {layer.pen.colour for layer in vp.draw(scene, camera, layers="colour").layers} == {
+        *("#c00000", "#1a7a1a", "#1f4fa3")
+    }
+
+
+def colours_of(drawing: vp.Drawing) -> set[str]:
+    return {word for name in inks(drawing) for word in name.split() if word in ("red", "green", "blue", "yellow")}
+
+
+FRONT = {"camera": vp.Camera((1.0, -9.0, 1.0), (1.0, 1.0, 1.0)), "layers": "colour"}
+
+
+@pytest.mark.parametrize("way", ["patterns", "hatches", "cut", "wireframe", "panorama", "inside"])
+def test_whatever_lies_on_a_face_has_its_colour(way: str) -> None:
+    text = f"B blue general {CORNERS} {SIDES}"
+    if way == "patterns":
+        dots = parse_scene(text + " patterns face 1 polygon DOT white -1 -1, 1 -1, 0 1")
+        assert "pattern red" in inks(vp.draw(dots, SHOWN, layers="kind,colour"))
+    elif way == "hatches":
+        hatches = inks(vp.draw(parse_scene(text + " hatch colour"), SHOWN, layers="colour"))
+        assert {"hatch red", "hatch green", "hatch blue"} <= set(hatches)
+    elif way == "cut":
+        half = inks(vp.draw(vp.cut(parse_scene(text), "z > 1"), lines="boundary,contour", **FRONT))
+        assert round(half["red"], 3) == 4.0
+    elif way == "wireframe":
+        assert colours_of(vp.draw(parse_scene(text), SHOWN, style="wireframe")) == {"red", "green", "blue"}
+    elif way == "panorama":
+        round_about = vp.panorama(parse_scene(text), (1.0, -3.0, 1.0), layers="colour", lines="contour,crease")
+        assert colours_of(round_about) == {"red"}
+    else:
+        # Of an open box the back is seen from inside, past the front that is gone.
+        opened = parse_scene(text.replace("general", "hollow").replace("3 4 8 7", "3 4 8 7 green") + " removed_faces 1")
+        assert "green" in colours_of(vp.draw(opened, **FRONT))
+
+
+def test_highlights_of_libraries_are_those_of_materials(tmp_path: Path) -> None:
+    (tmp_path / "p.obj").write_text(PYRAMID)
+    (tmp_path / "p.mtl").write_text(
+        "newmtl a\nKd 0 0 0.5\nKs 0.5 0.25 0\nNs 64\nillum 2\n"
+        "newmtl the red\nKd 1 0 0\nKs 1 1 1\nNs 0\n"
+        "newmtl glass\nKd 0 1 0\nKs 1 1 1\nillum 1\nNs 20\nd 0.5\n"
+    )
+    (item,) = vp.read(tmp_path / "p.obj").items
+    assert item.face_looks is not None
+    shown = [item.face_looks.looks[k] for k in item.face_looks.of_face]
+    # Half of the palette each; cos(b / 2)^64 is cos(b)^16.
+    assert shown[0].material == Material("normal", diffuse=0.5, highlight=5.0, sharpness=16.0)
+    assert shown[1].material is None
+    assert shown[3].material == Material("normal", opacity=0.5)

@@ -25,6 +25,7 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.scene.light import Light
 from vectorplot.shading import shadow_maps as maps
+from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.screen import raster_system
 from vectorplot.shading.seen_region import focus_of_depths, region_in_picture, seen_region
 from vectorplot.shading.shadow_maps import (
@@ -34,6 +35,7 @@ from vectorplot.shading.shadow_maps import (
     in_texels,
     is_inside,
     light_plane,
+    perspective_frame,
     shadow_buffer,
     shadow_map,
     shape_of,
@@ -43,7 +45,7 @@ from vectorplot.shading.shadow_maps import (
     vertices_with_own_depth,
 )
 from vectorplot.shading.shadow_rays import blocked_exactly
-from vectorplot.shading.trapezoids import focus_area
+from vectorplot.shading.trapezoids import focus_area, projective_images
 from vectorplot.testing.shapes import bumpy_icosphere
 
 SUN = Light((1.0, -1.5, 2.0), parallel=True)
@@ -249,7 +251,7 @@ def unscaled(system, depth):
 
 
 @pytest.mark.slow
-@pytest.mark.capability("R-two-pass", "RN-in-B8.6", "R-demos", "N2-eta")
+@pytest.mark.capability("R-two-pass", "RN-in-B8.6", "R-demos", "N2-eta", "R-psm")
 @pytest.mark.spread(parts=2)
 @pytest.mark.parametrize(
     "light",
@@ -265,7 +267,7 @@ def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
     distance = np.linalg.norm(places - FIELD_CAMERA.eye, axis=1)
     near = distance <= np.quantile(distance, 0.1)
     texels, wrong, shadows = {}, {}, {}
-    for frame in ("standard", "box", "trapezoid"):
+    for frame in ("standard", "box", "trapezoid", "perspective"):
         buffer = shadow_buffer(light, points, corners, size=1024, frame=frame, region=region)
         shadows[frame] = buffer.blocks(places, normals)
         texels[frame] = texels_per_unit(buffer.maps[0], places[near]).mean()
@@ -274,11 +276,61 @@ def test_the_trapezoid_shows_more_of_what_is_near_and_the_same_shadows(light):
         wrong[frame] = (bad[near & facing].mean(), bad[facing].mean())
     plain = shadow_buffer(light, points, corners, size=2048).blocks(places, normals)
     assert (shadows["trapezoid"] == plain)[facing].mean() > 0.98
+    assert (shadows["perspective"] == plain)[facing].mean() > 0.98
+    assert texels["perspective"] > 4.0 * texels["trapezoid"]
     assert texels["trapezoid"] > 8.0 * texels["standard"]
     assert texels["trapezoid"] > 4.0 * texels["box"] >= 4.0 * texels["standard"]
     # One pixel of all that is near may be wrong by chance.
     assert wrong["trapezoid"][0] < 0.6 * wrong["standard"][0] + 1.5 / (near & facing).sum(), "near the eye"
     assert wrong["trapezoid"][1] < wrong["standard"][1], "and in all"
+    assert wrong["perspective"][0] < 0.6 * wrong["standard"][0] + 1.5 / (near & facing).sum()
+    assert wrong["perspective"][1] < wrong["standard"][1]
+
+
+@pytest.mark.capability("R-psm")
+@pytest.mark.parametrize("side", [0.0, 0.7, -2.0])
+def test_a_perspective_map_shows_the_ground_as_evenly_as_the_picture_does(side):
+    points, corners = triangles_of(floor(30.0, 0.0))
+    camera = Camera((0.0, -40.0, 3.0), (0.0, 0.0, 3.0), fov_deg=40.0)
+    system = raster_system(camera, 300, 200)
+    region = region_in_picture(system, 300, 200, points, corners)
+    # Across the view, so that the perspective leaves its rays parallel.
+    lamp = aimed_system(Light((side, 0.0, 1.0), parallel=True), points)
+    frame = perspective_frame(lamp, region)
+    x, y = np.meshgrid([-3.0, 0.0, 3.0], [-20.0, -5.0, 25.0])
+    ground = np.column_stack([x.ravel(), y.ravel(), np.zeros(9)])
+    image = system.homogeneous(ground)
+    image = image[:, :2] / image[:, 3:]
+    found = projective_images(frame, light_plane(lamp, ground))
+    affine = np.linalg.lstsq(np.column_stack([image, np.ones(9)]), found, rcond=None)
+    assert np.abs(np.column_stack([image, np.ones(9)]) @ affine[0] - found).max() < 1e-9
+    shown = projective_images(frame, light_plane(lamp, region.points))
+    assert np.allclose([shown.min(axis=0), shown.max(axis=0)], [(-1, -1), (1, 1)])
+    far = np.append(light_plane(lamp, region.points), np.ones((len(region.points), 1)), axis=1) @ frame[2]
+    assert far.min() == pytest.approx(1.0)
+    assert np.linalg.det(frame) > 0.0, "it is not mirrored"
+
+
+@pytest.mark.capability("R-psm")
+def test_a_perspective_map_that_would_look_along_a_side_of_what_is_seen_is_the_box():
+    points, corners = triangles_of(floor(300.0, 0.0), floor(300.0, 12.0))
+    camera = Camera((0.0, -290.0, 6.0), (0.0, 0.0, 6.0), fov_deg=60.0)
+    region = region_in_picture(raster_system(camera, 90, 60), 90, 60, points, corners)
+    # The one sun stands behind the eye and beside what is seen: after the perspective close to it.
+    edge, side = (Light(way, parallel=True) for way in ((-0.8, -1.0, 0.001), (1.0, 0.1, 1.0)))
+    (one, box_), (two, other) = (
+        [
+            shadow_buffer(light, points, corners, frame=frame, size=128, region=region).maps[0].texel_from_light
+            for frame in ("perspective", "box")
+        ]
+        for light in (edge, side)
+    )
+    assert (one == box_).all()
+    assert not (two == other).all() and np.abs(two[2, :2]).max() > 0.0
+    with pytest.raises(InputError, match="needs the region"):
+        shadow_buffer(side, points, corners, frame="perspective")
+    with pytest.raises(InputError, match="tapered"):
+        MapSettings(tapered="round")
 
 
 @pytest.mark.slow
@@ -329,8 +381,9 @@ def test_texels_are_as_square_as_what_the_map_shows_allows():
 
 
 @pytest.mark.hard(33)
+@pytest.mark.parametrize("frame", ["trapezoid", "perspective"])
 @pytest.mark.parametrize("angle", [0.0, 1e-9, 1e-4, 0.01, 0.1, np.pi - 0.1, np.pi - 1e-4, np.pi])
-def test_a_light_that_faces_the_eye_has_the_right_shadows(angle):
+def test_a_light_that_faces_the_eye_has_the_right_shadows(angle, frame):
     points, corners = triangles_of(box((-1, -1, -1), (1, 1, 1)), box((1.5, 1, -1), (2, 3, 1)), floor(8.0, -1.2))
     camera = Camera((0, -14, 1), (0, 0, 1), fov_deg=50.0)
     right, _, back = camera.axes
@@ -339,7 +392,7 @@ def test_a_light_that_faces_the_eye_has_the_right_shadows(angle):
     exact = blocked_exactly(light, places, found.triangle, points, corners)
     _, facing = stopped(points, corners, places, normals, light)
     region = seen_region(raster_system(camera, COLUMNS, ROWS), COLUMNS, ROWS, bounds(points))
-    buffer = shadow_buffer(light, points, corners, size=1024, frame="trapezoid", region=region)
+    buffer = shadow_buffer(light, points, corners, size=1024, frame=frame, region=region)
     assert np.isfinite(buffer.maps[0].texel_from_light).all()
     assert (buffer.blocks(places, normals) != exact)[facing].mean() < 0.02
 

@@ -106,7 +106,7 @@ def wrong_share(pixels: Bytes, truth: Bytes, levels: int = 0) -> float:
     return 100.0 * float((apart > levels).mean())
 
 
-# Shadows in pixels: exact ones, standard maps, and trapezoidal ones.
+# Shadows in pixels: exact ones, standard, trapezoidal and perspective maps.
 
 ROWS, DISTANCE = 9, 4.0
 """Rows of pillars along the way, and how far they are apart."""
@@ -146,6 +146,7 @@ def _study_of_shadow_maps() -> Study:
     ways = (
         Way("standard map", partial(rendered, "buffer"), -1.0),
         Way("trapezoidal map", partial(rendered, "trapezoid"), -1.0),
+        Way("perspective map", partial(rendered, "perspective"), -1.0),
     )
     return Study(ways, error, lambda picture: picture.pixels[..., 0].size, exact=exact)
 
@@ -154,7 +155,7 @@ SHADOW_MAPS = Approximation(
     name="shadow-maps",
     title="Shadows by maps of what the light sees",
     about="An avenue of pillars in the sun, from its near end. The error is how many pixels are not as light as with "
-    "exact shadows. Trapezoidal maps show most of what is near the eye.",
+    "exact shadows. Trapezoidal and perspective maps show most of what is near the eye.",
     knob="texels along a side",
     values=(128, 256, 512, 1024, 2048),
     limits=(16, 8192),

@@ -6,10 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from vectorplot.arrays import Ints
+from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.strokes import chosen
 from vectorplot.geometry.polylines import split
+from vectorplot.scene.scene import Scene
+from vectorplot.tolerances import FLAT_OF_EXTENT
 from vectorplot.words import LineKind
 
 BLACK = "#000000"
@@ -109,18 +111,34 @@ def layers_by_object(paths: Paths, items: Sequence[str]) -> tuple[Layer, ...]:
     return layers_of(paths, which, [*pens, ("hidden", PENS["hidden"], True)])
 
 
-def layers_by_colour(paths: Paths, colours: Sequence[str]) -> tuple[Layer, ...]:
+def layers_by_colour(paths: Paths, colours: Sequence[str], shown_item: Ints) -> tuple[Layer, ...]:
     """A layer for every colour of items, drawn in its ink, and one for hidden lines.
 
-    colours: the colour of every item.
+    colours: the colour of every item; shown_item (m,): the one whose colour each stroke has.
     """
     names = list(dict.fromkeys(colours))
     of_item = np.array([names.index(colour) for colour in colours], dtype=np.intp)
-    which = np.full(len(paths), len(names))
-    shown = paths.hidden_by == 0
-    which[shown] = of_item[paths.item[shown]]
+    which = np.where(paths.hidden_by > 0, len(names), of_item[shown_item])
     pens = [(name, Pen(PENS["visible"].width_mm, ink(name)), True) for name in names]
     return layers_of(paths, which, [*pens, ("hidden", PENS["hidden"], True)])
+
+
+def shown_items(scene: Scene, strokes: Paths, eye: Floats) -> Ints:
+    """(m,) the item whose colour each stroke has: the look of the face that it lies on, if that has one of its own.
+
+    eye: as of FaceLooks.seen_at. Error: a stroke is looked up in the middle of its first segment.
+    """
+    found = strokes.item.copy()
+    distance = FLAT_OF_EXTENT * float(np.ptp(scene.bounds, axis=0).max())
+    for number, item in enumerate(scene.items):
+        looks, own = item.face_looks, np.flatnonzero(strokes.item == number)
+        if looks is None or looks.first < 0 or not len(own):
+            continue
+        first, last = strokes.offsets[own], strokes.offsets[own + 1] - 1
+        middle = 0.5 * (strokes.points3d[first] + strokes.points3d[np.minimum(first + 1, last)])
+        look = looks.seen_at(item.mesh, middle, eye, distance)
+        found[own] = np.where(look >= 0, looks.first + look, number)
+    return found
 
 
 def ink(colour: str) -> str:

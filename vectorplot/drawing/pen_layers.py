@@ -8,6 +8,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from vectorplot.arrays import Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.layers import (
@@ -76,24 +77,27 @@ def sorted_layers(
     layers: str = "kind",
     rules: Sequence[PenRule] = (),
     hatches: Sequence[Layer] = (),
+    shown_item: Ints | None = None,
 ) -> tuple[Layer, ...]:
     """The layers of strokes; hidden ones have one of their own.
 
     items, colours: the name and the colour of every item; layers: as of layer_words; hatches: layers of hatching, which
-    come last; by kind the first of them has its place among the kinds. Where rules give strokes of a layer different
+    come last; by kind the first of them has its place among the kinds; shown_item (m,): the item whose colour each
+    stroke has, where None its own. Where rules give strokes of a layer different
     pens, it becomes as many as of in_pens.
     Errors: InputError for rules for items that are not there.
     """
     check_targets(rules, items)
     words = layer_words(layers)
+    shown_item = paths.item if shown_item is None else shown_item
     if words == ("kind",):
         return in_pens(_by_kind(paths, hatches), items, rules)
     if words == ("object",):
         found = layers_by_object(paths, items)
     elif words == ("colour",):
-        found = layers_by_colour(paths, colours)
+        found = layers_by_colour(paths, colours, shown_item)
     else:
-        found = _by_several(paths, items, colours, words)
+        found = _by_several(paths, items, colours, words, shown_item)
     return in_pens((*found, *hatches), items, rules)
 
 
@@ -122,14 +126,16 @@ def not_plotted(layers: Sequence[Layer], unplotted: Sequence[str], others: Seque
     return tuple(replace(layer, plotted=False) if layer.name in named else layer for layer in layers)
 
 
-def _by_several(paths: Paths, items: Sequence[str], colours: Sequence[str], words: Sequence[str]) -> tuple[Layer, ...]:
+def _by_several(
+    paths: Paths, items: Sequence[str], colours: Sequence[str], words: Sequence[str], shown_item: Ints
+) -> tuple[Layer, ...]:
     """A layer for everything that strokes have in common, in the order of the words, and one for hidden strokes."""
     hues = list(dict.fromkeys(colours))
     kinds = list(PENS)
     of_item = np.array([hues.index(colour) for colour in colours], dtype=np.intp)
     of_kind = np.array([kinds.index(KIND_LAYER[kind]) for kind in LineKind])
     named = {"kind": kinds, "object": list(items), "colour": hues}
-    numbers = {"kind": of_kind[paths.kind], "object": paths.item, "colour": of_item[paths.item]}
+    numbers = {"kind": of_kind[paths.kind], "object": paths.item, "colour": of_item[shown_item]}
     key = np.zeros(len(paths), dtype=np.intp)
     for word in words:
         key = key * len(named[word]) + numbers[word]

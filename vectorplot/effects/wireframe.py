@@ -12,7 +12,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
-from vectorplot.drawing.layers import PENS, layers_of
+from vectorplot.drawing.layers import PENS, layers_of, shown_items
 from vectorplot.scene.page import Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -37,7 +37,8 @@ def wire_layers(
 ) -> tuple[Layer, ...]:
     """The sheet, and a layer for every shade of every colour, the darkest first; strokes of two points each.
 
-    wireframe: all strokes have the middle shade of their items' palettes; depth-cue: the mean of the shades of their
+    wireframe: all strokes have the middle shade of the palettes of their items, or of faces with
+    colours of their own; depth-cue: the mean of the shades of their
     ends, from a fifth of the palette for what is farthest to its brightest for what is nearest, within the limits of
     depth. Shades are those of palettes of 32.
     Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
@@ -45,7 +46,7 @@ def wire_layers(
     shade = np.full(len(strokes), MIDDLE) if style == "wireframe" else _cued(view, strokes.points3d)
     names = list(dict.fromkeys(item.colour for item in scene.items))
     of_item = np.array([names.index(item.colour) for item in scene.items], dtype=np.intp)
-    key = shade_numbers(shade, PALETTE_SIZE) * len(names) + of_item[strokes.item]
+    key = shade_numbers(shade, PALETTE_SIZE) * len(names) + of_item[shown_items(scene, strokes, view.world_eye)]
     used, which = np.unique(key, return_inverse=True)
     pens = [_pen(names[k % len(names)], k // len(names)) for k in used.tolist()]
     return (_background(scene, page), *layers_of(strokes, which, pens))

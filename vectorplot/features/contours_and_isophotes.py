@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Sequence
 from dataclasses import replace
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -42,14 +42,17 @@ from vectorplot.features.curve_tracing import (
 from vectorplot.features.parameter_curves import borders
 from vectorplot.features.pinch_points import ThroughPinchPoints, through_pinch_points
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.polylines import take
+from vectorplot.geometry.polylines import NumberedLines, take
+from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
-from vectorplot.tolerances import ROUNDING_OF_TERMS
+from vectorplot.tolerances import ROUNDING_OF_TERMS, ZERO_OF_EXTENT
 
 # The contour of a surface: where it turns away from the eye.
 
 DEFAULT = Tracing()
+
+N = TypeVar("N", bound=NumberedLines)
 
 
 def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
@@ -230,6 +233,9 @@ def _isophotes(condition: Isophote | PointIsophote, levels: Floats, rounding: fl
 
 # Sections of a surface: with implicit surfaces, with families of planes, level lines.
 
+ODD_DIRECTION = (8.0 / 17.0, 15.0 / 17.0)
+"""Of length 1: no part of a full turn, as directions of shapes mostly are."""
+
 
 def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The curves of a surface on which F of an implicit surface is zero.
@@ -318,19 +324,41 @@ def border_sections(
 ) -> SurfaceCurves:
     """Those borders of a surface that lie in one of the planes n.x = d, with d as level: plane_sections looks for where
     the surface goes through, and there are none of these at a border."""
+    lines, n = borders(surface, tracing=tracing), normalize(vector("plane sections: normal", normal))
     levels = np.atleast_1d(np.asarray(offsets, dtype=np.float64))
-    large = extent(surface)[1]
-    lines = borders(surface, tracing=tracing)
+    return in_planes(lines, n, levels, ROUNDING_OF_TERMS * (extent(surface)[1] + np.abs(levels)))
+
+
+def tangent_sections(
+    surface: Surface, normal: ArrayLike, offsets: ArrayLike, *, tracing: Tracing = DEFAULT
+) -> SurfaceCurves:
+    """The curves along which one of the planes n.x = d touches a surface, with d as level: n.x - d does not change its
+    sign there, but N.e does, e = direction_across(n)."""
+    n = normalize(vector("plane sections: normal", normal))
+    found = parallel_contour(surface, direction_across(n), tracing=tracing)
+    none = found.nodes[:0]
+    alone = replace(found, isolated=none, nodes=none, touching=none, doubts=())
+    return in_planes(alone, n, np.atleast_1d(np.asarray(offsets)), ZERO_OF_EXTENT * extent(surface)[0])
+
+
+def direction_across(normal: Floats) -> Floats:
+    """(3,) a unit vector at right angles to another one, in a direction that no shape is likely to have."""
+    axes = axis_frame(normal)
+    return np.asarray(ODD_DIRECTION[0] * axes[0] + ODD_DIRECTION[1] * axes[1])
+
+
+def in_planes(lines: N, normal: Floats, levels: Floats, off: Floats | float) -> N:
+    """Those of some curves that are no farther than off (k,) from one of the planes n.x = d, with d (k,) as level."""
     if not len(lines) or not len(levels):
-        return no_curves()
-    heights = matmul(lines.points, normalize(vector("plane sections: normal", normal)))
-    starts = lines.offsets[:-1]
+        return take(lines, np.zeros(0, dtype=np.intp))
+    heights, starts = matmul(lines.points, normal), lines.offsets[:-1]
     low, high = np.minimum.reduceat(heights, starts), np.maximum.reduceat(heights, starts)
-    nearest = np.argmin(np.abs(levels[:, None] - low), axis=0)
-    level = levels[nearest]
-    rounding = ROUNDING_OF_TERMS * (large + np.abs(level))
-    lies = np.flatnonzero((np.abs(low - level) <= rounding) & (np.abs(high - level) <= rounding))
-    return replace(take(lines, lies), levels=level[lies])
+    which = np.argmin(np.abs(levels[:, None] - low), axis=0)
+    level, off = levels[which], np.broadcast_to(off, levels.shape)[which]
+    lies = np.flatnonzero((np.abs(low - level) <= off) & (np.abs(high - level) <= off))
+    # The polylines of all kinds of surfaces have levels.
+    changes: dict[str, Any] = {"levels": level[lies]}
+    return replace(take(lines, lies), **changes)
 
 
 def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:

@@ -19,7 +19,7 @@ from vectorplot.features.conditions import (
 )
 from vectorplot.features.holes import up_to_rims, wrapped
 from vectorplot.features.scalar_fields import scalar_fields
-from vectorplot.features.zero_curves import ZeroManifold, check_grid, zero_manifolds
+from vectorplot.features.zero_curves import ALONG_A_LINE, ZeroManifold, check_grid, zero_manifolds
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget, slices
@@ -40,9 +40,6 @@ from vectorplot.tolerances import (
 
 STRAIGHT = -0.9999
 """Cosine of the directions of two curves into a pole from which on they are one curve."""
-
-ALONG_A_LINE = "f touches zero along a line"
-"""How the doubt of a manifold about touching places begins."""
 
 
 @dataclass(frozen=True)

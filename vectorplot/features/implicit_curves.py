@@ -11,6 +11,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import vector
 from vectorplot.errors import InputError
+from vectorplot.features.contours_and_isophotes import direction_across, in_planes
 from vectorplot.features.implicit_singular_lines import STRAYS, SingularEquations, onto_lines
 from vectorplot.features.implicit_surfaces import (
     ImplicitCentralContour,
@@ -36,11 +37,11 @@ from vectorplot.features.implicit_tracing import (
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, refined
 from vectorplot.geometry.connectivity import concat
-from vectorplot.geometry.polylines import Polylines, closed_round
-from vectorplot.geometry.vectors import normalize
+from vectorplot.geometry.polylines import Polylines, closed_round, take
+from vectorplot.geometry.vectors import cross, norm, normalize
 from vectorplot.geometry.winding import edge_uses
 from vectorplot.surfaces.surface import ImplicitSurface
-from vectorplot.tolerances import CHORD_OF_EXTENT, LEAST_DIVISOR
+from vectorplot.tolerances import CHORD_OF_EXTENT, LEAST_DIVISOR, TOUCHING_SHEETS_SINE, ZERO_OF_EXTENT
 
 DEFAULT = ImplicitTracing()
 
@@ -160,6 +161,25 @@ def _cosines(cosines: ArrayLike) -> Floats:
     if levels.ndim != 1 or not (np.abs(levels) <= 1.0).all():
         raise InputError("isophotes: cosines must lie between -1 and 1")
     return levels
+
+
+def implicit_tangent_sections(
+    surface: ImplicitSurface, normal: Floats, levels: Floats, *, tracing: ImplicitTracing
+) -> ImplicitCurves:
+    """The curves along which one of the planes n.x = d, n a unit normal, d of levels (k,), touches an implicit surface,
+    with d as level: as of tangent_sections."""
+    found = implicit_parallel_contour(surface, direction_across(normal), tracing=tracing)
+    alone = replace(found, isolated=found.isolated[:0], nodes=found.nodes[:0], doubts=())
+    return in_planes(alone, normal, levels, ZERO_OF_EXTENT * float(np.ptp(np.asarray(surface.box), axis=0).max()))
+
+
+def without_touching(surface: ImplicitSurface, normal: Floats, curves: ImplicitCurves) -> ImplicitCurves:
+    """Sections by planes of a unit normal, those left out along which planes only touch the surface."""
+    if not len(curves):
+        return curves
+    gradients = surface.gradients(curves.points)
+    sines = norm(cross(gradients, normal)) > TOUCHING_SHEETS_SINE * norm(gradients)
+    return take(curves, np.logical_or.reduceat(sines, curves.offsets[:-1]))
 
 
 # Where implicit surfaces end: on the sides of their boxes, and at the rims of their holes.

@@ -126,6 +126,8 @@ def _turned(keys: Ints, rows: int, columns: int) -> Ints:
 JUMPS = "f changes its sign without being zero"
 """How the doubt about poles and jumps of f begins."""
 
+ALONG_A_LINE = "f touches zero along a line without changing its sign"
+"""How the doubt about places where branches should be begins."""
 
 EVERYWHERE = "f is zero all over its domain, which is no curve"
 """The doubt about f that is nothing but zero."""
@@ -154,7 +156,7 @@ def doubts_of_one(
             beads > 0,
             "branches nearer to each other than the resolution are given as points of them; ask for a finer one",
         ),
-        (line > 0, "f touches zero along a line without changing its sign: points of it are given, no curve"),
+        (line > 0, f"{ALONG_A_LINE}: points of it are given, no curve"),
     ]
     return tuple(text for said, text in texts if said)
 

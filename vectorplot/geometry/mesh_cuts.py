@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -76,6 +77,24 @@ def moved_planes(normals: Floats, offsets: Floats, matrix: Floats) -> tuple[Floa
     moved = linear_solution(matrix[:3, :3].T, normals.T).T
     lengths = np.linalg.norm(moved, axis=1)
     return moved / lengths[:, None], (offsets + matmul(moved, matrix[:3, 3])) / lengths
+
+
+def segments_outside(start: Floats, end: Floats, regions: Sequence[HalfSpaces]) -> tuple[Floats, Floats]:
+    """What of segments from start to end (n,3) lies in none of some convex regions."""
+    for region in regions:
+        here, there = region.heights(start), region.heights(end)
+        rise = there - here
+        with np.errstate(divide="ignore", invalid="ignore"):
+            met = -here / rise
+        first = np.where(rise > 0.0, met, np.where((rise == 0.0) & (here < 0.0), np.inf, -np.inf)).max(axis=0)
+        last = np.where(rise < 0.0, met, np.inf).min(axis=0)
+        gone = first < last
+        low, high = np.where(gone, np.clip(first, 0.0, 1.0), 1.0), np.where(gone, np.clip(last, 0.0, 1.0), 1.0)
+        way = end - start
+        ends = [(start, start + low[:, None] * way), (start + high[:, None] * way, end)]
+        some = [low > 0.0, high < 1.0]
+        start, end = (np.concatenate([ends[k][side][some[k]] for k in (0, 1)]) for side in (0, 1))
+    return start, end
 
 
 def nothing_beside(points: Floats) -> float:

@@ -464,6 +464,13 @@ class Projection:
     scale: float
     axes: Floats
 
+    @property
+    def world_eye(self) -> Floats:
+        """(4,) the eye in the world, (x, y, z, 1); (x, y, z, 0) for the rays from there of a parallel projection."""
+        if self.eye is None:
+            return np.append(self.axes[2], 0.0)
+        return np.append(self.world_of(self.eye[:, None])[0], 1.0)
+
     def depth_of(self, points: Floats) -> Floats:
         """The depths of points.
 

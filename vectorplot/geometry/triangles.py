@@ -76,14 +76,10 @@ class PlacedTriangles:
         Edge cases: points off the mesh are left out where no rectangle of a triangle has them, seen along the axis in
         which the mesh is thinnest; others have a place in the nearest triangle of those that have.
         """
-        import shapely
-
         triangles, face = self._triangles
         found = []
         for piece in slices(len(points), PIECE):
-            here = points[piece]
-            which, triangle = self._tree.query(shapely.points(here[:, self._flat]))
-            weights, off = _weights(here[which], self.mesh.vertices[triangles[triangle]])
+            which, triangle, weights, off = self._around(points[piece], 0.0)
             order = np.lexsort((off, which))
             first = order[np.diff(which[order], prepend=-1) > 0]
             found.append((which[first] + piece.start, triangle[first], weights[first]))
@@ -92,6 +88,26 @@ class PlacedTriangles:
             np.concatenate(parts) for parts in zip((none, none, np.zeros((0, 3))), *found, strict=True)
         )
         return TrianglePlaces(place, triangles[triangle], weight, face[triangle])
+
+    def faces_at(self, points: Floats, distance: float) -> tuple[Ints, Ints]:
+        """Which of some points (n,3) are no farther than a distance from which faces (k,), of several where these meet:
+        the numbers of both, some of them twice."""
+        found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
+        for piece in slices(len(points), PIECE):
+            which, triangle, _, off = self._around(points[piece], distance)
+            near = off <= distance
+            found.append((which[near] + piece.start, self._triangles[1][triangle[near]]))
+        point, face = (np.concatenate(parts) for parts in zip(*found, strict=True))
+        return point, face
+
+    def _around(self, points: Floats, distance: float) -> tuple[Ints, Ints, Floats, Floats]:
+        """Points (n,3) and the triangles whose rectangles they are no farther than a distance from: the numbers (k,) of
+        both, the weights (k,3) of the nearest places and how far these are (k,)."""
+        import shapely
+
+        low, high = (points[:, self._flat] + side for side in (-distance, distance))
+        which, triangle = self._tree.query(shapely.linestrings(np.stack([low, high], axis=1)))
+        return which, triangle, *_weights(points[which], self.mesh.vertices[self._triangles[0][triangle]])
 
     @cached_property
     def _triangles(self) -> tuple[Ints, Ints]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import warnings
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -75,7 +76,7 @@ def _library(path: Path, name: str) -> dict[str, FaceLook]:
     if not place.is_relative_to(folder):
         raise InputError("lies outside of the folder of this file")
     found: dict[str, FaceLook] = {}
-    colour, opacity, current = None, 1.0, None
+    own, current = _Record(), None
     text = text_file(place)
     for number, line in enumerate(text.data.decode("utf-8", "replace").split("\n"), 1):
         words = line.partition("#")[0].split()
@@ -83,19 +84,81 @@ def _library(path: Path, name: str) -> dict[str, FaceLook]:
             continue
         try:
             if words[0] == "newmtl":
-                current, colour, opacity = " ".join(words[1:]), None, 1.0
-            elif words[0] == "Kd" and len(words) == 4:
-                colour = hex_colour(np.array([float(word) for word in words[1:]]))
-            elif words[0] in ("d", "Tr") and len(words) > 1:
-                share = float(words[-1])
-                opacity = min(max(share if words[0] == "d" else 1.0 - share, 0.0), 1.0)
-            if not opacity == opacity:
-                raise ValueError
+                own, current = _Record(), " ".join(words[1:])
+            elif words[0] in ("Kd", "Ks") and len(words) == 4:
+                shares = np.array([_number(word) for word in words[1:]])
+                own = replace(own, matt=shares) if words[0] == "Kd" else replace(own, bright=shares)
+            elif words[0] in ("d", "Tr", "Ns", "illum") and len(words) > 1:
+                own = own.with_number(words[0], _number(words[-1]))
         except ValueError:
             raise InputError(f"{words[0]} needs numbers", file=shown(place), line=number) from None
         if current is not None:
-            found[current] = FaceLook(colour, None if opacity >= 1.0 else Material("normal", opacity=opacity))
+            found[current] = own.look
     return found
+
+
+WHOLE_HIGHLIGHT = 10.0
+"""The highlight that alone fills a palette: a tenth of it counts."""
+
+NO_HIGHLIGHT = (0, 1)
+"""What illum says of materials whose Ks does not count."""
+
+HALFWAY = 4.0
+"""Ns is the exponent of the cosine of half of the angle between mirrored ray and eye, sharpness that of the whole:
+for small angles cos(b/2)^(4s) is cos(b)^s."""
+
+
+@dataclass(frozen=True)
+class _Record:
+    """What a library says of a material: matt (3,), its Kd; bright (3,), its Ks; sharpness, its Ns; opacity, its d; and
+    illum. None: it is not said."""
+
+    matt: Floats | None = None
+    bright: Floats | None = None
+    sharpness: float | None = None
+    opacity: float = 1.0
+    illum: float | None = None
+
+    def with_number(self, word: str, value: float) -> _Record:
+        """With what one of the words d, Tr, Ns and illum says."""
+        if word == "Ns":
+            return replace(self, sharpness=value)
+        if word == "illum":
+            return replace(self, illum=value)
+        return replace(self, opacity=min(max(value if word == "d" else 1.0 - value, 0.0), 1.0))
+
+    @property
+    def look(self) -> FaceLook:
+        """Its colour, that of Kd, and its material: Ks and Kd share the palette in proportion to their largest parts.
+
+        Source: Ramey, Rose and Tyerman, MTL file format 4.2 (illum 2: Ks (H . N)^Ns); Glaeser, section 8.5.
+        """
+        colour = None if self.matt is None else hex_colour(self.matt)
+        share = self._share_of_highlight
+        if share == 0.0:
+            return FaceLook(colour, Material("normal", self.opacity) if self.opacity < 1.0 else None)
+        sharpness = None if self.sharpness is None else self.sharpness / HALFWAY
+        highlight = WHOLE_HIGHLIGHT * share
+        finish = Material("normal", self.opacity, diffuse=1.0 - share, highlight=highlight, sharpness=sharpness)
+        return FaceLook(colour, finish)
+
+    @property
+    def _share_of_highlight(self) -> float:
+        """How much of the palette is that of the highlight."""
+        none = self.sharpness is not None and self.sharpness <= 0.0
+        if self.bright is None or none or self.illum in NO_HIGHLIGHT:
+            return 0.0
+        matt, bright = (np.ones(1) if one is None else np.clip(one, 0.0, 1.0) for one in (self.matt, self.bright))
+        total = float(matt.max() + bright.max())
+        return float(bright.max()) / total if total > 0.0 else 0.0
+
+
+def _number(word: str) -> float:
+    """The number that a word says. Errors: ValueError for what is none, or is not finite."""
+    value = float(word)
+    if not np.isfinite(value):
+        raise ValueError
+    return value
 
 
 def hex_colour(shares: Floats) -> str:

@@ -155,8 +155,8 @@ def draw(
     hatch : Hatching or Stippling, optional
         How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
     layers : str, optional
-        What shares a layer: kind, object or colour, or several of these with commas between them; as the style says
-        where None.
+        What shares a layer: kind, object or colour, that of the face where it has its own, or several of these with
+        commas between them; as the style says where None.
     unplotted : str or iterable of str
         The names of layers that plotters skip; kinds, items and colours of which the picture shows nothing may be among
         them.

@@ -15,7 +15,7 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.duplicates import with_shared_kinds, without_duplicates, without_smooth_duplicates
 from vectorplot.drawing.finishing import inked
-from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_pen
+from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_pen, shown_items
 from vectorplot.drawing.pen_layers import layer_words, not_plotted, pen_scale, sheet_layer, sorted_layers
 from vectorplot.drawing.pens import PenRule, frame_pen, pen_of, rules_by_target, scaled_pen
 from vectorplot.drawing.strokes import chosen, concatenated
@@ -262,24 +262,29 @@ NAME = "hatch"
 
 
 def hatch_layers(
-    strokes: Paths, hatching: Sequence[Hatching | Stippling | None], colours: Sequence[str] | None = None
+    strokes: Paths,
+    hatching: Sequence[Hatching | Stippling | None],
+    colours: Sequence[str] | None = None,
+    shown_item: Ints | None = None,
 ) -> tuple[Layer, ...]:
     """A layer for every width of pen that hatches items, and every colour; the first one may be empty.
 
-    strokes of hatchings only; hatching: of every item; colours: of every item, black where None.
+    strokes of hatchings only; hatching: of every item; colours: of every item, black where None; shown_item (m,): the
+    item whose pen each stroke has, where None its own.
     """
+    shown_item = strokes.item if shown_item is None else shown_item
     if not len(strokes):
         return ()
     widths = [0.0 if one is None else one.width_mm for one in hatching]
     inks = [BLACK] * len(widths) if colours is None else [ink(colour) for colour in colours]
     words = [""] * len(widths) if colours is None else [f" {colour}" for colour in colours]
-    used = set(strokes.item.tolist())
+    used = set(shown_item.tolist())
     pens = list(dict.fromkeys(pen for k, pen in enumerate(zip(words, widths, inks, strict=True)) if k in used))
     several = len({width for _, width, _ in pens}) > 1
     number = {pen: k for k, pen in enumerate(pens)}
     of_item = np.array([number.get(pen, 0) for pen in zip(words, widths, inks, strict=True)], dtype=np.intp)
     named = [(f"{NAME}{word}{f' {w:g}' if several else ''}", Pen(w, colour), True) for word, w, colour in pens]
-    return layers_of(strokes, of_item[strokes.item], named)
+    return layers_of(strokes, of_item[shown_item], named)
 
 
 # From strokes to a drawing: their pens and layers, the paper, and what stands around the picture.
@@ -331,7 +336,7 @@ class OutputStyle:
     ) -> tuple[Layer, ...]:
         """Strokes of a scene, and those that hatch its faces, in layers with their pens; hatch: as of draw."""
         if self.look == "plain":
-            found = pipeline.run("layers", _line_layers, scene, strokes, hatches, hatch, self.layers, self.rules)
+            found = pipeline.run("layers", _line_layers, scene, view, strokes, hatches, hatch, self.layers, self.rules)
         else:
             from vectorplot.effects.wireframe import wire_layers
 
@@ -386,6 +391,7 @@ class OutputStyle:
 
 def _line_layers(
     scene: Scene,
+    view: View,
     strokes: Paths,
     hatches: Paths,
     hatch: Hatching | Stippling | None,
@@ -395,8 +401,11 @@ def _line_layers(
     """The layers of lines, and those of strokes that hatch faces."""
     how = [hatch if item.hatch is None else item.hatch for item in scene.items]
     names, colours = [item.name for item in scene.items], [item.colour for item in scene.items]
-    behind = hatch_layers(hatches, how, colours if "colour" in layer_words(layers) else None)
-    return sorted_layers(strokes, names, colours, layers, rules, behind)
+    if "colour" not in layer_words(layers):
+        return sorted_layers(strokes, names, colours, layers, rules, hatch_layers(hatches, how))
+    eye = view.world_eye
+    behind = hatch_layers(hatches, how, colours, shown_items(scene, hatches, eye))
+    return sorted_layers(strokes, names, colours, layers, rules, behind, shown_items(scene, strokes, eye))
 
 
 # The labels of a scene on a picture of it.

@@ -149,7 +149,7 @@ OPTIONS: dict[str, Option] = {
 }
 """What the arguments of the verbs may be, by their names; cameras, pages and lights are checked where they are read."""
 
-SHADOWS = {"paint": ("auto", "none"), "render": ("auto", "none", "buffer", "trapezoid", "exact")}
+SHADOWS = {"paint": ("auto", "none"), "render": ("auto", "none", "buffer", "trapezoid", "perspective", "exact")}
 """The ways that the verbs have of finding shadows."""
 
 

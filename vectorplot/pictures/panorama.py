@@ -6,7 +6,10 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
+import numpy as np
+
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
+from vectorplot.drawing.layers import shown_items
 from vectorplot.drawing.pen_layers import line_list, sorted_layers
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
 from vectorplot.effects.panoramas import eye_of, panorama_on_page
@@ -18,6 +21,7 @@ from vectorplot.pictures.lines import OutputStyle, lines_in_place
 from vectorplot.pictures.options import check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import plan_panorama
+from vectorplot.pictures.prepared_scene import with_face_looks
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.exploded import shown_apart
 from vectorplot.scene.page import Page
@@ -117,7 +121,7 @@ def panorama(
     threads = threads_of(jobs)
     round_about = place if isinstance(place, Panorama) else Panorama(tuple(place))
     kinds = line_kinds(DRAWN if lines is None else lines)
-    seamless = without_seams(given)
+    seamless = with_face_looks(without_seams(given))
     eye = eye_of(round_about, seamless)
     sheet = page_of(page, seamless, width)
     pipeline = Pipeline(plan_panorama(), explain, progress, threads)
@@ -132,7 +136,8 @@ def panorama(
     strokes, marks, placement = pipeline.run(
         "panorama", panorama_on_page, round_about, eye, sheet, tolerance_mm, trace, pipeline.fraction("panorama")
     )
-    found = pipeline.run("layers", sorted_layers, strokes, *_names_and_colours(seamless), finish.layers, finish.rules)
+    named, shown = _names_and_colours(seamless), shown_items(seamless, strokes, np.append(eye, 1.0))
+    found = pipeline.run("layers", sorted_layers, strokes, *named, finish.layers, finish.rules, (), shown)
     inks, letters = finish.inked(pipeline, found, placement), finish.letters(found)
     return finish.drawing((*inks, Layer("bearings", letters, (marks,))), placement, seamless, letters)
 

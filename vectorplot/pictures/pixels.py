@@ -213,7 +213,7 @@ def tapered_for(
     triangles: SceneTriangles, system: CoordinateSystem, size: tuple[int, int], shadows: str
 ) -> SeenRegion | None:
     """What is seen, for shadow maps that are tapered for it; None for others."""
-    if shadows != "trapezoid":
+    if shadows not in ("trapezoid", "perspective"):
         return None
     from vectorplot.shading.seen_region import region_in_picture
 

@@ -58,7 +58,7 @@ def accuracy_of_render(facet_pixels: float, shadows: str, texels: int) -> dict[s
         "facets": f"within {facet_pixels:g} of a sample (--size, --samples)",
         "depth": "decided in the middles of samples",
     }
-    if shadows in ("buffer", "trapezoid"):
+    if shadows in ("buffer", "trapezoid", "perspective"):
         said["shadows"] = (
             f"borders off by about a texel of {texels} x {texels} (--shadow-size; --shadows exact has none)"
         )
@@ -199,7 +199,12 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
     stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
     stages.append(Stage("triangles", "all faces, with the normals at their corners"))
     if shadows != "none" and scene.lights:
-        how = {"buffer": "shadow buffers", "trapezoid": "trapezoidal shadow maps", "exact": "exactly"}[shadows]
+        how = {
+            "buffer": "shadow buffers",
+            "trapezoid": "trapezoidal shadow maps",
+            "perspective": "perspective shadow maps",
+            "exact": "exactly",
+        }[shadows]
         stages.append(Stage("shadows", f"{len(scene.lights)} lights cast them: {how}" + (why and f", as {why}")))
         if any(item.dims_light for item in scene.items):
             stages.append(Stage("transparent shadows", "items are transparent"))

@@ -88,7 +88,7 @@ def render(
     fit: bool = True,
     lights: Sequence[Light] | None = None,
     exposure: Exposure | None = None,
-    shadows: Literal["auto", "none", "buffer", "trapezoid", "exact"] = "auto",
+    shadows: Literal["auto", "none", "buffer", "trapezoid", "perspective", "exact"] = "auto",
     shadow_size: int | None = None,
     shadow_bits: int = 32,
     shadow_casters: Literal["all", "away"] = "all",
@@ -123,8 +123,8 @@ def render(
         In place of those of the scene.
     exposure : float or {"fitted"}, optional
         As of paint.
-    shadows : {"auto", "none", "buffer", "trapezoid", "exact"}
-        Of these lights, found with shadow buffers, plain ones or such that show most of what is near the eye, or
+    shadows : {"auto", "none", "buffer", "trapezoid", "perspective", "exact"}
+        Of these lights, found with shadow buffers, plain ones or two kinds that show most of what is near the eye, or
         exactly; auto: as the view calls for.
     shadow_size : int, optional
         Shadow buffers have shadow_size x shadow_size texels (None: the power of two no less than the longer side
@@ -212,7 +212,8 @@ def render(
         raster_size(size[0] * times, size[1] * times)
     texels = default_shadow_size(size) if shadow_size is None else shadow_size
     check_whole(shadow_size=texels)
-    settings = MapSettings(texels, shadow_bits, shadow_casters, shadow_focus)
+    tapered: Literal["trapezoid", "perspective"] = "perspective" if shadows == "perspective" else "trapezoid"
+    settings = MapSettings(texels, shadow_bits, shadow_casters, shadow_focus, tapered)
     budget_of(budget)
     threads = threads_of(jobs)
     given = scene_of(scene)

@@ -127,6 +127,25 @@ class FaceLooks:
         found[place] = self.of_face[face]
         return found
 
+    def seen_at(self, mesh: Mesh, points: Floats, eye: Floats, distance: float) -> Ints:
+        """(n,) the look of the face of a mesh made of this one on which each of some points (n,3) lies, -1 for that of
+        its item.
+
+        eye: (x, y, z, 1), or (x, y, z, 0) for parallel rays from there; distance: what is no farther from a face lies
+        on it. Where faces meet, the one that is turned to the eye counts, of several the one listed first.
+        """
+        if not mesh.face_count:
+            return np.full(len(points), -1, dtype=np.intp)
+        point, face = PlacedTriangles(mesh).faces_at(points, distance)
+        if mesh.present is not None:
+            point, face = point[mesh.present[face]], face[mesh.present[face]]
+        away = dot(mesh.face_normals, eye[:3] - eye[3] * mesh.vertices[mesh.corners[mesh.offsets[:-1]]]) <= 0.0
+        order = np.lexsort((face, away[face], point))
+        first = order[np.diff(point[order], prepend=-1) > 0]
+        found = np.full(len(points), -1, dtype=np.intp)
+        found[point[first]] = self.at(mesh)[face[first]]
+        return found
+
     def transformed(self, matrix: ArrayLike) -> FaceLooks:
         """The looks on the mesh under a 4x4 matrix acting on columns."""
         return replace(self, mesh=self.mesh.transformed(matrix))

@@ -26,7 +26,7 @@ class SeenRegion:
     """A part of the world that a picture shows.
 
     points: (k, 3) its corners, none where nothing is in the frustum; near, far, focus: (3,) the centres of its planes;
-    focus_points: (l, 3) corners of the part before the focus plane.
+    focus_points: (l, 3) corners of the part before the focus plane; picture: the system of the picture, in pixels.
     Source: Martin and Tan, recipe, and Ressler, Notes on implementation of trapezoidal shadow maps, section 2.
     """
 
@@ -35,6 +35,7 @@ class SeenRegion:
     far: Floats
     focus: Floats
     focus_points: Floats
+    picture: CoordinateSystem
 
 
 def seen_region(
@@ -111,7 +112,7 @@ def region_in_picture(system: CoordinateSystem, columns: int, rows: int, points:
     used[flat.corners] = True
     if not used.any():
         nothing, nowhere = np.zeros((0, 3)), np.zeros(3)
-        return SeenRegion(nothing, nowhere, nowhere, nowhere, nothing)
+        return SeenRegion(nothing, nowhere, nowhere, nowhere, nothing, system)
     seen = flat.points[used]
     if system.distance != INFINITE:
         seen[:, 2] = depth_of(seen[:, 2], system.distance)
@@ -164,7 +165,8 @@ def _region(
     if parallel:
         shift = system.to_world(np.array([(columns - 1) / 2.0, (rows - 1) / 2.0, 0.0])) - system.target
         centres = [centre + shift for centre in centres]
-    return SeenRegion(middle + size * corners, centres[0], centres[1], centres[2], middle + size * focus_corners)
+    seen, before = middle + size * corners, middle + size * focus_corners
+    return SeenRegion(seen, centres[0], centres[1], centres[2], before, system)
 
 
 def _principal_ray(system: CoordinateSystem, columns: int, rows: int) -> Floats:

@@ -17,18 +17,20 @@ from vectorplot.geometry.algebra import determinant, inverse_matrix, linear_solu
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.elementary import power
 from vectorplot.geometry.projections import CoordinateSystem
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import cross, norm
 from vectorplot.scene.light import Light
 from vectorplot.shading.depth_buffers import DepthCode, depth_codes
 from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.screen import HalfSpace, front_facing, screen_triangles
 from vectorplot.shading.seen_region import SeenRegion
 from vectorplot.shading.trapezoids import (
+    LARGEST_TAPER,
     Axis,
     adapted_size,
     focus_area,
     focus_distance,
     line_of_sight,
+    projective_images,
     searched_line,
     taper_of_focus,
     tapered_map,
@@ -406,6 +408,53 @@ def trapezoid_frame(system: CoordinateSystem, region: SeenRegion, line: float) -
     return tapered_map(images, axis, taper_of_focus(axis, focus, line))
 
 
+def perspective_frame(system: CoordinateSystem, region: SeenRegion) -> Floats | None:
+    """(3, 3) the map of a lamp's image plane to that in which the lamp sees the space after the camera's perspective,
+    and from there onto the square from -1 to 1; None where that sees no side of what the camera sees.
+
+    After the perspective the region is a cube, and all that the camera shows of equal size is so. The lamp, moved by
+    the perspective too, looks at the middle of the cube. Its rays stay rays: so from image plane to image plane it is a
+    projective map, whatever stands outside of the picture, and depths may be the lamp's own.
+    Edge cases: None for a lamp amid the cube, or with a taper that leaves no digits.
+    Source: Stamminger and Drettakis, Perspective shadow maps, 2002, sections 3 and 4.
+    """
+    picture, images = region.picture, light_plane(system, region.points)
+    middle, size = images.mean(axis=0), max(float(np.ptp(images, axis=0).max()), LEAST_DIVISOR)
+    # Three points of the world that the lamp sees at (0, 0), (1, 0) and (0, 1), counted from there in units of size.
+    flat = np.array([[0.0, 0.0, 0.0], [size, 0.0, 0.0], [0.0, size, 0.0]])
+    places = picture.homogeneous(system.to_world(flat + np.append(middle, 0.0)))
+    if system.distance == INFINITE:
+        lamp = picture.homogeneous(system.target + system.rotation[:, 2]) - picture.homogeneous(system.target)
+    else:
+        lamp = picture.homogeneous(system.centre)
+    seen = picture.homogeneous(region.points)
+    cube = np.stack([(seen[:, :3] / seen[:, 3:]).min(axis=0), (seen[:, :3] / seen[:, 3:]).max(axis=0)])
+    half = np.maximum(np.ptp(cube, axis=0) / 2.0, ZERO_OF_EXTENT * np.abs(cube).max())
+    after = [np.append((h[:3] - cube.mean(axis=0) * h[3]) / half, h[3]) for h in (*places, lamp)]
+    columns = np.stack([after[1] - after[0], after[2] - after[0], after[0]], axis=1)
+    way, weight = after[3][:3], after[3][3]
+    distance = float(norm(way))
+    if not distance > 0.0:
+        return None
+    toward = way / distance
+    # Rows of the picture go with the depth of the view, as far as the lamp looks across it.
+    across = cross(toward, np.eye(3)[2 if abs(toward[2]) < ALONG_VIEW else 1])
+    across = across / norm(across)
+    rows = np.zeros((3, 4))
+    rows[0, :3], rows[1, :3] = across, cross(toward, across)
+    rows[2] = *(-weight * toward), distance
+    count = np.array([[1.0 / size, 0.0, -middle[0] / size], [0.0, 1.0 / size, -middle[1] / size], [0.0, 0.0, 1.0]])
+    through = matmul(matmul(rows, columns), count)
+    weights = matmul(images, through[2, :2]) + through[2, 2]
+    through = through * np.sign(weights[0])
+    # Turned, but not mirrored.
+    through[0] *= np.sign(determinant(through))
+    least, most = np.sort(weights * np.sign(weights[0]))[[0, -1]].tolist()
+    if not least * LARGEST_TAPER > most:
+        return None
+    return np.asarray(matmul(standard_frame(projective_images(through, images)), through / least))
+
+
 def in_texels(frame: Floats, columns: int, rows: int) -> Floats:
     """(3, 3) a map onto the square from -1 to 1 as one onto texels, with a free margin; centres are the integers."""
     half = np.array([columns, rows]) / 2.0 - MARGIN
@@ -600,7 +649,10 @@ def texels_per_unit(found: ShadowMap, points: ArrayLike) -> Floats:
 #
 # Source: Glaeser, section 8.6; for the tapered maps Ressler, and Martin and Tan.
 
-Frame = Literal["standard", "box", "trapezoid"]
+Frame = Literal["standard", "box", "trapezoid", "perspective"]
+
+ALONG_VIEW = 0.9
+"""Cosine from which on a lamp looks along the view rather than across it, after the perspective."""
 
 Blocks = Callable[[Floats, Floats, Ints], Bools]
 
@@ -671,11 +723,11 @@ def shadow_buffer(
         The number of rows.
     bits : int
         Of a depth: 8, 16 or 32.
-    frame : {"standard", "box", "trapezoid"}
-        The map shows the whole scene, the box about what is seen, or the trapezoid around it, of which most is what is
-        near the eye.
+    frame : {"standard", "box", "trapezoid", "perspective"}
+        The map shows the whole scene, the box about what is seen, the trapezoid around it, of which most is what is
+        near the eye, or what is seen as the lamp sees it after the camera's perspective.
     region : SeenRegion, optional
-        What the camera sees, for box and trapezoid.
+        What the camera sees, for all but the first.
     casting : {"all", "away"}
         All faces, or, where all bodies are closed, only those that turn away from the light: then depths need no
         margin.
@@ -695,10 +747,10 @@ def shadow_buffer(
 
     Notes
     -----
-    Edge cases: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard;
-    without points there is no map.
+    Edge cases: where nothing is seen, and where the eye's line of sight runs behind the lamp, the map is standard; a
+    perspective one that would have a lamp amid it is that of the box; without points there is no map.
 
-    Source: Glaeser, section 8.6; Martin and Tan, recipe.
+    Source: Glaeser, section 8.6; Martin and Tan, recipe; Stamminger and Drettakis, Perspective shadow maps, 2002.
 
     Examples
     --------
@@ -714,8 +766,8 @@ def shadow_buffer(
     """
     if casting not in ("all", "away"):
         raise InputError(f"casting {casting!r}: expected all or away")
-    if frame not in ("standard", "box", "trapezoid"):
-        raise InputError(f"frame {frame!r}: expected standard, box or trapezoid")
+    if frame not in ("standard", "box", "trapezoid", "perspective"):
+        raise InputError(f"frame {frame!r}: expected standard, box, trapezoid or perspective")
     if frame != "standard" and region is None:
         raise InputError(f"a shadow map of the frame {frame} needs the region that is seen")
     p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
@@ -761,11 +813,11 @@ def shadow_buffers(
     lights: Sequence[Light], points: Floats, corners: Ints, maps: MapSettings, region: SeenRegion | None
 ) -> tuple[Blocks, ...]:
     """For every light the function of places (m, 3), normals of their faces (m, 3), and triangles (m,), which it does
-    not need, that tells which of them it does not reach; with a region maps are trapezoids around it.
+    not need, that tells which of them it does not reach; with a region maps are tapered for it as maps say.
 
     Edge cases: maps of more texels together than MOST_TEXELS are made smaller, all alike, and an InputWarning says so.
     """
-    frame: Frame = "standard" if region is None else "trapezoid"
+    frame: Frame = "standard" if region is None else maps.tapered
     size = _affordable_size(lights, points, maps)
 
     def blocks(buffer: ShadowBuffer, places: Floats, normals: Floats, triangle: Ints) -> Bools:
@@ -836,8 +888,9 @@ def _side_map(
 def _frame(system: CoordinateSystem, points: Floats, frame: Frame, region: SeenRegion | None) -> Floats:
     if frame == "standard" or region is None or not len(region.points):
         return standard_frame(light_plane(system, points))
-    if frame == "box":
-        return standard_frame(light_plane(system, region.points))
+    if frame in ("box", "perspective"):
+        found = perspective_frame(system, region) if frame == "perspective" else None
+        return standard_frame(light_plane(system, region.points)) if found is None else found
     centres = np.stack([region.near, region.far, region.focus])
     if not (system.homogeneous(centres)[:, 3] > 0.0).all():
         return standard_frame(light_plane(system, points))

@@ -8,12 +8,12 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.geometry.algebra import matmul, singular_decomposition
+from vectorplot.geometry.algebra import least_squares, matmul, singular_decomposition
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.surfaces.placed_surface import MovableImplicit
 from vectorplot.surfaces.quadrics import checked_box
 from vectorplot.surfaces.stacked import unit_normals
-from vectorplot.surfaces.surface import Surface, is_hole
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_hole
 from vectorplot.tolerances import LEAST_SLOPE, OFF_EQUATION, RANK_OF_EQUATION
 
 # Algebraic surfaces, and the equation of a parametrised surface.
@@ -137,9 +137,7 @@ def implicitized(surface: Surface, *, most_degree: int = 4) -> AlgebraicSurface:
     wide = np.maximum((high - low) / 20.0, size / 20.0)
     box = np.array([low - wide, high + wide])
     for degree in range(1, most_degree + 1):
-        exponents = np.array(
-            [(i, j, k) for i in range(degree + 1) for j in range(degree + 1 - i) for k in range(degree + 1 - i - j)]
-        )
+        exponents = _exponents(degree)
         _, sizes, right = singular_decomposition(_monomials((points - origin) / size, exponents))
         none = int((sizes < RANK_OF_EQUATION * sizes[0]).sum())
         if none > 1:
@@ -148,24 +146,61 @@ def implicitized(surface: Surface, *, most_degree: int = 4) -> AlgebraicSurface:
             terms = right[-1] / right[-1][np.abs(right[-1]).argmax()]
             kept = np.abs(terms) > RANK_OF_EQUATION
             found = AlgebraicSurface(exponents[kept], terms[kept], box, origin, size)
-            if _off(found, others).max() < OFF_EQUATION * size:
+            if distances_off(found, others).max() < OFF_EQUATION * size:
                 return found
     raise InputError(f"implicitized: the surface lies on no algebraic surface of degree {most_degree} or less")
 
 
-def _off(found: AlgebraicSurface, points: Floats) -> Floats:
+def polynomial_of(surface: ImplicitSurface, degree: int = 4) -> AlgebraicSurface | None:
+    """The polynomial that F of an implicit surface is within its box, of the lowest degree up to the one given, counted
+    from the middle of the box in units of half its diagonal; None where F is none.
+
+    The coefficients are those of least squares at four times as many points; other points have to have the same values
+    to within OFF_EQUATION of the largest. Edge cases: None where F is not finite.
+    """
+    box = np.asarray(surface.box)
+    origin, size = (box[0] + box[1]) / 2.0, float(norm(box[1] - box[0])) / 2.0
+    exponents = _exponents(degree)
+    places, others = (
+        box[0] + _even_places(4 * len(exponents), first, CUBIC) * (box[1] - box[0]) for first in (0.5, 0.25)
+    )
+    with np.errstate(all="ignore"):
+        values, checks = surface.values(places), surface.values(others)
+    largest = float(np.abs(values).max())
+    if not (0.0 < largest < np.inf and np.isfinite(checks).all()):
+        return None
+    terms, _ = least_squares(_monomials((places - origin) / size, exponents), values / largest, rcond=RANK_OF_EQUATION)
+    kept = np.abs(terms) > RANK_OF_EQUATION * np.abs(terms).max()
+    found = AlgebraicSurface(exponents[kept], terms[kept], box, origin, size)
+    return found if np.abs(found.values(others) - checks / largest).max() <= OFF_EQUATION else None
+
+
+def _exponents(degree: int) -> Ints:
+    """(m,3) those of all terms up to a degree."""
+    each = range(degree + 1)
+    return np.array([(i, j, k) for i in each for j in each[: degree + 1 - i] for k in each[: degree + 1 - i - j]])
+
+
+PLASTIC, CUBIC = (0.7548776662466927, 0.5698402909980532), (0.8191725133961645, 0.6710436067037893, 0.5497004779019703)
+"""Steps along each axis that cover a square, and a cube, evenly: inverse powers of the roots of x^3 = x + 1 and
+x^4 = x + 1. Source: Roberts, The unreasonable effectiveness of quasirandom sequences, 2018."""
+
+
+def _even_places(count: int, first: float, steps: tuple[float, ...]) -> Floats:
+    """(count,d) places in the unit cube of d dimensions, of an additive recurrence."""
+    return np.asarray((first + np.array(steps) * np.arange(count, dtype=np.float64)[:, None]) % 1.0)
+
+
+def distances_off(found: AlgebraicSurface, points: Floats) -> Floats:
     """(n,) about how far points are off a surface; nothing at its singular points, where F is zero too."""
     slopes = norm(found.gradients(points))
     return np.abs(found.values(points)) / np.maximum(slopes, float(slopes.max()) * LEAST_SLOPE)
 
 
 def _samples(surface: Surface, count: int, first: float) -> Floats:
-    """(n,3) points at places that cover the domain evenly, of the additive recurrence of the plastic number."""
-    steps = np.arange(count, dtype=np.float64)
-    domain, (across, along) = surface.domain, surface.domain.size
-    u: Floats = domain.u_start + across * ((first + 0.7548776662466927 * steps) % 1.0)
-    v: Floats = domain.v_start + along * ((first + 0.5698402909980532 * steps) % 1.0)
-    points = surface.points(u, v)
+    """(n,3) points at places that cover the domain evenly."""
+    domain, parts = surface.domain, _even_places(count, first, PLASTIC)
+    points = surface.points(*(np.array([domain.u_start, domain.v_start]) + parts * domain.size).T)
     points = points[~is_hole(points)]
     if 2 * len(points) < count:
         raise InputError("implicitized: more holes than surface")

@@ -1,4 +1,4 @@
-"""Parametrised surfaces of equations of degree 2."""
+"""Parametrised surfaces of equations: of quadrics, tori and cyclides."""
 
 from __future__ import annotations
 
@@ -12,8 +12,9 @@ from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul, symmetric_eigen
 from vectorplot.geometry.elementary import cosh, sinh
+from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.vectors import cross, norm
-from vectorplot.surfaces.algebraic import AlgebraicSurface
+from vectorplot.surfaces.algebraic import AlgebraicSurface, distances_off, polynomial_of
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed_surface import PlacedSurface
@@ -27,9 +28,9 @@ from vectorplot.surfaces.quadrics import (
     Quadric,
     Sphere,
 )
-from vectorplot.surfaces.surface import Domain
+from vectorplot.surfaces.surface import Domain, ImplicitSurface
 from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus, dupin_cyclide
-from vectorplot.tolerances import RANK_OF_EQUATION
+from vectorplot.tolerances import LOST_IN_DIFFERENCES, OFF_EQUATION, RANK_OF_EQUATION
 
 MONOMIALS = (
     (2, 0, 0),
@@ -45,6 +46,8 @@ MONOMIALS = (
 )
 """Exponents of the ten terms of a quadric."""
 
+DEGREE_OF_QUADRICS, DEGREE_OF_CYCLIDES = 2, 4
+
 
 @dataclass(frozen=True, eq=False)
 class Parametrised:
@@ -57,27 +60,32 @@ class Parametrised:
     parts: tuple[PlacedSurface | Torus | InvertedSurface, ...]
 
 
-def parametrised(surface: Quadric | AlgebraicSurface | ImplicitTorus | ImplicitCyclide) -> Parametrised:
-    """The kind of a quadric and parametrised surfaces that cover it; the torus or cyclide of an implicit one.
+def parametrised(surface: ImplicitSurface) -> Parametrised:
+    """The kind of a quadric, a torus or Dupin's cyclide, and parametrised surfaces that cover it.
 
     Parameters
     ----------
-    surface : Quadric, AlgebraicSurface, ImplicitTorus or ImplicitCyclide
-        An algebraic surface of degree 1 or 2.
+    surface : ImplicitSurface
+        Whose F is a polynomial: of degree 1 or 2, or of degree 4 and zero on a torus or a cyclide, in any place.
 
     Returns
     -------
     Parametrised
-        Its parts are unit surfaces of the families, moved and scaled. Those without end cover the box, and go beyond.
+        Its parts are surfaces of the families, moved and scaled. Those without end cover the box, and go beyond.
 
     Raises
     ------
     InputError
-        For an equation that no point, one point or a line fulfils; for a degree above 2.
+        For an equation that no point, one point or a line fulfils; for one that is none of these.
 
     Notes
     -----
-    By principal axes; eigenvalues below 1e-11 of the largest are zero. Source: Glaeser, section 8.3.
+    Of surfaces other than those of the families the polynomial is found by its values in the box. Quadrics go by their
+    principal axes; eigenvalues below 1e-11 of the largest are zero. Of degree 4 F has to be zero to within 1e-9 of the
+    extent on the torus or cyclide that is found. Edge cases: cyclides that run to infinity are of degree 3, and not
+    recognised; nor are two spheres, or cyclides that differ from two that touch by less than a hundredth.
+
+    Source: Glaeser, section 8.3; Chandru, Dutta and Hoffmann, On the geometry of Dupin cyclides, 1989.
 
     Examples
     --------
@@ -91,7 +99,18 @@ def parametrised(surface: Quadric | AlgebraicSurface | ImplicitTorus | ImplicitC
         return Parametrised("torus", (Torus(surface.major, surface.minor, surface.centre),))
     if isinstance(surface, ImplicitCyclide):
         return Parametrised("cyclide", (dupin_cyclide(surface.major, surface.minor, surface.centre, surface.radius),))
-    quadric = surface if isinstance(surface, Quadric) else _quadric(surface)
+    equation = surface if isinstance(surface, (Quadric, AlgebraicSurface)) else polynomial_of(surface)
+    if isinstance(equation, AlgebraicSurface) and equation.degree == DEGREE_OF_CYCLIDES:
+        found = _cyclide(equation)
+        if found is not None:
+            return found
+    if equation is None or equation.degree > DEGREE_OF_QUADRICS:
+        raise InputError("parametrised: expected an equation of degree 1 or 2, or that of a torus or a cyclide")
+    return _of_quadric(equation if isinstance(equation, Quadric) else _quadric(equation))
+
+
+def _of_quadric(quadric: Quadric) -> Parametrised:
+    """The kind of a quadric, and surfaces that cover it."""
     box = quadric.box
     middle, size = (box[0] + box[1]) / 2.0, float(norm(box[1] - box[0])) / 2.0
     # F = x.A.x + b.x + c, where x is counted from the middle of the box in units of half its diagonal.
@@ -128,13 +147,81 @@ def parametrised(surface: Quadric | AlgebraicSurface | ImplicitTorus | ImplicitC
 
 
 def _quadric(surface: AlgebraicSurface) -> Quadric:
-    """The quadric that an algebraic surface is."""
-    if not isinstance(surface, AlgebraicSurface) or surface.degree > 2:
-        raise InputError("parametrised: expected a torus, or an equation of degree 1 or 2")
+    """The quadric that an algebraic surface of degree 1 or 2 is."""
     terms = (surface.exponents[None] == np.array(MONOMIALS)[:, None]).all(axis=2)
     powers = surface.size ** np.array(MONOMIALS).sum(axis=1).astype(np.float64)
     coefficients = np.where(terms, surface.coefficients, 0.0).sum(axis=1) / powers
     return Quadric(coefficients, surface.box, surface.origin)
+
+
+def _cyclide(surface: AlgebraicSurface) -> Parametrised | None:
+    """The torus or cyclide on which a polynomial of degree 4 is zero, None where there is none.
+
+    In its own place it is (n + b^2 - d^2)^2 = 4 (a x - c d)^2 + 4 b^2 y^2, n = x^2 + y^2 + z^2, a^2 = b^2 + c^2: there
+    are no terms of degree 3, and those of degree 2 are squares.
+    """
+    powers, size = surface.exponents, surface.size
+    of_degree = [
+        np.where((powers == degree * np.eye(3, dtype=int)[:, None]).all(axis=2), surface.coefficients, 0.0).sum(1)
+        for degree in (4, 3)
+    ]
+    lead = float(of_degree[0].mean())
+    if abs(lead) <= RANK_OF_EQUATION * float(np.abs(surface.coefficients).max()):
+        return None
+    centre = np.asarray(surface.origin) - size / 4.0 * of_degree[1] / lead
+    lead = lead / size**DEGREE_OF_CYCLIDES
+    bends, axes = symmetric_eigen(surface.hessians(centre) / (2.0 * lead))
+    order = np.argsort(bends, kind="stable")
+    (low, middle, high), axes = (bends[order] / 4.0).tolist(), axes[:, order]
+    slope = surface.gradients(centre) / (8.0 * lead)
+    along = float(norm(slope))
+    square, part = high - low, middle - low
+    rest = square - part - 2.0 * high
+    if not 0.0 <= part < square or rest < -OFF_EQUATION * square:
+        return None
+    a, d = math.sqrt(square), math.sqrt(max(rest, 0.0))
+    # The root of a small difference says less than the slope, which is a c d.
+    c = math.sqrt(part)
+    if min(part, d * d) < LOST_IN_DIFFERENCES * square:
+        c, d = (along / (a * d) if d > 0.0 else 0.0, d) if c <= d else (c, along / (a * c))
+    if max(c, d) < OFF_EQUATION * a:
+        return None
+    if c < OFF_EQUATION * a:
+        kind, found = "torus", PlacedSurface(Torus(a, d), axis_frame(axes[:, 2]), centre)
+    else:
+        third = axes[:, 2]
+        first = slope - matmul(slope, third) * third if along > OFF_EQUATION * a * a * a else axes[:, 0]
+        first = first / norm(first)
+        found = _inverted_torus(a, c, d, np.stack([first, cross(third, first), third]), centre)
+        kind = "cyclide"
+    points = found.points(*np.meshgrid(*found.domain.grid(7, 7))).reshape(-1, 3)
+    return Parametrised(kind, (found,)) if distances_off(surface, points).max() <= OFF_EQUATION * max(a, size) else None
+
+
+def _inverted_torus(a: float, c: float, d: float, axes: Floats, centre: Floats) -> PlacedSurface:
+    """The cyclide with parameters a > c > 0 and d as a torus inverted in a sphere; axes: x, y and z as rows.
+
+    In the plane z = 0 it has circles of radius |a - d| and a + d about (c, 0) and (-c, 0), in the plane y = 0 such of
+    radius |c - d| and c + d about (a, 0) and (-a, 0). One pair does not meet: a sphere about a limiting point of it
+    makes it two concentric circles, those of a torus.
+    """
+    b = math.sqrt((a - c) * (a + c))
+    upright = d * d - c * c >= a * a - d * d
+    p, q = (c, a) if upright else (a, c)
+    root = b * math.sqrt(abs(d * d - p * p))
+    pole = c * (b * b + d * d) / (a * d + root) if upright else (q * d - root) / p
+    if upright and abs(a - d) < LOST_IN_DIFFERENCES * a:
+        # This one is where the smaller circle shrinks to a point; the other one is far away.
+        pole = (a * d + root) / c
+    radius = max(a, abs(pole))
+    power = radius * radius
+    outer = power * np.array([q - d, q + d]) / ((np.array([p, -p]) - pole) ** 2 - np.array([q - d, q + d]) ** 2)
+    minor = power * abs(p - d) / abs((q - pole) ** 2 - (p - d) ** 2)
+    major = float(np.abs(outer).max()) - minor
+    middle = pole + power * (-p - pole) / ((-p - pole) ** 2 - (q + d) ** 2)
+    torus = InvertedSurface(Torus(major, minor), (pole - middle, 0.0, 0.0), radius)
+    frame = axes if upright else np.stack([axes[0], axes[2], -axes[1]])
+    return PlacedSurface(torus, frame, centre + middle * axes[0])
 
 
 def _central(squares: Floats, level: float, axes: Floats, reach: float) -> tuple[str, Floats, list[Any]]:

@@ -17,7 +17,7 @@ def size_of(png: bytes) -> tuple[int, int]:
     return int.from_bytes(png[16:20], "big"), int.from_bytes(png[20:24], "big")
 
 
-@pytest.mark.parametrize("shadows", ["none", "buffer", "trapezoid", "exact"])
+@pytest.mark.parametrize("shadows", ["none", "buffer", "trapezoid", "perspective", "exact"])
 def test_it_writes_a_picture_of_the_size_that_was_asked_for(cube, tmp_path, shadows, capsys):
     out = tmp_path / "cube.png"
     assert run(["render", str(cube), "-o", str(out), "--size", "64x48", "--shadows", shadows, "--samples", "2"]) == 0

@@ -101,3 +101,17 @@ def test_listed_segments_are_cut_with_their_bodies() -> None:
     assert np.isclose(np.hypot(*(ends[:, 1] - ends[:, 0]).T[:2]).sum(), 0.5 * 2.0**0.5)
     moved = drawn(vp.draw(whole.moved(3, 1, 0), CAMERA, lines=("crease",), hidden="solid"))
     assert np.isclose(moved.length, 8.0**0.5)
+
+
+@pytest.mark.parametrize(
+    ("limits", "left"), [({"near": 8.0}, 0.5), ({"far": 8.0}, 0.5), ({"near": 7.5, "far": 8.5}, 0.5)]
+)
+def test_listed_segments_are_cut_by_near_and_far(limits: dict[str, float], left: float) -> None:
+    # Through the middle of the body, along the line of sight, and one across it.
+    scene = cube("1 7")
+    camera = vp.Camera((1, 1, 9), (1, 1, 1), up=(0, 1, 0), **limits)
+    found = drawn(vp.draw(scene, camera, lines=("crease",), hidden="solid"))
+    slant = np.ptp(found.world, axis=1).min(axis=1) > 1e-9
+    assert np.isclose(
+        np.sqrt(((found.world[slant][:, 1] - found.world[slant][:, 0]) ** 2).sum(axis=1)).sum(), left * 12.0**0.5
+    )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING
 
@@ -28,7 +28,7 @@ from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.connectivity import pieces_of_faces
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.mesh_cuts import HalfSpaces
+from vectorplot.geometry.mesh_cuts import HalfSpaces, segments_outside
 from vectorplot.geometry.mesh_repair import MANY_FACES
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.records import IN_COLUMNS
@@ -236,29 +236,11 @@ def _added_edges(scene: Scene, view: View, kinds: frozenset[LineKind]) -> list[L
     for number, item in enumerate(scene.items):
         if item.added_edges is None or not {LineKind.CREASE, LineKind.EDGES} & kinds_of(item, kinds):
             continue
-        start, end = _outside(item.added_edges[:, 0], item.added_edges[:, 1], item.cut_by)
+        start, end = segments_outside(item.added_edges[:, 0], item.added_edges[:, 1], item.cut_by)
         none = np.zeros(len(start), dtype=np.intp)
         ends = view.points_of(start), view.points_of(end)
         parts.append(straight_lines(*ends, np.full(len(start), int(LineKind.CREASE)), none + number, none))
     return parts
-
-
-def _outside(start: Floats, end: Floats, regions: Sequence[HalfSpaces]) -> tuple[Floats, Floats]:
-    """What of segments from start to end (n,3) lies in none of some convex regions."""
-    for region in regions:
-        here, there = region.heights(start), region.heights(end)
-        rise = there - here
-        with np.errstate(divide="ignore", invalid="ignore"):
-            met = -here / rise
-        first = np.where(rise > 0.0, met, np.where((rise == 0.0) & (here < 0.0), np.inf, -np.inf)).max(axis=0)
-        last = np.where(rise < 0.0, met, np.inf).min(axis=0)
-        gone = first < last
-        low, high = np.where(gone, np.clip(first, 0.0, 1.0), 1.0), np.where(gone, np.clip(last, 0.0, 1.0), 1.0)
-        way = end - start
-        ends = [(start, start + low[:, None] * way), (start + high[:, None] * way, end)]
-        some = [low > 0.0, high < 1.0]
-        start, end = (np.concatenate([ends[k][side][some[k]] for k in (0, 1)]) for side in (0, 1))
-    return start, end
 
 
 def _listed_edges(

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.features.contours_and_isophotes import direction_across, in_planes
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.feature_lines import Detail, Sight
 from vectorplot.features.implicit_curves import (
@@ -17,7 +17,9 @@ from vectorplot.features.implicit_curves import (
     implicit_parallel_contour,
     implicit_plane_sections,
     implicit_point_light_isophotes,
+    implicit_tangent_sections,
     refined_line,
+    without_touching,
 )
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, DoubleLines
 from vectorplot.features.implicit_surfaces import (
@@ -29,7 +31,7 @@ from vectorplot.features.implicit_surfaces import (
     SpatialCondition,
     sides_of,
 )
-from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing
+from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing, all_curves
 from vectorplot.features.mesh_feature_lines import implicit_feature_lines
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import closed_round
@@ -61,14 +63,16 @@ def curves_of_implicit(
     found: list[Found] = [_contour(view, sheet, number, tracing)]
     if LineKind.ISOPHOTE in wanted and item.curves.isophotes:
         found.append(_isophotes(scene, view, item, sheet, number, tracing))
-    found += _sections(view, [s for s in item.curves.sections if s.kind in wanted], sheet, number, tracing)
+    borders = implicit_borders(sheet.home, tracing=tracing)
+    for section in item.curves.sections:
+        if section.kind in wanted:
+            found += _section(view, section, borders, sheet, number, tracing)
     features = [kind for kind in FEATURE_KINDS if kind in wanted]
     if features:
         eye = None if view.eye is None else view.world_of(view.eye[:, None])[0]
         sight, detail = Sight(eye, view.axes[2]), Detail(item.curves.detail)
         lines = implicit_feature_lines(sheet.home, sheet.own.mesh, sight, features, detail)
         found += [(kind, NearChords(sheet, number), curves) for kind, curves in lines.items()]
-    borders = implicit_borders(sheet.home, tracing=tracing)
     found += _singular(sheet, number, tracing)
     parts = [as_spatial_curves(curves, kind, sheet, family) for kind, family, curves in found]
     doubts = (*sheet.own.doubts, *(text for _, _, curves in found for text in curves.doubts), *borders.doubts)
@@ -152,16 +156,26 @@ def _singular(sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> li
     return result
 
 
-def _sections(
-    view: View, sections: Sequence[Section], sheet: ImplicitSheet, number: int, tracing: ImplicitTracing
+def _section(
+    view: View, section: Section, borders: ImplicitCurves, sheet: ImplicitSheet, number: int, tracing: ImplicitTracing
 ) -> list[Found]:
+    """Where planes go through the surface, where they touch it along lines, and its borders in them."""
+    normal, levels = np.asarray(section.normal), np.asarray(section.offsets)
+    plane = SpatialCurves(sheet, number, MeetsPlane(matmul(view.axes, normal), 0.0))
     result: list[Found] = []
-    for section in sections:
-        normal = np.asarray(section.normal)
-        family = SpatialCurves(sheet, number, MeetsPlane(matmul(view.axes, normal), 0.0))
-        found = implicit_plane_sections(sheet.home, normal, section.offsets, tracing=tracing)
-        offsets = (found.levels - matmul(view.centre, normal)) / view.scale
-        result.append((section.kind, family, replace(found, levels=offsets)))
+    for level in levels.tolist():
+        found = implicit_plane_sections(sheet.home, normal, level, tracing=tracing)
+        here = np.array([level])
+        if found.doubts:
+            touched = implicit_tangent_sections(sheet.home, normal, here, tracing=tracing)
+            across = ImplicitParallelContour(sheet.surface, matmul(view.axes, direction_across(normal)))
+            family = SpatialCurves(sheet, number, across)
+            result.append((section.kind, family, replace(touched, levels=np.zeros(len(touched)))))
+            if len(touched):
+                found = replace(without_touching(sheet.home, normal, found), doubts=())
+        own = all_curves([found, in_planes(borders, normal, here, sides_of(sheet.home).nothing)])
+        offsets = (own.levels - matmul(view.centre, normal)) / view.scale
+        result.append((section.kind, plane, replace(own, levels=offsets)))
     return result
 
 

@@ -23,10 +23,12 @@ from vectorplot.features.conditions import (
 from vectorplot.features.contours_and_isophotes import (
     border_sections,
     contours,
+    direction_across,
     isophotes,
     parallel_contours,
     plane_sections,
     point_light_isophotes,
+    tangent_sections,
 )
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, together
 from vectorplot.features.cusps import contours_with_cusps, singular_lines
@@ -38,7 +40,7 @@ from vectorplot.features.pinch_points import through_pinch_points
 from vectorplot.features.streamlines import DRAWN, evenly_spaced_curves
 from vectorplot.features.surface_integration import geodesics, integral_curves
 from vectorplot.features.tangent_fields import AsymptoticDirections, PrincipalDirections, SteepestSlope
-from vectorplot.features.zero_curves import EVERYWHERE, JUMPS
+from vectorplot.features.zero_curves import ALONG_A_LINE, EVERYWHERE, JUMPS
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import unheard
 from vectorplot.scene.added_lines import curve_light
@@ -275,6 +277,14 @@ def _asked_for(
             offsets = (np.asarray(section.offsets) - matmul(view.centre, np.asarray(section.normal))) / view.scale
             plane = PlaneSection(surface, normal, 0.0)
             found = plane_sections(surface, normal, offsets, tracing=tracing)
+            if any(text.startswith(ALONG_A_LINE) for text in found.doubts):
+                touched = tangent_sections(surface, normal, offsets, tracing=tracing)
+                across = ParallelContour(surface, direction_across(normal))
+                level = replace(touched, levels=np.zeros(len(touched)))
+                result.append((section.kind, ConditionCurves(sheet, number, across), level))
+                if len(touched):
+                    left = tuple(text for text in found.doubts if not text.startswith(ALONG_A_LINE))
+                    found = replace(found, doubts=left)
             result.append((section.kind, ConditionCurves(sheet, number, plane), found))
             ends = border_sections(surface, normal, offsets, tracing=tracing)
             if len(ends):
