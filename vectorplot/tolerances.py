@@ -475,6 +475,9 @@ together like the square of what is left of the gap."""
 FAMILY_SETTLED = 1e-9
 """The step of Newton after one of this part of a chord is rounding where contours of families of sheets are refined."""
 
+BEFORE_CUT = 1e-6
+"""Within this part of a chord before the plane that ends a curve the last place on the cut surface is looked for."""
+
 MISSED_OF_CHORD = 1e-6
 """Where two sheets, or the last two steps, are still apart by this part of a chord the sheets do not cross, but touch,
 as in a pinch point: there the first one has to do."""

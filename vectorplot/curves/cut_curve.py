@@ -14,6 +14,7 @@ from vectorplot.curves.curve import Curve, second_derivatives
 from vectorplot.curves.placed_curves import MovableCurve, PlacedCurve
 from vectorplot.curves.splines import SplineCurve
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.mesh_cuts import HalfSpaces, nothing_beside
 from vectorplot.tolerances import ROUNDING
 
@@ -120,20 +121,24 @@ class CutCurve(MovableCurve):
         return second_derivatives(self.curve, t)
 
 
-def parts_outside(curve: Curve, regions: tuple[HalfSpaces, ...], within: HalfSpaces | None = None) -> Floats:
+def parts_outside(
+    curve: Curve, regions: tuple[HalfSpaces, ...], within: HalfSpaces | None = None, places: Floats | None = None
+) -> Floats:
     """(k,2) parameters between which a curve is outside of regions, and inside of one.
 
-    Ends are zeros of the distance from a plane, down to rounding, but for parts that are shorter than a PLACES-th.
+    places (n,): rising parameters, from one to the next of which it passes a plane once, or comes near to it once; a
+    PLACES-th of the curve apart where None. Ends are zeros of the distance from a plane, down to rounding.
     Edge cases: what lies in a plane is outside, and inside of the one.
     """
-    t = np.union1d(np.linspace(curve.start, curve.end, PLACES + 1), breaks_of(curve))
+    breaks = breaks_of(curve)
+    t = np.union1d(np.linspace(curve.start, curve.end, PLACES + 1) if places is None else places, breaks)
     every = (*regions, *([] if within is None else [within]))
     with np.errstate(all="ignore"):
         points = curve.points(t)
         near = nothing_beside(points[np.isfinite(points).all(axis=1)])
         normals = np.concatenate([np.array(region.normals) for region in every])
         planes = [HalfSpaces((tuple(n),), (d,)) for n, d in zip(normals.tolist(), _offsets(every), strict=True)]
-        ends = np.concatenate([t[[0, -1]], *(_zeros(curve, t, points, plane, near) for plane in planes)])
+        ends = np.concatenate([t[[0, -1]], breaks, *(_zeros(curve, t, points, plane, near) for plane in planes)])
     ends = np.unique(ends)
     kept = _is_left(curve.points(0.5 * (ends[:-1] + ends[1:])), regions, within, near)
     first, last = kept & ~np.append(False, kept[:-1]), kept & ~np.append(kept[1:], False)
@@ -170,9 +175,8 @@ def _zeros(curve: Curve, t: Floats, points: Floats, plane: HalfSpaces, near: flo
 
 def _halved(function: Callable[[Floats], Floats], low: Floats, high: Floats) -> Floats:
     """(k,) zeros of a function between parameters at which its signs differ."""
+    if not len(low):
+        return low
     sign = np.sign(function(low))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        before = np.sign(function(middle)) == sign
-        low, high = np.where(before, middle, low), np.where(before, high, middle)
-    return np.asarray(0.5 * (low + high))
+    before, after = bisected(lambda which, t: np.sign(function(t)) == sign[which], low, high, HALVINGS)
+    return np.asarray(0.5 * (before + after))

@@ -34,11 +34,13 @@ from vectorplot.features.curve_tracing import (
     curves_on_levels,
     curves_where_zero,
     extent,
+    extent_of,
     no_curves,
     samples,
     samples_of_each,
     together,
 )
+from vectorplot.features.cut_curves import cut_as
 from vectorplot.features.parameter_curves import borders
 from vectorplot.features.pinch_points import ThroughPinchPoints, through_pinch_points
 from vectorplot.geometry.algebra import matmul
@@ -46,6 +48,7 @@ from vectorplot.geometry.polylines import NumberedLines, take
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.vectors import normalize
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
+from vectorplot.surfaces.trimmed import uncut
 from vectorplot.tolerances import ROUNDING_OF_TERMS, ZERO_OF_EXTENT
 
 # The contour of a surface: where it turns away from the eye.
@@ -113,10 +116,11 @@ def _of_each(
     tracing: Tracing,
 ) -> list[SurfaceCurves]:
     """What is found of the condition on each of the surfaces; those with pinch points stand alone."""
-    each = [through_pinch_points(condition(surface)) for surface in surfaces]
-    plain = [surface for surface, own in zip(surfaces, each, strict=True) if not isinstance(own, ThroughPinchPoints)]
+    each = [through_pinch_points(condition(uncut(surface))) for surface in surfaces]
+    plain = [own.surface for own in each if not isinstance(own, ThroughPinchPoints)]
     others = iter(for_each(plain, tracing.nodes, lambda stack: found(stacked(stack, condition(stack[0])))))
-    return [found(alone(own.surface, own))[0] if isinstance(own, ThroughPinchPoints) else next(others) for own in each]
+    whole = [found(alone(own.surface, own))[0] if isinstance(own, ThroughPinchPoints) else next(others) for own in each]
+    return [cut_as(*of) for of in zip(surfaces, whole, each, strict=True)]
 
 
 def _contours(conditions: StackedConditions[Any], centre: Floats, tracing: Tracing) -> list[SurfaceCurves]:
@@ -194,7 +198,8 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
     >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
     ([0.0, 0.5], True)
     """
-    return _isophotes(Isophote(surface, light, 0.0), _levels(cosines), ROUNDING_OF_TERMS, tracing)
+    condition = Isophote(uncut(surface), light, 0.0)
+    return cut_as(surface, _isophotes(condition, _levels(cosines), ROUNDING_OF_TERMS, tracing), condition)
 
 
 def point_light_isophotes(
@@ -207,12 +212,13 @@ def point_light_isophotes(
     Source: Glaeser, section 8.4, equation 28, figure 15.
     """
     lamp, levels = vector("isophotes: light", light), _levels(cosines)
-    points = samples(surface)[2]
+    condition = PointIsophote(uncut(surface), lamp, 0.0)
+    points = samples(condition.surface)[2]
     if not len(points):
         return no_curves()
     nearest = float(np.linalg.norm(points - lamp, axis=1).min()) or np.inf
     rounding = ROUNDING_OF_TERMS * max(1.0, min(float(np.abs(points).max() + np.abs(lamp).max()) / nearest, 1e6))
-    return _isophotes(PointIsophote(surface, lamp, 0.0), levels, rounding, tracing)
+    return cut_as(surface, _isophotes(condition, levels, rounding, tracing), condition)
 
 
 def _levels(cosines: ArrayLike) -> Floats:
@@ -244,21 +250,21 @@ def section_by_implicit(surface: Surface, other: ImplicitSurface, *, tracing: Tr
     a doubt.
     Source: Glaeser, section 8.4, equation 29, figure 16.
     """
-    points = samples(surface)[2]
+    section = ImplicitSection(uncut(surface), other)
+    points = samples(section.surface)[2]
     if not len(points):
         return no_curves()
     long = np.linalg.norm(other.gradients(points), axis=1)
     slope = float(np.quantile(long[np.isfinite(long)], 0.95)) if np.isfinite(long).any() else 0.0
-    size, large = extent(surface)
-
+    size, large = extent_of(points)
     curves = curves_where_zero(
-        surface,
-        ImplicitSection(surface, other),
+        section.surface,
+        section,
         size=slope * size,
         rounding=ROUNDING_OF_TERMS * slope * large,
         tracing=tracing,
     )
-    return _warned(curves)
+    return _warned(cut_as(surface, curves, section))
 
 
 def plane_sections(
@@ -312,11 +318,11 @@ def plane_sections(
         raise InputError("plane sections: offsets must be numbers in a row")
     for offset in levels.tolist():
         number("plane sections: offset", offset)
-    size, large = extent(surface)
+    plane = PlaneSection(uncut(surface), normal, 0.0)
+    size, large = extent(plane.surface)
     roundings = ROUNDING_OF_TERMS * (large + np.abs(levels))
-    plane = PlaneSection(surface, normal, 0.0)
-    found = curves_on_levels(surface, plane, levels, size=size, roundings=roundings, tracing=tracing)
-    return together([_warned(curves) for curves in found])
+    found = curves_on_levels(plane.surface, plane, levels, size=size, roundings=roundings, tracing=tracing)
+    return together([_warned(cut_as(surface, curves, plane)) for curves in found])
 
 
 def border_sections(

@@ -10,13 +10,22 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conditions import Contour, StackedConditions, alone
-from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, curves_where_zero, no_curves, samples, with_points
+from vectorplot.features.curve_tracing import (
+    Pole,
+    SurfaceCurves,
+    Tracing,
+    curves_where_zero,
+    no_curves,
+    poles,
+    samples,
+    with_points,
+)
 from vectorplot.features.holes import wrapped
 from vectorplot.features.zero_curves import check_grid
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.polylines import joined, take
-from vectorplot.geometry.vectors import cross, dot, length, norm
+from vectorplot.geometry.vectors import all_components, all_finite, cross, dot, from_components, length, norm
 from vectorplot.surfaces.stacked import unit_normals_of
 from vectorplot.surfaces.surface import Domain, OverDomain, Surface, normals
 from vectorplot.tolerances import (
@@ -38,6 +47,12 @@ DEFAULT = Tracing()
 HALVINGS = 50
 """How often the way between two points is halved until a cusp is found."""
 
+FEW, BESIDE = 16, (1.0 / 256.0, 1.0 / 128.0)
+"""Places round a pole, and the parts of the domain beside it, at which the normals are compared."""
+
+SETTLING, STRAY = 30, 5e-3
+"""Steps of Newton onto a singular line, few but where several meet, and the part of the domain that they may lead."""
+
 INSIDE = 0.271
 """Where in a cell of the grid the normals are taken: away from corners, where symmetric surfaces are singular."""
 
@@ -56,33 +71,47 @@ def singular_lines(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCu
         return no_curves()
     area = _signed_area(surface, tracing)
     found = curves_where_zero(OverDomain(surface, area.domain), area, size=size, rounding=0.0, tracing=tracing)
-    return _with_cusps(area, _singular_only(surface, found, size))
+    at = _onto(area, from_components(found.u, found.v))
+    onto = replace(found, u=at[:, 0], v=at[:, 1], points=surface.points(*wrapped(surface.domain, *at.T)))
+    return _with_cusps(area, _singular_only(surface, onto, size))
 
 
 @dataclass(frozen=True, eq=False)
 class _SignedArea:
-    """f = (x_u x x_v).n, n (columns, rows, 3) unit normals carried continuously over a grid of points u, v, and
-    interpolated between them. The domain is open where they do not fit when they are back."""
+    """f = (x_u x x_v).n / w, n (columns, rows, 3) unit normals carried continuously over a grid of points u, v, and
+    interpolated between them; w vanishes at poles, as x_u x x_v does. The domain is open where they do not fit when
+    they are back."""
 
     surface: Surface
     domain: Domain
     carried: Floats
     u: Floats
     v: Floats
+    vanishing: tuple[tuple[Pole, int], ...]
 
     def values(self, u: Floats, v: Floats) -> Floats:
         """(...,) f."""
         home = wrapped(self.surface.domain, u, v)
-        return dot(normals(self.surface, *home), self._normals(u, v))
+        with np.errstate(all="ignore"):
+            return dot(normals(self.surface, *home), self._normals(u, v)) / self._weights(*home)
+
+    def _weights(self, u: Floats, v: Floats) -> Floats:
+        """(...,) w: the distances from poles, each to the power of the order to which the product vanishes there."""
+        result = np.ones(np.shape(u))
+        for pole, order in self.vanishing:
+            result *= (np.abs((u, v)[pole.axis] - pole.place) / pole.size) ** order
+        return result
 
     def slopes(self, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-        """(...,) derivatives by u and by v; where f is zero how n turns does not matter."""
+        """(...,) derivatives by u and by v; where f is zero how n turns, and how w changes, does not matter."""
         home = wrapped(self.surface.domain, u, v)
         n = self._normals(u, v)
         along_u, along_v = self.surface.partials(*home)
         uu, uv, vv = self.surface.second_partials(*home)
         by_u = cross(uu, along_v) + cross(along_u, uv)
         by_v = cross(uv, along_v) + cross(along_u, vv)
+        with np.errstate(all="ignore"):
+            n /= self._weights(*home)[..., None]
         return dot(by_u, n), dot(by_v, n)
 
     def _normals(self, u: Floats, v: Floats) -> Floats:
@@ -116,20 +145,51 @@ def _signed_area(surface: Surface, tracing: Tracing) -> _SignedArea:
     with np.errstate(all="ignore"):
         grid = np.where(np.isfinite(length) & (length > 0.0), grid / length, 0.0)
     along_u, along_v = _fits(grid, 0), _fits(grid, 1)
-    sign = np.cumprod(along_v[:, :-1], axis=1)
-    sign = np.concatenate([np.ones((columns, 1)), sign], axis=1)
-    first = np.concatenate([[1.0], np.cumprod(along_u[:-1, 0])])
-    sign = sign * first[:, None]
-    fits_u = (sign[-1] * along_u[-1] * sign[0] > 0.0).mean() > 0.5
-    fits_v = (sign[:, -1] * along_v[:, -1] * sign[:, 0] > 0.0).mean() > 0.5
+    sign = _signs(along_u[:-1], along_v[:, :-1])
+    fits_u = (sign[-1] * along_u[-1] * sign[0]).mean() > 0.0
+    fits_v = (sign[:, -1] * along_v[:, -1] * sign[:, 0]).mean() > 0.0
     cut = replace(domain, closed_u=domain.closed_u and bool(fits_u), closed_v=domain.closed_v and bool(fits_v))
-    return _SignedArea(surface, cut, grid * sign[..., None], u, v)
+    vanishing = tuple((pole, _order(surface, pole)) for pole in poles(surface))
+    return _SignedArea(surface, cut, grid * sign[..., None], u, v, vanishing)
+
+
+def _order(surface: Surface, pole: Pole) -> int:
+    """To which order in the distance from a pole the cross product of the partials vanishes there."""
+    along = surface.domain.grid(FEW, FEW)[1 - pole.axis][:-1] + INSIDE / FEW * surface.domain.size[1 - pole.axis]
+    across = pole.place + pole.inwards * pole.size * np.array(BESIDE)[:, None]
+    at = np.broadcast_arrays(across, along)
+    long = norm(normals(surface, *at[:: 1 - 2 * pole.axis])).max(axis=1)
+    return int(np.rint(np.log2(long[1] / long[0]))) if long.min() > 0.0 else 0
 
 
 def _fits(grid: Floats, axis: int) -> Floats:
-    """(m,n) 1 where the normal goes on continuously to the next point along an axis, -1 where it jumps; the last goes
-    on to the first."""
-    return np.where((grid * np.roll(grid, -1, axis=axis)).sum(axis=2) < 0.0, -1.0, 1.0)
+    """(m,n) the cosine between the normal and the next one along an axis, negative where the normal jumps; the last
+    goes on to the first."""
+    return np.asarray((grid * np.roll(grid, -1, axis=axis)).sum(axis=2))
+
+
+def _signs(along_u: Floats, along_v: Floats) -> Floats:
+    """(m,n) 1, or -1 for normals of a grid that are to be turned round, so that neighbours fit: along the tree of steps
+    on which they do so most clearly; along_u (m-1,n), along_v (m,n-1): their cosines."""
+    from scipy.sparse import csr_array
+    from scipy.sparse.csgraph import breadth_first_order, minimum_spanning_tree
+
+    number = np.arange(along_v.shape[0] * along_u.shape[1]).reshape(len(along_v), -1)
+    start = np.concatenate([number[:-1].ravel(), number[:, :-1].ravel()])
+    end = np.concatenate([number[1:].ravel(), number[:, 1:].ravel()])
+    cosine = np.concatenate([along_u.ravel(), along_v.ravel()])
+    steps = csr_array((2.0 - np.abs(cosine), (start, end)), shape=(number.size, number.size))
+    tree = minimum_spanning_tree(steps)
+    before = breadth_first_order(tree, 0, directed=False)[1]
+    before[0] = 0
+    turned = csr_array((np.where(cosine < 0.0, -1.0, 1.0), (start, end)), shape=steps.shape)
+    turned = turned + turned.T
+    sign = np.asarray(turned[np.arange(number.size), before]).ravel()
+    sign[0] = 1.0
+    # Each step joins the ways to the root of all that is between.
+    while before.any():
+        sign, before = sign * sign[before], before[before]
+    return sign.reshape(number.shape)
 
 
 def _size(surface: Surface) -> float:
@@ -218,15 +278,33 @@ def _across(area: _SignedArea, at: Floats, way: Floats) -> Floats:
 
 
 def _onto(area: _SignedArea, at: Floats) -> Floats:
-    """(k,2) the points of the line f = 0 nearest to points beside it."""
-    size = np.array(area.surface.domain.size)
-    for _ in range(4):
-        home = wrapped(area.domain, *at.T)
-        slopes = np.stack(area.slopes(*home), axis=1) * size
+    """(k,2) the singular points nearest to places beside their lines, which are no more than STRAY of the domain away;
+    others stay.
+
+    Across a singular line the product keeps its direction up to the sign: that of its derivative.
+    """
+    surface, size = area.surface, np.array(area.surface.domain.size)
+    result, active = at.copy(), np.arange(len(at))
+    for _ in range(SETTLING):
+        own = result[active]
+        by_u, by_v = surface.partials(*(home := wrapped(surface.domain, *own.T)))
+        uu, uv, vv = surface.second_partials(*home)
+        along = np.stack([cross(uu, by_v) + cross(by_u, uv), cross(uv, by_v) + cross(by_u, vv)], axis=1)
+        along *= size[:, None]
+        way = along[np.arange(len(own)), np.argmax(dot(along, along), axis=1)]
+        slopes = dot(along, way[:, None])
         with np.errstate(divide="ignore", invalid="ignore"):
-            step = (area.values(*home) / dot(slopes, slopes))[:, None] * slopes * size
-        at = at - np.where(np.isfinite(step), step, 0.0)
-    return at
+            step = (dot(cross(by_u, by_v), way) / dot(slopes, slopes))[:, None] * slopes
+        step = np.where(all_finite(step)[:, None], step, 0.0)
+        moved = own - step * size
+        near = (np.abs(moved - at[active]) <= STRAY * size).all(axis=1)
+        result[active] = np.where(near[:, None], moved, at[active])
+        active = active[near & (np.abs(step).max(axis=1) > ROUNDING_OF_DOMAIN)]
+        if not len(active):
+            break
+    # What is singular stays as it is, on a border to the last bit.
+    there = all_components(np.abs(result - at) <= ROUNDING_OF_DOMAIN * size)
+    return np.asarray(np.where(there[:, None], at, result))
 
 
 # The cusps of apparent contours: where the line of sight touches the contour itself.

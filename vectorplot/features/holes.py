@@ -24,6 +24,16 @@ def wrapped(domain: Domain, u: Floats, v: Floats) -> tuple[Floats, Floats]:
     return u, v
 
 
+def inside(domain: Domain, places: Floats) -> tuple[Floats, Floats]:
+    """(k,) u and v of places within the domain: a place beyond an open border is the border's."""
+    u, v = wrapped(domain, places[:, 0], places[:, 1])
+    if not domain.closed_u:
+        u = np.clip(u, domain.u_start, domain.u_end)
+    if not domain.closed_v:
+        v = np.clip(v, domain.v_start, domain.v_end)
+    return u, v
+
+
 # Holes of surfaces: where in their domains they have no points, and where those areas begin.
 
 AT_ONCE = 1 << 10

@@ -31,7 +31,7 @@ from vectorplot.geometry.polylines import split, take
 from vectorplot.geometry.vectors import all_finite, from_components, norm
 from vectorplot.surfaces.splines import line_pieces
 from vectorplot.surfaces.surface import Surface
-from vectorplot.surfaces.trimmed import CutSurface
+from vectorplot.surfaces.trimmed import cuts_of
 from vectorplot.tolerances import AROUND_RIM, CHORD_OF_EXTENT, ON_BORDER_OF_DOMAIN, ZERO_OF_EXTENT
 
 # Parameter lines and borders of a surface.
@@ -187,7 +187,7 @@ def _lines(asked: SurfacesAtOnce, axis: int, values: Sequence[Floats], tracing: 
         _first_ways(surface, axis, own if size > 0.0 else own[:0], k)
         for k, (surface, own, size) in enumerate(zip(asked.surfaces, values, sizes.tolist(), strict=True))
     ]
-    looks = MOST_LOOKS if sum(map(len, values)) <= FEW_LINES or any(map(_is_cut, asked.surfaces)) else 1
+    looks = MOST_LOOKS if sum(map(len, values)) <= FEW_LINES or any(map(cuts_of, asked.surfaces)) else 1
     lines = _without_holes(asked, axis, records.joined(starts), looks)
     lines, enough = _refined(asked, axis, lines, tracing, sizes)
     return _curves(asked, axis, lines, sizes, enough)
@@ -212,13 +212,6 @@ def _parameters(axis: int, ways: Floats) -> tuple[Floats, Floats]:
 def _at(asked: SurfacesAtOnce, axis: int, ways: Floats) -> Floats:
     """(n,3) points of the surfaces at ways (n,3)."""
     return asked.surface(number(ways)).points(*_parameters(axis, ways))
-
-
-def _is_cut(surface: Surface) -> bool:
-    """Whether planes have cut a surface, wherever it was moved then."""
-    while not isinstance(surface, CutSurface) and hasattr(surface, "surface"):
-        surface = surface.surface
-    return isinstance(surface, CutSurface)
 
 
 def _without_holes(asked: SurfacesAtOnce, axis: int, lines: Traces, looks: int) -> Traces:

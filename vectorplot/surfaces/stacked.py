@@ -301,9 +301,10 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
     = const. at a pole where u does not move the point (top of a sphere), along u = const. where v does not; so that
     normals near the pole run into it without a spike. An apex has one limit for each line that ends there. Where a
     surface passes through its axis (spindle torus) the normals of the two sides are opposite, and that side decides. At
-    a pole the normals are as good as the second partials.
+    a pole the normals are as good as the second partials; where the first derivative of the cross product vanishes too
+    they are those a millionth of the domain inside.
 
-    Edge cases: NaN in holes, and where the first derivative of the cross product vanishes too.
+    Edge cases: NaN in holes, and where the surface is a line or a point there.
 
     Examples
     --------
@@ -405,7 +406,8 @@ def _small(product: Floats, along_u: Floats, along_v: Floats, domain: Domain) ->
 
 
 def _with_limits(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats, Floats], product: Floats) -> Floats:
-    """(n, 3) the product of the partials where it is one, else its derivative towards the middle of the domain."""
+    """(n, 3) the product of the partials where it is one, else its derivative towards the middle of the domain, or,
+    where that vanishes too, the product a little that way; NaN where the partials there are parallel."""
     along_u, along_v = partials
     uu, uv, vv = surface.second_partials(u, v)
     domain = surface.domain
@@ -416,8 +418,15 @@ def _with_limits(surface: Surface, u: Floats, v: Floats, partials: tuple[Floats,
     limit = cross(towards_u, along_v) + cross(along_u, towards_v)
     bound = _bound(domain, partials, (uu, uv, vv))
     vanished = norm(product) <= SINGULAR_PRODUCT * bound
-    gone = vanished & (norm(limit) <= SINGULAR_PRODUCT * bound)
-    return np.where(gone[:, None], np.nan, np.where(vanished[:, None], limit, product))
+    gone = np.flatnonzero(vanished & (norm(limit) <= SINGULAR_PRODUCT * bound))
+    result = np.where(vanished[:, None], limit, product)
+    if len(gone):
+        inner = (u[gone] + ASIDE_OF_POLE * a[gone, 0], v[gone] + ASIDE_OF_POLE * b[gone, 0])
+        one, two = of_some(surface, gone).partials(*inner)
+        inside = cross(one, two)
+        known = norm(inside) > SINGULAR_PRODUCT * norm(one) * norm(two)
+        result[gone] = np.where(known[:, None], inside, np.nan)
+    return result
 
 
 def _bound(domain: Domain, first: Partials, second: SecondPartials) -> Floats:

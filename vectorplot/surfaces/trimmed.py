@@ -135,6 +135,26 @@ class CutSurface(MovableSurface):
         return self.surface.second_partials(u, v)
 
 
+def uncut(surface: Surface) -> Surface:
+    """The whole surface with the same parameters, of one that planes have cut, wherever it was moved since."""
+    if isinstance(surface, CutSurface):
+        return uncut(surface.surface)
+    if isinstance(surface, PlacedSurface | TrimmedSurface | InvertedSurface | OverDomain):
+        whole = uncut(surface.surface)
+        return surface if whole is surface.surface else replace(surface, surface=whole)
+    return surface
+
+
+def cuts_of(surface: Surface) -> list[CutSurface]:
+    """The cuts through a surface, the last one first, each through the whole surface as it was then."""
+    found: list[CutSurface] = []
+    while isinstance(surface, PlacedSurface | TrimmedSurface | InvertedSurface | OverDomain | CutSurface):
+        if isinstance(surface, CutSurface):
+            found.append(replace(surface, surface=uncut(surface)))
+        surface = surface.surface
+    return found
+
+
 # Whether a surface is known to be embedded: it meets itself nowhere, and has a tangent plane everywhere.
 
 

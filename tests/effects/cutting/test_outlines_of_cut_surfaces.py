@@ -1,4 +1,5 @@
-"""Contours of cut surfaces: the same in parallel views and from afar, and of balls as long as in closed form."""
+"""Contours of cut surfaces: all of them is there, whatever the angle to the cut; the same in parallel views and from
+afar, and of balls as long as in closed form."""
 
 from __future__ import annotations
 
@@ -6,6 +7,7 @@ from collections import defaultdict
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 from support.effort import several
 
 import vectorplot as vp
@@ -24,12 +26,16 @@ FAMILIES = {
     "ellipsoid": "ellipsoid 3 2 1.5",
     "helicoid": "helicoid width 1.6 bending 50",
 }
-FAR = 20000.0
-SHORT, LONG = 0.15, 0.003
-"""Where a contour comes to a cut at a flat angle it ends a little before it."""
+FAR = 2e6
+SHORT, LONG = 0.003, 0.0005
+"""Chords are shorter than the curve, and the true length is counted."""
 
-AFAR = 0.01
-"""Part of a length by which a view from so far may differ from a parallel one: its lines end a little elsewhere."""
+AFAR = 0.005
+"""Part of a length by which a view from so far may differ from a parallel one: where a contour lies on a rim, at a flat
+angle, one of them is drawn."""
+
+COVERED = 0.004
+"""Part of the extent within which the true contour has drawn one: a chord may be a thousandth of it away."""
 
 
 def lengths(scene, camera):
@@ -39,8 +45,98 @@ def lengths(scene, camera):
     for paths in (paths for layer in drawing.layers for paths in layer.strokes):
         for k, (start, end) in enumerate(zip(paths.offsets[:-1], paths.offsets[1:], strict=True)):
             kind = str(paths.kind[k])
-            found[kind] += float(np.linalg.norm(np.diff(paths.points3d[start:end], axis=0), axis=1).sum())
+            points = paths.points3d[[*range(start, end), *([start] if paths.closed[k] else [])]]
+            found[kind] += float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
     return found
+
+
+def sampled_contour(surface, eye, parallel):
+    """Points on the contour: where the lines of a grid in the parameters cross it."""
+    d = surface.domain
+    u, v = np.meshgrid(np.linspace(d.u_start, d.u_end, 101), np.linspace(d.v_start, d.v_end, 97), indexing="ij")
+
+    def f(u, v):
+        normal = np.cross(*surface.partials(u, v))
+        return (normal * (eye if parallel else surface.points(u, v) - eye)).sum(axis=-1)
+
+    values, found = f(u, v), []
+    for low, high in ((np.s_[:-1, :], np.s_[1:, :]), (np.s_[:, :-1], np.s_[:, 1:])):
+        crossed = values[low] * values[high] < 0.0
+        start, end = (np.stack([u[side][crossed], v[side][crossed]]) for side in (low, high))
+        sign = np.sign(values[low][crossed])
+        for _ in range(40):
+            middle = 0.5 * (start + end)
+            before = np.sign(f(*middle)) == sign
+            start, end = np.where(before, middle, start), np.where(before, end, middle)
+        found.append(surface.points(*start))
+    return np.concatenate(found)
+
+
+def more_families():
+    """Surfaces of other families than those of scene files."""
+    knots = np.random.default_rng(8).normal(size=(7, 6, 3)) * 0.3
+    knots[..., 0] += np.arange(7)[:, None] - 3.0
+    knots[..., 1] += np.arange(6) - 2.5
+    profile = surfaces.surface_of_function(
+        lambda u, v: ((1.5 + np.sin(2 * v)) * np.cos(u), (1.5 + np.sin(2 * v)) * np.sin(u), v),
+        surfaces.Domain(0.0, 2.0 * np.pi, -2.0, 2.0, closed_u=True),
+    )
+    moved = surfaces.PlacedSurface(surfaces.Torus(2.0, 0.7), np.diag([1.0, 1.3, 0.6]), (0.1, 0.0, 0.2))
+    return {"spline": surfaces.spline_surface(knots), "revolution": profile, "placed": moved}
+
+
+@pytest.mark.parametrize("family", [*FAMILIES, "spline", "revolution", "placed"])
+def test_all_of_the_contour_of_a_cut_surface_is_there_and_nothing_else(family, tmp_path):
+    if family in FAMILIES:
+        (tmp_path / "x.scene").write_text(f"BODY blue surface {FAMILIES[family]}\n", encoding="utf-8")
+        surface = vp.read(tmp_path / "x.scene").items[0].shape
+    else:
+        surface = more_families()[family]
+    random = np.random.default_rng(5)
+    for number in range(several(2, long=40)):
+        normals, way = random.normal(size=(random.integers(1, 4), 3)), random.normal(size=3)
+        normals /= np.linalg.norm(normals, axis=1)[:, None]
+        way /= np.linalg.norm(way)
+        region = HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(random.uniform(-0.6, 0.6, len(normals))))
+        cut = surfaces.CutSurface(surface, (region,))
+        parallel = number % 2 == 0
+        eye = way if parallel else 12.0 * way
+        found = features.parallel_contour(cut, eye) if parallel else features.contour(cut, eye)
+        whole = sampled_contour(surface, eye, parallel)
+        left = whole[~region.is_inside(whole)]
+        extent = np.linalg.norm(np.ptp(surface.points(*surface.domain.grid(16, 16)), axis=0))
+        part = np.linspace(0.0, 1.0, 65)[:, None]
+        drawn = [
+            (line[:-1, None] + part * np.diff(line, axis=0)[:, None]).reshape(-1, 3)
+            for line in (found[k] for k in range(len(found)))
+        ]
+        assert not region.is_inside(found.points).any()
+        assert len(whole) or not len(found)
+        # Samples on the whole contour are further from each other.
+        for points, others, away in ((left, [*drawn, np.zeros((0, 3))], COVERED), (found.points, [whole], 0.1)):
+            if len(points):
+                assert cKDTree(np.concatenate(others)).query(points)[0].max() <= away * extent, (number, away)
+
+
+def test_sections_and_isophotes_of_cut_surfaces_end_on_the_planes_too():
+    """At whatever angle they come to these: circles on a ball, cut ever nearer to the place at which they touch."""
+    for gap in (1e-2, 1e-4, 1e-6):
+        cut = surfaces.CutSurface(surfaces.Sphere(), (HalfSpaces(((1.0, 0.0, 0.0),), (1.0 - gap,)),))
+        for found in (
+            features.plane_sections(cut, (0.0, 0.0, 1.0), 0.0),
+            features.isophotes(cut, (0.0, 0.0, 1.0), 0.0),
+            features.point_light_isophotes(cut, (0.0, 0.0, 5.0), 0.2),
+            features.section_by_implicit(cut, surfaces.implicit_sphere(1.0, (0.0, 0.0, 1.0))),
+        ):
+            y, z = found.points.T[1:]
+            height = z.mean()
+            radius = np.sqrt(1.0 - height * height)
+            if radius < 1.0 - gap:
+                assert found.closed.tolist() == [True]
+                continue
+            assert len(found) == 1
+            ends = np.abs(y[[0, -1]])
+            assert np.allclose(ends, np.sqrt(radius**2 - (1.0 - gap) ** 2), rtol=1e-6), (gap, ends)
 
 
 @pytest.mark.parametrize("family", FAMILIES)

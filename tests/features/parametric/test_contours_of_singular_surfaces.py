@@ -84,6 +84,28 @@ def test_no_stroke_is_where_no_contour_is(name, parallel, tmp_path):
     assert length > 1.0 and part < BESIDE
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("eye", [(4.0, -7.0, 5.0), (3.0, 2.0, 1.0), (-5.0, 1.0, 4.0)])
+@pytest.mark.parametrize("parallel", [False, True])
+def test_contours_end_in_poles_where_normals_vanish_in_second_order(eye, parallel, tmp_path):
+    """In the poles of a cross-cap, both in the origin, the normal is (0, cos u, -sin u)."""
+    found = found_contour(read_surface(SURFACES["cross-cap"][0], tmp_path), np.array(eye) / 3.0, parallel)
+    ends = np.concatenate([found.offsets[:-1], found.offsets[1:] - 1])
+    at_pole = ends[np.abs(np.abs(found.v[ends]) - np.pi / 2.0) < 1e-9]
+    assert len(at_pole) == 2 and not found.doubts
+    assert np.abs(found.u[at_pole] - np.arctan2(eye[1], eye[2]) % np.pi).max() < 1e-4
+
+
+@pytest.mark.parametrize("order", [1, 2, 3])
+def test_normals_at_poles_of_any_order_are_their_limits(order):
+    bowl = surfaces.surface_of_function(
+        lambda u, v: (v**order * np.cos(u), v**order * np.sin(u), v ** (2 * order)),
+        surfaces.Domain(0.0, 2.0 * np.pi, 0.0, 1.0, closed_u=True),
+    )
+    up = unit_normals(bowl, np.linspace(0.0, 6.0, 7), np.array([0.0, 1e-9, 1e-7])[:, None])
+    assert np.abs(np.abs(up) - (0.0, 0.0, 1.0)).max() < 1e-5
+
+
 def bumpy(random, count):
     x, y = np.meshgrid(np.arange(count) * 1.5, np.arange(count) * 1.5, indexing="ij")
     return np.stack([x, y, 0.0 * x], axis=-1) + np.round(random.uniform(-1.5, 1.5, (count, count, 3)) * (1, 1, 2))

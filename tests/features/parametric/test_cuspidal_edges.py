@@ -85,3 +85,26 @@ def test_smooth_surfaces_pinch_points_and_one_sided_ones_have_none(surface):
 def test_a_grid_that_is_too_coarse_is_refused(tracing):
     with pytest.raises(InputError, match="expected"):
         singular_lines(Torus(), tracing=tracing)
+
+
+def astroidal(order):
+    return lambda u, v: (np.cos(u) ** 3 * np.cos(v) ** order, np.sin(u) ** 3 * np.cos(v) ** order, np.sin(v) ** order)
+
+
+@pytest.mark.slow
+@pytest.mark.spread
+@pytest.mark.parametrize("start", [-0.5 * np.pi, -1.0])
+@pytest.mark.parametrize("end", [0.5 * np.pi, 1.1])
+@pytest.mark.parametrize("order", [1, 3])
+def test_all_edges_that_run_into_poles_are_there(order, start, end):
+    """Arcs of circles, or of astroids with one round the equator, where they meet at right angles."""
+    surface = surface_of_function(astroidal(order), Domain(0.0, 2.0 * np.pi, start, end, closed_u=True))
+    curves = singular_lines(surface)
+    length = sum(np.linalg.norm(np.diff(curves[k], axis=0), axis=1).sum() for k in range(len(curves)))
+    if order == 1:
+        truth = 4.0 * (end - start)
+    else:
+        truth = 6.0 + 6.0 * (np.sin(start) ** 2 + np.sin(end) ** 2)
+    assert length == pytest.approx(truth, abs=0.01)
+    x, y, z = np.abs(curves.points.T)
+    assert np.minimum(np.minimum(x, y), z if order == 3 else np.inf).max() < 1e-9

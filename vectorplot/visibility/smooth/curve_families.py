@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.features.conditions import Slopes, SurfaceCondition
-from vectorplot.features.holes import beside_rim_chords
+from vectorplot.features.holes import beside_rim_chords, inside
 from vectorplot.features.implicit_singular_lines import SingularEquations, line_tangents, onto_lines
 from vectorplot.features.implicit_surfaces import SpatialCondition
 from vectorplot.geometry import records
@@ -19,7 +19,7 @@ from vectorplot.surfaces.splines import SplineSurface
 from vectorplot.surfaces.stacked import of_some
 from vectorplot.surfaces.surface import Surface, first_jets
 from vectorplot.tolerances import FAMILY_SETTLED, JUST_BEFORE, LEAST_DIVISOR, MISSED_OF_CHORD, TOUCHING_SHEETS_SINE
-from vectorplot.visibility.smooth.sheets import ImplicitSheet, OnParametrised, TangentPlanes, inside
+from vectorplot.visibility.smooth.sheets import ImplicitSheet, OnParametrised, TangentPlanes
 
 # Curves of one kind on one sheet: what is known of them between the points of their polylines.
 

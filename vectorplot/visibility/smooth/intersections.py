@@ -52,7 +52,7 @@ def parametrised_with_implicit(
 ) -> tuple[Curves, Doubts]:
     """The curves in which two sheets of these numbers meet, within the box of the implicit one; and doubts."""
     found = section_by_implicit(one.surface, two.surface, tracing=tracing)
-    family = ConditionCurves(one, first, ImplicitSection(one.surface, two.surface), second)
+    family = ConditionCurves(one.whole, first, ImplicitSection(one.whole.surface, two.surface), second)
     curves = as_curves(found, LineKind.INTERSECTION, item, family)
     return within_box(replace(curves, second_places=curves.points), two), found.doubts
 

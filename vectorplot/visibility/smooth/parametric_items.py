@@ -226,8 +226,8 @@ def curves_of_parametrised(
     item = scene.items[sheet.item]
     # Of a surface that is all seen edge-on, as a cylinder from the top, the borders are the whole picture.
     seen = replace(contour, doubts=tuple(text for text in contour.doubts if text != EVERYWHERE))
-    turn = through_pinch_points(_turn(view, sheet.surface))
-    found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet, number, turn), seen)]
+    turn = through_pinch_points(_turn(view, sheet.whole.surface))
+    found: list[Found] = [(LineKind.CONTOUR, ConditionCurves(sheet.whole, number, turn), seen)]
     found += _edges(view, sheet, number, tracing)
     if lines is not None:
         found.append((LineKind.PARAMETER, _lines_of_parameters(view, sheet, number), lines))
@@ -275,17 +275,17 @@ def _asked_for(
         if section.kind in wanted:
             normal = matmul(view.axes, np.asarray(section.normal))
             offsets = (np.asarray(section.offsets) - matmul(view.centre, np.asarray(section.normal))) / view.scale
-            plane = PlaneSection(surface, normal, 0.0)
+            plane = PlaneSection(sheet.whole.surface, normal, 0.0)
             found = plane_sections(surface, normal, offsets, tracing=tracing)
             if any(text.startswith(ALONG_A_LINE) for text in found.doubts):
                 touched = tangent_sections(surface, normal, offsets, tracing=tracing)
-                across = ParallelContour(surface, direction_across(normal))
+                across = ParallelContour(sheet.whole.surface, direction_across(normal))
                 level = replace(touched, levels=np.zeros(len(touched)))
-                result.append((section.kind, ConditionCurves(sheet, number, across), level))
+                result.append((section.kind, ConditionCurves(sheet.whole, number, across), level))
                 if len(touched):
                     left = tuple(text for text in found.doubts if not text.startswith(ALONG_A_LINE))
                     found = replace(found, doubts=left)
-            result.append((section.kind, ConditionCurves(sheet, number, plane), found))
+            result.append((section.kind, ConditionCurves(sheet.whole, number, plane), found))
             ends = border_sections(surface, normal, offsets, tracing=tracing)
             if len(ends):
                 result.append((section.kind, ParameterCurves(sheet, number), ends))
@@ -310,10 +310,10 @@ def _isophotes(scene: Scene, view: View, item: Item, sheet: ParametricSheet, num
     condition: Isophote | PointIsophote
     if light.parallel:
         towards = matmul(view.axes, np.asarray(light.position))
-        condition = Isophote(surface, towards, 0.0)
+        condition = Isophote(sheet.whole.surface, towards, 0.0)
         found = isophotes(surface, towards, item.curves.isophotes, tracing=tracing)
     else:
         lamp = view.points_of(np.array([light.position]))[:, 0]
-        condition = PointIsophote(surface, lamp, 0.0)
+        condition = PointIsophote(sheet.whole.surface, lamp, 0.0)
         found = point_light_isophotes(surface, lamp, item.curves.isophotes, tracing=tracing)
-    return LineKind.ISOPHOTE, ConditionCurves(sheet, number, condition), found
+    return LineKind.ISOPHOTE, ConditionCurves(sheet.whole, number, condition), found

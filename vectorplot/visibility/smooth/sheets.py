@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Protocol
 
@@ -13,7 +13,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conditions import MOST_PARAMETERS, stacks
 from vectorplot.features.hole_rims import cut_at_holes
-from vectorplot.features.holes import along_rims, into_surface, is_known, wrapped
+from vectorplot.features.holes import along_rims, inside, into_surface, is_known
 from vectorplot.features.implicit_meshes import ImplicitMesh, mesh_with_lines
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, default_gradient, singular_lines
 from vectorplot.features.implicit_surfaces import polygonized, sides_of
@@ -31,7 +31,8 @@ from vectorplot.surfaces.stacked import (
     unit_normals,
     unit_normals_of,
 )
-from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, first_jets
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, first_jets
+from vectorplot.surfaces.trimmed import uncut
 from vectorplot.tolerances import (
     LEAST_DIVISOR,
     NOISE_OF_GRADIENT,
@@ -341,16 +342,6 @@ def _moved(places: Floats, along_u: Floats, along_v: Floats, steps: Floats) -> F
     return places + step
 
 
-def inside(domain: Domain, places: Floats) -> tuple[Floats, Floats]:
-    """(k,) u and v of places within the domain: a place beyond an open border is the border's."""
-    u, v = wrapped(domain, places[:, 0], places[:, 1])
-    if not domain.closed_u:
-        u = np.clip(u, domain.u_start, domain.u_end)
-    if not domain.closed_v:
-        v = np.clip(v, domain.v_start, domain.v_end)
-    return u, v
-
-
 # How fine the tessellations of sheets are, and how close to their surfaces.
 
 FEWEST, MOST = 32, 512
@@ -445,6 +436,13 @@ class ParametricSheet(OnParametrised):
     holed: bool = False
     creases: tuple[float, ...] = ()
     is_cap: bool = False
+
+    @cached_property
+    def whole(self) -> ParametricSheet:
+        """The same on the surface before planes cut it: where they do so at a flat angle chords of its curves, and ways
+        across these, lead beyond them."""
+        surface = uncut(self.surface)
+        return self if surface is self.surface else replace(self, surface=surface)
 
     def surface_at(self, places: Floats) -> Surface:
         """The surface, whatever the places."""

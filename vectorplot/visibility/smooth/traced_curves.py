@@ -33,7 +33,7 @@ from vectorplot.visibility.smooth.curve_families import (
     SheetsMeet,
     joined_chords,
 )
-from vectorplot.visibility.smooth.sheets import OnParametrised, Sheets, StackedSheets
+from vectorplot.visibility.smooth.sheets import OnParametrised, ParametricSheet, Sheets, StackedSheets
 from vectorplot.words import LineKind
 
 
@@ -490,6 +490,10 @@ def _merged(family: Family, sheets: Sheets) -> _Merged | None:
     if isinstance(family, ParameterCurves) and family.weighted is not None:
         return None
     if isinstance(family, ConditionCurves) and isinstance(family.condition, ThroughPinchPoints):
+        return None
+    sheet = sheets[family.sheet]
+    if isinstance(family, ConditionCurves) and isinstance(sheet, ParametricSheet) and sheet.whole is not sheet:
+        # These are curves of the surface before it was cut.
         return None
     degrees = family.degrees_along if isinstance(family, ParameterCurves) else ()
     key = (type(family), group, _said(family) if isinstance(family, ConditionCurves) else degrees)
