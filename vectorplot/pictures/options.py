@@ -60,6 +60,7 @@ _CALLED = "a function", callable
 
 _EXPECTED: dict[str, tuple[str, Fits]] = {
     "width": _LENGTH,
+    "margin_pixels": _NUMBER,
     "fit": _YES,
     "lines": _WORDS,
     "crease_angle_deg": _NUMBER,
@@ -88,7 +89,12 @@ _EXPECTED: dict[str, tuple[str, Fits]] = {
 }
 
 _NEVER_NONE = (_NUMBER, _YES, _TEXT)
-_MAY_BE_NONE = {"longest_mm", "shadow_focus", *(name for name, one in _EXPECTED.items() if one not in _NEVER_NONE)}
+_MAY_BE_NONE = {
+    "longest_mm",
+    "margin_pixels",
+    "shadow_focus",
+    *(name for name, one in _EXPECTED.items() if one not in _NEVER_NONE),
+}
 """What is left out where it is None; lines of paint and render are looked at where they are read."""
 
 

@@ -17,7 +17,7 @@ from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import cross
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.scene.light import Light
-from vectorplot.scene.page import MM_PER_INCH
+from vectorplot.scene.page import MM_PER_INCH, Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.image import Bytes, averaged
@@ -115,6 +115,9 @@ def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int
 
 # What options of render may be.
 
+MARGIN = 0.03
+"""Part of the shorter side of a picture that stays free on each side where nobody says how much."""
+
 MOST_SAMPLES = 8
 """Along each side of a pixel."""
 
@@ -151,6 +154,17 @@ def check_render_options(
         raise InputError(f"a crease angle of {crease_angle_deg:g} degrees: expected 0 to 180")
     raster_size(*size)
     raster_size(size[0] * samples, size[1] * samples)
+
+
+def raster_page(size: tuple[int, int], margin: float | None, unit: float) -> Page:
+    """The page that a picture of some pixels with a margin (pixels; None: MARGIN) is, a pixel being so long.
+
+    Errors: InputError for a margin that is negative, not finite, or leaves nothing.
+    """
+    margin = MARGIN * min(size) if margin is None else margin
+    if not 0.0 <= 2.0 * margin < min(size):
+        raise InputError(f"a margin of {margin:g} pixels: expected 0 to less than half of {min(size)}")
+    return Page(size[0] * unit, size[1] * unit, margin * unit)
 
 
 def check_whole(**counts: int) -> None:
