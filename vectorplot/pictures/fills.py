@@ -342,17 +342,18 @@ def _decals(
     """The polygons that lie on faces, in the order in which they are painted."""
     scene, view, projected = seen.scene, seen.view, seen.projected
     found: list[Decals] = []
+    off = off_surfaces(seen, tolerance_mm)
     if pipeline.calls_for("shadows"):
         from vectorplot.effects.scene_decals import scene_shadows
 
-        off = off_surfaces(seen, tolerance_mm)
         found.append(
             pipeline.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, off, budget)
         )
     if pipeline.calls_for("mirror light"):
         from vectorplot.effects.scene_decals import scene_mirror_light
 
-        lit, doubles = pipeline.run("mirror light", scene_mirror_light, scene, view, projected, lighting, found[0])
+        shines = partial(scene_mirror_light, off=off)
+        lit, doubles = pipeline.run("mirror light", shines, scene, view, projected, lighting, found[0])
         found.append(lit)
         lighting = replace(lighting, doubles=doubles)
     if pipeline.calls_for("patterns"):
