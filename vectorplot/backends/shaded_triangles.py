@@ -190,6 +190,9 @@ under them goes on beyond."""
 BEYOND_MICRONS = 75.0
 """So far that is."""
 
+FARTHEST_MICRONS = 1300.0
+"""So far they reach along the other sides of these at most."""
+
 LOOKS = np.array((0.0, 0.05, 0.5, 0.95, 1.0))
 """Where along sides it is looked for what is beside them."""
 
@@ -297,11 +300,8 @@ def underlaps(areas: Areas) -> Underlaps:
     later = later[sides.convex[owner[other[later]]]]
     beyond = other[later]
     # The other polygon comes along this side from its end to its start.
-    ways = [microns[before[beyond]] - microns[beyond], microns[after[after[beyond]]] - microns[after[beyond]]]
-    along = sides.along(later)
-    length = np.hypot(*along.T)
-    high = [np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / length for way in ways]
-    part = [np.minimum(REACH_MICRONS / np.maximum(h, LEAST_DIVISOR), INSIDE)[:, None] for h in high]
+    turns = ((beyond, before[beyond]), (after[beyond], after[after[beyond]]))
+    ways, high, part = zip(*(_inwards(sides, beyond, *turn) for turn in turns), strict=True)
     far, near = microns[after[later]] + part[0] * ways[0], microns[later] + part[1] * ways[1]
     found = _partly_common(sides, np.flatnonzero(covers[owner] & ~met))
     thin = np.minimum(*high) < THIN_MICRONS
@@ -324,6 +324,24 @@ def underlaps(areas: Areas) -> Underlaps:
     first = np.argsort(owner[side], kind="stable")
     added = np.concatenate((*(corners for _, corners in strips), squares))[first]
     return Underlaps(later, near, far, open_, owner[side[first]], side[first], added)
+
+
+def _inwards(sides: _Sides, side: Ints, end: Ints, beside: Ints) -> tuple[Floats, Floats, Floats]:
+    """(k,2) ways into polygons from ends of their sides (k,), as corners, how far each leads from the line of the side,
+    and (k,1) the part of it that is gone: along the next side, which joins the end to a corner beside it. Where that is
+    far, since the side goes on nearly straight there, to the middle: what lies along a border is seen at it."""
+    way, along = (sides.microns[beside] - sides.microns[end]).astype(np.float64), sides.along(side)
+
+    def lengths() -> tuple[Floats, Floats]:
+        high = np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / np.hypot(*along.T)
+        return high, np.minimum(REACH_MICRONS / np.maximum(high, LEAST_DIVISOR), INSIDE)
+
+    far = np.flatnonzero(lengths()[1] * np.hypot(*way.T) > FARTHEST_MICRONS)
+    of = sides.owner[side[far]]
+    middle = np.add.reduceat(sides.microns, sides.areas.offsets[:-1])[of] / sides.areas.sizes[of, None]
+    way[far] = middle - sides.microns[end[far]]
+    high, part = lengths()
+    return way, high, part[:, None]
 
 
 def _with_foreign_sides(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:
