@@ -181,3 +181,14 @@ def test_what_cannot_be_saved_is_told(tmp_path, monkeypatch):
     with pytest.raises(vp.InputError, match=r'^videos need the package av: pip install "vectorplot\[video\]"$'):
         vp.save(film(), tmp_path / "film.mp4")
     assert not list(tmp_path.iterdir())
+
+
+def test_frames_of_pixels_have_a_margin_as_pictures_have():
+    die = vp.Item("die", box((1, 1, 1)), "black")
+    for margin in (0.0, 12.0):
+        moving = vp.animate(
+            vp.Animation(lambda time: die), mode="pixels", size=(80, 60), margin_pixels=margin, samples=1
+        )
+        rows, columns = np.nonzero((moving.picture(0).pixels < 250).any(axis=2))
+        beside = min(rows.min(), columns.min(), 59 - rows.max(), 79 - columns.max())
+        assert abs(beside - margin) <= 2

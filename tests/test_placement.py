@@ -70,7 +70,7 @@ def places(scene: Scene, camera: Camera, fit: bool = True) -> tuple[Placement | 
     return (
         frame_of(view, lines, PAGE, fit),
         placement_of_faces(view, painters_order(view).faces, PAGE, fit),
-        picture_placement(view, 120, 90, fit),
+        picture_placement(view, PAGE, fit),
     )
 
 
@@ -99,7 +99,7 @@ def test_every_verb_fits_what_is_60_degrees_off_the_principal_ray(more, size):
 def test_pixels_are_where_the_page_has_them(camera, fit):
     scene = rotated_boxes(4)
     view = look(scene, camera)
-    placement = picture_placement(view, 120, 90, fit)
+    placement = picture_placement(view, PAGE, fit)
     page = placement.on_page(view.image)
     h = pixel_system(placement).homogeneous(view.points.T)
     assert np.allclose(h[:, :2] / h[:, 3:], np.column_stack([page[:, 0] - 0.5, 89.5 - page[:, 1]]), atol=1e-9)
@@ -107,7 +107,7 @@ def test_pixels_are_where_the_page_has_them(camera, fit):
     assert np.allclose(world[:, :2] / world[:, 3:], page, atol=1e-9)
     if fit:
         low, high = page.min(axis=0), page.max(axis=0)
-        assert np.allclose((low + high) / 2.0, (60.0, 45.0)) and np.allclose(((high - low) / (120.0, 90.0)).max(), 0.94)
+        assert np.allclose((low + high) / 2.0, (60.0, 45.0)) and np.allclose(((high - low) / (110.0, 80.0)).max(), 1.0)
 
 
 @pytest.mark.parametrize("camera", CAMERAS)

@@ -133,7 +133,7 @@ def test_a_point_half_the_field_of_vision_up_is_on_the_edge_of_every_verbs_pictu
             x, y, _, w = verb(SCENE, camera, page=page, fit=False).page_from_world @ point
             assert (x / w, y / w) == pytest.approx((100.0, 60.0 * (1.0 + sign)), abs=1e-9)
         view = look(SCENE, camera)
-        system = pixel_system(picture_placement(view, 200, 120, fit=False))
+        system = pixel_system(picture_placement(view, Page(200, 120), fit=False))
         column, row = system.from_world(view.points_of(point[None, :3]).T)[0, :2]
         assert (column, row) == pytest.approx((99.5, 59.5 + 60.0 * -sign), abs=1e-9)
 

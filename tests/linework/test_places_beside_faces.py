@@ -79,3 +79,35 @@ def test_paintings_and_drawings_have_the_same_place_beside_annotations(tmp_path,
     drawn, painted = vp.draw(scene, page=page), vp.paint(scene, page=page)
     assert (drawn.width_mm, drawn.height_mm) == pytest.approx((painted.width_mm, painted.height_mm), abs=0.01)
     assert np.abs(_corners(drawn) - _corners(painted)).max() < 0.01
+
+
+SHOWN = {
+    "cube": lambda: (vp.Item("body", BODIES["cube"], "black"),),
+    "ball": lambda: (vp.Item("body", BODIES["ball"], "black"),),
+    "helix": lambda: (vp.Item("body", BODIES["cube"], "black"), vp.Item("curve", Helix(2.0, 0.2, end=14.0), "black")),
+    "axes": lambda: (vp.Item("body", BODIES["cube"], "black"), *vp.axes(4).items),
+}
+
+
+@pytest.mark.parametrize("camera", [vp.Camera((9, -7, 4)), vp.Camera((9, -7, 40), (0.3, 0.2, 0.4), parallel=True)])
+@pytest.mark.parametrize("margin", [0, 13])
+@pytest.mark.parametrize("shown", list(SHOWN))
+def test_pixels_and_strokes_on_pages_of_one_margin_fill_the_same_frame(shown, margin, camera):
+    scene, lines = vp.Scene(SHOWN[shown]()), "contour,boundary,crease,curve"
+    drawn = vp.draw(scene, camera, page=vp.Page(160, 120, margin), lines=lines)
+    points = np.concatenate([marks.points for layer in drawn.layers for marks in layer.strokes])
+    image = vp.render(
+        scene, camera, size=(160, 120), margin_pixels=margin, lines=lines, samples=1, background="#ffffff"
+    )
+    rows, columns = np.nonzero((np.asarray(image.pixels) < 250).any(axis=2))
+    found = np.array([columns.min(), 120 - rows.max() - 1, columns.max() + 1, 120 - rows.min()])
+    assert np.abs(found - np.concatenate([points.min(axis=0), points.max(axis=0)])).max() < 2.0
+
+
+def test_a_picture_of_pixels_has_a_margin_of_its_shorter_side():
+    scene = vp.Scene(SHOWN["cube"]())
+    usual, said = (vp.render(scene, size=(200, 100), samples=1, **told).pixels for told in ({}, {"margin_pixels": 3.0}))
+    assert (np.asarray(usual) == np.asarray(said)).all()
+    for margin in (-1.0, 50.0, np.nan):
+        with pytest.raises(vp.InputError, match="margin"):
+            vp.render(scene, size=(200, 100), margin_pixels=margin)

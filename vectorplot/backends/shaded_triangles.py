@@ -190,6 +190,9 @@ under them goes on beyond."""
 BEYOND_MICRONS = 75.0
 """So far that is."""
 
+FARTHEST_MICRONS = 1300.0
+"""So far they reach along the other sides of these at most."""
+
 LOOKS = np.array((0.0, 0.05, 0.5, 0.95, 1.0))
 """Where along sides it is looked for what is beside them."""
 
@@ -297,11 +300,11 @@ def underlaps(areas: Areas) -> Underlaps:
     later = later[sides.convex[owner[other[later]]]]
     beyond = other[later]
     # The other polygon comes along this side from its end to its start.
-    ways = [microns[before[beyond]] - microns[beyond], microns[after[after[beyond]]] - microns[after[beyond]]]
-    along = sides.along(later)
-    length = np.hypot(*along.T)
-    high = [np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / length for way in ways]
-    part = [np.minimum(REACH_MICRONS / np.maximum(h, LEAST_DIVISOR), INSIDE)[:, None] for h in high]
+    under = np.flatnonzero(met)[owner[other[met]] < owner[met]]
+    turns = ((beyond, before[beyond], before[beyond]), (after[beyond], after[after[beyond]], after[beyond]))
+    ways, high, part = zip(
+        *(_inwards(sides, beyond, end, beside, np.isin(own, under)) for end, beside, own in turns), strict=True
+    )
     far, near = microns[after[later]] + part[0] * ways[0], microns[later] + part[1] * ways[1]
     found = _partly_common(sides, np.flatnonzero(covers[owner] & ~met))
     thin = np.minimum(*high) < THIN_MICRONS
@@ -324,6 +327,32 @@ def underlaps(areas: Areas) -> Underlaps:
     first = np.argsort(owner[side], kind="stable")
     added = np.concatenate((*(corners for _, corners in strips), squares))[first]
     return Underlaps(later, near, far, open_, owner[side[first]], side[first], added)
+
+
+def _inwards(sides: _Sides, side: Ints, end: Ints, beside: Ints, closed: Bools) -> tuple[Floats, Floats, Floats]:
+    """(k,2) ways into polygons from ends of their sides (k,), as corners, how far each leads from the line of the side,
+    and (k,1) the part of it that is gone: along the next side, which joins the end to a corner beside it. Where that
+    goes on nearly straight, and far, and is closed by a third polygon that goes on under it: straight inwards, for what
+    lies along a border is seen at it."""
+    way, along = (sides.microns[beside] - sides.microns[end]).astype(np.float64), sides.along(side)
+    length = np.hypot(*along.T)
+    high = np.abs(along[:, 0] * way[:, 1] - along[:, 1] * way[:, 0]) / length
+    part = np.minimum(REACH_MICRONS / np.maximum(high, LEAST_DIVISOR), INSIDE)
+    onwards = np.where(end == side, -1.0, 1.0)[:, None] * along / length[:, None]
+    ahead = (onwards * way).sum(axis=1)
+    far = np.flatnonzero(closed & (ahead > 0.0) & (part * np.hypot(*way.T) > FARTHEST_MICRONS))
+    # A polygon has the triangle between both sides and its middle, at least.
+    of = sides.owner[side[far]]
+    middle = np.add.reduceat(sides.microns, sides.areas.offsets[:-1])[of] / sides.areas.sizes[of, None]
+    arm, straight = middle - sides.microns[end[far]], -sides.outwards(side[far])
+    x = (onwards[far] * arm).sum(axis=1)
+    base = np.where(x > 0.0, length[far], ahead[far])
+    room = (straight * arm).sum(axis=1) * base / (base + np.abs(x))
+    # Under thin ones nothing goes so far that they need none of each other.
+    wide = room >= REACH_MICRONS
+    high[far[wide]] = room[wide]
+    way[far[wide]] = straight[wide] * room[wide, None]
+    return way, high, np.minimum(REACH_MICRONS / np.maximum(high, LEAST_DIVISOR), INSIDE)[:, None]
 
 
 def _with_foreign_sides(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,7 +14,7 @@ from vectorplot.drawing.fill_visibility import united
 from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay
 from vectorplot.effects.decals import Decals, Laid, joined_decals, no_decals
-from vectorplot.effects.refraction import Rays, SightWays, Soup, bent, joined_soups, traced, virtual_points
+from vectorplot.effects.refraction import Rays, SightWays, Soup, bent, joined_soups, refracted, traced, virtual_points
 from vectorplot.effects.scene_decals import laid_fills, shown_decals
 from vectorplot.effects.windows import (
     SeenThrough,
@@ -31,11 +32,16 @@ from vectorplot.geometry.elementary import arccos, tan
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import PlaneBundles, cut_by_planes, planes_of, polygon_areas
 from vectorplot.geometry.polylines import joined
-from vectorplot.scene.placement import Placement
+from vectorplot.geometry.projections import Projection
+from vectorplot.geometry.vectors import cross, norm
+from vectorplot.scene.placement import Placement, box_corners
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
+from vectorplot.shading.facet_resolution import box_of_item, triangles_of_items
+from vectorplot.shading.illumination import towards
 from vectorplot.shading.painted_colours import Lighting, opacities
 from vectorplot.shading.palettes import Colours
+from vectorplot.tolerances import ROUNDING
 from vectorplot.visibility.painter.image_faces import ImageFaces, image_points, polygons_of, view_points
 from vectorplot.visibility.painter.painters_order import painters_order
 from vectorplot.visibility.painter.priority_tests import (
@@ -711,6 +717,89 @@ def _laid_on(glass: _Glass, parts: ImageFaces, face: Ints, way: Ints, lying: Sou
     points, offsets, pair = clipped_pairs(marks, parts, mark, part, view.tolerance)
     mark, part = mark[pair], part[pair]
     return part, SeenThrough(points, offsets, own_face[mark], part, part, lying.source[marks.source[mark]])
+
+
+# Which items are seen in or behind transparent solids: by some of the sight rays.
+
+SIGHT_RAYS = 1 << 11
+"""About so many rays enter a solid."""
+
+WIDE = 0.25
+"""Between two rays others go aside by so much more, per unit of distance, also such that enter by the next facet."""
+
+BOUNCES = 2
+"""So often a ray that is reflected from within is followed to another face."""
+
+
+def items_in_glass(scene: Scene, projection: Projection) -> Bools:
+    """(i,) the items that are seen in or behind transparent solids that refract light, and these, by their boxes; all
+    where a solid reaches behind the eye."""
+    boxes = [box_of_item(item) for item in scene.items]
+    there = np.array([len(box) > 0 for box in boxes], dtype=np.bool_)
+    found = np.array([item.material.refraction != 1.0 and not item.hides for item in scene.items]) & there
+    every = np.array([box if len(box) else np.full((2, 3), np.nan) for box in boxes])
+    corners = np.moveaxis(projection.points_of(np.concatenate([box_corners(box) for box in every])), 0, 1)
+    corners = corners.reshape(-1, 8, 3)
+    centres = corners.mean(axis=1)
+    radii = np.linalg.norm(corners - centres[:, None], axis=2).max(axis=1)
+    glass = np.flatnonzero(found).tolist()
+    made = triangles_of_items([scene.items[k] for k in glass], [boxes[k] for k in glass])
+    for number, (triangles, _) in zip(glass, made, strict=True):
+        found |= ((every[:, 0] <= every[number, 1]) & (every[:, 1] >= every[number, 0])).all(axis=1)
+        points = projection.points_of(triangles.reshape(-1, 3))
+        if (projection.depth_of(points) <= projection.near).any():
+            return there
+        starts, ways, apart = _leaving(projection, points.T.reshape(-1, 3, 3), scene.items[number].material.refraction)
+        for lot in _lots(np.full(len(centres), max(len(starts), 1))):
+            across = centres[lot, None] - starts
+            along = (across * ways).sum(axis=2)
+            aside = np.sqrt(np.maximum((across * across).sum(axis=2) - along * along, 0.0))
+            reach = radii[lot, None] + apart
+            found[lot] |= ((along >= -reach) & (aside <= reach + WIDE * np.maximum(along, 0.0))).any(axis=1)
+    return found
+
+
+def _leaving(projection: Projection, triangles: Floats, constant: float) -> tuple[Floats, Floats, float]:
+    """Where rays leave a convex solid of triangles (t,3,3) that enter it all over its front, and their directions
+    (n,3); and how far others are from one of them at most, where they enter."""
+    a, b, c = np.moveaxis(triangles, 1, 0)
+    normals = cross(b - a, c - a)
+    length = norm(normals)
+    full = length > 0.0
+    triangles, normals = triangles[full], normals[full] / length[full, None]
+    middle = triangles.reshape(-1, 3).mean(axis=0)
+    normals *= np.where(((triangles[:, 0] - middle) * normals).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
+    steps = max(1, math.isqrt(SIGHT_RAYS // max(len(triangles), 1)))
+    # The middles of the parts of triangles whose sides are cut into so many.
+    i, j = (grid.ravel() for grid in np.mgrid[:steps, :steps])
+    both = np.concatenate([np.stack([3 * i + up, 3 * j + up], axis=1) for up in (1, 2)]) / (3.0 * steps)
+    both = both[both.sum(axis=1) < 1.0]
+    shares = np.column_stack([both, 1.0 - both.sum(axis=1)])
+    starts = np.einsum("sk,tkx->tsx", shares, triangles).reshape(-1, 3)
+    entered = np.repeat(normals, len(shares), axis=0)
+    eye = (0.0, 0.0, 1.0, 0.0) if projection.eye is None else (*projection.eye.tolist(), 1.0)
+    rays = -towards(starts, eye)
+    front = np.flatnonzero((rays * entered).sum(axis=1) < 0.0)
+    front = front[:: 1 + len(front) // (2 * SIGHT_RAYS)]
+    apart = float(norm(np.roll(triangles, 1, axis=1) - triangles).max(initial=0.0)) / steps
+    starts, (rays, _) = starts[front], refracted(rays[front], entered[front], constant)
+    left = [(np.zeros((0, 3)), np.zeros((0, 3)))]
+    height = (normals * triangles[:, 0]).sum(axis=1)
+    for _ in range(BOUNCES):
+        last = [np.zeros(0, dtype=np.intp)]
+        ahead = np.zeros(len(starts))
+        for lot in _lots(np.full(len(starts), len(normals))):
+            slope = np.einsum("nx,tx->nt", rays[lot], normals)
+            with np.errstate(divide="ignore", invalid="ignore"):
+                way = (height - np.einsum("nx,tx->nt", starts[lot], normals)) / slope
+            way = np.where(slope > ROUNDING, way, np.inf)
+            last.append(way.argmin(axis=1))
+            ahead[lot] = way.min(axis=1, initial=np.inf)
+        starts = starts + ahead[:, None] * rays
+        rays, total = refracted(rays, normals[np.concatenate(last)], 1.0 / constant)
+        left.append((starts[~total], rays[~total]))
+        starts, rays = starts[total], rays[total]
+    return np.concatenate([s for s, _ in left]), np.concatenate([r for _, r in left]), apart
 
 
 # What is seen in and behind transparent solids, as filled polygons on the page.

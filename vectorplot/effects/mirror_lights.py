@@ -13,7 +13,7 @@ from vectorplot.effects.decals import Decals, convex_decals, joined_decals, no_d
 from vectorplot.effects.mirrors import Mirrors, doubled, half_of_view
 from vectorplot.effects.patterns import in_shadows
 from vectorplot.effects.shadow_casters import FacePlanes, LightSystem, light_system
-from vectorplot.effects.shadows import shadow_decals
+from vectorplot.effects.shadows import cast_within, shadow_decals_of
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polygon_cuts import PlaneBundles, cut_by_planes, planes_of
@@ -59,13 +59,17 @@ def light_doubles(view: View, mirrors: Mirrors, lights: Sequence[Light]) -> tupl
 
 
 def mirror_light(
-    view: View, mirrors: Mirrors, doubles: Sequence[LightDouble], projected: ProjectedFaces | None = None
+    view: View,
+    mirrors: Mirrors,
+    doubles: Sequence[LightDouble],
+    projected: ProjectedFaces | None = None,
+    off: Floats | None = None,
 ) -> Decals:
     """Where the light of doubles falls through the windows that their mirrors are, on faces seen on the lit side.
 
     Decals of the kind LIGHT: light is the number of the double. On them lie their parts that it does not reach, since
     the scene or its double are in the way: light -1, to be painted as if there were no mirror. Both still have to be
-    clipped with the shadows of the lights of the scene, by patterns_in_shadows.
+    clipped with the shadows of the lights of the scene, by patterns_in_shadows. off (i,): as of cast_within.
     Edge cases: where the light of several doubles falls, only that of the last one is painted.
     Source: Glaeser, section 6.4: the reflected light is obscured by the reflected objects.
     """
@@ -80,7 +84,7 @@ def mirror_light(
         face = seen[facing[seen] * projected.facing[seen] > 0]
         lit = _through_windows(view, mirrors, double, number, system, face)
         if len(lit):
-            obscured = _obscured(view, mirrors, double, lit.face)
+            obscured = _obscured(view, mirrors, double, lit.face, off)
             dark = in_shadows(view, lit, convex_decals(view, obscured, everywhere))
             nothing = np.zeros(len(dark), dtype=np.intp)
             found += [lit, replace(dark, light=nothing - 1, grade=nothing, lacking=nothing)]
@@ -125,7 +129,7 @@ def _window_volumes(view: View, mirrors: Mirrors, plane: int, window: Ints, syst
     return PlaneBundles(np.insert(planes_of(normal, start), last, front, axis=1), offsets + np.arange(len(offsets)))
 
 
-def _obscured(view: View, mirrors: Mirrors, double: LightDouble, lit: Ints) -> Decals:
+def _obscured(view: View, mirrors: Mirrors, double: LightDouble, lit: Ints, off: Floats | None) -> Decals:
     """The shadows that the scene before a mirror and its double behind it cast in the light of a double, on those faces
     of the view that it gets to."""
     height = mirrors.heights(double.plane, view.points)
@@ -137,7 +141,11 @@ def _obscured(view: View, mirrors: Mirrors, double: LightDouble, lit: Ints) -> D
     both = joined_views(before, behind)
     receivers = np.zeros(both.face_count, dtype=np.bool_)
     receivers[: len(source)] = np.isin(source, lit)
-    shadows = shadow_decals(both, [double.light], receivers=receivers)
+    if off is not None:
+        # Faces that the plane cuts are those of an item more.
+        off = np.tile(np.append(off, off.max(initial=0.0)), 2)
+    cast = cast_within(both, [double.light], np.inf, receivers=receivers, off=off)
+    shadows = shadow_decals_of(cast.shadows, FillKind.SHADOW)
     return replace(shadows, face=source[shadows.face])
 
 

@@ -759,9 +759,9 @@ class Scaled:
     bar: ColourBar | None
     reach: Floats
 
-    def around(self, placement: Placement, view: View, page: Page, border: float = 0.0, mm: float = 1.0) -> Placement:
-        """The place of a picture that fills a page, with room for the box, its numbers and names; page, border: as it
-        had them; mm: how long a millimetre is in units of the page."""
+    def around(self, placement: Placement, view: View, page: Page, mm: float = 1.0) -> Placement:
+        """The place of a picture that fills a page, with room for the box, its numbers and names; page: as it
+        had it; mm: how long a millimetre is in units of the page."""
         beside = [label.at for label in self.scene.labels if isinstance(label.at, BesidePoint)]
         world = np.concatenate([self.reach, np.array([at.point for at in beside]).reshape(-1, 3)])
         points, corners = view.points_of(world), np.zeros((len(self.reach), 2))
@@ -771,7 +771,7 @@ class Scaled:
             mm * np.concatenate([corners, np.array(rooms).reshape(-1, 2)]).T
             for rooms in ([at.low_mm for at in beside], [at.high_mm for at in beside])
         )
-        return fitted_with_room(view, page, view.image_of(points), low, high, border)
+        return fitted_with_room(view, page, view.image_of(points), low, high)
 
 
 def scaled(scene: Scene, camera: Camera | str | None, page: Callable[[Scene], InSpace] = default_page) -> Scaled:

@@ -58,9 +58,10 @@ def scene_shadows(
 
 
 def scene_mirror_light(
-    scene: Scene, view: View, projected: ProjectedFaces, lighting: Lighting, shadows: Decals
+    scene: Scene, view: View, projected: ProjectedFaces, lighting: Lighting, shadows: Decals, off: Floats
 ) -> tuple[Decals, tuple[Light, ...]]:
-    """Where light falls by way of mirrors, and the doubles of lights that it comes from, in the view."""
+    """Where light falls by way of mirrors, and the doubles of lights that it comes from, in the view; off (i,) as of
+    scene_shadows."""
     from vectorplot.effects.decals import united_decals
     from vectorplot.effects.mirror_lights import light_doubles, mirror_light
     from vectorplot.effects.mirrors import mirror_faces, mirrors_of
@@ -68,7 +69,7 @@ def scene_mirror_light(
 
     mirrors = mirrors_of(view, mirror_faces(scene, view))
     doubles = light_doubles(view, mirrors, scene.lights)
-    lit = mirror_light(view, mirrors, doubles, projected)
+    lit = mirror_light(view, mirrors, doubles, projected, off)
     # Many small shadows on a face make few regions, each of which has to be cut with each part of the light.
     shadows = united_decals(view, shadows)
     nowhere = np.zeros(view.face_count, dtype=np.bool_)

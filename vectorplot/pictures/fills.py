@@ -18,7 +18,7 @@ from vectorplot.drawing.hatching import FollowedLines, hatched_regions, place_ra
 from vectorplot.drawing.painted_fills import Overlay, fills_on_page, shown_faces, stacked
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent
-from vectorplot.features.edge_splitting import Criterion
+from vectorplot.features.edge_splitting import Allowed, Criterion
 from vectorplot.features.mesh_lines import MeshCurves, face_triangles
 from vectorplot.features.mesh_streamlines import evenly_spaced_on_faces
 from vectorplot.features.streamlines import MOST_LINES as MOST_LINES_of_streamlines
@@ -137,6 +137,18 @@ def without_unseen_facets(
 def smooth_items(faceted: FacetedScene) -> Bools:
     """(i,) the items whose faces stand for those of a smooth surface."""
     return np.array([normals is not None for normals in faceted.normals], dtype=np.bool_)
+
+
+def fineness(
+    pipeline: Pipeline, shown: Scene, projection: Projection, casts: bool, allowed: Allowed, tolerance_mm: float
+) -> Callable[[int], Criterion]:
+    """What a picture asks of the triangles of the items that it shows; all else as of picture_fineness."""
+    in_glass = None
+    if pipeline.calls_for("refraction"):
+        from vectorplot.effects.glass import items_in_glass
+
+        in_glass = items_in_glass(shown, projection)
+    return picture_fineness(shown, projection, casts, allowed, tolerance_mm, in_glass)
 
 
 def off_surfaces(seen: VisiblePolygons, tolerance_mm: float) -> Floats:
@@ -330,17 +342,18 @@ def _decals(
     """The polygons that lie on faces, in the order in which they are painted."""
     scene, view, projected = seen.scene, seen.view, seen.projected
     found: list[Decals] = []
+    off = off_surfaces(seen, tolerance_mm)
     if pipeline.calls_for("shadows"):
         from vectorplot.effects.scene_decals import scene_shadows
 
-        off = off_surfaces(seen, tolerance_mm)
         found.append(
             pipeline.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, off, budget)
         )
     if pipeline.calls_for("mirror light"):
         from vectorplot.effects.scene_decals import scene_mirror_light
 
-        lit, doubles = pipeline.run("mirror light", scene_mirror_light, scene, view, projected, lighting, found[0])
+        shines = partial(scene_mirror_light, off=off)
+        lit, doubles = pipeline.run("mirror light", shines, scene, view, projected, lighting, found[0])
         found.append(lit)
         lighting = replace(lighting, doubles=doubles)
     if pipeline.calls_for("patterns"):
@@ -1006,7 +1019,7 @@ def hatched(
 
     def demand() -> Callable[[int], Criterion]:
         allowed = allowed_in_space(toned, projection, page, placement.whole, ENDS * tolerance_mm)
-        return picture_fineness(shown, projection, bool(toned.lights), allowed, ROUGHLY * tolerance_mm)
+        return fineness(pipeline, shown, projection, bool(toned.lights), allowed, ROUGHLY * tolerance_mm)
 
     ordered = ordered_faces(pipeline, toned, shown, projection, demand, budget)
     seen, plane = seen_on_page(pipeline, ordered, placement, budget)

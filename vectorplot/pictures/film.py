@@ -14,6 +14,7 @@ from vectorplot.animation.correspondence import corresponding, steady_fit, widen
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import VIEWS, Camera
+from vectorplot.pictures.pixels import raster_page
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import camera_around, page_of
 from vectorplot.scene.scene import Scene
@@ -236,7 +237,7 @@ def animate(
     size : (int, int)
         Columns and rows of frames of pixels.
     fit : bool
-        What is seen in all frames together fills the page but for its margin, or the pixels, with the target in the
+        What is seen in all frames together fills the page, or the pixels, but for the margin, with the target in the
         middle: one fit for the whole film. Otherwise the page height is the camera's picture height.
     progress : callable, optional
         progress(stage, fraction) is called while it looks at all scenes.
@@ -280,9 +281,9 @@ def animate(
         raise unknown("view", camera, VIEWS)
     film = _looked_at(bare, camera)
     first = animation.scene(0)
-    sheet = Page(float(size[0]), float(size[1]), 0.0) if pixels else page_of(page, first, width, fit)
     if pixels and min(size) < 1:
         raise InputError(f"frames of {size[0]} x {size[1]} pixels: expected 1 or more")
+    sheet = raster_page(size, options.get("margin_pixels"), 1.0) if pixels else page_of(page, first, width, fit)
     if not fit:
         return film if pixels else replace(film, page=sheet)
 

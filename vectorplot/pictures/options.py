@@ -104,6 +104,7 @@ _WORDS = Option("a text with commas between words, or several words", _are_texts
 _CALLED = Option("a function", callable)
 
 OPTIONS: dict[str, Option] = {
+    "margin_pixels": Option("a number", _is_number),
     "width": Option(
         "a number of mm, or a text with a unit such as '8cm'",
         lambda given: isinstance(given, str) or _is_number(given),

@@ -21,7 +21,15 @@ from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.facet_errors import outline_error
-from vectorplot.pictures.fills import VisiblePolygons, border_tolerance_mm, coloured, ordered_faces, paper, seen_on_page
+from vectorplot.pictures.fills import (
+    VisiblePolygons,
+    border_tolerance_mm,
+    coloured,
+    fineness,
+    ordered_faces,
+    paper,
+    seen_on_page,
+)
 from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
 from vectorplot.pictures.options import SHADOWS, check_options
@@ -35,7 +43,6 @@ from vectorplot.scene.pens import DepthCue, depth_cue_of
 from vectorplot.scene.placement import FittedPage, allowed_in_space, page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import without_coincident
-from vectorplot.shading.facet_resolution import picture_fineness
 from vectorplot.shading.painted_colours import Lighting, painted_normals
 from vectorplot.shading.palettes import PALETTE_SIZE, shaded_colours
 from vectorplot.shading.shaded_faces import exposed_scene, item_colours
@@ -265,7 +272,7 @@ def paint(
         if not smooth or fills == "erasing":
             return lambda _: Within(allowed)
         casts = shadows != "none" and bool(scene.lights)
-        return picture_fineness(shown, projection, casts, allowed, fine_mm)
+        return fineness(pipeline, shown, projection, casts, allowed, fine_mm)
 
     ordered = ordered_faces(pipeline, scene, shown, projection, demand, budget_of(budget))
     drawn = kinds or line_kinds(LINE_WORDS if fills == "erasing" else ())

@@ -17,7 +17,7 @@ from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import cross
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.scene.light import Light
-from vectorplot.scene.page import MM_PER_INCH
+from vectorplot.scene.page import MM_PER_INCH, Page
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
 from vectorplot.shading.image import Bytes, averaged
@@ -114,6 +114,9 @@ def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int
 
 # What options of render may be.
 
+MARGIN = 0.03
+"""Part of the shorter side of a picture that stays free on each side where nobody says how much."""
+
 SAMPLES = 2
 """Along each side of a pixel, unless told otherwise."""
 
@@ -133,6 +136,17 @@ def default_shadow_size(size: tuple[int, int]) -> int:
     side of the picture, 256 to 4096."""
     needed = 1 << (int(max(size)) - 1).bit_length()
     return min(max(needed, FEWEST_TEXELS), MOST_TEXELS)
+
+
+def raster_page(size: tuple[int, int], margin: float | None, unit: float) -> Page:
+    """The page that a picture of some pixels with a margin (pixels; None: MARGIN) is, a pixel being so long.
+
+    Errors: InputError for a margin that is negative, not finite, or leaves nothing.
+    """
+    margin = MARGIN * min(size) if margin is None else margin
+    if not 0.0 <= 2.0 * margin < min(size):
+        raise InputError(f"a margin of {margin:g} pixels: expected 0 to less than half of {min(size)}")
+    return Page(size[0] * unit, size[1] * unit, margin * unit)
 
 
 def check_whole(**counts: int) -> None:

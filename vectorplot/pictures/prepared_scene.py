@@ -91,10 +91,10 @@ class PreparedScene:
         """What explains the colours, where numbers give them."""
         return None if self.chart is None else self.chart.bar
 
-    def around(self, placement: Placement, view: View, page: Page, border: float = 0.0, mm: float = 1.0) -> Placement:
-        """The place of a picture that fills a page, with room for the numbers of a box, if there is one; border, mm: as
-        of Scaled.around."""
-        return placement if self.chart is None else self.chart.around(placement, view, page, border, mm)
+    def around(self, placement: Placement, view: View, page: Page, mm: float = 1.0) -> Placement:
+        """The place of a picture that fills a page, with room for the numbers of a box, if there is one; mm: as of
+        Scaled.around."""
+        return placement if self.chart is None else self.chart.around(placement, view, page, mm)
 
 
 def prepared_scene(

@@ -33,13 +33,13 @@ from vectorplot.pictures.pixels import (
     pixels_beside_bar,
     pixels_in_bands,
     pixels_left_of_bar,
+    raster_page,
     scene_lighting,
     tapered_for,
 )
 from vectorplot.pictures.plan import accuracy_of_render, chosen_shadows, plan_render, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, prepared_scene, tell_what_leaves_page
 from vectorplot.scene.light import Exposure, Light
-from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.placement import allowed_in_space
 from vectorplot.scene.scene import Scene
@@ -60,9 +60,6 @@ if TYPE_CHECKING:
 
 SIZE = (800, 600)
 """Columns and rows of a picture if nobody says otherwise."""
-
-AROUND_BOX = 0.02
-"""Part of a picture that stays free on each side of a box with its numbers."""
 
 LETTER_PIXELS, FAINT = 1.25, 0.5
 """The width of the strokes of letters, and part of it that those of what is hidden have."""
@@ -85,6 +82,7 @@ def render(
     camera: Camera | str | None = None,
     *,
     size: tuple[int, int] = SIZE,
+    margin_pixels: float | None = None,
     fit: bool = True,
     lights: Sequence[Light] | None = None,
     exposure: Exposure | None = None,
@@ -117,8 +115,11 @@ def render(
         As of draw.
     size : (int, int)
         Columns and rows, in pixels.
+    margin_pixels : float, optional
+        How many pixels stay free on each side of a picture that fits, as mm of a page do in draw (None: 3 of 100 of the
+        shorter side).
     fit : bool
-        The picture fills the raster, otherwise the camera's field of vision is its height.
+        The picture fills the raster but for its margin, otherwise the camera's field of vision is its height.
     lights : sequence of Light, optional
         In place of those of the scene.
     exposure : float or {"fitted"}, optional
@@ -177,8 +178,8 @@ def render(
         For what is nothing of that kind.
     InputError
         As of `io.scene_of`.
-        For unknown words and colours, impossible cameras, and sizes out of range; for a budget that is not finite and
-        positive, and for lights without a direction or too far away.
+        For unknown words and colours, impossible cameras, and sizes and margins out of range; for a budget that is not
+        finite and positive, and for lights without a direction or too far away.
 
     Warns
     -----
@@ -189,8 +190,9 @@ def render(
     Notes
     -----
     Edge cases: an empty scene gives the background. Where the scene reaches behind the eye, or more than 60 degrees off
-    the principal ray, a fitted picture shows the camera's field of vision. A scene without lights is lit from the eye's
-    upper left, which casts no shadows; nor do items that do not occlude. Transparent ones dim and colour light.
+    the principal ray, a fitted picture shows the camera's field of vision, and what is beside it in the margin. A scene
+    without lights is lit from the eye's upper left, which casts no shadows; nor do items that do not occlude.
+    Transparent ones dim and colour light.
 
     Source: Glaeser, sections 4.5, 6.4, 7.3, 8.5 and 8.6; Martin and Tan; Ressler.
 
@@ -218,7 +220,7 @@ def render(
     threads = threads_of(jobs)
     given = scene_of(scene)
     chosen = overlaid_pens(given.inks, style, pens, dashes)
-    sheet = Paper(Page(size[0] / PIXELS_PER_MM, size[1] / PIXELS_PER_MM, 0.0), fit)
+    sheet = Paper(raster_page(size, margin_pixels, 1.0 / PIXELS_PER_MM), fit)
     subject = prepared_scene(
         given, camera, sheet, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue
     )
@@ -233,18 +235,18 @@ def render(
     said = accuracy_of_render(FACET_PIXELS, how, texels)
     pipeline = Pipeline(with_accuracy(plan_render(seen, how, bool(kinds), why), said), explain, progress, threads)
     _tell_what_is_missing(pipeline, seen, kinds)
-    fine = (size[0] * samples, size[1] * samples)
+    fine, page = (size[0] * samples, size[1] * samples), raster_page(size, margin_pixels, samples)
     projection = projection_of(subject.camera, seen.bounds)
     facets = FacetedScene.of_meshes(seen)
     if pipeline.calls_for("facets"):
-        demand = Within(allowed_in_space(seen, projection, Page(*fine, 0.0), fit, FACET_PIXELS))
+        demand = Within(allowed_in_space(seen, projection, page, fit, FACET_PIXELS))
         facets = pipeline.run("facets", faceted, without_coincident(seen), lambda number: demand, budget_of(budget))
     view = pipeline.run("look", view_of, facets.scene, projection)
     triangles = pipeline.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
-    beside = places_beside_faces(seen, view, None, Page(*fine, 0.0), fit, kinds, LINE_PIXELS, budget)
-    placement = picture_placement(view, *fine, fit, beside)
+    beside = places_beside_faces(seen, view, None, page, fit, kinds, LINE_PIXELS, budget)
+    placement = picture_placement(view, page, fit, beside)
     if fit:
-        placement = subject.around(placement, view, placement.page, AROUND_BOX, samples * PIXELS_PER_MM)
+        placement = subject.around(placement, view, page, samples * PIXELS_PER_MM)
     pipeline.measured("facets", "samples", facet_error, facets, view, placement)
     system = pixel_system(placement)
     (seen, here), sides = exposed_scene(view, seen), outer_sides(view)

@@ -96,7 +96,7 @@ def field_of_vision(projection: Projection, page: Page, fit: bool) -> Placement:
     return Placement(projection, page, centred(page, projection.picture_height, height_mm), whole=False)
 
 
-def fitted_picture(projection: Projection, page: Page, image: Floats, border: float = 0.0) -> Placement:
+def fitted_picture(projection: Projection, page: Page, image: Floats) -> Placement:
     """The place of a picture that fills the page with points of the image.
 
     image: (2, n) what is inside the margin, in units of the image.
@@ -104,25 +104,23 @@ def fitted_picture(projection: Projection, page: Page, image: Floats, border: fl
     on a line along the page's width or height fill that.
     """
     if not image.shape[1]:
-        return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2), border), whole=True)
+        return Placement(projection, page, fitted(page, np.zeros(2), np.zeros(2)), whole=True)
     low, high = image.min(axis=1), image.max(axis=1)
     # Where all sight rays are one the image is a point, and rounding must not fill the page.
     high = high if (high - low).max() > projection.tolerance else low
-    inside = fitting_scale(page, high - low, border) * (high - low) / (1.0 - 2.0 * border)
+    inside = fitting_scale(page, high - low) * (high - low)
     sheet = page.around(float(inside[0]), float(inside[1]))
-    return Placement(projection, sheet, fitted(sheet, low, high, border), whole=True)
+    return Placement(projection, sheet, fitted(sheet, low, high), whole=True)
 
 
-def fitted_with_room(
-    projection: Projection, page: Page, image: Floats, low_mm: Floats, high_mm: Floats, border: float = 0.0
-) -> Placement:
+def fitted_with_room(projection: Projection, page: Page, image: Floats, low_mm: Floats, high_mm: Floats) -> Placement:
     """The place of a picture that fills the page with points (2,n) of the image and with room beside them: rectangles
-    from low_mm (2,n) to high_mm (2,n), counted from the points on the page. border: as of fitted_picture.
+    from low_mm (2,n) to high_mm (2,n), counted from the points on the page.
 
     Edge cases: as of fitted_picture; so it is, without the room, where a page has no place for that at all.
     """
-    plain = fitted_picture(projection, page, image, border)
-    most = (1.0 - 2.0 * border) * np.array(page.room)
+    plain = fitted_picture(projection, page, image)
+    most = np.array(page.room)
     scale, beside = plain.scale, (low_mm, high_mm)
     # What a picture takes is a convex function of its scale: Newton's steps come down to the root, one a corner.
     for _ in range(2 * image.shape[1]):
@@ -138,7 +136,7 @@ def fitted_with_room(
         if not scale > 0.0:
             return plain
     low, high = _reach(scale, image, *beside)
-    sheet = page.around(*((high - low) / (1.0 - 2.0 * border)).tolist())
+    sheet = page.around(*(high - low).tolist())
     offset = 0.5 * (np.array([sheet.width_mm, sheet.height_mm]) - low - high)
     matrix = np.array([[scale, 0.0, offset[0]], [0.0, scale, offset[1]], [0.0, 0.0, 1.0]])
     return Placement(projection, sheet, matrix, whole=True)
@@ -149,31 +147,28 @@ def _reach(scale: float, image: Floats, low_mm: Floats, high_mm: Floats) -> tupl
     return (scale * image + low_mm).min(axis=1), (scale * image + high_mm).max(axis=1)
 
 
-def fitted(page: Page, low: Floats, high: Floats, border: float = 0.0) -> Floats:
+def fitted(page: Page, low: Floats, high: Floats) -> Floats:
     """(3,3) matrix from image to page: the box from low to high (2,) fills the page but for its margin, in the middle.
-    border: what part of what is inside the margin stays free on each side.
 
     Edge cases: as of fitting_scale; the box goes to the middle.
     """
-    scale = fitting_scale(page, high - low, border)
+    scale = fitting_scale(page, high - low)
     middle = np.array([page.width_mm, page.height_mm]) / 2.0
     offset = middle - scale * (low + high) / 2.0
     return np.array([[scale, 0.0, offset[0]], [0.0, scale, offset[1]], [0.0, 0.0, 1.0]])
 
 
-def fitting_scale(page: Page, size: Floats, border: float = 0.0) -> float:
-    """How many mm a unit of the image is where a box of that size (2,) fills the page but for its margin. border: what
-    part of what is inside the margin stays free on each side.
+def fitting_scale(page: Page, size: Floats) -> float:
+    """How many mm a unit of the image is where a box of that size (2,) fills the page but for its margin.
 
     Edge cases: a box without extent has the scale 1; one without width or height fills the other.
     """
-    room = [(1.0 - 2.0 * border) * side for side in page.room]
-    scales = [r / s for r, s in zip(room, size.tolist(), strict=True) if s > FLAT_PICTURE * size.max()]
+    scales = [r / s for r, s in zip(page.room, size.tolist(), strict=True) if s > FLAT_PICTURE * size.max()]
     scale = min(scales, default=1.0)
     if np.isfinite(scale):
         return scale
     # Only a width is asked for, and there is none to be had.
-    return float((1.0 - 2.0 * border) * (page.height_mm - 2.0 * page.margin_mm) / size[1])
+    return float((page.height_mm - 2.0 * page.margin_mm) / size[1])
 
 
 def centred(page: Page, picture_height: float, height_mm: float) -> Floats:

@@ -32,8 +32,9 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polygon_cuts import planes_of
 from vectorplot.geometry.projections import Projection
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import cross, norm
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
@@ -44,7 +45,7 @@ from vectorplot.shading.illumination import finish_of, homogeneous_light, toward
 from vectorplot.shading.painted_colours import Lighting, corner_shades_of, smooth_faces
 from vectorplot.shading.shaded_faces import TrueNormals, point_shades, unit, view_eye, view_lights
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
-from vectorplot.tolerances import LEAST_DIVISOR, MET_OF_EXTENT, ROUNDING
+from vectorplot.tolerances import ROUNDING
 from vectorplot.visibility.painter.image_faces import view_points
 from vectorplot.visibility.painter.unseen import body_sides
 from vectorplot.visibility.projected_faces import newell
@@ -421,6 +422,18 @@ SHARE = 0.4
 SHORTEST = 4.0
 """Sides that are no longer than so many times the tolerance are fine enough."""
 
+MOST_DOUBLES = 8
+"""What is seen in more mirrors, or lit by them, is within the tolerance everywhere."""
+
+AT_ONCE = 1 << 22
+"""Corners of boxes and planes that are compared at once."""
+
+NOTHING = Mesh(np.zeros((0, 3)), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
+"""A shape without faces."""
+
+Source = tuple[float, float, float, float]
+"""An eye or a light in homogeneous coordinates of a view."""
+
 
 @dataclass(frozen=True, eq=False)
 class PictureFineness:
@@ -429,12 +442,12 @@ class PictureFineness:
 
     Its outlines, seen by the eye and by the lights, its borders, and what is near other items are within the tolerance;
     shades along sides within shade_error, a part of their palette. Surfaces fold over where sight rays and light rays
-    touch them: there outlines and the borders of dark sides begin. Chords are compared with the surface in a few places
-    only: outlines may be off by up to 1.4 tolerances.
+    touch them: there outlines and the borders of dark sides begin, and so they do where mirrors show them.
+    Chords are compared with the surface in a few places only: outlines may be off by up to 1.4 tolerances.
 
     view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
     they throw shadows; deep (s,): by how many times the tolerance triangles may be off elsewhere; others: what the
-    other items have in the box of each item.
+    other items have in the box of each item; doubles: of the eye and of such lights, in mirrors that show the items.
     """
 
     view: View
@@ -445,11 +458,12 @@ class PictureFineness:
     others: tuple[tuple[Nearby, ...], ...]
     allowed: Allowed
     shade_error: float
+    doubles: tuple[Source, ...] = ()
 
     @property
     def alike(self) -> Hashable:
         """Equal for what can be asked at once."""
-        return finish_of(self.items[0].material)
+        return finish_of(self.items[0].material), self.doubles
 
     @classmethod
     def joined(cls, asked: Sequence[PictureFineness]) -> PictureFineness:
@@ -459,13 +473,13 @@ class PictureFineness:
 
     @property
     def outlines(self) -> int:
-        """The folds of the eye, and of lights that throw shadows."""
-        return 1 + (len(self.lights) if self.casts else 0)
+        """The folds of the eye, of doubles, and of lights that throw shadows."""
+        return 1 + len(self.doubles) + (len(self.lights) if self.casts else 0)
 
     def folds(self, points: Floats, normals: Floats) -> Floats:
         """(s,n) cosines between normals and rays to the eye and to the lights."""
         places, ways = self._in_view(points, normals)
-        sources = [view_eye(self.view), *(homogeneous_light(light) for light in self.lights)]
+        sources = [view_eye(self.view), *self.doubles, *(homogeneous_light(light) for light in self.lights)]
         return np.stack([np.einsum("ij,ij->i", ways, towards(places, source)) for source in sources])
 
     def excess(self, edges: Edges) -> Floats:
@@ -506,7 +520,8 @@ class PictureFineness:
         come in flat: along these they are off by more."""
         deep, shape = self.deep[surface_numbers(edges.start.places)], edges.t.shape
         places, ways = self._in_view(edges.at.points.reshape(-1, 3), edges.at.normals.reshape(-1, 3))
-        cosine = np.abs(np.einsum("ij,ij->i", ways, towards(places, view_eye(self.view)))).reshape(shape)
+        rays = (towards(places, source) for source in (view_eye(self.view), *self.doubles))
+        cosine = np.min([np.abs(np.einsum("ij,ij->i", ways, ray)) for ray in rays], axis=0).reshape(shape)
         share = np.clip(np.nan_to_num(cosine) / STEEP, FLATTEST, 1.0)
         return np.asarray(np.maximum(share * deep, np.minimum(deep, DEEP_IN_LIGHT)))
 
@@ -558,16 +573,23 @@ def _jumps(one: Floats, other: Floats) -> Bools:
 
 
 def picture_fineness(
-    scene: Scene, projection: Projection, casts: bool, allowed: Allowed, tolerance_mm: float
+    scene: Scene,
+    projection: Projection,
+    casts: bool,
+    allowed: Allowed,
+    tolerance_mm: float,
+    in_glass: Bools | None = None,
 ) -> Callable[[int], PictureFineness]:
     """What a picture of the scene asks of the triangles of its items, by their numbers. casts: whether its lights throw
-    shadows; allowed: how far triangles may be off outlines, so that it is tolerance_mm on the page."""
+    shadows; allowed: how far triangles may be off outlines, so that it is tolerance_mm on the page; in_glass (i,): the
+    items that are seen with their outlines elsewhere, too."""
     reached = Mesh(box_corners(scene.bounds), np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp))
     view = view_of(Scene((Item("box", reached),)), projection)
     lights = view_lights(view, scene.lights)
     most = max(DEEPEST_MM / tolerance_mm, LEAST_DEEP)
-    boxes = [_box(item) for item in scene.items]
-    elsewhere = _seen_elsewhere(scene, view, boxes, casts)
+    boxes = [box_of_item(item) for item in scene.items]
+    sources = [view_eye(view), *(homogeneous_light(light) for light in lights if casts)]
+    doubles = _doubles_of_items(scene, view, boxes, sources)
     first = _first_in_place(scene, boxes)
 
     smooth = [k for k, item in enumerate(scene.items) if is_parametrised(item.shape) or is_implicit(item.shape)]
@@ -584,52 +606,74 @@ def picture_fineness(
         item = without_curved_mirror(scene.items[number])
         # Light goes through what is transparent: shadows fall on patterns only.
         dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))
-        deep = 1.0 if elsewhere[number] else min(DEEP_IN_LIGHT if dark else DEEP, most)
-        error = shade_error(tolerance_mm)
-        return PictureFineness(view, (item,), lights, casts, np.array([deep]), (near,), allowed, error)
+        fine = (in_glass is not None and in_glass[number]) or len(doubles[number]) > MOST_DOUBLES
+        deep = np.array([1.0 if fine else min(DEEP_IN_LIGHT if dark else DEEP, most)])
+        error, seen_from = shade_error(tolerance_mm), () if fine else doubles[number]
+        return PictureFineness(view, (item,), lights, casts, deep, (near,), allowed, error, seen_from)
 
     return demand
 
 
-def _seen_elsewhere(scene: Scene, view: View, boxes: list[Floats], casts: bool) -> Bools:
-    """(i,) the items that may be seen in a mirror or through glass, or hit by the light of a mirror, by their boxes.
-
-    What a convex mirror shows is on the side of one of its faces on which the eye is, and its double stands over the
-    face in the image; several mirrors, hollow ones and glass may show anything.
-    """
-    shines = [item for item in scene.items if item.material.is_mirror and isinstance(item.shape, Mesh)]
-    if len(shines) > 1 or any(item.material.refraction != 1.0 for item in scene.items):
-        return np.ones(len(boxes), dtype=np.bool_)
-    found = np.zeros(len(boxes), dtype=np.bool_)
-    if not shines or not len(shines[0].mesh.vertices):
-        return found
-    mirror = view_of(Scene((shines[0],)), view)
-    area, _, first = newell(mirror, np.arange(mirror.face_count))
-    normals = area / np.maximum(np.sqrt((area * area).sum(axis=0)), LEAST_DIVISOR)
-    level = (normals * mirror.points[:, first]).sum(axis=0)
-    eye = view_eye(view)
-    before = matmul(normals.T, eye[:3]) - eye[3] * level
-    (side,) = body_sides(mirror)
-    faces = np.flatnonzero(np.abs(before) > view.tolerance if side == 0 else side * before > view.tolerance)
-    normals, level = normals * np.sign(before), level * np.sign(before)
-    if (matmul(normals[:, faces].T, mirror.points) > level[faces, None] + MET_OF_EXTENT).any():
-        return np.ones(len(boxes), dtype=np.bool_)
-    corners = view.points_of(np.concatenate([box_corners(box) for box in boxes if len(box)])).reshape(3, -1, 8)
+def _doubles_of_items(
+    scene: Scene, view: View, boxes: list[Floats], sources: Sequence[Source]
+) -> list[tuple[Source, ...]]:
+    """For every item, by its box, the doubles of eyes and lights behind mirrors from which it is seen in these, or lit
+    by them; mirrors do not show each other's doubles."""
+    shines = np.array([item.material.is_mirror for item in scene.items], dtype=np.bool_)
+    panes = [item if _may_mirror(item) else replace(item, shape=NOTHING, face_looks=None) for item in scene.items]
     there = np.flatnonzero([len(box) > 0 for box in boxes])
-    for face in faces.tolist():
-        height = (normals[:, face, None, None] * corners).sum(axis=0) - level[face]
-        reaches = height.max(axis=1) > 0.0
-        if not casts:
-            doubles = corners - 2.0 * height * normals[:, face, None, None]
-            ahead = view.depth_of(doubles.reshape(3, -1)).reshape(-1, 8) > view.near
-            image = view.image_of(doubles.reshape(3, -1)).reshape(2, -1, 8)
-            window = mirror.image[:, mirror.corners[mirror.offsets[face] : mirror.offsets[face + 1]]]
-            over = (image.min(axis=2) <= window.max(axis=1)[:, None]) & (
-                image.max(axis=2) >= window.min(axis=1)[:, None]
-            )
-            reaches &= over.all(axis=0) | ~ahead.all(axis=1)
-        found[there[reaches]] = True
-    return found
+    doubles: list[tuple[Source, ...]] = [()] * len(boxes)
+    if not shines.any() or not len(there):
+        return doubles
+    mirror = view_of(Scene(tuple(panes)), view)
+    face = np.flatnonzero(shines[mirror.shown_item])
+    corners = view.points_of(np.concatenate([box_corners(boxes[k]) for k in there.tolist()])).reshape(3, -1, 8)
+    for source in sources:
+        behind, met = _met_before_mirrors(mirror, face, np.array(source), corners)
+        for number, own in zip(there.tolist(), met.T, strict=True):
+            found = np.unique(behind[own], axis=0).tolist()
+            doubles[number] += tuple((x, y, z, source[3]) for x, y, z in found)
+    return doubles
+
+
+def _may_mirror(item: Item) -> bool:
+    """Whether faces of an item may be plane mirrors."""
+    looks = () if item.face_looks is None else item.face_looks.looks
+    materials = (item.material, *(look.material for look in looks))
+    return isinstance(item.shape, Mesh) and any(material is not None and material.is_mirror for material in materials)
+
+
+def _met_before_mirrors(mirror: View, face: Ints, source: Floats, boxes: Floats) -> tuple[Floats, Bools]:
+    """(f,3) the doubles of an eye or a light (4,) in those faces (f,) of mirrors that shine towards it, and (f,i) which
+    boxes (3,i,8) are in part in the cones of rays from there through these faces, before them."""
+    area, _, first = newell(mirror, face)
+    planes = planes_of(area, mirror.points[:, first])
+    above = matmul(source[:3], planes[:3]) - source[3] * planes[3]
+    side = body_sides(mirror)[mirror.face_item[face]]
+    shining = np.flatnonzero(np.where(side == 0, np.abs(above), side * above) > mirror.tolerance)
+    face, planes, above = face[shining], planes[:, shining] * np.sign(above[shining]), np.abs(above[shining])
+    behind = source[:3, None] - 2.0 * above * planes[:3]
+    corner, offsets = ragged.take(mirror.offsets, face)
+    own, count = ragged.owner(np.diff(offsets)), np.repeat(np.diff(offsets), np.diff(offsets))
+    start, end = mirror.points[:, mirror.corners[corner]], mirror.points[:, mirror.corners[mirror.after(corner)]]
+    sides = planes_of(cross((end - start).T, (source[3] * start - behind[:, own]).T).T, start)
+    # Faces need not be convex: sides that have corners on both sides of them bound nothing.
+    other = ragged.ranges(offsets[own], count)
+    height = (sides[:3].repeat(count, axis=1) * start[:, other]).sum(axis=0) - sides[3].repeat(count)
+    low, high = (each.reduceat(height, ragged.starts(count)) for each in (np.minimum, np.maximum))
+    bounds = np.minimum(-low, high) <= mirror.tolerance
+    sides *= np.where(high > -low, 1.0, -1.0)
+    every = np.concatenate([planes, sides[:, bounds]], axis=1)
+    of = np.concatenate([np.arange(len(face)), own[bounds]])
+    every, begin = every[:, np.argsort(of, kind="stable")], ragged.starts(np.bincount(of, minlength=len(face)))
+    met = np.zeros((len(face), boxes.shape[1]), dtype=np.bool_)
+    step = max(1, AT_ONCE // max(8 * every.shape[1], 1))
+    for low_box in range(0, boxes.shape[1] if len(face) else 0, step):
+        some = boxes[:, low_box : low_box + step]
+        height = np.einsum("xp,xik->pik", every[:3], some).max(axis=2) - every[3, :, None]
+        met[:, low_box : low_box + step] = np.logical_and.reduceat(height > 0.0, begin, axis=0)
+    # Faces in one plane have one double, but for rounding.
+    return np.rint(behind.T / mirror.tolerance) * mirror.tolerance + 0.0, met
 
 
 def _first_in_place(scene: Scene, boxes: list[Floats]) -> list[int]:
@@ -655,7 +699,7 @@ def _meeting(boxes: list[Floats], first: list[int], number: int) -> list[tuple[i
     return [(which[k], np.stack((low[k], high[k]))) for k in meets]
 
 
-def _box(item: Item) -> Floats:
+def box_of_item(item: Item) -> Floats:
     """(2,3) smallest and largest coordinates; (0,3) of an item without any."""
     if not isinstance(item.shape, Mesh):
         return smooth_bounds(item.shape)

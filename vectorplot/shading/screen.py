@@ -23,9 +23,6 @@ from vectorplot.tolerances import INFINITE, NEAR_OF_DISTANCE
 
 # Triangles on the way to pixels: projected, cut at the near plane, with a depth that is larger the closer it is.
 
-BORDER = 0.03
-"""Part of each side that a fitted picture leaves free."""
-
 LARGEST_SIDE_PIXELS = 32767
 """The limit of backends.cairo.surfaces, well inside the guard band."""
 
@@ -131,18 +128,18 @@ def raster_system(camera: Camera, columns: int, rows: int) -> CoordinateSystem:
     return replace(system, middle=((columns - 1) / 2.0, (rows - 1) / 2.0))
 
 
-def picture_placement(view: View, columns: int, rows: int, fit: bool, beside: Floats | None = None) -> Placement:
+def picture_placement(view: View, page: Page, fit: bool, beside: Floats | None = None) -> Placement:
     """The place of a picture of a view on a page whose millimetres are pixels: if it is to fit, all points fill the
-    raster but for a border. beside (n,3): further points of the world.
+    page but for its margin. beside (n,3): further points of the world.
 
-    Edge cases: without points, and where the scene reaches too far, it shows the camera's field of vision.
+    Edge cases: without points, and where the scene reaches too far, it shows the camera's field of vision, and what
+    is beside it in the margin.
     """
-    page = Page(columns, rows, 0.0)
     others = view.points_of(np.zeros((0, 3)) if beside is None else beside)
     points = np.concatenate([view.points, others], axis=1)
     if not fit or not points.shape[1] or view.reaches_too_far(points):
         return field_of_vision(view, page, fit)
-    return fitted_picture(view, page, np.concatenate([view.image, view.image_of(others)], axis=1), BORDER)
+    return fitted_picture(view, page, np.concatenate([view.image, view.image_of(others)], axis=1))
 
 
 def pixel_system(placement: Placement) -> CoordinateSystem:

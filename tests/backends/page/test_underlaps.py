@@ -39,6 +39,24 @@ def test_polygons_grow_only_under_later_ones(seed):
     assert len(laps.side) > 20 and len(laps.owner) == 1, "the middle of the fan is inside"
 
 
+@pytest.mark.parametrize("bend", [0.0, 0.01, 0.1])
+def test_nothing_goes_along_the_border_to_a_third_polygon(bend):
+    """A side that ends amid a nearly straight border of the polygon that is painted after it."""
+    left = [(5.0, 5.0), (20.0, 5.0), (20.0 + bend, 20.0), (20.0, 35.0), (5.0, 35.0)]
+    low, high = [(20.0, 5.0), (40.0, 5.0), (20.0 + bend, 20.0)], [(20.0 + bend, 20.0), (40.0, 35.0), (20.0, 35.0)]
+    found = areas(
+        flat([np.array(one) for one in (low, high, left)], [(180, 180, 180), (220, 220, 220), DARK]), 60.0, 40.0
+    )
+    microns, offsets, parts = grown(found, underlaps(found))
+    every = shapes(microns, offsets)
+    other = shapely.union_all(every[parts[1] : parts[2]])
+    border = shapely.LineString([(20_000, 5_000), (20_000 + 1_000 * bend, 20_000)]).buffer(20.0)
+    assert other.intersection(border).bounds[1] > 18_000 - 10
+    # It still goes under the other one, all along their common side.
+    side = shapely.LineString([(20_000 + 1_000 * bend - 200, 20_500), (20_000 - 200, 34_500)])
+    assert other.buffer(5.0).contains(side)
+
+
 def test_under_transparent_polygons_nothing_goes_and_under_concave_ones_little():
     left, right = [(0, 0), (10, 0), (10, 10), (0, 10)], [(10, 0), (20, 0), (20, 10), (10, 10)]
     arrow = [(10, 0), (20, 0), (12, 5), (20, 10), (10, 10)]

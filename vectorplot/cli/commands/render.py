@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.option_values import between, of_option, pixels
+from vectorplot.cli.option_values import at_least, between, of_option, pixels
 from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
@@ -32,6 +32,12 @@ FORMATS = ("png",)
     "Render a scene or a mesh as pixels.",
     FORMATS,
     click.option("--size", type=pixels, default="800x600", metavar="WxH", help="Columns and rows of pixels."),
+    click.option(
+        "--margin-pixels",
+        type=at_least(0.0),
+        metavar="N",
+        help="Empty border of a picture that fits.  [default: 3 % of the shorter side]",
+    ),
     fit_option("picture"),
     LIGHTS,
     EXPOSURE,
