@@ -61,7 +61,7 @@ def test_lots_come_back_in_order(count):
 
 @pytest.mark.slow
 def test_demands_that_cannot_be_joined_are_asked_one_by_one():
-    demand = Within(lambda points: np.full(points.shape[:-1], 0.02))
+    criterion = Within(lambda points: np.full(points.shape[:-1], 0.02))
     shapes = [placed(Torus(1.0, 0.3), k) for k in range(2)]
-    found = facets_of_all(shapes, lambda _: demand, USUAL.facets)
-    assert all(same(f, facets(s, demand)) for f, s in zip(found, shapes, strict=True))
+    found = facets_of_all(shapes, lambda _: criterion, USUAL.facets)
+    assert all(same(f, facets(s, criterion)) for f, s in zip(found, shapes, strict=True))

@@ -47,9 +47,9 @@ def test_products_are_associative(a, b, c):
         for j in range(3):
             assert found[i, j] == pytest.approx(sum(first[i][k] * second[k][j] for k in range(3)), abs=1e-15)
         assert (v @ x)[i] == pytest.approx(sum(v.tolist()[k] * first[k][i] for k in range(3)), abs=1e-14)
-    # All pairs of two lots of matrices at once.
-    lots = r.rotation_x([a, b])[:, None] @ r.rotation_y([b, c])
-    assert np.allclose(lots[1, 0], r.rotation_x(b) @ r.rotation_y(b), atol=1e-15)
+    # All pairs of two batches of matrices at once.
+    batches = r.rotation_x([a, b])[:, None] @ r.rotation_y([b, c])
+    assert np.allclose(batches[1, 0], r.rotation_x(b) @ r.rotation_y(b), atol=1e-15)
 
 
 @pytest.mark.capability("G1.5-inverse-rot")

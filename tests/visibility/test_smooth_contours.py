@@ -121,6 +121,6 @@ def test_contours_leave_long_thin_faces_no_farther_than_these_leave_the_shape(co
     )
     eye = np.array([20.0, 3.0, 8.0])
     found = smooth_contours(can, Sight(eye, eye / np.linalg.norm(eye)), 60.0)
-    sag, away = 1.0 - np.cos(np.pi / count), np.linalg.norm(found.aside, axis=1)
-    assert len(found.start) and away.max() < 5.0 * sag
+    deviation, away = 1.0 - np.cos(np.pi / count), np.linalg.norm(found.aside, axis=1)
+    assert len(found.start) and away.max() < 5.0 * deviation
     assert (np.linalg.norm((found.start + found.aside)[:, :2], axis=1) > 1.0 - 1e-12).all(), "aside leads out"

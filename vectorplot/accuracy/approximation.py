@@ -72,8 +72,8 @@ class Study:
     >>> import numpy as np
     >>> from vectorplot.accuracy import Study, Way
     >>> polygon = Way("polygon", lambda corners: corners, slope=-2.0)
-    >>> sag = Study((polygon,), error=lambda corners: 1.0 - np.cos(np.pi / corners), count=int)
-    >>> round(float(sag.error(sag.ways[0].result(6.0))), 3)
+    >>> deviation = Study((polygon,), error=lambda corners: 1.0 - np.cos(np.pi / corners), count=int)
+    >>> round(float(deviation.error(deviation.ways[0].result(6.0))), 3)
     0.134
     """
 

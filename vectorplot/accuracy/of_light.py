@@ -55,10 +55,10 @@ def by_angle(far: Floats, deep: Floats, steps: int) -> Floats:
     alpha = arctan(far / (HEIGHT + deep))
     for _ in range(steps):
         beta = angle_of_refraction(alpha, WATER)
-        excess = HEIGHT * tan(alpha) + deep * tan(beta) - far
+        error_ratio = HEIGHT * tan(alpha) + deep * tan(beta) - far
         bend = np.cos(alpha) / (WATER * np.cos(beta))
         slope = HEIGHT / np.cos(alpha) ** 2 + deep * bend / np.cos(beta) ** 2
-        alpha = np.clip(alpha - excess / slope, 0.0, arctan(far / HEIGHT))
+        alpha = np.clip(alpha - error_ratio / slope, 0.0, arctan(far / HEIGHT))
     return np.asarray(tan(alpha))
 
 

@@ -62,7 +62,7 @@ shorter chord by so much, about."""
 
 
 def directions(
-    lines: FitLines, given: Floats, window: Floats, corner_angle: float, tolerance: float, sag: float = np.inf
+    lines: FitLines, given: Floats, window: Floats, corner_angle: float, tolerance: float, deviation: float = np.inf
 ) -> Directions:
     """Corners and tangents of lines.
 
@@ -72,7 +72,7 @@ def directions(
     of the circle through the next point with the tangent known there, or through the two next ones.
     A point with known tangents is a corner if they differ by so much that no smooth curve could pass it within the
     tolerance, or by more than corner_angle. Another one is a corner if the line turns by more than corner_angle there,
-    and still within the window, or by more than chords allow that are no farther than sag off their curve; if one
+    and still within the window, or by more than chords allow that are no farther than deviation off their curve; if one
     tangent is known, and it turns away, moreover, by a third of corner_angle from the circle's.
     """
     ends = _ends(lines)
@@ -88,7 +88,7 @@ def directions(
     if not both.all():
         pairs = ((before, after), _chords(lines, window, ends))
         bent = np.all([_cosine(*pair) < np.cos(corner_angle) for pair in pairs], axis=0)
-        bent |= np.all([_bend(*pair) > BEND * sag for pair in pairs], axis=0)
+        bent |= np.all([_bend(*pair) > BEND * deviation for pair in pairs], axis=0)
         bent &= ~either | (_cosine(one_side, _through(before, after)) < np.cos(corner_angle / 3.0))
         corner |= ~both & bent | (said & ~known).any(axis=0)
     corner &= ~ends
@@ -244,13 +244,13 @@ _STEPS = 5
 @dataclass(frozen=True, eq=False)
 class Spans:
     """Segments from point first to point last (k,): lengths of their handles (2,k), largest distance error (k,) from
-    the points, and excess (k,): the larger of it and of how far the curve leaves the polyline beyond the room."""
+    the points, and error_ratio (k,): the larger of it and of how far the curve leaves the polyline beyond the room."""
 
     first: Ints
     last: Ints
     handles: Floats
     error: Floats
-    excess: Floats
+    error_ratio: Floats
 
 
 def fitted_spans(
@@ -272,15 +272,15 @@ def fitted_spans(
         t = problem.feet(handles, t)
         handles = problem.step(handles, t)
     spans = problem.measured(handles, problem.feet(handles, t), room)
-    missed = np.flatnonzero(spans.excess > tolerance)
+    missed = np.flatnonzero(spans.error_ratio > tolerance)
     if not len(missed):
         return spans
     problem = _Problem(lines, tangent, first[missed], last[missed])
     parabolas = problem.measured(*problem.parabolas(), room)
-    better = parabolas.excess < spans.excess[missed]
+    better = parabolas.error_ratio < spans.error_ratio[missed]
     missed = missed[better]
     spans.handles[:, missed] = parabolas.handles[:, better]
-    spans.error[missed], spans.excess[missed] = parabolas.error[better], parabolas.excess[better]
+    spans.error[missed], spans.error_ratio[missed] = parabolas.error[better], parabolas.error_ratio[better]
     return spans
 
 
@@ -425,8 +425,8 @@ class _Problem:
         # Between the last point of a span and the first of the next one there is no chord.
         beside[self.starts[1:] - 1] = 0.0
         error = np.maximum.reduceat(distance, self.starts)
-        excess = np.maximum(error, np.maximum.reduceat(np.append(beside, 0.0), self.starts))
-        return Spans(self.first, self.last, handles, error, excess)
+        error_ratio = np.maximum(error, np.maximum.reduceat(np.append(beside, 0.0), self.starts))
+        return Spans(self.first, self.last, handles, error, error_ratio)
 
 
 # Smooth Bézier paths through polylines and curves, within a tolerance.
@@ -468,7 +468,7 @@ def fitted_paths(
     *,
     tolerance: float,
     corner_angle: float = CORNER_ANGLE,
-    sag: float = np.inf,
+    deviation: float = np.inf,
 ) -> BezierPaths:
     """Smooth Bézier paths within a tolerance of polylines, all fitted at once.
 
@@ -483,7 +483,7 @@ def fitted_paths(
     if not len(lines.first):
         none = np.zeros((0, 4, points.shape[1]))
         return BezierPaths(none, np.zeros(len(closed) + 1, dtype=np.intp), closed.copy(), np.zeros(len(closed)))
-    fit = _Fit.of(lines, given, tolerance, corner_angle, sag)
+    fit = _Fit.of(lines, given, tolerance, corner_angle, deviation)
     spans = fit.merged(fit.divided(fit.first_knots()))
     count = np.zeros(len(closed), dtype=np.intp)
     error = np.zeros(len(closed))
@@ -524,16 +524,20 @@ class _Fit:
     tolerance: float
 
     @classmethod
-    def of(cls, lines: FitLines, given: Floats, tolerance: float, corner_angle: float, sag: float = np.inf) -> _Fit:
+    def of(
+        cls, lines: FitLines, given: Floats, tolerance: float, corner_angle: float, deviation: float = np.inf
+    ) -> _Fit:
         total = lines.length[lines.last] - lines.length[lines.first]
-        tangent = directions(lines, given, np.minimum(_WINDOW * tolerance, total / 8.0), corner_angle, tolerance, sag)
+        tangent = directions(
+            lines, given, np.minimum(_WINDOW * tolerance, total / 8.0), corner_angle, tolerance, deviation
+        )
         chord = np.diff(lines.points, axis=1, append=lines.points[:, -1:])
         size = np.sqrt((chord * chord).sum(axis=0))
         chord /= np.where(size > 0.0, size, 1.0)
         ahead = np.roll(tangent.arriving, -1, axis=1)
         cosine = np.minimum((tangent.leaving * chord).sum(axis=0), (ahead * chord).sum(axis=0))
         room = size / 2.0 * tan(arccos(np.clip(cosine, 0.5, 1.0)))
-        return cls(lines, tangent, np.minimum(room, sag), tolerance)
+        return cls(lines, tangent, np.minimum(room, deviation), tolerance)
 
     def first_knots(self) -> Bools:
         """(n,) ends and corners, and the quarters of smooth loops."""
@@ -557,7 +561,7 @@ class _Fit:
         found = []
         while len(first[0]):
             spans = self.spans(*first)
-            done = (spans.excess <= self.tolerance) | (spans.last - spans.first <= 1)
+            done = (spans.error_ratio <= self.tolerance) | (spans.last - spans.first <= 1)
             found.append(_chosen(spans, done))
             first = self._parts(_chosen(spans, ~done))
         spans = _joined(found)
@@ -565,7 +569,7 @@ class _Fit:
 
     def _parts(self, spans: Spans) -> tuple[Ints, Ints]:
         """Smaller spans in place of those that fail, of equal length."""
-        ratio = np.nan_to_num(spans.excess / self.tolerance, nan=np.inf)
+        ratio = np.nan_to_num(spans.error_ratio / self.tolerance, nan=np.inf)
         parts = np.clip(np.ceil(power(ratio, 1.0 / 6.0) * 1.05), 2, _MOST_PARTS).astype(np.intp)
         parts = np.minimum(parts, spans.last - spans.first)
         knots = np.zeros(len(self.lines.line), dtype=np.bool_)
@@ -585,7 +589,7 @@ class _Fit:
         """Fewer segments: neighbours that one segment replaces within the tolerance."""
         for turn in range(_MERGE_ROUNDS):
             size = self.lines.length[spans.last] - self.lines.length[spans.first]
-            error = np.maximum(spans.excess, FIT_OF_TOLERANCE * self.tolerance)
+            error = np.maximum(spans.error_ratio, FIT_OF_TOLERANCE * self.tolerance)
             both = size[:-1] + size[1:]
             with np.errstate(all="ignore"):
                 guess = np.maximum(error[:-1] * power(both / size[:-1], 4), error[1:] * power(both / size[1:], 4))
@@ -596,7 +600,7 @@ class _Fit:
             if not len(pair):
                 continue
             trial = self.spans(spans.first[pair], spans.last[pair + 1])
-            good = trial.excess <= self.tolerance
+            good = trial.error_ratio <= self.tolerance
             keep = np.ones(len(spans.first), dtype=np.bool_)
             keep[pair[good]] = keep[pair[good] + 1] = False
             spans = _joined([_chosen(spans, keep), _chosen(trial, good)])
@@ -609,7 +613,7 @@ class _Fit:
         one = start + spans.handles[0] * self.tangent.leaving[:, spans.first]
         two = end - spans.handles[1] * self.tangent.arriving[:, spans.last]
         # Between two points nothing is known of the curve but that it is near the chord.
-        straight = (spans.last - spans.first <= 1) & (spans.excess > self.tolerance)
+        straight = (spans.last - spans.first <= 1) & (spans.error_ratio > self.tolerance)
         one = np.where(straight, start + (end - start) / 3.0, one)
         two = np.where(straight, end - (end - start) / 3.0, two)
         return np.stack((start, one, two, end)).transpose(2, 0, 1)
@@ -623,7 +627,7 @@ def _between(lines: FitLines, knots: Bools) -> tuple[Ints, Ints]:
 
 def _chosen(spans: Spans, which: Bools | Ints) -> Spans:
     return Spans(
-        spans.first[which], spans.last[which], spans.handles[:, which], spans.error[which], spans.excess[which]
+        spans.first[which], spans.last[which], spans.handles[:, which], spans.error[which], spans.error_ratio[which]
     )
 
 
@@ -633,7 +637,7 @@ def _joined(parts: list[Spans]) -> Spans:
         np.concatenate([part.last for part in parts]),
         np.concatenate([part.handles for part in parts], axis=1),
         np.concatenate([part.error for part in parts]),
-        np.concatenate([part.excess for part in parts]),
+        np.concatenate([part.error_ratio for part in parts]),
     )
 
 

@@ -293,8 +293,8 @@ def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) 
     rank = _ranks(lines, near, of, _lines(lines.line[near], of, paths.curve))
     dark = np.ones(len(flat)) if hatching.by == "even" else _darkness_along(some, flat)
     cover = covers(hatching, dark)[lines.family]
-    excess = lines.apart[near] * cover / hatching.width_mm - rank
-    return _long_enough(_cut(paths, of, share, excess), lines.shortest_mm)
+    error_ratio = lines.apart[near] * cover / hatching.width_mm - rank
+    return _long_enough(_cut(paths, of, share, error_ratio), lines.shortest_mm)
 
 
 def _ranks(lines: FollowedLines, near: Ints, of: Ints, line: Ints) -> Floats:
@@ -335,11 +335,11 @@ def _darkness_along(regions: TonedRegions, points: Floats) -> Floats:
     return regions.darkness_at(points, found)
 
 
-def _cut(paths: Paths, of: Ints, share: Floats, excess: Floats) -> Paths:
+def _cut(paths: Paths, of: Ints, share: Floats, error_ratio: Floats) -> Paths:
     """The parts of straight paths where an excess, known at places share (n,) along paths of (n,), is positive."""
     same = of[1:] == of[:-1]
     first = np.flatnonzero(same)
-    here, there = excess[first], excess[first + 1]
+    here, there = error_ratio[first], error_ratio[first + 1]
     with np.errstate(divide="ignore", invalid="ignore"):
         zero = share[first] + (share[first + 1] - share[first]) * np.clip(here / (here - there), 0.0, 1.0)
     low, high = np.where(here > 0.0, share[first], zero), np.where(there > 0.0, share[first + 1], zero)

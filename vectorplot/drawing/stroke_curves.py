@@ -124,7 +124,7 @@ def fewer_cubics(paths: BezierPaths, tolerance: float) -> BezierPaths:
         tangents,
         tolerance=FIT_OF_KNOWN * tolerance,
         corner_angle=CORNER_ANGLE,
-        sag=SAG_OF_KNOWN * tolerance,
+        deviation=SAG_OF_KNOWN * tolerance,
     )
     better = (np.diff(found.offsets) < count[which]) & (found.error <= FIT_OF_KNOWN * tolerance)
     return _put(paths, which[better], take(found, np.flatnonzero(better)))
@@ -143,10 +143,10 @@ def _put(paths: BezierPaths, which: Ints, others: BezierPaths) -> BezierPaths:
     return BezierPaths(control[order], ragged.offsets(count), paths.closed, error)
 
 
-def _samples(paths: BezierPaths, sag: float) -> tuple[Floats, Ints, Floats]:
+def _samples(paths: BezierPaths, deviation: float) -> tuple[Floats, Ints, Floats]:
     """Points (p,2) on paths, their offsets (m+1,), and the tangents (p,2,2) with which the paths arrive and leave."""
     control, pieces = paths.control, np.diff(paths.offsets)
-    count = _samples_needed(paths, sag).astype(np.intp)
+    count = _samples_needed(paths, deviation).astype(np.intp)
     own, part = ragged.owner(count), ragged.place(count) / count[ragged.owner(count)]
     points, leaving = _at(control[own], part)
     first = ragged.starts(count)
@@ -168,11 +168,11 @@ def _samples(paths: BezierPaths, sag: float) -> tuple[Floats, Ints, Floats]:
     return np.concatenate([points, last])[order], ragged.offsets(sizes), ways
 
 
-def _samples_needed(paths: BezierPaths, sag: float) -> Floats:
+def _samples_needed(paths: BezierPaths, deviation: float) -> Floats:
     """(s,) into how many parts of equal parameters each curve has to go for chords to be no farther off."""
     control = paths.control
     bend = np.linalg.norm(control[:, 2:] - 2.0 * control[:, 1:-1] + control[:, :-2], axis=2).max(axis=1, initial=0.0)
-    return np.asarray(np.maximum(np.ceil(np.sqrt(0.75 * bend / sag)), 1.0))
+    return np.asarray(np.maximum(np.ceil(np.sqrt(0.75 * bend / deviation)), 1.0))
 
 
 def _at(control: Floats, part: Floats) -> tuple[Floats, Floats]:
@@ -262,7 +262,7 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
         np.stack([np.cos(rest.directions), np.sin(rest.directions)], axis=2),
         tolerance=fit,
         corner_angle=STROKE_CORNER_ANGLE,
-        sag=CHORD_SHARE * tolerance_mm,
+        deviation=CHORD_SHARE * tolerance_mm,
     )
     beziers = _in_places((cubics, round_ones, fitted), (exact, arcs.stroke, which), paths)
     return CurvedStrokes(paths, beziers, arcs)

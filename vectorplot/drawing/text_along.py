@@ -104,7 +104,7 @@ def lettered_along(
     (9, True)
     """
     found, unit = [glyph(cluster) for cluster in clusters(text)], size_mm / CAPITAL
-    course = _course(found, path, size_mm, align, level, at, off_mm)
+    course = _trace(found, path, size_mm, align, level, at, off_mm)
     return Lettering(set_glyphs(found, unit, course.foot, course.turn), course.boxes)
 
 
@@ -146,7 +146,7 @@ def typeset_along(
     """
     letters = [text] if FORMULA.search(text) else clusters(text)
     found = [as_one(measured(letter)) for letter in letters]
-    course = _course(found, path, size_mm, align, level, at, off_mm)
+    course = _trace(found, path, size_mm, align, level, at, off_mm)
     shown = np.array([k for k, letter in enumerate(letters) if letter.strip()], dtype=np.intp)
     count = len(shown)
     texts = Texts(
@@ -173,7 +173,7 @@ class _Course:
     boxes: Floats
 
 
-def _course(
+def _trace(
     found: Sequence[Glyph], path: ArrayLike, size_mm: float, align: str, level: str, at: float, off_mm: float
 ) -> _Course:
     check_size(size_mm)

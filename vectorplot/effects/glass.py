@@ -166,12 +166,14 @@ class Beams:
 
 def soup_in_beams(view: View, solid: Solid, front: Ints, windows: Floats, rest: Soup) -> list[tuple[Beams, Soup]]:
     """The beams that enter by faces front (n,), seen in windows (4,n), rectangles of the image, and what they may meet
-    of all the rest; in lots."""
+    of all the rest; in batches."""
     found = []
     first, back = _meeting(view, solid, front)
-    for some in _lots(np.diff(solid.offsets)[back] ** 2 * RAYS):
+    for some in _batches(np.diff(solid.offsets)[back] ** 2 * RAYS):
         beams = _beams(view, solid, front, windows, first[some], back[some])
-        soup = joined_soups([_cut(rest, beams.bundles, lot, view.tolerance) for lot in _lots(_of(len(beams), rest))])
+        soup = joined_soups(
+            [_cut(rest, beams.bundles, batch, view.tolerance) for batch in _batches(_of(len(beams), rest))]
+        )
         if len(soup):
             found.append((beams, soup))
     return found
@@ -182,7 +184,7 @@ def totally_reflecting(view: View, solid: Solid, front: Ints, windows: Floats) -
     (4,n), leaves by the other, though some get there."""
     found = []
     first, back = _meeting(view, solid, front)
-    for some in _lots(np.diff(solid.offsets)[back] ** 2 * RAYS):
+    for some in _batches(np.diff(solid.offsets)[back] ** 2 * RAYS):
         grid = _Grid.of(view, solid, front, first[some], back[some])
         _, full = grid.seen_in(windows[:, first[some]])
         none = ~np.logical_or.reduceat(grid.good, grid.offsets[:-1]) & full
@@ -201,14 +203,14 @@ def _of(count: int, rest: Soup) -> Ints:
     return np.full(count, max(len(rest), 1))
 
 
-def _cut(soup: Soup, bundles: PlaneBundles, lot: slice, tolerance: float) -> Soup:
+def _cut(soup: Soup, bundles: PlaneBundles, batch: slice, tolerance: float) -> Soup:
     """What is above all planes of some bundles, on the ways of their numbers."""
-    way, polygon = (grid.ravel() for grid in np.mgrid[lot, : len(soup)])
+    way, polygon = (grid.ravel() for grid in np.mgrid[batch, : len(soup)])
     parts = cut_by_planes(soup.points, soup.offsets, bundles, polygon, way, tolerance)
     return Soup(parts.points, parts.offsets, soup.source[polygon[parts.pair]], way[parts.pair])
 
 
-def _lots(sizes: Ints) -> list[slice]:
+def _batches(sizes: Ints) -> list[slice]:
     """Consecutive runs whose sizes add up to about PAIRS_AT_ONCE."""
     if not len(sizes):
         return []
@@ -226,19 +228,19 @@ def _meeting(view: View, solid: Solid, front: Ints) -> tuple[Ints, Ints]:
     radius = np.sqrt(np.maximum.reduceat((arm * arm).sum(axis=0), solid.offsets[:-1]))
     axis, spread = _cones(view, solid, front)
     found = []
-    for lot in _lots(np.full(len(front), len(sizes))):
-        own = front[lot]
+    for batch in _batches(np.full(len(front), len(sizes))):
+        own = front[batch]
         across = middle[:, None, :] - middle[:, own, None]
-        along = (across * axis[:, lot, None]).sum(axis=0)
+        along = (across * axis[:, batch, None]).sum(axis=0)
         aside = np.sqrt(np.maximum((across * across).sum(axis=0) - along * along, 0.0))
         reach = radius[own, None] + radius
-        meets = aside <= MORE * reach + spread[lot, None] * (np.maximum(along, 0.0) + reach)
+        meets = aside <= MORE * reach + spread[batch, None] * (np.maximum(along, 0.0) + reach)
         meets &= along >= -reach
-        meets |= np.isinf(spread[lot])[:, None]
+        meets |= np.isinf(spread[batch])[:, None]
         meets[np.arange(len(own)), own] = False
         meets &= solid.exits
         first, back = np.nonzero(meets)
-        found.append((first + lot.start, back))
+        found.append((first + batch.start, back))
     return np.concatenate([pair[0] for pair in found]), np.concatenate([pair[1] for pair in found])
 
 
@@ -750,12 +752,12 @@ def items_in_glass(scene: Scene, projection: Projection) -> Bools:
         if (projection.depth_of(points) <= projection.near).any():
             return there
         starts, ways, apart = _leaving(projection, points.T.reshape(-1, 3, 3), scene.items[number].material.refraction)
-        for lot in _lots(np.full(len(centres), max(len(starts), 1))):
-            across = centres[lot, None] - starts
+        for batch in _batches(np.full(len(centres), max(len(starts), 1))):
+            across = centres[batch, None] - starts
             along = (across * ways).sum(axis=2)
             aside = np.sqrt(np.maximum((across * across).sum(axis=2) - along * along, 0.0))
-            reach = radii[lot, None] + apart
-            found[lot] |= ((along >= -reach) & (aside <= reach + WIDE * np.maximum(along, 0.0))).any(axis=1)
+            reach = radii[batch, None] + apart
+            found[batch] |= ((along >= -reach) & (aside <= reach + WIDE * np.maximum(along, 0.0))).any(axis=1)
     return found
 
 
@@ -788,13 +790,13 @@ def _leaving(projection: Projection, triangles: Floats, constant: float) -> tupl
     for _ in range(BOUNCES):
         last = [np.zeros(0, dtype=np.intp)]
         ahead = np.zeros(len(starts))
-        for lot in _lots(np.full(len(starts), len(normals))):
-            slope = np.einsum("nx,tx->nt", rays[lot], normals)
+        for batch in _batches(np.full(len(starts), len(normals))):
+            slope = np.einsum("nx,tx->nt", rays[batch], normals)
             with np.errstate(divide="ignore", invalid="ignore"):
-                way = (height - np.einsum("nx,tx->nt", starts[lot], normals)) / slope
+                way = (height - np.einsum("nx,tx->nt", starts[batch], normals)) / slope
             way = np.where(slope > ROUNDING, way, np.inf)
             last.append(way.argmin(axis=1))
-            ahead[lot] = way.min(axis=1, initial=np.inf)
+            ahead[batch] = way.min(axis=1, initial=np.inf)
         starts = starts + ahead[:, None] * rays
         rays, total = refracted(rays, normals[np.concatenate(last)], 1.0 / constant)
         left.append((starts[~total], rays[~total]))

@@ -191,15 +191,15 @@ def tangents_of_rays(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike) -
     near, far = np.where(swap, a, above), np.where(swap, above, a)
     near = np.maximum(near, IN_SURFACE_OF_DISTANCE * (far + target))
     t = np.zeros(target.shape)
-    excess = (ratio - 1.0) * (ratio + 1.0)
+    error_ratio = (ratio - 1.0) * (ratio + 1.0)
     for _ in range(MOST_STEPS):
-        root = np.sqrt(ratio * ratio + excess * t * t)
+        root = np.sqrt(ratio * ratio + error_ratio * t * t)
         slope = near + far * (ratio / root) ** 2 / root
         step = (target - near * t - far * t / root) / slope
         before, t = t, np.maximum(t + step, t)
         if (t - before <= ULP * t).all():
             break
-    other = t / np.sqrt(ratio * ratio + excess * t * t)
+    other = t / np.sqrt(ratio * ratio + error_ratio * t * t)
     sign = np.sign(p1)
     return np.asarray(sign * np.where(swap, other, t)), np.asarray(sign * np.where(swap, t, other))
 

@@ -337,7 +337,7 @@ def candidates(
     view: View, system: LightSystem, casters: Casters, receivers: Receivers, first: int = CASTERS_FIRST
 ) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of casters and receivers whose boxes overlap in an image of the light, the caster not behind; each pair
-    once, in lots, all of one caster in the same. first: how many casters the first lot is of.
+    once, in batches, all of one caster in the same. first: how many casters the first batch is of.
 
     Source: Glaeser, section 6.3 (bounding rectangles and priorities in the light systems).
     """
@@ -348,10 +348,10 @@ def candidates(
     trees = [_Tree.of(boxes, view.tolerance) for boxes in takers]
     low, count = 0, first
     while low < len(casters):
-        lot = [tree.partners(boxes, low, low + count) for tree, boxes in zip(trees, givers, strict=True)]
+        batch = [tree.partners(boxes, low, low + count) for tree, boxes in zip(trees, givers, strict=True)]
         low += count
-        caster, receiver = (np.concatenate([pairs[k] for pairs in lot]) for k in (0, 1))
-        if len(lot) > 1:
+        caster, receiver = (np.concatenate([pairs[k] for pairs in batch]) for k in (0, 1))
+        if len(batch) > 1:
             key = np.unique(caster * len(receivers.face) + receiver)
             caster, receiver = np.divmod(key, len(receivers.face))
         looked = len(caster)

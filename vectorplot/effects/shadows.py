@@ -125,7 +125,7 @@ def graded(view: View, shadows: Shadows) -> Shadows:
     found.append(_lacking(shadows.take(alone), shadows.lacking[alone] | dark[number[alone]]))
     crowd = part[several]
     count = 0
-    for cells in mapped(lambda lot: _arranged(view, shadows.take(crowd[lot])), _lots(number[crowd])):
+    for cells in mapped(lambda batch: _arranged(view, shadows.take(crowd[batch])), _batches(number[crowd])):
         count += len(cells)
         if count > MOST_CELLS:
             raise InputError(f"shadows overlap in more than {MOST_CELLS} parts: fewer lights, or the verb render")
@@ -140,8 +140,8 @@ def _lacking(shadows: Shadows, lacking: Ints) -> Shadows:
     return Shadows(shadows.points, shadows.offsets, shadows.face, lacking, shadows.whole)
 
 
-def _lots(group: Ints) -> Iterator[Ints]:
-    """Numbers of what has some group (n,), whole groups together, in lots of about POLYGONS_AT_ONCE."""
+def _batches(group: Ints) -> Iterator[Ints]:
+    """Numbers of what has some group (n,), whole groups together, in batches of about POLYGONS_AT_ONCE."""
     order = np.argsort(group, kind="stable")
     ends = np.append(np.flatnonzero(np.diff(group[order])) + 1, len(order))
     begin = 0
@@ -386,8 +386,8 @@ def _of_faces(view: View, system: LightSystem, casters: Casters, receivers: Rece
 def _thrown(
     view: View, casters: Casters, receivers: Receivers, pairs: Iterable[tuple[Ints, Ints]], number: int
 ) -> Shadows:
-    """The shadows of pairs of casters and receivers, lot by lot; on a face that one of them darkens whole, only that
-    one."""
+    """The shadows of pairs of casters and receivers, batch by batch; on a face that one of them darkens whole, only
+    that one."""
     parts = []
     dark = np.zeros(len(receivers.face), dtype=np.bool_)
     for caster, receiver in pairs:

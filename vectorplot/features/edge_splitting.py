@@ -184,7 +184,7 @@ class Criterion(Protocol):
         each place from where it is seen."""
         ...
 
-    def excess(self, edges: Edges) -> Floats:
+    def error_ratio(self, edges: Edges) -> Floats:
         """(k,n) by how many times sides are too coarse at the vertices over them; up to 1 is fine enough."""
         ...
 
@@ -225,7 +225,7 @@ class _Found:
         return _Found(key, rows), np.flatnonzero(~known)
 
 
-def refined(net: Net, between: Between, demand: Criterion, most: int) -> Net:
+def refined(net: Net, between: Between, criterion: Criterion, most: int) -> Net:
     """The triangles divided until all of their sides are fine enough, or there are so many of a surface that the next
     division would make more than most. They keep the sense in which they turn.
 
@@ -235,18 +235,18 @@ def refined(net: Net, between: Between, demand: Criterion, most: int) -> Net:
     sides across a jump stay when their places are one.
     """
     found = _Found(np.zeros(0, dtype=np.intp), np.zeros((3, 0)))
-    front = _front(net.vertices, net.triangles, demand)
+    front = _front(net.vertices, net.triangles, criterion)
     for _ in range(ROUNDS):
         count = len(net.vertices.points)
         edges, sides, uses = edges_of(net.triangles, count)
         found, new = found.of(edges[:, 0] << 32 | edges[:, 1])
         for some in slices(len(new), SIDES_AT_ONCE):
             own = new[some]
-            found.rows[:, own] = _splits(net, edges[own], uses[own] == 1, between, demand)
-        excess, as_border, part = found.rows
+            found.rows[:, own] = _splits(net, edges[own], uses[own] == 1, between, criterion)
+        error_ratio, as_border, part = found.rows
         border = (uses == 1) | _outlines(front, sides, uses)
-        excess = np.where(border, np.maximum(excess, as_border), excess)
-        of_sides = excess[sides]
+        error_ratio = np.where(border, np.maximum(error_ratio, as_border), error_ratio)
+        of_sides = error_ratio[sides]
         first = (of_sides > 1.0) & (of_sides >= FIRST * greatest_component(of_sides)[..., None])
         split = np.zeros(len(edges), dtype=np.bool_)
         split[sides[first]] = True
@@ -271,7 +271,7 @@ def refined(net: Net, between: Between, demand: Criterion, most: int) -> Net:
         triangles, of = triangles[kept], of[kept]
         front = front[:, of]
         made = any_component(middle[sides] >= 0)[of]
-        front[:, made] = _front(vertices, triangles[made], demand)
+        front[:, made] = _front(vertices, triangles[made], criterion)
         net = replace(net, vertices=vertices, triangles=triangles)
     return net
 
@@ -293,13 +293,13 @@ def _full(surface: Ints, more: Ints, most: int) -> Ints:
     return np.flatnonzero((np.bincount(surface) + wanted > most) & (wanted > 0))
 
 
-def _front(vertices: Vertices, triangles: Ints, demand: Criterion) -> Bools:
+def _front(vertices: Vertices, triangles: Ints, criterion: Criterion) -> Bools:
     """(s,t) which triangles (t,3) show their front to each place from where folds are outlines."""
-    if not demand.outlines:
+    if not criterion.outlines:
         return np.zeros((0, len(triangles)), dtype=np.bool_)
     corners = vertices.points[triangles]
     normals = cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    return np.asarray(demand.folds(corners.mean(axis=1), normals)[: demand.outlines] > 0.0)
+    return np.asarray(criterion.folds(corners.mean(axis=1), normals)[: criterion.outlines] > 0.0)
 
 
 def _outlines(front: Bools, sides: Ints, uses: Ints) -> Bools:
@@ -312,14 +312,14 @@ def _outlines(front: Bools, sides: Ints, uses: Ints) -> Bools:
     return found
 
 
-def _splits(net: Net, edges: Ints, border: Bools, between: Between, demand: Criterion) -> Floats:
+def _splits(net: Net, edges: Ints, border: Bools, between: Between, criterion: Criterion) -> Floats:
     """(3,n) by how many times sides are too coarse, and would be as borders; at which part they are to be split."""
     start, end = net.vertices.take(edges[:, 0]), net.vertices.take(edges[:, 1])
     found = np.repeat([[0.0], [0.0], [0.5]], len(edges), axis=1)
     apart = _apart(net.vertices, edges)
     inside = np.flatnonzero(start.known & end.known & apart)
     if len(inside):
-        found[:, inside] = _in_sight(start.take(inside), end.take(inside), border[inside], between, demand)
+        found[:, inside] = _in_sight(start.take(inside), end.take(inside), border[inside], between, criterion)
     rim = np.flatnonzero((start.known != end.known) & apart)
     if len(rim):
         part = _rim(start.take(rim), end.take(rim), border[rim], between)
@@ -336,15 +336,15 @@ def _apart(vertices: Vertices, edges: Ints) -> Bools:
     return any_component(way > JUMP_OF_DOMAIN * extent)
 
 
-def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, demand: Criterion) -> Floats:
+def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, criterion: Criterion) -> Floats:
     """As _splits, for sides both ends of which are known."""
     start, end = between.ends(start, end)
     count = len(start.points)
     looks = _looks(start, end, border, between)
     nodes = start.joined(looks).joined(end)
-    values = demand.folds(nodes.points, nodes.normals)
+    values = criterion.folds(nodes.points, nodes.normals)
     values = values.reshape(len(values), len(LOOKS) + 2, count)
-    root, number, at_root = _roots(start, end, values, border, between, demand)
+    root, number, at_root = _roots(start, end, values, border, between, criterion)
     t = np.stack([*(np.full(count, t) for t in LOOKS), root])
     at = _with_roots(looks, number, at_root)
     on = np.abs(values[:, [0, -1]]) <= ON
@@ -360,25 +360,25 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, d
         fold[:-1][found_on[own]] = own
     fold[-1] = number
     edges = Edges(start, end, at, t, fold)
-    excess = np.nan_to_num(demand.too_coarse(edges), nan=0.0)
-    as_border = np.nan_to_num(demand.border_error_ratio(edges), nan=0.0).max(axis=0)
+    error_ratio = np.nan_to_num(criterion.too_coarse(edges), nan=0.0)
+    as_border = np.nan_to_num(criterion.border_error_ratio(edges), nan=0.0).max(axis=0)
     part = np.full(count, 0.5)
-    at_fold = np.flatnonzero((excess[-1] > 1.0) & (number != NONE))
+    at_fold = np.flatnonzero((error_ratio[-1] > 1.0) & (number != NONE))
     # A side that begins at a fold has a vertex there.
     at_fold = at_fold[~on[number[at_fold], :, at_fold].any(axis=1)]
     part[at_fold] = root[at_fold]
-    worst = excess.max(axis=0)
+    worst = error_ratio.max(axis=0)
     # A hole between two points that are in none.
     hole = np.flatnonzero(~at.known.all(axis=0))
     if len(hole):
         part[hole] = t[np.argmin(at.known[:, hole], axis=0), hole]
-        worst[hole] = np.nan_to_num(demand.too_coarse(_bulging(edges, hole)), nan=0.0).max(axis=0)
+        worst[hole] = np.nan_to_num(criterion.too_coarse(_bulging(edges, hole)), nan=0.0).max(axis=0)
     # Where a surface is steep above its domain what is over a side is far from it, and yet the side near the surface.
     steep = np.flatnonzero((worst > 1.0) & (number == NONE) & ~border & at.known.all(axis=0))
     if len(steep):
         some = edges.take(steep)
         some = replace(some, at=between.nearer(some))
-        worst[steep] = np.minimum(worst[steep], np.nan_to_num(demand.too_coarse(some), nan=0.0).max(axis=0))
+        worst[steep] = np.minimum(worst[steep], np.nan_to_num(criterion.too_coarse(some), nan=0.0).max(axis=0))
     return np.stack((worst, as_border, part))
 
 
@@ -413,7 +413,7 @@ def _bulging(edges: Edges, hole: Ints) -> Edges:
 
 
 def _roots(
-    start: Vertices, end: Vertices, values: Floats, border: Bools, between: Between, demand: Criterion
+    start: Vertices, end: Vertices, values: Floats, border: Bools, between: Between, criterion: Criterion
 ) -> tuple[Floats, Ints, Vertices]:
     """(n,) the part of each side at which it crosses a fold, and the number of the fold; 0.5 and NONE for most; and the
     vertices there, of the others.
@@ -435,7 +435,7 @@ def _roots(
     for _ in range(STEPS):
         t = low + (high - low) * at_low / (at_low - at_high)
         found = between(first, last, t, border[which])
-        at_t = demand.folds(found.points, found.normals)[fold, np.arange(len(which))]
+        at_t = criterion.folds(found.points, found.normals)[fold, np.arange(len(which))]
         before = at_t * at_low > 0.0
         # The end that stays is weighted less, or it would stay for ever.
         at_high, at_low = np.where(before, 0.5 * at_high, at_t), np.where(before, at_t, 0.5 * at_low)
@@ -484,12 +484,12 @@ class AllSidesAlike(ABC):
         return 0
 
     @abstractmethod
-    def excess(self, edges: Edges) -> Floats:
+    def error_ratio(self, edges: Edges) -> Floats:
         """(k,n) as Criterion."""
 
     def too_coarse(self, edges: Edges) -> Floats:
         """(k,n) as Criterion."""
-        return self.excess(edges)
+        return self.error_ratio(edges)
 
     def border_error_ratio(self, edges: Edges) -> Floats:
         """(k,n) as Criterion: borders are as all sides."""
@@ -513,7 +513,7 @@ class Within(AllSidesAlike):
         """What is asked for is the same for all of these."""
         return asked[0]
 
-    def excess(self, edges: Edges) -> Floats:
+    def error_ratio(self, edges: Edges) -> Floats:
         """(k,n) as Criterion: the larger of the distances and the turning of the normals, as parts of their limits."""
         far = off_chords(edges) / (INSIDE * self.allowed(edges.at.points))
         return np.asarray(np.maximum(far, turning(edges) / TURN))

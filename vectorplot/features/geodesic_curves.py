@@ -209,7 +209,7 @@ class _Shooting:
         return np.concatenate([first, sites.turned(first, 0.5 * np.pi)])
 
     def runs(self, shots: _Shots, accuracy: Accuracy) -> Courses:
-        """Their courses."""
+        """Their traces."""
         ahead, left = self.frame
         tangents = np.cos(shots.angle)[:, None] * ahead + np.sin(shots.angle)[:, None] * left
         starts = np.tile(self.start, (len(tangents), 1))
@@ -234,8 +234,8 @@ class _Shooting:
         return records.take(found, np.argsort(found.length, kind="stable")[:TRIED])
 
     def missed(self, runs: Courses, row: Ints, along: Floats) -> tuple[Floats, Floats, Floats, Floats]:
-        """How far (k,) the end is from places along courses; how much of that is ahead, and to the left; and how far
-        the places would move to the left for each unit of the angle that their courses are turned by."""
+        """How far (k,) the end is from places along traces; how much of that is ahead, and to the left; and how far
+        the places would move to the left for each unit of the angle that their traces are turned by."""
         step, part = runs.at(row, along)
         states = runs.states(step, part)
         surface, chart = self.flow.surface, self.flow.charts
@@ -249,9 +249,9 @@ class _Shooting:
 
     def met(self, shots: _Shots, longest: float, accuracy: Accuracy, near: float) -> tuple[_Shots, Floats, Courses]:
         """Those of the shots that meet the end, as near as a part of the extent, each once, the shortest first; how far
-        (k,) its neighbours are aside there for each unit of angle; and their courses."""
+        (k,) its neighbours are aside there for each unit of angle; and their traces."""
         size = self.extent[0]
-        met, sides, courses = [_Shots(np.zeros(0), np.zeros(0))], [np.zeros(0)], list[Courses]()
+        met, sides, traces = [_Shots(np.zeros(0), np.zeros(0))], [np.zeros(0)], list[Courses]()
         last = np.full(len(shots.angle), np.inf)
         for _ in range(ROUNDS):
             runs = self.runs(shots, accuracy)
@@ -262,7 +262,7 @@ class _Shooting:
             done = (way <= near * size) & self._on_its_sheet(runs, begun, along) & (along <= longest)
             met.append(_Shots(angle[done], along[done]))
             sides.append(np.abs(aside[done]))
-            courses.append(runs.take(begun[done]))
+            traces.append(runs.take(begun[done]))
             with np.errstate(all="ignore"):
                 turn = np.clip(np.nan_to_num(left / aside), -FARTHEST, FARTHEST)
             length = along + ahead
@@ -283,10 +283,10 @@ class _Shooting:
             chosen.append(int(left_over[0]))
             left_over = left_over[norm(key[left_over] - key[left_over[0]]) > least]
         kept = np.array(chosen, dtype=np.intp)
-        return records.take(found, kept), aside[kept], Courses.joined(courses).take(order[kept])
+        return records.take(found, kept), aside[kept], Courses.joined(traces).take(order[kept])
 
     def _on_its_sheet(self, runs: Courses, row: Ints, along: Floats) -> Bools:
-        """(k,) whether places along courses are near the end along the surface, if they are in space."""
+        """(k,) whether places along traces are near the end along the surface, if they are in space."""
         ground = Ground(self.flow.surface, self.flow.charts, 1.0)
         ends = np.tile(self.end, (len(row), 1))
         return ground.on_one_sheet(runs.places(*runs.at(row, along)), ends, ROUGH.error * self.extent[0])

@@ -28,7 +28,7 @@ MOST_FINER = 1 << 17
 """Cells up to which a grid is made finer unasked."""
 
 FREE = -1
-"""The rail of an edge that is no border."""
+"""The constraint of an edge that is no border."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -37,9 +37,8 @@ class Tessellation:
 
     points: (n, 3) in world coordinates; triangles: (t, 3) of points; places: (t, 3, d) of their corners, such as u and
     v; cells: (t,) the cell a triangle belongs to; edges: (e, 2) of points, the smaller one first; sides: (t, 3) the
-    edge from corner k to the next; rails: (e,) what a point on the edge must stay on, as its sheet numbers such lines;
-    border: (e,) edges of one triangle.
-    """
+    edge from corner k to the next; constraints: (e,) what a point on the edge must stay on, as its sheet numbers such
+    lines; border: (e,) edges of one triangle."""
 
     points: Floats
     triangles: Ints
@@ -47,7 +46,7 @@ class Tessellation:
     cells: Ints
     edges: Ints
     sides: Ints
-    rails: Ints
+    constraints: Ints
     border: Bools
 
     @cached_property
@@ -96,15 +95,15 @@ class GridNodes:
         triangles, grid_triangles = triangles[good], grid_triangles[good]
         edges, sides, uses = edges_of(triangles, len(self.points))
         own = self.places[grid_triangles]
-        rails = np.full(len(edges), FREE)
+        constraints = np.full(len(edges), FREE)
         ends = np.repeat(np.broadcast_to(ends, (4, len(cells))), 2, axis=1)[:, good, None]
         for axis in self.open_ways:
             for end in ends[2 * axis : 2 * axis + 2]:
                 on = (own[..., axis] == end) & (np.roll(own[..., axis], -1, axis=1) == end)
-                rails[sides[on]] = axis
+                constraints[sides[on]] = axis
         border = np.asarray(uses == 1, dtype=np.bool_)
-        rails[~border] = FREE
-        return Tessellation(self.points, triangles, own, np.repeat(cells, 2)[good], edges, sides, rails, border)
+        constraints[~border] = FREE
+        return Tessellation(self.points, triangles, own, np.repeat(cells, 2)[good], edges, sides, constraints, border)
 
 
 def grid_nodes(surface: Surface, columns: int, rows: int) -> GridNodes:

@@ -125,10 +125,10 @@ def _steps(one: Patch, two: Patch, a: Floats, b: Floats, points: tuple[Floats, F
     origin = middle.copy()
     in_plane = bound.normal.any(axis=1)
     held[in_plane], origin[in_plane] = bound.normal[in_plane], bound.origin[in_plane]
-    for patch, at, normal, point, rails in ((one, a, n, p, bound.rail_one), (two, b, m, q, bound.rail_two)):
-        on = np.flatnonzero(rails != FREE)
+    for patch, at, normal, point, constraints in ((one, a, n, p, bound.rail_one), (two, b, m, q, bound.rail_two)):
+        on = np.flatnonzero(constraints != FREE)
         if len(on):
-            held[on] = cross(normal[on], patch.along_constraints(at[on], rails[on]))
+            held[on] = cross(normal[on], patch.along_constraints(at[on], constraints[on]))
             origin[on] = point[on]
     with np.errstate(all="ignore"):
         held /= np.sqrt((held * held).sum(axis=1, keepdims=True))
@@ -221,7 +221,7 @@ def _backwards(places: Floats) -> Floats:
 
 
 def followed(one: Patch, two: Patch, first: Course, second: Course) -> Course:
-    """The second course after the first, its places as many periods on as they have to be."""
+    """The second trace after the first, its places as many periods on as they have to be."""
     if not len(first) or not len(second):
         return second if not len(first) else first
     parts = []
@@ -231,41 +231,41 @@ def followed(one: Patch, two: Patch, first: Course, second: Course) -> Course:
     return Course(parts[0], parts[1])
 
 
-def starting_at(one: Patch, two: Patch, course: Course, first: int) -> Course:
-    """A closed course that comes back in the roles it began with, beginning at another of its points."""
-    whole = followed(one, two, course.part(first, len(course)), course.part(1, first + 1))
+def starting_at(one: Patch, two: Patch, trace: Course, first: int) -> Course:
+    """A closed trace that comes back in the roles it began with, beginning at another of its points."""
+    whole = followed(one, two, trace.part(first, len(trace)), trace.part(1, first + 1))
     return Course(whole.one, whole.two, True)
 
 
 @dataclass(frozen=True, eq=False)
 class Courses:
-    """All courses one after the other: places on both patches; last (n,): the point is the last of its course."""
+    """All traces one after the other: places on both patches; last (n,): the point is the last of its trace."""
 
     one: Floats
     two: Floats
     last: Bools
 
 
-def put_together(courses: list[Course], dimensions: tuple[int, int]) -> Courses:
-    """The courses as one, of places with these numbers of coordinates."""
+def put_together(traces: list[Course], dimensions: tuple[int, int]) -> Courses:
+    """The traces as one, of places with these numbers of coordinates."""
     empty = [np.zeros((0, d)) for d in dimensions]
-    last = [np.arange(len(c)) == len(c) - 1 for c in courses]
+    last = [np.arange(len(c)) == len(c) - 1 for c in traces]
     return Courses(
-        np.concatenate([empty[0], *(c.one for c in courses)]),
-        np.concatenate([empty[1], *(c.two for c in courses)]),
+        np.concatenate([empty[0], *(c.one for c in traces)]),
+        np.concatenate([empty[1], *(c.two for c in traces)]),
         np.concatenate([np.zeros(0, dtype=np.bool_), *last]),
     )
 
 
-def refined_courses(
-    one: Patch, two: Patch, courses: Courses, *, pair: Ints, zero: Floats, tolerance: Floats, picture: Picture | None
+def refined_traces(
+    one: Patch, two: Patch, traces: Courses, *, pair: Ints, zero: Floats, tolerance: Floats, picture: Picture | None
 ) -> tuple[Courses, Ints]:
-    """The courses with points of both patches put in where chords deviate from the curve by more than the tolerance,
+    """The traces with points of both patches put in where chords deviate from the curve by more than the tolerance,
     measured in the picture, and for each (m,) the number of chords beside which no curve was found.
 
     pair (m,): the pairs of shapes that they are of; zero, tolerance (p,): of each pair.
     """
-    own = courses.one.shape[1]
+    own = traces.one.shape[1]
 
     def both(places: Floats) -> tuple[Floats, Floats]:
         return np.ascontiguousarray(places[:, :own]), np.ascontiguousarray(places[:, own:])
@@ -277,7 +277,7 @@ def refined_courses(
         points = one.points(both(places)[0])
         return points if picture is None else picture(points)
 
-    whole = Traces(np.concatenate([courses.one, courses.two], axis=1), courses.last)
+    whole = Traces(np.concatenate([traces.one, traces.two], axis=1), traces.last)
     found = refined(whole, between, image, tolerance[pair], MOST_POINTS, pair)
     return Courses(*both(found.lines.points), found.lines.last), found.unsure
 
@@ -321,19 +321,19 @@ LARGEST_LOOP = 3.0
 
 @dataclass(frozen=True, eq=False)
 class _End:
-    """An end of a course at a node: the course, whether it is its last point, and the angle around the node."""
+    """An end of a trace at a node: the trace, whether it is its last point, and the angle around the node."""
 
-    course: int
+    trace: int
     last: bool
     angle: float
     across: Floats
 
 
 def through_nodes(
-    one: Patch, two: Patch, courses: list[Course], saddles: Contacts, zero: float, height: float, *, same: bool
+    one: Patch, two: Patch, traces: list[Course], saddles: Contacts, zero: float, height: float, *, same: bool
 ) -> tuple[list[Course], Bools]:
-    """The courses, those near a saddle of the height joined there as the surfaces are and not as the triangles
-    happened to be; and which of the saddles courses run through.
+    """The traces, those near a saddle of the height joined there as the surfaces are and not as the triangles
+    happened to be; and which of the saddles traces run through.
 
     Heights up to the given one are nodes: opposite branches go straight on. Others are avoided crossings: the branches
     are those of a hyperbola.
@@ -345,7 +345,7 @@ def through_nodes(
         is_node = abs(at.heights[0]) <= height
         if not is_node and gap.min() > at.cells[0]:
             continue
-        courses, ends = _opened(one, two, courses, at, same)
+        traces, ends = _opened(one, two, traces, at, same)
         if not ends:
             continue
         met[k] = True
@@ -355,53 +355,53 @@ def through_nodes(
         else:
             pairs, middles = _beside(one, two, ends, at, zero)
         for (first, second), middle in zip(pairs, middles, strict=True):
-            courses = _linked(one, two, courses, ends, (first, second), middle)
-    return [c for c in courses if len(c) > 1], met
+            traces = _linked(one, two, traces, ends, (first, second), middle)
+    return [c for c in traces if len(c) > 1], met
 
 
-def _distance(one: Patch, two: Patch, course: Course, at: Contacts) -> Floats:
-    """(k,) cells between the points of a course and a contact, on the patch where there are more."""
-    return np.fmax(one.cells_apart(course.one, at.one), two.cells_apart(course.two, at.two))
+def _distance(one: Patch, two: Patch, trace: Course, at: Contacts) -> Floats:
+    """(k,) cells between the points of a trace and a contact, on the patch where there are more."""
+    return np.fmax(one.cells_apart(trace.one, at.one), two.cells_apart(trace.two, at.two))
 
 
-def _opened(one: Patch, two: Patch, courses: list[Course], at: Contacts, same: bool) -> tuple[list[Course], list[_End]]:
-    """The courses without their points near a contact, and the ends that are there then."""
+def _opened(one: Patch, two: Patch, traces: list[Course], at: Contacts, same: bool) -> tuple[list[Course], list[_End]]:
+    """The traces without their points near a contact, and the ends that are there then."""
     result = []
-    for course in courses:
-        away = _distance(one, two, course, at)
-        if same and len(course):
-            other = _distance(one, two, course.exchanged(), at)
+    for trace in traces:
+        away = _distance(one, two, trace, at)
+        if same and len(trace):
+            other = _distance(one, two, trace.exchanged(), at)
             if other.min(initial=np.inf) < away.min(initial=np.inf):
-                course, away = course.exchanged(), other
+                trace, away = trace.exchanged(), other
         inside = away <= RADIUS
         if not inside.any():
-            result.append(course)
+            result.append(trace)
             continue
-        result += _outside(one, two, course, inside)
+        result += _outside(one, two, trace, inside)
     ends: list[_End] = []
-    for k, course in enumerate(result):
-        if course.closed or not len(course):
+    for k, trace in enumerate(result):
+        if trace.closed or not len(trace):
             continue
-        away = _distance(one, two, course, at)
+        away = _distance(one, two, trace, at)
         for last in (False, True):
             if away[-1 if last else 0] <= REACH:
-                arm = one.points(course.one[[-1 if last else 0]])[0] - at.points[0]
+                arm = one.points(trace.one[[-1 if last else 0]])[0] - at.points[0]
                 x, y = matmul(at.frames[0, :2], arm)
                 ends.append(_End(k, last, float(arctan2(y, x)), np.array([x, y])))
     return result, ends
 
 
-def _outside(one: Patch, two: Patch, course: Course, inside: Bools) -> list[Course]:
-    """The runs of a course outside; of a closed one the first and the last are one."""
+def _outside(one: Patch, two: Patch, trace: Course, inside: Bools) -> list[Course]:
+    """The runs of a trace outside; of a closed one the first and the last are one."""
     at = np.flatnonzero(~inside)
     if not len(at):
         return []
-    runs = [course.part(int(r[0]), int(r[-1]) + 1) for r in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)]
-    if course.closed and not inside[0] and not inside[-1]:
+    runs = [trace.part(int(r[0]), int(r[-1]) + 1) for r in np.split(at, np.flatnonzero(np.diff(at) > 1) + 1)]
+    if trace.closed and not inside[0] and not inside[-1]:
         begin, finish = runs[0], runs[-1]
         if len(runs) == 1:
             return runs
-        turned = _turned_over(one, course)
+        turned = _turned_over(one, trace)
         joined = followed(
             one, two, finish, begin.exchanged().part(1, len(begin)) if turned else begin.part(1, len(begin))
         )
@@ -409,11 +409,11 @@ def _outside(one: Patch, two: Patch, course: Course, inside: Bools) -> list[Cour
     return [r for r in runs if len(r) > 1]
 
 
-def _turned_over(one: Patch, course: Course) -> bool:
-    """Whether a closed course is back at its start with its sides exchanged."""
-    if course.one.shape[1] != course.two.shape[1]:
+def _turned_over(one: Patch, trace: Course) -> bool:
+    """Whether a closed trace is back at its start with its sides exchanged."""
+    if trace.one.shape[1] != trace.two.shape[1]:
         return False
-    straight, over = (one.cells_apart(course.one[-1:], x[:1])[0] for x in (course.one, course.two))
+    straight, over = (one.cells_apart(trace.one[-1:], x[:1])[0] for x in (trace.one, trace.two))
     return bool(over < straight)
 
 
@@ -446,53 +446,53 @@ def _beside(
 
 
 def _linked(
-    one: Patch, two: Patch, courses: list[Course], ends: list[_End], pair: tuple[int, int], middle: Course
+    one: Patch, two: Patch, traces: list[Course], ends: list[_End], pair: tuple[int, int], middle: Course
 ) -> list[Course]:
-    """The courses with a pair of ends joined through a middle; -1: no second end. Numbers of courses stay valid: a
-    course that went into another is left empty, and its ends now are those of the other."""
+    """The traces with a pair of ends joined through a middle; -1: no second end. Numbers of traces stay valid: a
+    trace that went into another is left empty, and its ends now are those of the other."""
     first = ends[pair[0]]
-    head = courses[first.course] if first.last else courses[first.course].reversed()
+    head = traces[first.trace] if first.last else traces[first.trace].reversed()
     head = followed(one, two, head, middle)
-    result = list(courses)
+    result = list(traces)
     if pair[1] < 0:
-        result[first.course] = head
-        ends[pair[0]] = _End(first.course, True, first.angle, first.across)
+        result[first.trace] = head
+        ends[pair[0]] = _End(first.trace, True, first.angle, first.across)
         return _redirected(ends, result, first, flipped=not first.last)
     second = ends[pair[1]]
-    if second.course == first.course:
+    if second.trace == first.trace:
         closing = followed(one, two, head, Course(head.one[:1], head.two[:1]))
-        result[first.course] = Course(closing.one, closing.two, True)
+        result[first.trace] = Course(closing.one, closing.two, True)
         return result
-    tail = courses[second.course].reversed() if second.last else courses[second.course]
-    result[first.course] = followed(one, two, head, tail)
-    result[second.course] = tail.part(0, 0)
+    tail = traces[second.trace].reversed() if second.last else traces[second.trace]
+    result[first.trace] = followed(one, two, head, tail)
+    result[second.trace] = tail.part(0, 0)
     # The free ends of both are now the two ends of the first.
     for k, e in enumerate(ends):
-        if e.course == first.course and k != pair[0]:
-            ends[k] = _End(first.course, False, e.angle, e.across)
-        elif e.course == second.course and k != pair[1]:
-            ends[k] = _End(first.course, True, e.angle, e.across)
+        if e.trace == first.trace and k != pair[0]:
+            ends[k] = _End(first.trace, False, e.angle, e.across)
+        elif e.trace == second.trace and k != pair[1]:
+            ends[k] = _End(first.trace, True, e.angle, e.across)
     return result
 
 
-def _redirected(ends: list[_End], courses: list[Course], first: _End, *, flipped: bool) -> list[Course]:
-    """The courses; ends of the one that was turned round exchanged."""
+def _redirected(ends: list[_End], traces: list[Course], first: _End, *, flipped: bool) -> list[Course]:
+    """The traces; ends of the one that was turned round exchanged."""
     if flipped:
         for k, e in enumerate(ends):
-            if e.course == first.course and e.last:
-                ends[k] = _End(e.course, False, e.angle, e.across)
-    return courses
+            if e.trace == first.trace and e.last:
+                ends[k] = _End(e.trace, False, e.angle, e.across)
+    return traces
 
 
 def missed_loops(
-    one: Patch, two: Patch, courses: list[Course], hills: Contacts, zero: float, height: float
+    one: Patch, two: Patch, traces: list[Course], hills: Contacts, zero: float, height: float
 ) -> list[Course]:
-    """Closed courses around contacts that the triangles did not notice.
+    """Closed traces around contacts that the triangles did not notice.
 
     Above such a contact the height is a paraboloid whose zeros are an ellipse.
     """
     dips = (hills.bends * hills.heights[:, None] < 0.0).all(axis=1) & (np.abs(hills.heights) > height)
-    known = [one.points(c.one) for c in courses]
+    known = [one.points(c.one) for c in traces]
     points = np.concatenate([np.zeros((0, 3)), *known])
     result = []
     for k in np.flatnonzero(dips):
@@ -503,14 +503,14 @@ def missed_loops(
         round_ = np.hypot(*(arm[:, :2] / radii).T)
         if ((np.abs(round_ - 1.0) < 0.6) & (np.abs(arm[:, 2]) < radii.max())).any():
             continue
-        course = _loop(one, two, hills.of(np.array([k])), radii, zero)
-        if course is not None:
-            result.append(course)
+        trace = _loop(one, two, hills.of(np.array([k])), radii, zero)
+        if trace is not None:
+            result.append(trace)
     return result
 
 
 def _loop(one: Patch, two: Patch, at: Contacts, radii: Floats, zero: float) -> Course | None:
-    """The closed course around a contact; None if it is not where the paraboloid has it."""
+    """The closed trace around a contact; None if it is not where the paraboloid has it."""
     angle = 2.0 * np.pi * np.arange(LOOP) / LOOP
     x, y = at.frames[0, :2]
     arm = radii[0] * np.cos(angle)[:, None] * x + radii[1] * np.sin(angle)[:, None] * y
@@ -535,7 +535,7 @@ SHRINKING = (1.0, 0.75, 0.5, 0.375, 0.25)
 
 
 SHORT = 48
-"""Points of a course up to which it may be a copy of part of another one."""
+"""Points of a trace up to which it may be a copy of part of another one."""
 
 BESIDE = 0.2
 """Part of a chord from which a point may lie off it and still be beside it."""
@@ -555,40 +555,40 @@ class _Pairs:
         return np.array([np.cos(self.angle), np.sin(self.angle)])
 
 
-def into_pinch_points(patch: SurfacePatch, courses: list[Course]) -> list[Course]:
-    """The courses of a surface that meets itself, those whose two places come together led to the point where they
+def into_pinch_points(patch: SurfacePatch, traces: list[Course]) -> list[Course]:
+    """The traces of a surface that meets itself, those whose two places come together led to the point where they
     are one.
 
     The equation (x(m + r w) - x(m - r w)) / 2r = 0 for the middle m and the direction w stays regular there; its
     solutions are even in r, so those for some r give the one for r = 0 by extrapolation.
     """
-    return [_led(patch, _led(patch, c).reversed()).reversed() for c in courses]
+    return [_led(patch, _led(patch, c).reversed()).reversed() for c in traces]
 
 
-def _led(patch: SurfacePatch, course: Course) -> Course:
-    """The course, its last point led into a pinch point if one is near."""
-    a, b = course.one[-1], patch.aligned(course.two[-1:], course.one[-1:])[0]
+def _led(patch: SurfacePatch, trace: Course) -> Course:
+    """The trace, its last point led into a pinch point if one is near."""
+    a, b = trace.one[-1], patch.aligned(trace.two[-1:], trace.one[-1:])[0]
     d = 0.5 * (a - b) / patch.cell
     half = float(np.hypot(*d))
-    if course.closed or not 0.0 < half <= 0.5 * NEAR_SELF or at_border(patch, course.one[-1:], course.two[-1:])[0]:
-        return course
+    if trace.closed or not 0.0 < half <= 0.5 * NEAR_SELF or at_border(patch, trace.one[-1:], trace.two[-1:])[0]:
+        return trace
     start = _Pairs(0.5 * (a + b) / patch.cell, float(arctan2(d[1], d[0])), half)
     found: list[_Pairs] = []
     for part in SHRINKING:
         solved = _solved(patch, _Pairs(start.middle, start.angle, part * half))
         if solved is None:
-            return course
+            return trace
         start = solved
         found.append(solved)
     squares = np.array(SHRINKING) ** 2
     weights = np.array([np.prod([s / (s - t) for s in squares if s != t]) for t in squares])
     end = matmul(weights, np.array([f.middle for f in found])) * patch.cell
     if np.abs((end - found[-1].middle * patch.cell) / patch.cell).max() > half or not _inside(patch, end):
-        return course
+        return trace
     kept = [found[k] for k in (1, 2, 4)]
     one = np.array([*((f.middle + f.half * f.way) * patch.cell for f in kept), end])
     two = np.array([*((f.middle - f.half * f.way) * patch.cell for f in kept), end])
-    return followed(patch, patch, course, Course(one, two))
+    return followed(patch, patch, trace, Course(one, two))
 
 
 def _solved(patch: SurfacePatch, start: _Pairs) -> _Pairs | None:
@@ -640,54 +640,54 @@ def at_border(patch: OnSurfaces, *places: Floats) -> Bools:
     return found
 
 
-def without_common_borders(one: Patch, two: Patch, courses: list[Course]) -> list[Course]:
-    """The courses of two patches without those parts that run along borders of both: there the one goes on as the
+def without_common_borders(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
+    """The traces of two patches without those parts that run along borders of both: there the one goes on as the
     other, and its border is a curve already."""
-    if not courses or not isinstance(one, OnSurfaces) or not isinstance(two, OnSurfaces):
-        return courses
-    whole = put_together(courses, (courses[0].one.shape[1], courses[0].two.shape[1]))
+    if not traces or not isinstance(one, OnSurfaces) or not isinstance(two, OnSurfaces):
+        return traces
+    whole = put_together(traces, (traces[0].one.shape[1], traces[0].two.shape[1]))
     both = at_border(one, whole.one) & at_border(two, whole.two)
     if not both.any():
-        return courses
+        return traces
     result = []
-    for course, on in zip(courses, np.split(both, np.flatnonzero(whole.last)[:-1] + 1), strict=True):
+    for trace, on in zip(traces, np.split(both, np.flatnonzero(whole.last)[:-1] + 1), strict=True):
         along = on & np.append(True, on[:-1]) & np.append(on[1:], True)
-        if course.closed and along.any() and not along.all():
+        if trace.closed and along.any() and not along.all():
             first = int(along.argmax())
-            course = starting_at(one, two, course, first)
+            trace = starting_at(one, two, trace, first)
             along = np.append(np.roll(along[:-1], -first), True)
         left = np.flatnonzero(~along)
         runs = np.split(left, np.flatnonzero(np.diff(left) > 1) + 1) if len(left) else []
-        result += [course] if not along.any() else [course.part(int(r[0]), int(r[-1]) + 1) for r in runs if len(r) > 1]
+        result += [trace] if not along.any() else [trace.part(int(r[0]), int(r[-1]) + 1) for r in runs if len(r) > 1]
     return result
 
 
-def without_copies(one: Patch, two: Patch, courses: list[Course], *, same: bool) -> list[Course]:
-    """The courses without those short ones that run where a longer one does: next to a pinch point, or where patches
+def without_copies(one: Patch, two: Patch, traces: list[Course], *, same: bool) -> list[Course]:
+    """The traces without those short ones that run where a longer one does: next to a pinch point, or where patches
     are nearly tangent, the triangles meet more than once where the surfaces do once."""
-    points = [one.points(c.one) for c in courses]
+    points = [one.points(c.one) for c in traces]
     low, high = (np.array([f(p, axis=0) for p in points]).reshape(-1, 3) for f in (np.min, np.max))
     kept: list[int] = []
 
-    def is_copy(course: Course, own: Floats, near: list[int]) -> bool:
-        return any(_runs_along(one, two, course, own, courses[j], points[j]) for j in near)
+    def is_copy(trace: Course, own: Floats, near: list[int]) -> bool:
+        return any(_runs_along(one, two, trace, own, traces[j], points[j]) for j in near)
 
-    for k in np.argsort([-len(c) for c in courses], kind="stable").tolist():
-        course = courses[k]
+    for k in np.argsort([-len(c) for c in traces], kind="stable").tolist():
+        trace = traces[k]
         # What a copy runs beside is wider than itself by part of a chord.
         gap = high[k] - low[k]
         near = [j for j in kept if (low[k] <= high[j] + gap).all() and (high[k] >= low[j] - gap).all()]
-        if len(course) <= SHORT and near:
-            if is_copy(course, points[k], near):
+        if len(trace) <= SHORT and near:
+            if is_copy(trace, points[k], near):
                 continue
-            if same and is_copy(course.exchanged(), one.points(course.two), near):
+            if same and is_copy(trace.exchanged(), one.points(trace.two), near):
                 continue
         kept.append(k)
-    return [courses[k] for k in kept]
+    return [traces[k] for k in kept]
 
 
-def _runs_along(one: Patch, two: Patch, course: Course, points: Floats, other: Course, ends: Floats) -> bool:
-    """Whether all points (k,3) of a course lie beside chords of another with its points, on both patches in the same
+def _runs_along(one: Patch, two: Patch, trace: Course, points: Floats, other: Course, ends: Floats) -> bool:
+    """Whether all points (k,3) of a trace lie beside chords of another with its points, on both patches in the same
     cells."""
     chord = np.diff(ends, axis=0)
     square = (chord * chord).sum(axis=1)
@@ -699,20 +699,20 @@ def _runs_along(one: Patch, two: Patch, course: Course, points: Floats, other: C
     if not near.any(axis=1).all():
         return False
     k, m = np.nonzero(near)
-    there = one.cells_apart(course.one[k], other.one[m]) <= 2.0
-    there &= two.cells_apart(course.two[k], other.two[m]) <= 2.0
-    return bool(len(np.unique(k[there])) == len(course))
+    there = one.cells_apart(trace.one[k], other.one[m]) <= 2.0
+    there &= two.cells_apart(trace.two[k], other.two[m]) <= 2.0
+    return bool(len(np.unique(k[there])) == len(trace))
 
 
-def stitched(one: Patch, courses: list[Course], size: float, large: float) -> list[Course]:
-    """The courses, those joined that end where exactly one other end is: over a seam that the domain does not know of.
+def stitched(one: Patch, traces: list[Course], size: float, large: float) -> list[Course]:
+    """The traces, those joined that end where exactly one other end is: over a seam that the domain does not know of.
 
     Places do not run on over such a seam; where both patches are one they may exchange their roles there.
     """
-    ends = [(k, last) for k, c in enumerate(courses) if not c.closed and len(c) > 1 for last in (False, True)]
+    ends = [(k, last) for k, c in enumerate(traces) if not c.closed and len(c) > 1 for last in (False, True)]
     if len(ends) < 2:
-        return courses
-    places = np.array([courses[k].one[-1 if last else 0] for k, last in ends])
+        return traces
+    places = np.array([traces[k].one[-1 if last else 0] for k, last in ends])
     points = one.points(places)
     group = close_points(points, max(ZERO_OF_EXTENT * size, ROUNDING_OF_POINTS * large))
     owner, last = np.array([k for k, _ in ends]), np.array([s for _, s in ends])
@@ -721,7 +721,7 @@ def stitched(one: Patch, courses: list[Course], size: float, large: float) -> li
         own = np.flatnonzero(group == g)
         if len(own) == 2:
             mate[own] = own[::-1]
-    result, used = [c for c in courses if c.closed or len(c) < 2], np.zeros(len(ends), dtype=np.bool_)
+    result, used = [c for c in traces if c.closed or len(c) < 2], np.zeros(len(ends), dtype=np.bool_)
     # Chains begin at ends without a mate; what is left are rings.
     for start in [*np.flatnonzero(mate < 0).tolist(), *range(len(ends))]:
         if used[start]:
@@ -731,14 +731,14 @@ def stitched(one: Patch, courses: list[Course], size: float, large: float) -> li
         while at >= 0 and not used[at]:
             other = at ^ 1
             used[[at, other]] = True
-            parts.append(courses[owner[at]].reversed() if last[at] else courses[owner[at]])
+            parts.append(traces[owner[at]].reversed() if last[at] else traces[owner[at]])
             at = int(mate[other])
         result.append(_chained(parts, closed=at == start))
     return result
 
 
 def _chained(parts: list[Course], *, closed: bool) -> Course:
-    """The courses one after the other; a point that is the same on both sides of a joint stands there once."""
+    """The traces one after the other; a point that is the same on both sides of a joint stands there once."""
     kept = parts[:1]
     for before, after in pairwise([*parts, parts[0].part(0, 1)] if closed else parts):
         same = (before.one[-1] == after.one[0]).all() and (before.two[-1] == after.two[0]).all()

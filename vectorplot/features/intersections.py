@@ -21,7 +21,7 @@ from vectorplot.features.intersection_tracing import (
     missed_loops,
     no_double_curves,
     put_together,
-    refined_courses,
+    refined_traces,
     sines,
     starting_at,
     stitched,
@@ -140,17 +140,17 @@ DRIFT = 3.0
 """Sizes of a triangle that a point may move by on its way from the tessellation to the true surface."""
 
 BRIDGED = 2
-"""Points of a course in a row that may fail without the course being cut there."""
+"""Points of a trace in a row that may fail without the trace being cut there."""
 
 
 SHALLOW = 0.25
 """Sine below which patches are nearly tangent: cusps of double curves have larger ones."""
 
 TINY = 0.25
-"""Part of the usual chord that a course may turn back by in any case: cusps have longer chords on both sides."""
+"""Part of the usual chord that a trace may turn back by in any case: cusps have longer chords on both sides."""
 
 TURNED_BACK = -0.7
-"""Cosine of the directions of two chords below which a course turns back."""
+"""Cosine of the directions of two chords below which a trace turns back."""
 
 CROWDED = 0.1
 """Part of the chord on one side of a point below which that on the other is too short."""
@@ -161,10 +161,10 @@ ONE_PLACE = 0.5
 
 @dataclass(frozen=True, eq=False)
 class Traced:
-    """courses: in no order; triangles: for each the (k,2) triangles in which the segment from every point runs;
+    """traces: in no order; triangles: for each the (k,2) triangles in which the segment from every point runs;
     lost: how many points of tessellations were on no common curve of the true surfaces."""
 
-    courses: list[Course]
+    traces: list[Course]
     triangles: list[Ints]
     lost: int
 
@@ -206,13 +206,13 @@ def traced(one: Patch, two: Patch, found: Piercings, zero: Floats, *, same: bool
         segment[-1] = segment[-2]
         paths.append(_Path(path, segment, closed or turns_over))
         lost += int((~good[points]).sum())
-    courses, triangles = [], []
+    traces, triangles = [], []
     whole = _running_on(one, two, [Course(at_one[p.points], at_two[p.points], p.closed) for p in paths])
-    for of, course in zip(paths, whole, strict=True):
-        pieces = _kept(course, good[of.points])
-        courses += [piece for piece, _ in pieces]
+    for of, trace in zip(paths, whole, strict=True):
+        pieces = _kept(trace, good[of.points])
+        traces += [piece for piece, _ in pieces]
         triangles += [found.triangles[of.segments[i]] for _, i in pieces]
-    return Traced(courses, triangles, lost)
+    return Traced(traces, triangles, lost)
 
 
 @dataclass(frozen=True, eq=False)
@@ -250,11 +250,11 @@ def _segments_of(points: Ints, offsets: Ints, closed: Bools, pairs: Ints) -> Int
     return np.asarray(order[np.minimum(np.searchsorted(own[order], key), max(len(own) - 1, 0))])
 
 
-def _running_on(one: Patch, two: Patch, courses: list[Course]) -> list[Course]:
-    """The courses without jumps over seams."""
-    if not courses:
+def _running_on(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
+    """The traces without jumps over seams."""
+    if not traces:
         return []
-    whole = put_together(courses, (courses[0].one.shape[1], courses[0].two.shape[1]))
+    whole = put_together(traces, (traces[0].one.shape[1], traces[0].two.shape[1]))
     ends = np.flatnonzero(whole.last)[:-1] + 1
     places = []
     for patch, own in ((one, whole.one), (two, whole.two)):
@@ -262,25 +262,25 @@ def _running_on(one: Patch, two: Patch, courses: list[Course]) -> list[Course]:
         jumps[ends] = 0.0
         parts = zip(np.split(own, ends), np.split(jumps, ends), strict=True)
         places.append([at + np.cumsum(jump, axis=0) for at, jump in parts])
-    return [Course(a, b, course.closed) for a, b, course in zip(*places, courses, strict=True)]
+    return [Course(a, b, trace.closed) for a, b, trace in zip(*places, traces, strict=True)]
 
 
-def without_slips(one: Patch, two: Patch, courses: list[Course]) -> list[Course]:
-    """The courses without their zigzags and crowds of points."""
-    if not courses:
+def without_slips(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
+    """The traces without their zigzags and crowds of points."""
+    if not traces:
         return []
-    whole = put_together(courses, (courses[0].one.shape[1], courses[0].two.shape[1]))
+    whole = put_together(traces, (traces[0].one.shape[1], traces[0].two.shape[1]))
     points, shallow = one.points(whole.one), sines(one, two, whole.one, whole.two) < SHALLOW
     result, ends = [], np.flatnonzero(whole.last)[:-1] + 1
-    for course, own, flat in zip(courses, np.split(points, ends), np.split(shallow, ends), strict=True):
+    for trace, own, flat in zip(traces, np.split(points, ends), np.split(shallow, ends), strict=True):
         kept = _without_zigzags(own, flat)
         kept = kept[_uncrowded(own[kept])]
-        result.append(course if len(kept) == len(course) else Course(course.one[kept], course.two[kept], course.closed))
+        result.append(trace if len(kept) == len(trace) else Course(trace.one[kept], trace.two[kept], trace.closed))
     return result
 
 
 def _without_zigzags(points: Floats, shallow: Bools) -> Ints:
-    """The points (n,3) of a course that are left without those from which it turns back where the patches are nearly
+    """The points (n,3) of a trace that are left without those from which it turns back where the patches are nearly
     tangent, or by very little (near a pole): there the triangles meet in another order than the true points lie."""
     kept = np.arange(len(points))
     while len(kept) > 3:
@@ -301,7 +301,7 @@ def _without_zigzags(points: Floats, shallow: Bools) -> Ints:
 
 
 def _uncrowded(points: Floats) -> Bools:
-    """The points (n,3) of a course without inner ones that are much nearer to one neighbour than to the other: where an
+    """The points (n,3) of a trace without inner ones that are much nearer to one neighbour than to the other: where an
     edge of one tessellation passes close to an edge of the other."""
     kept = np.ones(len(points), dtype=np.bool_)
     chord = np.diff(points, axis=0)
@@ -315,20 +315,20 @@ def _uncrowded(points: Floats) -> Bools:
     return kept
 
 
-def _kept(course: Course, good: Bools) -> list[tuple[Course, Ints]]:
-    """The course without its bad points, cut where too many of them follow one another, and the places of its points
-    in it; a closed course that is cut is one that begins elsewhere."""
+def _kept(trace: Course, good: Bools) -> list[tuple[Course, Ints]]:
+    """The trace without its bad points, cut where too many of them follow one another, and the places of its points
+    in it; a closed trace that is cut is one that begins elsewhere."""
     if good.all():
-        return [(course, np.arange(len(course)))]
+        return [(trace, np.arange(len(trace)))]
     at = np.flatnonzero(good)
     if not len(at):
         return []
     cut = np.flatnonzero(np.diff(at) > BRIDGED + 1) + 1
     runs = [run for run in np.split(at, cut) if len(run) > 1]
     outside = at[0] + len(good) - 1 - at[-1]
-    if course.closed and not len(cut) and outside <= BRIDGED and good[0]:
-        return [(Course(course.one[at], course.two[at], True), at)]
-    return [(Course(course.one[run], course.two[run]), run) for run in runs]
+    if trace.closed and not len(cut) and outside <= BRIDGED and good[0]:
+        return [(Course(trace.one[at], trace.two[at], True), at)]
+    return [(Course(trace.one[run], trace.two[run]), run) for run in runs]
 
 
 # The curves of patches from where their triangles pierce each other: joined, led through nodes, refined.
@@ -342,11 +342,11 @@ RESOLVED = 0.15
 
 @dataclass(frozen=True, eq=False)
 class Joined:
-    """courses and all their points, refined; unsure: how many chords could not be; nodes, isolated, touching: contacts
+    """traces and all their points, refined; unsure: how many chords could not be; nodes, isolated, touching: contacts
     that curves cross in, that are alone, that lie on lines or in areas of contact; close: how many lie on lines along
-    which curves are nearer than RESOLVED; dots (i,3): courses that were a single point."""
+    which curves are nearer than RESOLVED; dots (i,3): traces that were a single point."""
 
-    courses: list[Course]
+    traces: list[Course]
     points: Courses
     unsure: int
     nodes: Contacts
@@ -360,7 +360,7 @@ class Joined:
 class _Led:
     """Courses of one pair of shapes led through the contacts between these, the contacts as Joined has them."""
 
-    courses: list[Course]
+    traces: list[Course]
     nodes: Contacts
     isolated: Contacts
     touching: Contacts
@@ -380,17 +380,17 @@ def each_joined(
     each pair of shapes."""
     zero = zero_between(one, two)
     size = np.minimum(one.sizes[0], two.sizes[0])
-    courses = _of_segments(one, two, traced(one, two, found, zero, same=same))
-    courses = courses if same else without_common_borders(one, two, courses)
-    led = _led_through(one, two, courses, touching, same=same)
-    kept, dots = _without_dots(one, [own.courses for own in led], size)
+    traces = _of_segments(one, two, traced(one, two, found, zero, same=same))
+    traces = traces if same else without_common_borders(one, two, traces)
+    led = _led_through(one, two, traces, touching, same=same)
+    kept, dots = _without_dots(one, [own.traces for own in led], size)
     dimensions = found.one.shape[1], found.two.shape[1]
     points = put_together([c for own in kept for c in own], dimensions)
     pair = np.repeat(np.arange(len(led)), [len(own) for own in kept])
     tolerance = CHORD_OF_EXTENT * size if tracing.tolerance is None else np.full(len(size), tracing.tolerance)
     unsure = np.zeros(len(pair), dtype=np.intp)
     if (tolerance > 0.0).all():
-        points, unsure = refined_courses(
+        points, unsure = refined_traces(
             one, two, points, pair=pair, zero=zero, tolerance=tolerance, picture=tracing.picture
         )
     ends = np.searchsorted(pair[np.cumsum(points.last) - points.last], np.arange(1, len(led)))
@@ -402,10 +402,10 @@ def each_joined(
     ]
 
 
-def _led_through(one: Patch, two: Patch, courses: list[Course], touching: Contacts, *, same: bool) -> list[_Led]:
-    """For each pair of shapes its courses, those near contacts and ends joined as the surfaces are."""
+def _led_through(one: Patch, two: Patch, traces: list[Course], touching: Contacts, *, same: bool) -> list[_Led]:
+    """For each pair of shapes its traces, those near contacts and ends joined as the surfaces are."""
     zero, height = zero_between(one, two), zero_height(one, two)
-    own = _of_each(one, courses, len(zero))
+    own = _of_each(one, traces, len(zero))
     at = one.numbers(touching.one)
     order = np.argsort(at, kind="stable")
     first = np.searchsorted(at[order], np.arange(len(zero) + 1)).tolist()
@@ -420,13 +420,13 @@ def _led_through(one: Patch, two: Patch, courses: list[Course], touching: Contac
     return result
 
 
-def _of_each(one: Patch, courses: list[Course], count: int) -> list[list[Course]]:
-    """The courses of each of so many pairs of shapes."""
-    if count == 1 or not courses:
-        return [courses, *([] for _ in range(count - 1))]
+def _of_each(one: Patch, traces: list[Course], count: int) -> list[list[Course]]:
+    """The traces of each of so many pairs of shapes."""
+    if count == 1 or not traces:
+        return [traces, *([] for _ in range(count - 1))]
     result: list[list[Course]] = [[] for _ in range(count)]
-    for course, number in zip(courses, one.numbers(np.array([c.one[0] for c in courses])).tolist(), strict=True):
-        result[number].append(course)
+    for trace, number in zip(traces, one.numbers(np.array([c.one[0] for c in traces])).tolist(), strict=True):
+        result[number].append(trace)
     return result
 
 
@@ -447,24 +447,24 @@ def _extents(one: Patch, two: Patch, number: int) -> tuple[float, float]:
 
 
 def _through_contacts(
-    one: Patch, two: Patch, courses: list[Course], touching: Contacts, ends: _Ends, *, same: bool
+    one: Patch, two: Patch, traces: list[Course], touching: Contacts, ends: _Ends, *, same: bool
 ) -> _Led:
-    """The courses of one pair of shapes led through its contacts and into pinch points, none twice."""
+    """The traces of one pair of shapes led through its contacts and into pinch points, none twice."""
     product = touching.bends[:, 0] * touching.bends[:, 1]
     touch = np.abs(touching.heights) <= ends.height
     saddles = touching.of(product < 0.0)
-    courses, through = through_nodes(one, two, courses, saddles, ends.zero, ends.height, same=same)
+    traces, through = through_nodes(one, two, traces, saddles, ends.zero, ends.height, same=same)
     hills = touching.of(product > 0.0)
-    courses = courses + missed_loops(one, two, courses, hills, ends.zero, ends.height)
+    traces = traces + missed_loops(one, two, traces, hills, ends.zero, ends.height)
     if same and isinstance(one, SurfacePatch):
-        courses = into_pinch_points(one, courses)
-    courses = stitched(one, without_copies(one, two, courses, same=same), ends.size, ends.large)
+        traces = into_pinch_points(one, traces)
+    traces = stitched(one, without_copies(one, two, traces, same=same), ends.size, ends.large)
     crossed = (product < 0.0) & touch
     crossed[np.flatnonzero(product < 0.0)] &= through
     alone = touch & (product != 0.0) & ~crossed
     flat = product == 0.0
     crossings, single, lines = (touching.of(which) for which in (crossed, alone, flat & touch))
-    return _Led(courses, crossings, single, lines, _close(touching.of(flat & ~touch)))
+    return _Led(traces, crossings, single, lines, _close(touching.of(flat & ~touch)))
 
 
 def _close(found: Contacts) -> int:
@@ -477,42 +477,42 @@ def _close(found: Contacts) -> int:
 
 
 def _of_segments(one: Patch, two: Patch, found: Traced) -> list[Course]:
-    """The courses without zigzags; on a mesh, places name the triangle of the segment that starts there."""
+    """The traces without zigzags; on a mesh, places name the triangle of the segment that starts there."""
     if not isinstance(two, MeshPatch):
-        return without_slips(one, two, found.courses)
+        return without_slips(one, two, found.traces)
     result = []
-    for course, triangles in zip(found.courses, found.triangles, strict=True):
-        places = np.concatenate([course.two[:, :3], triangles[:, 1:]], axis=1)
+    for trace, triangles in zip(found.traces, found.triangles, strict=True):
+        places = np.concatenate([trace.two[:, :3], triangles[:, 1:]], axis=1)
         # Near an edge the true point may lie beyond it, in the plane of the face but not in the face.
         held = two.holds(places)
-        course = Course(course.one, places, course.closed)
-        if course.closed and held.any() and not held[0]:
-            course = starting_at(one, two, course, int(held.argmax()))
-            held = two.holds(course.two)
-        result.append(Course(course.one[held], course.two[held], course.closed))
+        trace = Course(trace.one, places, trace.closed)
+        if trace.closed and held.any() and not held[0]:
+            trace = starting_at(one, two, trace, int(held.argmax()))
+            held = two.holds(trace.two)
+        result.append(Course(trace.one[held], trace.two[held], trace.closed))
     return result
 
 
-def _without_dots(one: Patch, courses: list[list[Course]], size: Floats) -> tuple[list[list[Course]], list[Floats]]:
-    """For each pair of shapes, of sizes (p,), the courses that are more than a point, and the points (k,3) of the
+def _without_dots(one: Patch, traces: list[list[Course]], size: Floats) -> tuple[list[list[Course]], list[Floats]]:
+    """For each pair of shapes, of sizes (p,), the traces that are more than a point, and the points (k,3) of the
     others."""
-    flat = [c for own in courses for c in own]
+    flat = [c for own in traces for c in own]
     if not flat:
-        return courses, [np.zeros((0, 3))] * len(courses)
+        return traces, [np.zeros((0, 3))] * len(traces)
     points = one.points(np.concatenate([c.one for c in flat]))
     lengths = np.array([len(c) for c in flat])
     known = np.flatnonzero(lengths)
     begin = (np.cumsum(lengths) - lengths)[known]
     spread = np.zeros(len(flat))
     spread[known] = (np.maximum.reduceat(points, begin) - np.minimum.reduceat(points, begin)).max(axis=1)
-    pair = np.repeat(np.arange(len(courses)), [len(own) for own in courses])
+    pair = np.repeat(np.arange(len(traces)), [len(own) for own in traces])
     is_line = (spread > ZERO_OF_EXTENT * size[pair]) & (lengths > 1)
     is_dot = (spread <= ZERO_OF_EXTENT * size[pair]) & (lengths > 1)
-    lines: list[list[Course]] = [[] for _ in courses]
+    lines: list[list[Course]] = [[] for _ in traces]
     for k in np.flatnonzero(is_line).tolist():
         lines[pair[k]].append(flat[k])
     starts = np.cumsum(lengths) - lengths
-    return lines, [points[starts[is_dot & (pair == k)]] for k in range(len(courses))]
+    return lines, [points[starts[is_dot & (pair == k)]] for k in range(len(traces))]
 
 
 def doubts_about(all_: Joined) -> tuple[str, ...]:
@@ -537,7 +537,7 @@ def doubts_about(all_: Joined) -> tuple[str, ...]:
 
 def repeats_dropped(all_: Joined) -> tuple[Bools, Ints, Bools]:
     """Which points to keep, since closed curves repeat their first; offsets (m+1,) then, and closed (m,)."""
-    closed = np.array([c.closed for c in all_.courses], dtype=np.bool_)
+    closed = np.array([c.closed for c in all_.traces], dtype=np.bool_)
     kept, offsets = Traces(all_.points.one, all_.points.last).unrepeated(closed)
     return kept, offsets, closed
 

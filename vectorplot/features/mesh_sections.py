@@ -74,7 +74,7 @@ def _faults(one: SurfacePatch, two: MeshPatch, all_: Joined) -> int:
     faults = int((~two.holds(all_.points.two)).sum()) + all_.unsure
     if not np.isfinite(one.tessellation.points).all():
         return faults
-    ends = [c.part(k, k + 1) for c in all_.courses if not c.closed for k in (0, len(c) - 1)]
+    ends = [c.part(k, k + 1) for c in all_.traces if not c.closed for k in (0, len(c) - 1)]
     if not ends:
         return faults
     own, other = np.concatenate([c.one for c in ends]), np.concatenate([c.two[:, :3] for c in ends])
@@ -133,8 +133,8 @@ ROUNDS = 3
 
 @dataclass(frozen=True, eq=False)
 class ImplicitPatch(SingleShape):
-    """An implicit surface within its box as a patch of `intersections.patches`: places are its points; rails 0, 1, 2
-    the sides of the box across x, y and z, then planes that cut. mesh: the surface polygonised."""
+    """An implicit surface within its box as a patch of `intersections.patches`: places are its points; constraints 0,
+    1, 2 the sides of the box across x, y and z, then planes that cut. mesh: the surface polygonised."""
 
     surface: ImplicitSurface
     mesh: Mesh
@@ -147,9 +147,9 @@ class ImplicitPatch(SingleShape):
         border = np.asarray(uses == 1, dtype=np.bool_)
         on = sides_of(self.surface).on(points)
         common: Bools = on[edges[:, 0]] & on[edges[:, 1]]
-        rails = np.where(border & common.any(axis=1), common.argmax(axis=1), FREE)
+        constraints = np.where(border & common.any(axis=1), common.argmax(axis=1), FREE)
         return Tessellation(
-            points, triangles, points[triangles], np.arange(len(triangles)), edges, sides, rails, border
+            points, triangles, points[triangles], np.arange(len(triangles)), edges, sides, constraints, border
         )
 
     @cached_property
@@ -178,17 +178,17 @@ class ImplicitPatch(SingleShape):
         """(k,3) places moved along the surface, not out of the box."""
         return self._onto(places + steps)
 
-    def along_constraints(self, places: Floats, rails: Ints) -> Floats:
+    def along_constraints(self, places: Floats, constraints: Ints) -> Floats:
         """(k,3) directions of the curves on the sides of the box."""
-        return np.cross(self.normals(places), sides_of(self.surface).normals[rails])
+        return np.cross(self.normals(places), sides_of(self.surface).normals[constraints])
 
-    def on_constraints(self, places: Floats, rails: Ints) -> Floats:
+    def on_constraints(self, places: Floats, constraints: Ints) -> Floats:
         """(k,3) places put onto their sides of the box."""
         low, high = np.asarray(self.surface.box, dtype=np.float64)
         side = np.where(places - low < high - places, low, high)
-        result, sides = np.where(rails[:, None] == np.arange(3), side, places), sides_of(self.surface)
-        for rail in range(BOXED, len(sides.normals)):
-            result[rails == rail] = sides.planes(rail)[0].put(places[rails == rail])
+        result, sides = np.where(constraints[:, None] == np.arange(3), side, places), sides_of(self.surface)
+        for constraint in range(BOXED, len(sides.normals)):
+            result[constraints == constraint] = sides.planes(constraint)[0].put(places[constraints == constraint])
         return result
 
     def bends(self, places: Floats, frames: Floats) -> Floats:

@@ -54,12 +54,12 @@ class Patch(Protocol):
         """(k,d) places moved by steps (k,3) in their tangent planes, to first order; never over a border."""
         ...
 
-    def along_constraints(self, places: Floats, rails: Ints) -> Floats:
-        """(k,3) directions of the lines that rails (k,) name, at places on them."""
+    def along_constraints(self, places: Floats, constraints: Ints) -> Floats:
+        """(k,3) directions of the lines that constraints (k,) name, at places on them."""
         ...
 
-    def on_constraints(self, places: Floats, rails: Ints) -> Floats:
-        """(k,d) places put on their rails, FREE ones left alone, where rounding took them off."""
+    def on_constraints(self, places: Floats, constraints: Ints) -> Floats:
+        """(k,d) places put on their constraints, FREE ones left alone, where rounding took them off."""
         ...
 
     def bends(self, places: Floats, frames: Floats) -> Floats:
@@ -128,8 +128,8 @@ class MeshPatch(SingleShape):
         places = np.concatenate(
             [points[triangles], np.broadcast_to(np.arange(len(faces))[:, None, None], (len(faces), 3, 1))], axis=2
         )
-        rails = np.where(inner, FREE, np.arange(len(edges)))
-        return Tessellation(points, triangles, places, np.arange(len(faces)), edges, sides, rails, uses == 1)
+        constraints = np.where(inner, FREE, np.arange(len(edges)))
+        return Tessellation(points, triangles, places, np.arange(len(faces)), edges, sides, constraints, uses == 1)
 
     @cached_property
     def edge_uses(self) -> Ints:
@@ -152,12 +152,12 @@ class MeshPatch(SingleShape):
         points = points - ((points - origin) * normal).sum(axis=1, keepdims=True) * normal
         return np.concatenate([points, places[:, 3:]], axis=1)
 
-    def along_constraints(self, places: Floats, rails: Ints) -> Floats:
+    def along_constraints(self, places: Floats, constraints: Ints) -> Floats:
         """(k,3) directions of edges."""
-        ends = self.mesh.vertices[self.tessellation.edges[rails]]
+        ends = self.mesh.vertices[self.tessellation.edges[constraints]]
         return np.asarray(ends[:, 1] - ends[:, 0])
 
-    def on_constraints(self, places: Floats, rails: Ints) -> Floats:
+    def on_constraints(self, places: Floats, constraints: Ints) -> Floats:
         """The places: edges are met to rounding."""
         return places
 
@@ -288,19 +288,19 @@ class OnSurfaces(ABC):
         longest = np.maximum(LONGEST_STEP * size / self.grid, LONGEST_PART * size)
         return _with_numbers(_inside(surface, places[:, :2] + np.clip(change, -longest, longest)), places)
 
-    def along_constraints(self, places: Floats, rails: Ints) -> Floats:
-        """(k,3) derivatives by the other parameter than the one that rails (k,), 0 or 1, keep."""
+    def along_constraints(self, places: Floats, constraints: Ints) -> Floats:
+        """(k,3) derivatives by the other parameter than the one that constraints (k,), 0 or 1, keep."""
         surface = self.surface_at(places)
         along_u, along_v = surface.partials(*_home(surface, places))
-        return np.where((rails == 0)[:, None], along_v, along_u)
+        return np.where((constraints == 0)[:, None], along_v, along_u)
 
-    def on_constraints(self, places: Floats, rails: Ints) -> Floats:
-        """(k,d) places whose parameter that does not change on its rail is an end of the domain exactly."""
+    def on_constraints(self, places: Floats, constraints: Ints) -> Floats:
+        """(k,d) places whose parameter that does not change on its constraint is an end of the domain exactly."""
         domain, result = self.surface_at(places).domain, places.copy()
         ends = ((domain.u_start, domain.u_end), (domain.v_start, domain.v_end))
         for axis in (0, 1):
             x, (low, high) = places[:, axis], ends[axis]
-            result[:, axis] = np.where(rails == axis, np.where(x - low < high - x, low, high), x)
+            result[:, axis] = np.where(constraints == axis, np.where(x - low < high - x, low, high), x)
         return result
 
     def bends(self, places: Floats, frames: Floats) -> Floats:

@@ -71,18 +71,18 @@ class PlacesAlong:
         return first, np.where(free[self.seeds], last, first - 1)
 
 
-def ways_both(courses: Courses) -> tuple[Floats, Floats]:
-    """How long (c,) the curves are along the field and against it, whose courses are those there and then those back;
+def ways_both(traces: Courses) -> tuple[Floats, Floats]:
+    """How long (c,) the curves are along the field and against it, whose traces are those there and then those back;
     closed ones half of their length to either side."""
-    there, back = np.split(courses.lengths, 2)
-    closed = courses.closed[: len(there)]
+    there, back = np.split(traces.lengths, 2)
+    closed = traces.closed[: len(there)]
     return np.where(closed, 0.5 * there, there), np.where(closed, np.minimum(0.5 * there, back), back)
 
 
-def places_along(courses: Courses, curves: Ints, step: float) -> PlacesAlong:
-    """Places on some of the curves (c,) with courses both ways, a step from each other, and at both ends."""
-    there, back = (way[curves] for way in ways_both(courses))
-    count = len(courses.closed) // 2
+def places_along(traces: Courses, curves: Ints, step: float) -> PlacesAlong:
+    """Places on some of the curves (c,) with traces both ways, a step from each other, and at both ends."""
+    there, back = (way[curves] for way in ways_both(traces))
+    count = len(traces.closed) // 2
     first, last = -np.floor(back / step).astype(np.intp), np.floor(there / step).astype(np.intp)
     sizes = last - first + 1
     inner = step * ragged.ranges(first, sizes)
@@ -95,9 +95,9 @@ def places_along(courses: Courses, curves: Ints, step: float) -> PlacesAlong:
     fresh[1:] = (along[1:] > along[:-1]) | (owner[1:] != owner[:-1])
     along, owner = along[fresh], owner[fresh]
     own = curves[owner]
-    row = np.where((along < 0.0) | (courses.lengths[own] == 0.0), own + count, own)
-    places = courses.places(*courses.at(row, np.abs(along)))
-    around = np.where(courses.closed[:count], courses.lengths[:count], np.inf)[curves]
+    row = np.where((along < 0.0) | (traces.lengths[own] == 0.0), own + count, own)
+    places = traces.places(*traces.at(row, np.abs(along)))
+    around = np.where(traces.closed[:count], traces.lengths[:count], np.inf)[curves]
     return PlacesAlong(ragged.offsets(np.bincount(owner, minlength=len(curves))), along, places, around)
 
 
@@ -616,7 +616,7 @@ def _both_ways(
     crowd: SeparationTest,
     reach: float,
 ) -> Courses:
-    """The courses from u and v (k,2) along the field and against it, until they are within a part, reach, of the
+    """The traces from u and v (k,2) along the field and against it, until they are within a part, reach, of the
     distance from what is taken, or surely from themselves."""
     tangents = flow.field.tangents(Sites(flow.surface, *flow.charts.inside(starts)))[0]
 
@@ -648,7 +648,7 @@ def _seeds(flow: FieldFlow, gaps: Floats, crowd: SeparationTest, size: tuple[flo
 
 
 def _that_run(runs: Courses) -> Ints:
-    """(c,) the curves that have a course to either side."""
+    """(c,) the curves that have a trace to either side."""
     return np.flatnonzero(runs.lengths.reshape(2, -1).max(axis=0) > 0.0)
 
 

@@ -489,7 +489,7 @@ class _Points:
     wound: Floats
 
 
-def courses(
+def traces(
     flow: Flow,
     starts: Floats,
     tangents: Floats,
@@ -500,7 +500,7 @@ def courses(
     accuracy: Accuracy = USUAL,
     until: Until = NOTHING_NEAR,
 ) -> Courses:
-    """The courses of points from u and v (m,2) along unit tangents (m,3), as long as lengths (m,) say at most.
+    """The traces of points from u and v (m,2) along unit tangents (m,3), as long as lengths (m,) say at most.
 
     way (m,): -1 where they run against the field; size, large: the extent of the surface and its largest coordinate.
     They end at borders, where they close, where no step succeeds, and at what else is said.
@@ -858,10 +858,10 @@ def traces_from(
     accuracy: Accuracy,
     until: Until = NOTHING_NEAR,
 ) -> Courses:
-    """The courses of a flow from u and v (k,2) along tangents (k,3), and, where there are two sides, as many more the
-    other way. extent_: as of the surface; until: as of courses."""
+    """The traces of a flow from u and v (k,2) along tangents (k,3), and, where there are two sides, as many more the
+    other way. extent_: as of the surface; until: as of traces."""
     way = np.repeat([1.0, -1.0][:sides], len(starts))
-    return courses(
+    return traces(
         flow,
         np.tile(starts, (sides, 1)),
         np.tile(tangents, (sides, 1)) * way[:, None],

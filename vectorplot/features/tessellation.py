@@ -272,17 +272,17 @@ def _wrapped(domain: Domain, places: Floats) -> Floats:
     return places
 
 
-def first_net(surface: Surface, demand: Criterion) -> Net:
+def first_net(surface: Surface, criterion: Criterion) -> Net:
     """A grid that has as few columns and rows as it may, but not so few that something between its lines is missed."""
-    ((columns, rows),) = first_counts(Patch(surface, ()), 1, demand)
+    ((columns, rows),) = first_counts(Patch(surface, ()), 1, criterion)
     return grid_net(surface, columns, rows)
 
 
-def first_counts(patch: Patch, surfaces: int, demand: Criterion) -> list[tuple[int, int]]:
+def first_counts(patch: Patch, surfaces: int, criterion: Criterion) -> list[tuple[int, int]]:
     """The columns and rows of the first nets of so many surfaces."""
     domain = patch.surface.domain
-    columns = _enough(lambda count, own: _lines(patch, count, own, True), domain.closed_u, surfaces, demand)
-    rows = _enough(lambda count, own: _lines(patch, count, own, False), domain.closed_v, surfaces, demand)
+    columns = _enough(lambda count, own: _lines(patch, count, own, True), domain.closed_u, surfaces, criterion)
+    rows = _enough(lambda count, own: _lines(patch, count, own, False), domain.closed_v, surfaces, criterion)
     return list(zip(columns.tolist(), rows.tolist(), strict=True))
 
 
@@ -354,7 +354,7 @@ def _on_grid(u: Floats, v: Floats) -> Floats:
     return np.stack([*np.meshgrid(u, v, indexing="ij"), np.zeros((len(u), len(v)))], axis=-1)
 
 
-def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, demand: Criterion) -> Ints:
+def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, criterion: Criterion) -> Ints:
     """(s,) how many parts of lines of the grids of so many surfaces are enough to begin with.
 
     lines: of so many parts, of some of the surfaces, of one after the other.
@@ -369,23 +369,23 @@ def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, de
             # What lies in a hole is not cut at all.
             inside = sides.start.known | sides.end.known
             # Of few parts nothing matters but whether they are enough.
-            told = demand.too_coarse if count < USUAL else demand.excess
-            excess = np.nan_to_num(told(sides.take(inside)), nan=2.0).max(axis=0) if inside.any() else np.zeros(0)
+            told = criterion.too_coarse if count < USUAL else criterion.error_ratio
+            error_ratio = np.nan_to_num(told(sides.take(inside)), nan=2.0).max(axis=0) if inside.any() else np.zeros(0)
             of = np.repeat(np.arange(len(own)), len(inside) // len(own))[inside]
-            counts[own] = [_next_count(count, excess[of == k]) for k in range(len(own))]
+            counts[own] = [_next_count(count, error_ratio[of == k]) for k in range(len(own))]
             left.append(own[(counts[own] > count) & (np.bincount(of, minlength=len(own)) > 0)])
         going = np.sort(np.concatenate(left))
     return counts
 
 
-def _next_count(count: int, excess: Floats) -> int:
+def _next_count(count: int, error_ratio: Floats) -> int:
     """Of how many parts lines are to be seen next, whose sides are too coarse by so many times (n,); the same again
     where so many are enough."""
-    if not len(excess):
+    if not len(error_ratio):
         return USUAL
     if count < USUAL:
-        return count if excess.max() <= 1.0 else 2 * count
-    most = float(np.quantile(excess, 1.0 - MOST))
+        return count if error_ratio.max() <= 1.0 else 2 * count
+    most = float(np.quantile(error_ratio, 1.0 - MOST))
     if most <= 1.2 * HALF or count == FINEST:
         return count
     # Distances fall with the square of the length, what turns along rulings with the length itself.
@@ -532,7 +532,7 @@ class Facets:
     sharp: Bools
 
 
-def facets(shape: Surface | ImplicitSurface, demand: Criterion, most: int = USUAL_BUDGET.facets) -> Facets:
+def facets(shape: Surface | ImplicitSurface, criterion: Criterion, most: int = USUAL_BUDGET.facets) -> Facets:
     """Triangles of a smooth surface as fine as the demand says, every vertex on the surface.
 
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
@@ -547,10 +547,10 @@ def facets(shape: Surface | ImplicitSurface, demand: Criterion, most: int = USUA
     """
     if is_parametrised(shape):
         patch = Patch(shape, tuple(poles(shape)))
-        return finished(patch, refined(first_net(shape, demand), patch, demand, most))
+        return finished(patch, refined(first_net(shape, criterion), patch, criterion, most))
     if is_implicit(shape):
         level = level_net(shape)
-        net = refined(level.net, level, demand, most)
+        net = refined(level.net, level, criterion, most)
         return _facets(net, np.zeros(len(net.vertices.points), dtype=np.bool_))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
 
@@ -663,10 +663,10 @@ class Patches(Patch):
         return np.column_stack([np.tile(places, (len(numbers), 1)), np.repeat(numbers, len(places))])
 
 
-def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Criterion], most: int) -> list[Facets]:
+def facets_of_all(shapes: Sequence[Any], criterion: Callable[[int], Criterion], most: int) -> list[Facets]:
     """The facets of each of some surfaces, to the last bit those that it has alone.
 
-    demand: how fine those of a shape have to be, by its number; most: triangles of each. What is no surface of a
+    criterion: how fine those of a shape have to be, by its number; most: triangles of each. What is no surface of a
     family, such as a user's own function, is divided alone.
     Errors: as of facets.
     """
@@ -676,10 +676,10 @@ def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Criterion], mos
         families.setdefault(_family(shape) or number, []).append(number)
     for family in families.values():
         for start in range(0, len(family), LOT):
-            lot = family[start : start + LOT]
-            asked = [demand(number) for number in lot]
+            batch = family[start : start + LOT]
+            asked = [criterion(number) for number in batch]
             for own in _joinable(asked):
-                numbers = [lot[k] for k in own]
+                numbers = [batch[k] for k in own]
                 found = _together([shapes[k] for k in numbers], [asked[k] for k in own], most)
                 made.update(zip(numbers, found, strict=True))
     return [made[number] for number in range(len(shapes))]
@@ -708,15 +708,15 @@ def _together(shapes: Sequence[Any], asked: Sequence[Any], most: int) -> list[Fa
     """The facets of shapes of one family."""
     if len(shapes) == 1:
         return [facets(shapes[0], asked[0], most)]
-    demand = type(asked[0]).joined(asked)
+    criterion = type(asked[0]).joined(asked)
     single = [Patch(shape, tuple(poles(shape))) for shape in shapes]
     patches = Patches(shapes[0], single[0].poles, StackedSurfaces.of(shapes))
-    counts = first_counts(patches, len(shapes), demand)
+    counts = first_counts(patches, len(shapes), criterion)
     first = [grid_net(shape, *count) for shape, count in zip(shapes, counts, strict=True)]
     if sum(len(net.triangles) for net in first) > MANY * len(shapes):
         nets = [refined(*each, most) for each in zip(first, single, asked, strict=True)]
         return [finished(patch, net) for patch, net in zip(single, nets, strict=True)]
-    nets = _apart(refined(_as_one(first), patches, demand, most), len(shapes))
+    nets = _apart(refined(_as_one(first), patches, criterion, most), len(shapes))
     return [finished(patch, net) for patch, net in zip(single, nets, strict=True)]
 
 

@@ -140,9 +140,16 @@ def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
     side, edge, twin = _unpacked(key.ravel()[first], one, two)
     size = np.fmax(*(_sizes(own)[triangles[first, k]] for k, own in ((0, one), (1, two))))
     # The tables have two rows a segment: its ends.
-    rails = [np.where(side == k, _rail(own, edge), FREE) for k, own in ((0, one), (1, two))]
+    constraints = [np.where(side == k, _rail(own, edge), FREE) for k, own in ((0, one), (1, two))]
     return Piercings(
-        place_one[first], place_two[first], rails[0], rails[1], size, twin, index.reshape(-1, 2), triangles[::2]
+        place_one[first],
+        place_two[first],
+        constraints[0],
+        constraints[1],
+        size,
+        twin,
+        index.reshape(-1, 2),
+        triangles[::2],
     )
 
 
@@ -155,7 +162,11 @@ Table = tuple[Ints, Floats, Floats, Ints]
 
 
 def _rail(own: Tessellation, edge: Ints) -> Ints:
-    return own.rails[np.minimum(edge, len(own.rails) - 1)] if len(own.rails) else np.full(len(edge), FREE)
+    return (
+        own.constraints[np.minimum(edge, len(own.constraints) - 1)]
+        if len(own.constraints)
+        else np.full(len(edge), FREE)
+    )
 
 
 def _spans(one: Tessellation, two: Tessellation) -> tuple[int, int]:
@@ -339,13 +350,13 @@ def _middles(patch: Patch, which: Ints) -> _Middles:
     count, dimension = len(places), places.shape[1]
     with np.errstate(invalid="ignore"):
         off = norm(patch.points(sides.reshape(-1, dimension)).reshape(count, 3, 3) - between)
-        sag = np.fmax(np.fmax.reduce(off, axis=1), norm(points - corners.mean(axis=1)))
-    sag = 1.5 * np.nan_to_num(sag)
+        deviation = np.fmax(np.fmax.reduce(off, axis=1), norm(points - corners.mean(axis=1)))
+    deviation = 1.5 * np.nan_to_num(deviation)
     normals = patch.normals(places)
     around = patch.normals(own_places.reshape(-1, dimension)).reshape(count, 3, 3)
     cosine = np.abs(component_sum(around * normals[:, None])).min(axis=1, initial=1.0)
     low, high = (side[:, which] for side in own.boxes)
-    return _Middles(places, points, normals, arccos(np.clip(cosine, 0.0, 1.0)), low - sag, high + sag)
+    return _Middles(places, points, normals, arccos(np.clip(cosine, 0.0, 1.0)), low - deviation, high + deviation)
 
 
 def _near_pairs(one: Patch, two: Patch, same: bool) -> tuple[Ints, Ints]:

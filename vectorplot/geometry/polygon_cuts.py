@@ -97,10 +97,10 @@ def crossings_of(
     alive = np.ones(len(polygon), dtype=np.bool_)
     none = np.zeros(0, dtype=np.intp)
     pairs, planes = [none], [none]
-    for lot, corners in _lots(points, offsets, polygon):
-        gone, cut, plane = _sorted_out(corners, bundles, bundle[lot], tolerance)
-        alive[lot[gone]] = False
-        pairs.append(lot[cut])
+    for batch, corners in _batches(points, offsets, polygon):
+        gone, cut, plane = _sorted_out(corners, bundles, bundle[batch], tolerance)
+        alive[batch[gone]] = False
+        pairs.append(batch[cut])
         planes.append(plane)
     pair, plane = np.concatenate(pairs), np.concatenate(planes)
     useful = np.flatnonzero(alive[pair])
@@ -118,8 +118,8 @@ def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings,
     """
     found = [_no_parts()]
     for low in range(0, len(crossings), PARTS_AT_ONCE):
-        lot = crossings.take(np.arange(low, min(low + PARTS_AT_ONCE, len(crossings))))
-        found.append(_cut(points, offsets, polygon, lot, tolerance))
+        batch = crossings.take(np.arange(low, min(low + PARTS_AT_ONCE, len(crossings))))
+        found.append(_cut(points, offsets, polygon, batch, tolerance))
     return joined(found)
 
 
@@ -136,7 +136,7 @@ def _no_parts() -> Parts:
     return Parts(np.zeros((3, 0)), np.zeros(1, dtype=np.intp), none, none.astype(np.bool_))
 
 
-def _lots(points: Floats, offsets: Ints, polygon: Ints) -> Iterator[tuple[Ints, Floats]]:
+def _batches(points: Floats, offsets: Ints, polygon: Ints) -> Iterator[tuple[Ints, Floats]]:
     """Pairs in handy numbers with the corners (3,k,n) of their polygons, the last corner repeated where there are
     fewer."""
     sizes = np.diff(offsets)

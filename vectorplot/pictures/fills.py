@@ -791,10 +791,10 @@ def _samples(surface: Surface, family: int, count: int, placement: Placement) ->
     return points.reshape(-1, 3), np.nan_to_num(apart, nan=0.0, posinf=0.0).ravel()
 
 
-# What is said about the order of a painted picture: groups, slices, knots.
+# What is said about the order of a painted picture: groups, slices, cycles.
 
 MOST_NAMES = 5
-"""So many items of a knot are named."""
+"""So many items of a cycle are named."""
 
 
 def group_names(scene: Scene) -> list[str]:
@@ -826,7 +826,7 @@ def tell_slices(pipeline: Pipeline, scene: Scene, sliced: Mapping[int, Section],
 def tell_cyclic_overlaps(pipeline: Pipeline, scene: Scene, painted: Painted) -> None:
     """Say which items were cut because no order of whole faces was right."""
     if len(painted) > painted.uncut:
-        names = _names(scene, painted.knots)
+        names = _names(scene, painted.cycles)
         pipeline.tell("cut", f"{names}: they pierce one another, or overlap in circles", len(painted) - painted.uncut)
 
 
@@ -873,16 +873,16 @@ def ordered_faces(
     scene: Scene,
     shown: Scene,
     projection: Projection,
-    demand: Callable[[], Callable[[int], Criterion]],
+    criterion: Callable[[], Callable[[int], Criterion]],
     budget: Budget,
 ) -> OrderedFaces:
-    """The faces of a scene back to front. shown: what of it is painted; demand: how fine triangles have to be, as of
+    """The faces of a scene back to front. shown: what of it is painted; criterion: how fine triangles have to be, as of
     faceted, which is asked for where there are any.
 
     Warns: InputWarning for items that may be in a wrong order.
     """
     if pipeline.calls_for("facets"):
-        facets = pipeline.run("facets", faceted, shown, demand(), budget)
+        facets = pipeline.run("facets", faceted, shown, criterion(), budget)
     else:
         facets = FacetedScene.of_meshes(shown)
     facets = replace(facets, scene=_with_clear_items(facets.scene))
@@ -1017,11 +1017,11 @@ def hatched(
     pipeline = Pipeline(plan_paint(toned, "auto", "visible", frozenset()), None, told)
     page, projection = placement.page, placement.projection
 
-    def demand() -> Callable[[int], Criterion]:
+    def criterion() -> Callable[[int], Criterion]:
         allowed = allowed_in_space(toned, projection, page, placement.whole, ENDS * tolerance_mm)
         return fineness(pipeline, shown, projection, bool(toned.lights), allowed, ROUGHLY * tolerance_mm)
 
-    ordered = ordered_faces(pipeline, toned, shown, projection, demand, budget)
+    ordered = ordered_faces(pipeline, toned, shown, projection, criterion, budget)
     seen, plane = seen_on_page(pipeline, ordered, placement, budget)
     lit, lights = exposed_scene(seen.view, seen.scene)
     seen = replace(seen, scene=lit)

@@ -266,7 +266,7 @@ def paint(
     steps = palette if fills == "visible" else None
     fine_mm = tolerance_mm if steps is None else border_tolerance_mm(tolerance_mm, steps)
 
-    def demand() -> Callable[[int], Criterion]:
+    def criterion() -> Callable[[int], Criterion]:
         allowed = allowed_in_space(scene, projection, sheet, fit, fine_mm)
         # Where each triangle has one shade they have to be so small that nobody sees it.
         if not smooth or fills == "erasing":
@@ -274,7 +274,7 @@ def paint(
         casts = shadows != "none" and bool(scene.lights)
         return fineness(pipeline, shown, projection, casts, allowed, fine_mm)
 
-    ordered = ordered_faces(pipeline, scene, shown, projection, demand, budget_of(budget))
+    ordered = ordered_faces(pipeline, scene, shown, projection, criterion, budget_of(budget))
     drawn = kinds or line_kinds(LINE_WORDS if fills == "erasing" else ())
     beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
     placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, beside)

@@ -239,8 +239,8 @@ def render(
     projection = projection_of(subject.camera, seen.bounds)
     facets = FacetedScene.of_meshes(seen)
     if pipeline.calls_for("facets"):
-        demand = Within(allowed_in_space(seen, projection, page, fit, FACET_PIXELS))
-        facets = pipeline.run("facets", faceted, without_coincident(seen), lambda number: demand, budget_of(budget))
+        criterion = Within(allowed_in_space(seen, projection, page, fit, FACET_PIXELS))
+        facets = pipeline.run("facets", faceted, without_coincident(seen), lambda number: criterion, budget_of(budget))
     view = pipeline.run("look", view_of, facets.scene, projection)
     triangles = pipeline.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     beside = places_beside_faces(seen, view, None, page, fit, kinds, LINE_PIXELS, budget)

@@ -541,7 +541,7 @@ def label_anchors(scene: Scene) -> LabelAnchors:
     """
     items = {item.name: item for item in reversed(scene.items)}
     courses = tuple(
-        _course(label, label.at, items) if isinstance(label.at, (Along, OnCurve)) else None for label in scene.labels
+        _trace(label, label.at, items) if isinstance(label.at, (Along, OnCurve)) else None for label in scene.labels
     )
     found = zip(scene.labels, courses, strict=True)
     points = [_point(label, items) if course is None else _part(label, course) for label, course in found]
@@ -565,7 +565,7 @@ def _point(label: Label, items: dict[str, Item]) -> Floats:
     return np.asarray(shape.vertices[at.vertex])
 
 
-def _course(label: Label, at: Along | OnCurve, items: dict[str, Item]) -> Floats:
+def _trace(label: Label, at: Along | OnCurve, items: dict[str, Item]) -> Floats:
     shape = _item(label, at.item, items).shape
     if not is_curve(shape):
         raise InputError(f"label {label.name}: {at.item} is no curve")

@@ -71,9 +71,9 @@ class FacetedScene:
         return cls(scene, tuple(_normals_of(item) for item in scene.items))
 
 
-def faceted(scene: Scene, demand: Callable[[int], Criterion], budget: Budget = USUAL) -> FacetedScene:
-    """The scene with meshes in place of smooth surfaces. demand: how fine the triangles of an item have to be, by its
-    number; budget: how many there may be. An InputWarning names the items for which it did not do.
+def faceted(scene: Scene, criterion: Callable[[int], Criterion], budget: Budget = USUAL) -> FacetedScene:
+    """The scene with meshes in place of smooth surfaces. criterion: how fine the triangles of an item have to be, by
+    its number; budget: how many there may be. An InputWarning names the items for which it did not do.
 
     Errors: as of features.facets. Edge cases: a curve has no faces.
     Source: Glaeser, section 8.4 (polygonised surfaces and their normals).
@@ -85,7 +85,7 @@ def faceted(scene: Scene, demand: Callable[[int], Criterion], budget: Budget = U
         from vectorplot.features.tessellation import facets_of_all
 
         shapes = [scene.items[number].shape for number in smooth]
-        made_of = facets_of_all(shapes, lambda k: demand(smooth[k]), budget.facets)
+        made_of = facets_of_all(shapes, lambda k: criterion(smooth[k]), budget.facets)
         found = dict(zip(smooth, made_of, strict=True))
     made = [_faceted_item(item, found.get(number)) for number, item in enumerate(scene.items)]
     return FacetedScene(replace(scene, items=tuple(item for item, _ in made)), tuple(normals for _, normals in made))
@@ -300,7 +300,7 @@ class Coarse(AllSidesAlike):
         """All of these distances, of surfaces one after the other."""
         return cls(tuple(chain(*(some.distances for some in asked))))
 
-    def excess(self, edges: Edges) -> Floats:
+    def error_ratio(self, edges: Edges) -> Floats:
         """(k,n) as Criterion."""
         distance = np.array(self.distances)[surface_numbers(edges.start.places)]
         return np.asarray(off_chords(edges) / (INSIDE * distance))
@@ -482,7 +482,7 @@ class PictureFineness:
         sources = [view_eye(self.view), *self.doubles, *(homogeneous_light(light) for light in self.lights)]
         return np.stack([np.einsum("ij,ij->i", ways, towards(places, source)) for source in sources])
 
-    def excess(self, edges: Edges) -> Floats:
+    def error_ratio(self, edges: Edges) -> Floats:
         """(k,n) as Criterion."""
         allowed = self.allowed(edges.at.points)
         seen = (edges.fold != NONE) & (edges.fold < self.outlines)
@@ -601,7 +601,7 @@ def picture_fineness(
         found = triangles_of_items([scene.items[k] for k in asked], [boxes[k] for k in asked])
         return dict(zip(asked, found, strict=True))
 
-    def demand(number: int) -> PictureFineness:
+    def criterion(number: int) -> PictureFineness:
         near = tuple(nearby(*triangles()[other], box) for other, box in meeting[number])
         item = without_curved_mirror(scene.items[number])
         # Light goes through what is transparent: shadows fall on patterns only.
@@ -611,7 +611,7 @@ def picture_fineness(
         error, seen_from = shade_error(tolerance_mm), () if fine else doubles[number]
         return PictureFineness(view, (item,), lights, casts, deep, (near,), allowed, error, seen_from)
 
-    return demand
+    return criterion
 
 
 def _doubles_of_items(

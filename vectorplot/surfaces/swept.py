@@ -557,7 +557,7 @@ def tube(curve: Curve | ArrayLike, radius: float) -> Swept:
     """
     if not 0.0 < radius < np.inf:
         raise InputError(f"a tube with a radius of {radius:g}: expected a positive, finite number")
-    curve = _course(curve)
+    curve = _trace(curve)
     t = np.linspace(curve.start, curve.end, STEPS + 1)
     middle, along = curve.points(t), curve.tangents(t)
     if not (np.isfinite(middle).all() and np.isfinite(along).all() and (np.linalg.norm(along, axis=1) > 0.0).all()):
@@ -645,7 +645,7 @@ def _unit_and_slope(vectors: Floats, slopes: Floats) -> tuple[Floats, Floats]:
         return unit, np.asarray((slopes - _times(unit, slopes) * unit) / length(vectors)[..., None])
 
 
-def _course(curve: Curve | ArrayLike) -> Curve:
+def _trace(curve: Curve | ArrayLike) -> Curve:
     """The curve, or that through points."""
     if is_curve(curve):
         return curve

@@ -241,7 +241,7 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
     parts = [_segments(paths) for layer in drawing.layers for paths in layer.strokes if len(paths)]
     if not parts:
         return _none()
-    lines, owner, smooth, sag, at_end = (np.concatenate(columns) for columns in zip(*parts, strict=True))
+    lines, owner, smooth, deviation, at_end = (np.concatenate(columns) for columns in zip(*parts, strict=True))
     random = np.random.default_rng(seed)
     index, share = some_of(lines, samples, random)
     if not len(index):
@@ -254,7 +254,7 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
     useful = ~ends | one_sheet
     share = np.where(vertex, np.round(share), share)[:, None]
     points = lines[index, 0] * (1.0 - share) + lines[index, 1] * share
-    aside = np.where(smooth[index] & ~vertex, ASIDE * sag[index], 0.0)
+    aside = np.where(smooth[index] & ~vertex, ASIDE * deviation[index], 0.0)
     kind, item, hidden_by = owner[index].T
     found = StrokePoints(points, kind, item, hidden_by, aside)
     moving = np.flatnonzero(smooth[index] & ~vertex)
@@ -305,12 +305,12 @@ def _segments(paths: Paths) -> tuple[Floats, Ints, Bools, Floats, Bools]:
     angle = norm(unit[has] - unit[after[has]])
     np.maximum.at(turn, np.flatnonzero(has), angle)
     np.maximum.at(turn, after[has], angle)
-    sag = turn * length / 4.0
+    deviation = turn * length / 4.0
     smooth = paths.smooth[path]
-    largest = float(sag[smooth & (turn < 0.5)].max(initial=0.0))
-    sag = np.where(has | (turn > 0.0), sag, largest)
+    largest = float(deviation[smooth & (turn < 0.5)].max(initial=0.0))
+    deviation = np.where(has | (turn > 0.0), deviation, largest)
     at_end = np.stack([~np.isin(start, end), ~has], axis=1)
-    return lines, np.stack([paths.kind, paths.item, paths.hidden_by], axis=1)[path], smooth, sag, at_end
+    return lines, np.stack([paths.kind, paths.item, paths.hidden_by], axis=1)[path], smooth, deviation, at_end
 
 
 def _on_one_sheet(scene: Scene, owner: Ints) -> Bools:

@@ -769,9 +769,11 @@ def fine_net(surface: Surface, middle: Floats, size: float, rays: Rays) -> Net:
     needs = []
     for axis, bend in enumerate(bends):
         # Of each row of cells the worst one; diagonals are bent by the twist too.
-        sag = np.nanmax(bend, axis=1 - axis, initial=0.0)
-        sag = np.maximum(np.append(sag, 0.0), np.append(0.0, sag)) + np.nanmax(twist, axis=1 - axis, initial=0.0)
-        needs.append(np.clip(np.sqrt(sag / 8.0 / NET_ERROR), 1.0, MOST_CELLS / FIRST_CELLS**2))
+        deviation = np.nanmax(bend, axis=1 - axis, initial=0.0)
+        deviation = np.maximum(np.append(deviation, 0.0), np.append(0.0, deviation)) + np.nanmax(
+            twist, axis=1 - axis, initial=0.0
+        )
+        needs.append(np.clip(np.sqrt(deviation / 8.0 / NET_ERROR), 1.0, MOST_CELLS / FIRST_CELLS**2))
     share = min(1.0, float(np.sqrt(MOST_CELLS / (needs[0].sum() * needs[1].sum()))))
     whole = Net(surface, middle, size, _spread(first.u, share * needs[0]), _spread(first.v, share * needs[1]))
     column, row = _cells_around(whole, rays)

@@ -278,14 +278,14 @@ def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
 
 @dataclass(frozen=True, eq=False)
 class ObjectOrder:
-    """An order of whole objects, and the knots that have none.
+    """An order of whole objects, and the cycles that have none.
 
-    order: (n,) objects back to front; knots: the objects that lie on one another in circles, circle by circle;
+    order: (n,) objects back to front; cycles: the objects that lie on one another in circles, circle by circle;
     critical: whether the second, slower pass was needed; undone: groups that had to be taken apart.
     """
 
     order: Ints
-    knots: tuple[Ints, ...]
+    cycles: tuple[Ints, ...]
     critical: bool = False
     undone: tuple[int, ...] = ()
 
@@ -313,8 +313,8 @@ def cyclic_overlaps(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
     --------
     >>> import numpy as np
     >>> from vectorplot import textbook
-    >>> knots = textbook.cyclic_overlaps(4, before=np.array([0, 2, 3, 1]), after=np.array([2, 3, 0, 0]))
-    >>> [knot.tolist() for knot in knots]
+    >>> cycles = textbook.cyclic_overlaps(4, before=np.array([0, 2, 3, 1]), after=np.array([2, 3, 0, 0]))
+    >>> [cycle.tolist() for cycle in cycles]
     [[0, 2, 3]]
     """
     rank = component_ranks(count, before, after)
@@ -323,12 +323,12 @@ def cyclic_overlaps(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
     return tuple(sorted((c for c in circles if len(c) > 1), key=lambda c: int(c[0])))
 
 
-def cyclic_overlap_report(knots: Sequence[Ints], names: Sequence[str]) -> tuple[str, ...]:
-    """One sentence for each knot, with the names of its objects.
+def cyclic_overlap_report(cycles: Sequence[Ints], names: Sequence[str]) -> tuple[str, ...]:
+    """One sentence for each cycle, with the names of its objects.
 
     Parameters
     ----------
-    knots : sequence of arrays of int
+    cycles : sequence of arrays of int
         As of cyclic_overlaps.
     names : sequence of str
         Of all objects.
@@ -336,7 +336,7 @@ def cyclic_overlap_report(knots: Sequence[Ints], names: Sequence[str]) -> tuple[
     Returns
     -------
     tuple of str
-        As long as knots.
+        As long as cycles.
 
     Examples
     --------
@@ -346,8 +346,8 @@ def cyclic_overlap_report(knots: Sequence[Ints], names: Sequence[str]) -> tuple[
     ('oak, ash and fir lie on one another in a circle, or pierce each other',)
     """
     sentences = []
-    for knot in knots:
-        *most, last = [names[k] for k in knot.tolist()]
+    for cycle in cycles:
+        *most, last = [names[k] for k in cycle.tolist()]
         sentences.append(f"{', '.join(most)} and {last} lie on one another in a circle, or pierce each other")
     return tuple(sentences)
 
@@ -365,16 +365,16 @@ def object_order(view: View, names: Sequence[str]) -> ObjectOrder:
     Returns
     -------
     ObjectOrder
-        By quick decisions; if these make a knot, by the outlines of all pairs; a knot that stays is left as it is.
+        By quick decisions; if these make a cycle, by the outlines of all pairs; a cycle that stays is left as it is.
 
     Warns
     -----
     InputWarning
-        Where a knot stays: it names its objects.
+        Where a cycle stays: it names its objects.
 
     Notes
     -----
-    painters_order cuts such knots instead.
+    painters_order cuts such cycles instead.
 
     Source: Glaeser, section 5.6 (mikado, two passes); erratum G5-04.
 
@@ -392,12 +392,12 @@ def object_order(view: View, names: Sequence[str]) -> ObjectOrder:
     for critical in (False, True):
         before, after = demands(priorities(objects, critical=critical))
         result = topological_order(len(objects), before, after)
-        if not len(result.knot):
+        if not len(result.cycle):
             return ObjectOrder(result.order, (), critical)
-    knots = cyclic_overlaps(len(objects), before, after)
-    for sentence in cyclic_overlap_report(knots, names):
+    cycles = cyclic_overlaps(len(objects), before, after)
+    for sentence in cyclic_overlap_report(cycles, names):
         warnings.warn(f"{sentence}: no order is right everywhere", InputWarning, stacklevel=2)
-    return ObjectOrder(result.order, knots, True)
+    return ObjectOrder(result.order, cycles, True)
 
 
 def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectOrder:
@@ -415,7 +415,7 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
     Returns
     -------
     ObjectOrder
-        Groups are ordered as wholes, then the objects in each. What is in circles is reported as knots.
+        Groups are ordered as wholes, then the objects in each. What is in circles is reported as cycles.
 
     Raises
     ------

@@ -250,7 +250,7 @@ def test_a_blunt_corner_beside_a_long_chord_stays_a_corner():
     turn = np.radians(-0.5 / np.pi * 180.0 + 35.0)
     side = arc[-1] + np.outer(np.array([1.0]), 30.0 * np.array([np.cos(turn), np.sin(turn)]))
     line = np.concatenate((arc, side))
-    path = fitted_paths(line, np.array([0, len(line)]), np.array([False]), tolerance=0.01, sag=0.01)
+    path = fitted_paths(line, np.array([0, len(line)]), np.array([False]), tolerance=0.01, deviation=0.01)
     s = np.linspace(0.0, 1.0, 200)[:, None]
     c = path.control[:, :, None]
     points = (1 - s) ** 3 * c[:, 0] + 3 * s * (1 - s) ** 2 * c[:, 1] + 3 * s * s * (1 - s) * c[:, 2] + s**3 * c[:, 3]
@@ -260,7 +260,7 @@ def test_a_blunt_corner_beside_a_long_chord_stays_a_corner():
 
 def test_a_chord_whose_tangents_would_lead_far_away_is_straight():
     line = np.array([[0.0, 0.0], [1.0, 0.0], [2.0, 0.3], [40.0, 0.3]])
-    path = fitted_paths(line, np.array([0, 4]), np.array([False]), tolerance=0.01, corner_angle=np.pi, sag=0.4)
+    path = fitted_paths(line, np.array([0, 4]), np.array([False]), tolerance=0.01, corner_angle=np.pi, deviation=0.4)
     s = np.linspace(0.0, 1.0, 200)[:, None]
     c = path.control[:, :, None]
     points = (1 - s) ** 3 * c[:, 0] + 3 * s * (1 - s) ** 2 * c[:, 1] + 3 * s * s * (1 - s) * c[:, 2] + s**3 * c[:, 3]

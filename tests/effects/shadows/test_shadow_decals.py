@@ -379,7 +379,7 @@ def test_boxes_and_depths_in_the_light_system_lose_no_shadow(light: Light) -> No
     casters = shadow_casters(view, planes, system, facing, view.occludes, solids)
     seen = drawn(view)
     receivers = Receivers.of(view, seen[facing[seen] * projected.facing[seen] > 0])
-    found = [pair for lot in candidates(view, system, casters, receivers) for pair in zip(*lot, strict=True)]
+    found = [pair for batch in candidates(view, system, casters, receivers) for pair in zip(*batch, strict=True)]
     caster, receiver = (x.ravel() for x in np.meshgrid(np.arange(len(casters)), np.arange(len(receivers.face))))
     crossings = shadow_crossings(view, casters, receivers, caster, receiver)
     real = parts_of(receivers.points, receivers.offsets, receiver, crossings, view.tolerance).pair

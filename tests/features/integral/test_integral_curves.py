@@ -40,17 +40,17 @@ def at(surface, u, v):
 @pytest.mark.capability("G9.4-field")
 @pytest.mark.capability("G9.4-loxodrome")
 def test_a_loxodrome_of_the_sphere_is_that_of_the_formula_over_ten_turns():
-    course = np.radians(88.5)
+    trace = np.radians(88.5)
     found = integral_curves(
         Sphere(),
-        features.loxodromes(np.pi + course),
+        features.loxodromes(np.pi + trace),
         (0, 0),
         length=46.0,
         both_ways=False,
         tracing=COARSE,
     )
     assert found.u[-1] > 20.0 * np.pi
-    exact = Loxodrome(1.0, course, 0.0, 30.0 * np.pi).points(found.u)
+    exact = Loxodrome(1.0, trace, 0.0, 30.0 * np.pi).points(found.u)
     assert np.abs(found.points - exact).max() < 1e-8
 
 
@@ -256,13 +256,13 @@ def test_geodesics_of_sphere_cylinder_cone_and_torus():
 @pytest.mark.slow
 @pytest.mark.capability("G9.4-field")
 def test_a_geodesic_of_the_torus_keeps_clairauts_constant():
-    from vectorplot.features.surface_integration import GeodesicFlow, courses
+    from vectorplot.features.surface_integration import GeodesicFlow, traces
     from vectorplot.features.surface_points import charts
 
     torus = Torus(3, 1)
     flow = GeodesicFlow(torus, charts(torus))
     tangents = np.array([[0.0, np.cos(0.8), np.sin(0.8)], [0.0, np.cos(1.3), np.sin(1.3)]])
-    run = courses(flow, np.array([[0.0, np.pi]] * 2), tangents, np.ones(2), np.full(2, 20.0), 11.0, 4.0, EIGHT_DIGITS)
+    run = traces(flow, np.array([[0.0, np.pi]] * 2), tangents, np.ones(2), np.full(2, 20.0), 11.0, 4.0, EIGHT_DIGITS)
     every = np.arange(len(run.leaps.row))
     states = run.states(every, np.ones(len(every)))
     points = run.points(every, np.ones(len(every)))

@@ -17,10 +17,10 @@ def test_points_of_triangles_are_found_in_them_now_and_later():
     corners = mesh.corners[np.stack([fan, fan + 1, fan + 2], axis=1)]
     points = np.einsum("kc,kcx->kx", weights, mesh.vertices[corners])
     triangles = PlacedTriangles(mesh)
-    for lot in (points[:50], points):
-        found = triangles.places(lot)
+    for batch in (points[:50], points):
+        found = triangles.places(batch)
         on = np.einsum("kc,kcx->kx", found.weights, mesh.vertices[found.corners])
-        assert found.point.tolist() == list(range(len(lot)))
-        assert np.allclose(on, lot, rtol=0.0, atol=1e-9)
-        assert np.array_equal(found.face, faces[: len(lot)])
+        assert found.point.tolist() == list(range(len(batch)))
+        assert np.allclose(on, batch, rtol=0.0, atol=1e-9)
+        assert np.array_equal(found.face, faces[: len(batch)])
     assert not len(triangles.places(points + 5.0).point)

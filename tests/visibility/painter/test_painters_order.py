@@ -103,7 +103,7 @@ def test_three_bars_on_one_another_in_a_circle_are_cut_no_more_than_they_must_be
     result = compared(cyclic_bars(), camera, 4000)
     assert result.wrong == 0
     assert result.painted.uncut < len(result.painted) <= result.painted.uncut + 2
-    assert result.painted.knots.tolist() == [0, 1, 2]
+    assert result.painted.cycles.tolist() == [0, 1, 2]
     assert_right(cyclic_bars(), Camera((0.6, 0.5, 6.0), (0, 0, 0)), 4000)
 
 
@@ -114,7 +114,7 @@ def test_boxes_that_pierce_each_other_are_cut_along_their_intersection():
     for seed in range(7):
         assert_right(scene, camera_of(scene, seed), 1000)
     result = compared(scene, camera_of(scene, 0))
-    assert result.painted.knots.tolist() == [0, 1]
+    assert result.painted.cycles.tolist() == [0, 1]
     assert len(result.painted) > result.painted.uncut
 
 
@@ -205,7 +205,7 @@ def test_a_power_of_two_changes_no_digit():
 
 def test_nothing_to_see():
     none = painters_order(look(Scene(()), Camera((0, -5, 0), (0, 0, 0))))
-    assert (len(none), none.uncut, none.knots.tolist()) == (0, 0, [])
+    assert (len(none), none.uncut, none.cycles.tolist()) == (0, 0, [])
     behind = painters_order(look(scene_of(BOX=box((0, 0, 0), (1, 1, 1))), Camera((0, -5, 0), (0, -9, 0))))
     assert len(behind) == 0
     flat = Mesh.from_polygons([(-1, 0, -1), (1, 0, -1), (1, 0, 1), (-1, 0, 1)], [[0, 1, 2, 3]])

@@ -209,19 +209,19 @@ def test_a_circle_of_three_is_isolated_from_fifty():
     plain = topological_order(50, before, after)
     place = np.argsort(plain.order)
     assert (place[before] < place[after]).all()
-    assert len(plain.knot) == 0
+    assert len(plain.cycle) == 0
     low, middle, high = order[[20, 24, 28]]
     before = np.append(before, [low, middle, high])
     after = np.append(after, [middle, high, low])
-    knots = cyclic_overlaps(50, before, after)
-    assert len(knots) == 1
-    assert {low, middle, high} <= set(knots[0].tolist())
+    cycles = cyclic_overlaps(50, before, after)
+    assert len(cycles) == 1
+    assert {low, middle, high} <= set(cycles[0].tolist())
     rank = component_ranks(50, before, after)
     assert (rank[before] <= rank[after]).all()
     only = cyclic_overlaps(50, np.array([7, 8, 9, 1]), np.array([8, 9, 7, 7]))
     assert [k.tolist() for k in only] == [[7, 8, 9]]
     isolated = topological_order(50, np.array([7, 8, 9, 1]), np.array([8, 9, 7, 7]))
-    assert isolated.knot.tolist() == [7, 8, 9]
+    assert isolated.cycle.tolist() == [7, 8, 9]
     assert sorted(isolated.order.tolist()) == list(range(50))
 
 
@@ -231,9 +231,9 @@ def test_knots_are_reported_by_name():
     names = [item.name for item in cyclic_bars().items]
     with pytest.warns(InputWarning, match="circle") as caught:
         result = object_order(view, names)
-    assert [k.tolist() for k in result.knots] == [[0, 1, 2]]
+    assert [k.tolist() for k in result.cycles] == [[0, 1, 2]]
     assert all(name in str(caught[0].message) for name in names)
-    assert cyclic_overlap_report(result.knots, "XYZ") == (
+    assert cyclic_overlap_report(result.cycles, "XYZ") == (
         "X, Y and Z lie on one another in a circle, or pierce each other",
     )
 
@@ -243,7 +243,7 @@ def test_the_second_pass_undoes_knots_that_only_quick_decisions_make():
     row = numbered([box((k, 0, 0), (k + 0.9, 1, 1)) for k in range(6)])
     plain = object_order(look(row, EYE), [str(k) for k in range(6)])
     assert plain.order.tolist() == list(range(6))
-    assert (len(plain.knots), plain.critical) == (0, False)
+    assert (len(plain.cycles), plain.critical) == (0, False)
     for seed in (9, 25, 31):
         random = np.random.default_rng(seed)
         bars = numbered([placed(box((-2, -0.01, -0.01), (2, 0.01, 0.01)), random, 1.5) for _ in range(6)])
@@ -259,7 +259,7 @@ def test_the_second_pass_undoes_knots_that_only_quick_decisions_make():
 def test_boxes_through_each_other_are_a_knot():
     view = look(interpenetrating_boxes(), EYE)
     with pytest.warns(InputWarning, match="pierce"):
-        assert len(object_order(view, ["A", "B"]).knots) == 1
+        assert len(object_order(view, ["A", "B"]).cycles) == 1
 
 
 @pytest.mark.capability("G5.7-groups")
@@ -278,7 +278,7 @@ def test_groups_give_the_same_picture():
     before, after = demands(priorities(objects, critical=True))
     group = order // 2
     result = grouped_order(len(houses), before, after, group)
-    assert (result.undone, result.knots) == ((), ())
+    assert (result.undone, result.cycles) == ((), ())
     along = group[result.order]
     assert (np.diff(np.flatnonzero(np.diff(along, prepend=-1))) == 2).all(), "groups stay together"
     place = np.argsort(result.order)
@@ -300,9 +300,9 @@ def test_a_group_that_makes_a_knot_is_undone():
     place = np.argsort(result.order)
     assert place[0] < place[1] < place[2]
     assert abs(place[3] - place[4]) == 1
-    assert result.knots == ()
+    assert result.cycles == ()
     circle = grouped_order(3, np.array([0, 1, 2]), np.array([1, 2, 0]), np.array([-1, -1, -1]))
-    assert [k.tolist() for k in circle.knots] == [[0, 1, 2]]
+    assert [k.tolist() for k in circle.cycles] == [[0, 1, 2]]
     assert grouped_order(0, np.zeros(0, int), np.zeros(0, int), np.zeros(0, int)).order.tolist() == []
     with pytest.raises(InputError, match="as many groups"):
         grouped_order(2, np.zeros(0, int), np.zeros(0, int), np.zeros(3, int))

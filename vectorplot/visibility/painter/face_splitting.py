@@ -534,8 +534,8 @@ def pairs_in_slices(faces: ImageFaces, place: Ints, tolerance: float) -> Pairs:
     box = faces.box[:4].copy()
     # Side by side, so that only pieces of one slice meet.
     box[:2] += (float(np.ptp(box[:2])) + 1.0 if len(faces) else 1.0) * place
-    lots = [np.zeros((2, 0), dtype=np.intp), *(np.stack(pair) for pair in box_pairs(box, tolerance))]
-    first, second = np.concatenate(lots, axis=1)
+    batches = [np.zeros((2, 0), dtype=np.intp), *(np.stack(pair) for pair in box_pairs(box, tolerance))]
+    first, second = np.concatenate(batches, axis=1)
     return Pairs(first, second, np.full(len(first), APART, dtype=np.int8))
 
 
@@ -772,8 +772,8 @@ def _overlapping_sectors(found: Ribbons) -> tuple[Ints, Ints]:
     back = np.concatenate([np.zeros(count), np.full(len(over), TURN)])
     place = found.place[number].astype(np.float64)
     box = np.stack([found.low[number] - back - ABOUT_AXIS, found.high[number] - back + ABOUT_AXIS, place, place + 0.5])
-    lots = [number[np.stack(pair)] for pair in box_pairs(box, 0.0)]
-    pairs = np.sort(np.concatenate([np.zeros((2, 0), dtype=np.intp), *lots], axis=1), axis=0)
+    batches = [number[np.stack(pair)] for pair in box_pairs(box, 0.0)]
+    pairs = np.sort(np.concatenate([np.zeros((2, 0), dtype=np.intp), *batches], axis=1), axis=0)
     key = np.unique(pairs[0] * count + pairs[1])
     first, second = np.divmod(key, max(count, 1))
     return first[first != second], second[first != second]

@@ -52,7 +52,7 @@ class Painted:
     """Polygons in the painter's order, back to front.
 
     faces: their points are places in the image and heights above it; uncut: how many there were before the cutting;
-    knots: (i,) the items that pierce one another, or lie on one another in circles; undone: groups that could not stay
+    cycles: (i,) the items that pierce one another, or lie on one another in circles; undone: groups that could not stay
     together; ribbons: how many ribbons the items have that are painted slice by slice; guessed: (k,) the items parts of
     which are in order by their heights alone: that they pierce one another took too many cuts; crowded: (k,) the items
     whose faces overlap in too many pairs.
@@ -60,7 +60,7 @@ class Painted:
 
     faces: ImageFaces
     uncut: int
-    knots: Ints
+    cycles: Ints
     undone: tuple[int, ...] = ()
     ribbons: Mapping[int, int] = field(default_factory=dict)
     guessed: Ints = field(default_factory=lambda: np.zeros(0, dtype=np.intp))
@@ -193,11 +193,11 @@ def _ordered(
         field[thing[thing >= 0]] = number
     item = np.append(things.bodies.item, view.face_item[faces.source[things.single]])
     allowed = pairs_allowed(budget.pairs, len(things))
-    crowded, lot = crowded_items(things.box, item, field, view.tolerance, allowed)
+    crowded, batch = crowded_items(things.box, item, field, view.tolerance, allowed)
     if len(crowded):
         return _with_dense_groups(view, projected, faces, crowded, known, group_of_item, budget)
-    lots = pairs_across(things.box, field, view.tolerance) if lot is None else [lot]
-    compared = _demands(view, faces, things, lots)
+    batches = pairs_across(things.box, field, view.tolerance) if batch is None else [batch]
+    compared = _demands(view, faces, things, batches)
     before, after = (np.concatenate(two) for two in zip(compared, (nodes.before, nodes.after), strict=True))
     rank = _ranks(faces, things, len(nodes.owner), before, after)
     undone: tuple[int, ...] = ()
@@ -290,11 +290,11 @@ def _things(view: View, projected: ProjectedFaces, faces: ImageFaces) -> _Things
     return _Things(bodies, of_face, single, box)
 
 
-def _demands(view: View, faces: ImageFaces, things: _Things, lots: Iterable[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
-    """The things that have to be drawn before others: (k,) and (k,). lots: of pairs of things to be compared."""
+def _demands(view: View, faces: ImageFaces, things: _Things, batches: Iterable[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
+    """The things that have to be drawn before others: (k,) and (k,). batches: of pairs of things to be compared."""
     count = len(things.bodies)
     demands = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
-    for first, second in lots:
+    for first, second in batches:
         # A pair names the smaller number first, so a body stands before a face.
         both = second < count
         neither = first >= count
@@ -554,7 +554,7 @@ def crowded_items(
     box: Floats, item: Ints, field: Ints, tolerance: float, most: int
 ) -> tuple[Ints, tuple[Ints, Ints] | None]:
     """The items to be left out so that no more than most pairs remain to be compared, in ascending order; and the pairs
-    that remain, as of pairs_across, where they are known and so few that they come in one lot.
+    that remain, as of pairs_across, where they are known and so few that they come in one batch.
 
     box (4,t), item (t,), field (t,): of things, as of pairs_across. They are those that have most pairs of all, as far
     as these were counted; what is done follows most, not how many pairs there are.

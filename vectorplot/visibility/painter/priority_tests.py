@@ -390,7 +390,7 @@ def _kept_apart(one: Table, row: Ints, two: Table, other: Ints, tolerance: float
 def common_points(
     one: Table, row: Ints, two: Table, other: Ints, tolerance: float
 ) -> Iterator[tuple[Floats, Floats, Bools]]:
-    """The corners of the common parts of pairs of outlines, in several lots: x, y and whether they are there (k,p).
+    """The corners of the common parts of pairs of outlines, in several batches: x, y and whether they are there (k,p).
 
     They are the corners of each that lie in the other, and the points where sides cross.
     """
@@ -606,12 +606,12 @@ PAIRS_AT_MOST = 1 << 25
 """So many pairs may be found at once, half a gigabyte, and no more."""
 
 LOT = 1 << 18
-"""Pairs that are few are handed on together, up to about so many: each lot asks anew what its faces are like."""
+"""Pairs that are few are handed on together, up to about so many: each batch asks anew what its faces are like."""
 
 
 def box_pairs(box: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of boxes, smallest and largest x and y (4 or more, n), that overlap by more than a tolerance; each pair
-    once, the smaller number first, in lots."""
+    once, the smaller number first, in batches."""
     for first, second in boxes_over(box, box, tolerance):
         once = first < second
         yield first[once], second[once]
@@ -640,13 +640,13 @@ def _pairs_across(box: Floats, field: Ints, tolerance: float) -> Iterator[tuple[
             yield np.minimum(one, two), np.maximum(one, two)
 
 
-def _together(lots: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:
-    """The pairs of lots, in fewer of them."""
+def _together(batches: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:
+    """The pairs of batches, in fewer of them."""
     held: list[tuple[Ints, Ints]] = []
     count = 0
-    for lot in lots:
-        held.append(lot)
-        count += len(lot[0])
+    for batch in batches:
+        held.append(batch)
+        count += len(batch[0])
         if count >= LOT:
             yield _joined(held)
             held, count = [], 0
@@ -654,13 +654,13 @@ def _together(lots: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints]]:
         yield _joined(held)
 
 
-def _joined(lots: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
-    return np.concatenate([first for first, _ in lots]), np.concatenate([second for _, second in lots])
+def _joined(batches: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
+    return np.concatenate([first for first, _ in batches]), np.concatenate([second for _, second in batches])
 
 
 def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
     """Boxes (4 or more, n), in ascending order, with each of the others (4 or more, m) that it overlaps by more than a
-    tolerance, in lots.
+    tolerance, in batches.
 
     Source: Leutenegger, Lopez and Edgington, STR: a simple and efficient algorithm for R-tree packing (1997).
     """

@@ -18,12 +18,11 @@ from vectorplot.visibility.painter.image_faces import ImageFaces
 class TopologicalSort:
     """An order of things, and what has none.
 
-    order: (n,) what is drawn, back to front; knot: (k,) what lies on one another in circles, and what lies between such
-    circles, in ascending order: the things that could not be taken off from either side.
-    """
+    order: (n,) what is drawn, back to front; cycle: (k,) what lies on one another in circles, and what lies between
+    such circles, in ascending order: the things that could not be taken off from either side."""
 
     order: Ints
-    knot: Ints
+    cycle: Ints
 
 
 def topological_order(count: int, before: Ints, after: Ints) -> TopologicalSort:
@@ -74,8 +73,8 @@ def topological_order(count: int, before: Ints, after: Ints) -> TopologicalSort:
         left[lowest] = False
         highest = _ready(freed[1], above, left)
         left[lowest] = True
-    knot = np.flatnonzero(left)
-    return TopologicalSort(np.concatenate([*back, knot, *front[::-1]]).astype(np.intp), knot)
+    cycle = np.flatnonzero(left)
+    return TopologicalSort(np.concatenate([*back, cycle, *front[::-1]]).astype(np.intp), cycle)
 
 
 def _ready(things: Ints, waiting_for: Ints, left: Bools) -> Ints:

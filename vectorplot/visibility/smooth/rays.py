@@ -144,7 +144,7 @@ def targets_of(view: View, sheets: Sheets) -> Targets:
     first = ragged.starts([len(sheet.vertices) for sheet in own])
     corners = np.concatenate([nothing, *(sheet.corners + k for sheet, k in zip(own, first.tolist(), strict=True))])
     number = np.repeat(np.array(hiding, dtype=np.intp), [len(sheet.corners) for sheet in own])
-    off = 2.0 * np.concatenate([none[:, 0], *(sheet.sags for sheet in own)])
+    off = 2.0 * np.concatenate([none[:, 0], *(sheet.deviations for sheet in own)])
     nearest = np.minimum.reduce([depth.take(column) for column in corners.T])
     kept = nearest > view.near
     if not kept.all():

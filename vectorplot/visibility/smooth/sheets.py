@@ -118,7 +118,7 @@ class Sheet(OnSheet, Protocol):
         ...
 
     @property
-    def sags(self) -> Floats:
+    def deviations(self) -> Floats:
         """(t,) how far its triangles are off the sheet, about."""
         ...
 
@@ -364,22 +364,22 @@ def fineness(surfaces: StackedSurfaces) -> tuple[Ints, Ints, Floats]:
     """(s,) columns and rows of tessellations that are close enough to their surfaces, and how close (s,) they are."""
     count = len(surfaces)
     columns, rows = np.full(count, FEWEST), np.full(count, FEWEST)
-    sag, best, vain = np.zeros(count), np.full(count, np.inf), np.zeros(count, dtype=np.intp)
+    deviation, best, vain = np.zeros(count), np.full(count, np.inf), np.zeros(count, dtype=np.intp)
     across, along = np.zeros(count), np.zeros(count)
     active = np.arange(count)
     while len(active):
         for some in alike(columns[active], rows[active]):
             own = active[some]
-            across[own], along[own] = _sags(surfaces.take(own), int(columns[own[0]]), int(rows[own[0]]))
-        sag[active] = np.maximum(across, along)[active]
-        vain[active] += (sag > VAIN * best)[active]
-        best[active] = np.minimum(best, sag)[active]
+            across[own], along[own] = _deviations(surfaces.take(own), int(columns[own[0]]), int(rows[own[0]]))
+        deviation[active] = np.maximum(across, along)[active]
+        vain[active] += (deviation > VAIN * best)[active]
+        best[active] = np.minimum(best, deviation)[active]
         more_columns, more_rows = (across > SAG) & (2 * columns <= MOST), (along > SAG) & (2 * rows <= MOST)
         finer = (more_columns | more_rows) & (columns * rows * 2 <= MOST_CELLS) & (vain != MOST_VAIN)
         active = active[finer[active]]
         columns[active] <<= more_columns[active]
         rows[active] <<= more_rows[active]
-    return columns, rows, sag
+    return columns, rows, deviation
 
 
 def alike(columns: Ints, rows: Ints) -> Iterator[Ints]:
@@ -391,15 +391,15 @@ def alike(columns: Ints, rows: Ints) -> Iterator[Ints]:
         yield from (own[k : k + most] for k in range(0, len(own), most))
 
 
-def _sags(surfaces: StackedSurfaces, columns: int, rows: int) -> tuple[Floats, Floats]:
+def _deviations(surfaces: StackedSurfaces, columns: int, rows: int) -> tuple[Floats, Floats]:
     """(s,) how far the middles of chords are off the surfaces, along u and along v; the worst of a thousand."""
     u, v = surfaces.grid_lines(2 * columns, 2 * rows)
     few_u, few_v = u[:, :: max(2, columns // LINES)], v[:, :: max(2, rows // LINES)]
     along = np.broadcast_arrays(few_u[:, None, :], v[:, :, None])
-    return _sag(surfaces, *np.broadcast_arrays(u[:, :, None], few_v[:, None, :])), _sag(surfaces, *along)
+    return _deviation(surfaces, *np.broadcast_arrays(u[:, :, None], few_v[:, None, :])), _deviation(surfaces, *along)
 
 
-def _sag(surfaces: StackedSurfaces, u: Floats, v: Floats) -> Floats:
+def _deviation(surfaces: StackedSurfaces, u: Floats, v: Floats) -> Floats:
     """(s,) how far every second of the places u, v (s or 1,m,n) is off the chord between those beside it; where a
     surface jumps there is no chord."""
     each, shape = len(u), u.shape[1:]
@@ -431,7 +431,7 @@ class ParametricSheet(OnParametrised):
     vertices: Floats
     vertex_places: Floats
     corners: Ints
-    sags: Floats
+    deviations: Floats
     jumps: bool
     holed: bool = False
     creases: tuple[float, ...] = ()
@@ -459,9 +459,9 @@ def parametric_sheets(
     sheets: dict[int, ParametricSheet] = {}
     for part in stacks(surfaces, (FEWEST + 1) ** 2):
         stack = StackedSurfaces.of([surfaces[k] for k in part.tolist()])
-        columns, rows, sag = fineness(stack)
+        columns, rows, deviation = fineness(stack)
         for own in alike(columns, rows):
-            grids = _Grids.of(stack.take(own), int(columns[own[0]]), int(rows[own[0]]), sag[own])
+            grids = _Grids.of(stack.take(own), int(columns[own[0]]), int(rows[own[0]]), deviation[own])
             for row, number in enumerate(part[own].tolist()):
                 sheets[number] = grids.sheet(row, surfaces[number], items[number], hides[number])
     return [sheets[number] for number in range(len(surfaces))]
@@ -472,54 +472,53 @@ class _Grids:
     """Grids (s,) of as many points p on as many surfaces.
 
     places (s or 1,p,3) of the points on the surfaces, the same for all where these have one domain; points (s,p,3);
-    corners (t,3) of their triangles; whole (s,t): those beneath which the surface does not jump; sags (s,t): how far
-    they are off it.
-    """
+    corners (t,3) of their triangles; whole (s,t): those beneath which the surface does not jump; deviations (s,t): how
+    far they are off it."""
 
     places: Floats
     points: Floats
     corners: Ints
     whole: Bools
-    sags: Floats
+    deviations: Floats
 
     @classmethod
-    def of(cls, surfaces: StackedSurfaces, columns: int, rows: int, sag: Floats) -> _Grids:
-        """Those of so many columns and rows; sag (s,): how far chords are off the surfaces."""
+    def of(cls, surfaces: StackedSurfaces, columns: int, rows: int, deviation: Floats) -> _Grids:
+        """Those of so many columns and rows; deviation (s,): how far chords are off the surfaces."""
         u_line, v_line = surfaces.grid_lines(columns, rows)
         u, v = np.broadcast_arrays(u_line[:, :, None], v_line[:, None, :])
         u, v = (t.reshape(len(u_line), -1) for t in (u, v))
         points = surfaces.points_of_all(u, v)
         grids = points.reshape(len(surfaces), columns + 1, rows + 1, 3)
         torn = jumping_cells(surfaces, u_line, v_line, grids)
-        off = np.broadcast_to(sag[:, None, None], torn.shape).copy()
-        bent = np.flatnonzero(sag > SAG)
+        off = np.broadcast_to(deviation[:, None, None], torn.shape).copy()
+        bent = np.flatnonzero(deviation > SAG)
         if len(bent):
-            off[bent] = np.maximum(_cell_sags(grids[bent]), SAG)
-        sags = np.minimum(off, _around(grids))
+            off[bent] = np.maximum(_cell_deviations(grids[bent]), SAG)
+        deviations = np.minimum(off, _around(grids))
         lower = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
         right, upper = lower + rows + 1, lower + 1
         corners = np.concatenate([np.stack([lower, right, right + 1], 1), np.stack([lower, right + 1, upper], 1)])
-        twice = (np.tile(cells.reshape(len(surfaces), -1), 2) for cells in (~torn, sags))
+        twice = (np.tile(cells.reshape(len(surfaces), -1), 2) for cells in (~torn, deviations))
         return cls(from_components(u, v, 0.0), points, corners, *twice)
 
     def sheet(self, row: int, surface: Surface, item: int, hides: bool) -> ParametricSheet:
         """That on one of the surfaces. What is the same for all of them is theirs together."""
-        points, sags = self.points[row], self.sags[row]
+        points, deviations = self.points[row], self.deviations[row]
         places, whole = self.places[row if len(self.places) > 1 else 0], self.whole[row]
         known: Bools = np.asarray(np.isfinite(points).all(axis=1))
         if known.all() and whole.all():
-            return ParametricSheet(surface, item, hides, points, places, self.corners, sags, False)
+            return ParametricSheet(surface, item, hides, points, places, self.corners, deviations, False)
         own = np.flatnonzero(whole)
         cut = cut_at_holes(surface, places[:, :2], self.corners[own], known)
         new = cut.places[len(points) :]
         points = np.concatenate([points, surface.points(*np.ascontiguousarray(new.T))])
-        sags = sags[own[cut.of]]
+        deviations = deviations[own[cut.of]]
         # Beside a rim nothing is told by what is beyond.
         at_rim = cut.on_rim[cut.triangles].any(axis=1)
-        sags[at_rim] = np.maximum(sags[at_rim], HALF * _longest(points[cut.triangles[at_rim]]))
+        deviations[at_rim] = np.maximum(deviations[at_rim], HALF * _longest(points[cut.triangles[at_rim]]))
         places = from_components(*cut.places.T, 0.0)
         return ParametricSheet(
-            surface, item, hides, points, places, cut.triangles, sags, not whole.all(), not known.all()
+            surface, item, hides, points, places, cut.triangles, deviations, not whole.all(), not known.all()
         )
 
 
@@ -539,7 +538,7 @@ def _around(points: Floats) -> Floats:
     return np.asarray(np.maximum(np.maximum(one_way[..., :-2], one_way[..., 1:-1]), one_way[..., 2:]))
 
 
-def _cell_sags(points: Floats) -> Floats:
+def _cell_deviations(points: Floats) -> Floats:
     """(s,m-1,n-1) how far the surfaces may be off the cells of grids of their points (s,m,n,3), by second differences
     in them and their neighbours."""
     with np.errstate(invalid="ignore"):
@@ -579,7 +578,7 @@ class ImplicitSheet:
     hides: bool
     vertices: Floats
     corners: Ints
-    sags: Floats
+    deviations: Floats
     own: ImplicitMesh
 
     @property
@@ -717,11 +716,11 @@ def implicit_sheet(view: View, surface: ImplicitSurface, item: int, hides: bool)
         own = mesh_with_lines(surface, mesh, lines, cells)
         vertices = np.ascontiguousarray(view.points_of(own.mesh.vertices).T)
         corners = own.mesh.corners.reshape(-1, 3)
-        off = _implicit_sags(placed, vertices[corners])
+        off = _implicit_deviations(placed, vertices[corners])
         if np.quantile(np.append(off, 0.0), MOST_OF_ALL) <= SAG_IMPLICIT or own.doubts or 2 * cells > MOST_IMPLICIT:
             # Those at singular points stay far off; of the others the worst speaks for all.
-            sags = np.maximum(off, min(float(off.max(initial=0.0)), SAG_IMPLICIT))
-            return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, sags, own)
+            deviations = np.maximum(off, min(float(off.max(initial=0.0)), SAG_IMPLICIT))
+            return ImplicitSheet(placed, surface, view, item, hides, vertices, corners, deviations, own)
         cells *= 2
         mesh = polygonized(surface, cells)
 
@@ -736,7 +735,7 @@ def placed_in_view(view: View, surface: ImplicitSurface) -> PlacedImplicit:
     return PlacedImplicit(surface, matrix, matmul(-centre, matrix))
 
 
-def _implicit_sags(surface: PlacedImplicit, triangles: Floats) -> Floats:
+def _implicit_deviations(surface: PlacedImplicit, triangles: Floats) -> Floats:
     """(t,) how far the middles of triangles (t,3,3) are off the surface, not more than they are large."""
     middles = triangles.mean(axis=1)
     size = norm(triangles - np.roll(triangles, 1, axis=1)).max(axis=1, initial=0.0)

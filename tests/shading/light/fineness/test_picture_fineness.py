@@ -43,8 +43,8 @@ def made(surface, camera: Camera | None = None, tolerance_mm: float = 0.02):
     camera = camera or default_camera(scene)
     projection = projection_of(camera, scene.bounds)
     allowed = allowed_in_space(scene, projection, Page(), True, tolerance_mm)
-    demand = picture_fineness(scene, projection, False, allowed, 0.02)(0)
-    return facets(surface, demand), demand
+    criterion = picture_fineness(scene, projection, False, allowed, 0.02)(0)
+    return facets(surface, criterion), criterion
 
 
 @pytest.mark.slow
@@ -124,13 +124,13 @@ def test_outlines_are_within_the_tolerance_whatever_it_is(name, eye, tolerance):
 @pytest.mark.slow
 @pytest.mark.parametrize("surface", [Sphere(2.0), Torus(3.0, 1.0), WAVES], ids=["sphere", "torus", "waves"])
 def test_shades_between_corners_are_within_their_bound(surface):
-    found, demand = made(surface)
+    found, criterion = made(surface)
     corners = found.mesh.corners.reshape(-1, 3)
     random = np.random.default_rng(3)
     weights = random.dirichlet((1.0, 1.0, 1.0), len(corners))
 
     def shades(normals, points):
-        folds = demand.folds(points, normals)
+        folds = criterion.folds(points, normals)
         return 0.8 * np.where(folds[1] * np.sign(folds[0]) > 0.0, np.abs(folds[1]), 0.3 * np.abs(folds[1]))
 
     points = found.mesh.vertices[corners]
@@ -138,9 +138,9 @@ def test_shades_between_corners_are_within_their_bound(surface):
     middle = np.einsum("tk,tki->ti", weights, points)
     between = np.einsum("tk,tki->ti", weights, normals)
     between /= np.linalg.norm(between, axis=1)[:, None]
-    side = np.sign(demand.folds(middle, between)[0])
+    side = np.sign(criterion.folds(middle, between)[0])
     at_corners = np.stack([shades(normals[:, k] * side[:, None], points[:, k]) for k in range(3)], axis=1)
-    of_side = np.stack([np.sign(demand.folds(points[:, k], normals[:, k])[0]) == side for k in range(3)], axis=1)
+    of_side = np.stack([np.sign(criterion.folds(points[:, k], normals[:, k])[0]) == side for k in range(3)], axis=1)
     off = np.abs((weights * at_corners).sum(axis=1) - shades(between * side[:, None], middle))
     assert np.quantile(off[of_side.all(axis=1)], 0.99) < 2.0 * SHADE_ERROR
 
@@ -165,10 +165,10 @@ def test_boxes_of_other_items_count_where_they_meet_and_once():
     balls = [Sphere(1.0)] * 50 + [Sphere(1.0, (5.0 * k, 0.0, 0.0)) for k in range(1, 50)]
     scene = Scene(tuple(Item(f"BALL{number}", ball) for number, ball in enumerate(balls)))
     projection = projection_of(default_camera(scene), scene.bounds)
-    demand = picture_fineness(
+    criterion = picture_fineness(
         scene, projection, False, allowed_in_space(scene, projection, Page(200, 150), True, 0.02), 0.02
     )
-    assert [len(demand(number).others[0]) for number in (0, 49, 60)] == [1, 1, 0]
+    assert [len(criterion(number).others[0]) for number in (0, 49, 60)] == [1, 1, 0]
 
 
 def test_what_is_near_is_looked_for_only_where_it_tells(monkeypatch):
@@ -177,7 +177,7 @@ def test_what_is_near_is_looked_for_only_where_it_tells(monkeypatch):
     scene = Scene(tuple(rings))
     projection = projection_of(default_camera(scene), scene.bounds)
     allowed = allowed_in_space(scene, projection, Page(), True, 0.02)
-    demand = picture_fineness(scene, projection, False, allowed, 0.02)(0)
+    criterion = picture_fineness(scene, projection, False, allowed, 0.02)(0)
     sought = []
     distances = Nearby.distances
     monkeypatch.setattr(Nearby, "distances", lambda *of: sought.append(len(of[1])) or distances(*of))
@@ -190,8 +190,8 @@ def test_what_is_near_is_looked_for_only_where_it_tells(monkeypatch):
         at = Vertices(*(some.reshape(4, 300, -1) for some in (looks.places, looks.points, looks.normals)))
         fold = np.where(rng.uniform(size=t.shape) < 0.1, 0, NONE)
         edges = Edges(torus.at(start), torus.at(start + way), at, t, fold)
-        all_, before = demand.excess(edges), sum(sought)
-        some, after = demand.too_coarse(edges), sum(sought)
+        all_, before = criterion.error_ratio(edges), sum(sought)
+        some, after = criterion.too_coarse(edges), sum(sought)
         assert np.array_equal(np.maximum(some, 1.0), np.maximum(all_, 1.0))
         assert (all_ > 1.0).any() or length < 0.1
         if length < 0.1:

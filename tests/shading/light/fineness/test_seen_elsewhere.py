@@ -31,8 +31,8 @@ def _ball(given, casts=False):
     scene = parse_scene(given) if isinstance(given, str) else given
     projection = projection_of(CAMERA, scene.bounds)
     allowed = allowed_in_space(scene, projection, Page(80, 60), True, 0.02)
-    demand = picture_fineness(scene, projection, casts, allowed, 0.02, items_in_glass(scene, projection))
-    return demand(0), faceted(scene, demand).scene.items[0].shape
+    criterion = picture_fineness(scene, projection, casts, allowed, 0.02, items_in_glass(scene, projection))
+    return criterion(0), faceted(scene, criterion).scene.items[0].shape
 
 
 def _off_outline(mesh, eye):
@@ -56,12 +56,12 @@ def test_what_mirrors_and_glass_do_not_show_is_as_coarse_as_without_them(name):
 def test_outlines_are_within_the_tolerance_as_mirrors_show_them_and_in_their_light():
     scene = f"light L position 9 -4 8\n{BALL}{WALL}"
     for casts, sources in ((False, [CAMERA.eye]), (True, [CAMERA.eye, (9.0, -4.0, 8.0)])):
-        demand, mesh = _ball(scene, casts)
+        criterion, mesh = _ball(scene, casts)
         _, plain = _ball(scene.replace("mirror ", ""), casts)
-        assert len(demand.doubles) == len(sources)
+        assert len(criterion.doubles) == len(sources)
         for x, y, z in sources:
             double = np.array((-5.6 - x, y, z))
-            allowed = float(demand.allowed(np.zeros((1, 3)))[0])
+            allowed = float(criterion.allowed(np.zeros((1, 3)))[0])
             assert _off_outline(mesh, double) < allowed < _off_outline(plain, double)
 
 
@@ -92,8 +92,8 @@ def test_faces_in_one_plane_are_one_mirror_and_those_that_do_not_shine_are_none(
 
 def test_what_very_many_mirrors_show_is_within_the_tolerance_everywhere():
     ring = "revolution meridian 5 0 -3 , 5 0 3 order 40 hollow translation -4 0 0"
-    demand, _ = _ball(f"{BALL}M gray mirror {ring}\n")
-    assert demand.doubles == () and demand.deep.tolist() == [1.0]
+    criterion, _ = _ball(f"{BALL}M gray mirror {ring}\n")
+    assert criterion.doubles == () and criterion.deep.tolist() == [1.0]
 
 
 GLASS = "G cyan transparent refraction 1.5 box solid 0.4 2 2 translation {}\n"

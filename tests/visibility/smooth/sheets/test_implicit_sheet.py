@@ -30,7 +30,7 @@ def test_the_tessellation_lies_on_the_sheet() -> None:
     sheet = sheet_of(ImplicitTorus(3.0, 1.0))
     assert np.abs(sheet.points(sheet.vertices) - sheet.vertices).max() < 1e-12
     assert sheet.on_sheet(sheet.vertices).all()
-    assert 0.0 < sheet.sags.max() < 3e-3
+    assert 0.0 < sheet.deviations.max() < 3e-3
     assert sheet.own.doubts == ()
 
 
@@ -107,4 +107,4 @@ def test_a_placement_far_away_keeps_its_digits() -> None:
 def test_an_empty_surface_is_a_sheet_without_triangles() -> None:
     nothing = Quadric([1.0, 1.0, 1.0, *[0.0] * 6, 1.0], np.array([[-1.0] * 3, [1.0] * 3]))
     sheet = sheet_of(nothing)
-    assert len(sheet.corners) == 0 and len(sheet.sags) == 0
+    assert len(sheet.corners) == 0 and len(sheet.deviations) == 0

@@ -22,8 +22,8 @@ def test_no_triangle_is_farther_off_its_surface_than_it_and_its_neighbours_are_l
     sheet = parametric_sheets([PlacedSurface(surface, np.eye(3) / size, np.zeros(3))], [0], [True])[0]
     corners = sheet.vertices[sheet.corners]
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
-    assert (sheet.sags <= 100.0 * sides).all()
-    assert sheet.sags.max() > 1e-4
+    assert (sheet.deviations <= 100.0 * sides).all()
+    assert sheet.deviations.max() > 1e-4
 
 
 @pytest.mark.slow
@@ -46,7 +46,7 @@ def test_sheets_made_together_are_those_made_alone() -> None:
             assert np.array_equal(sheet.corners, alone.corners)
             for own, other in ((sheet.vertices, alone.vertices), (sheet.vertex_places, alone.vertex_places)):
                 assert np.allclose(own, other, rtol=0.0, atol=1e-12, equal_nan=True)
-            assert np.allclose(sheet.sags, alone.sags, rtol=1e-9)
+            assert np.allclose(sheet.deviations, alone.deviations, rtol=1e-9)
     assert len(made[1].corners) > len(made[0].corners)
     # What is the same for all of them is in memory once.
     assert made[0].corners is made[2].corners and np.shares_memory(made[0].vertex_places, made[2].vertex_places)
