@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from support.hard_shapes import HARD_SHAPES
-from support.painted import compared, nearest, sample_points, top_polygon
+from support.painted import compared, nearest, sample_points, top_polygon, wrong_points
 from support.strewn import STREWN, placed
 
 from vectorplot.geometry.budget import Budget
@@ -24,6 +24,7 @@ from vectorplot.testing.shapes import (
     rotated_boxes,
     scene_of,
 )
+from vectorplot.visibility.painter.face_splitting import PIECES_OF_EACH, PIECES_OF_TREES
 from vectorplot.visibility.painter.painters_order import painters_order
 
 
@@ -244,17 +245,28 @@ def test_neighbours_follow_each_other_where_nothing_is_between() -> None:
     assert np.median(steps) < 0.05 * np.ptp(middle)
 
 
+def _needles():
+    """Sixty triangles all over one another."""
+    random = np.random.default_rng(5)
+    needles = random.uniform(-1.0, 1.0, (60, 1, 3)) + random.normal(0.0, 0.7, (60, 3, 3))
+    scene = numbered([Mesh.from_triangles(triangle, [(0, 1, 2)]) for triangle in needles])
+    return look(scene, Camera((5.0, 7.0, 4.0)))
+
+
 def test_faces_that_pierce_each_other_too_often_are_cut_as_often_as_the_budget_allows_and_named():
-    count, most = 24, 100
-    places = [(k / count, (k + 0.2) / count) for k in range(count)]
-    plates = [box((low, 0.0, 0.0), (high, 1.0, 0.1)) for low, high in places]
-    bars = [box((0.0, low, 0.08), (1.0, high, 0.13)) for low, high in places]
-    scene = numbered([*plates, *bars])
-    view = look(scene, Camera((2.0, 3.0, 4.0)))
-    whole, some = (painters_order(view, budget=Budget(pieces=number)) for number in (1 << 15, most))
-    assert not len(whole.guessed) and len(whole) > whole.uncut + 2 * most
-    assert len(some.guessed) and len(some) <= 2 * (some.uncut + most)
+    view = _needles()
+    whole, some = (painters_order(view, budget=Budget(pieces=number)) for number in (1 << 15, 1))
+    assert not len(whole.guessed) and len(whole) > PIECES_OF_EACH * whole.uncut
+    assert len(some.guessed) and len(some) <= 2 * max(PIECES_OF_EACH * some.uncut, PIECES_OF_TREES)
     assert set(some.faces.source) == set(whole.faces.source)
+
+
+@pytest.mark.parametrize("most", [40, 150])
+def test_where_cuts_do_not_do_trees_of_planes_finish_the_order(most):
+    view = _needles()
+    painted = painters_order(view, budget=Budget(pieces=most))
+    assert len(painted) > painted.uncut + most and not len(painted.guessed)
+    assert not wrong_points(view, painted.faces)
 
 
 @pytest.mark.slow

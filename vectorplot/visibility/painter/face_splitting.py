@@ -26,6 +26,7 @@ from vectorplot.visibility.painter.priority_tests import (
     STRADDLING,
     Codes,
     box_pairs,
+    boxes_overlap,
     drawn_before,
     face_relations,
 )
@@ -191,6 +192,9 @@ cut pair by pair its pieces, and even more so the pairs of them that have to be 
 PIECES_OF_EACH = 4
 """A tree of planes may cut faces into so many pieces each in the mean, whatever the budget."""
 
+PIECES_OF_TREES = 16
+"""Trees may make so many times as many pieces as there may be cuts: nothing is compared pair by pair after them."""
+
 SHARE_CUT = 8
 """Of a large circle one face in so many is cut in a round."""
 
@@ -215,7 +219,7 @@ def cut_into_order(
     faces: ImageFaces, group: Ints, pairs: Pairs, tolerance: float, most: int = USUAL.pieces
 ) -> tuple[ImageFaces, Ints, Bools]:
     """Faces cut as far as needed, for each one its place in the order of drawing, and whether that is right: what is in
-    circles after most cuts is in order by its heights.
+    circles after most cuts is ordered by trees of planes, as far as these may go, and then by its heights.
 
     group (n,): faces of a lower group are known to go first; only within groups is anything compared. Faces that
     pierce each other are cut first, the larger one along the other's plane; then circles, at faces that lie on many
@@ -242,13 +246,14 @@ def cut_into_order(
         pairs = pairs.take(~given_up[pairs.first])
         if len(faces) + len(victim) > full:
             circled |= np.isin(place, place[victim])
-            return _with_trees(faces, place, circled, tolerance, int(circled.sum()))
+            break
         faces, parent, children = _cut(faces, victim, faces.planes[:, knife], faces.steepness[knife], tolerance)
         place, circled = place[parent], circled[parent]
         pairs = _inherited(faces, pairs, children, tolerance)
     else:
         circled |= np.isin(place, place[pairs.first[place[pairs.first] == place[pairs.second]]])
-    return _with_trees(faces, place, circled, tolerance, max(most, PIECES_OF_EACH * int(circled.sum())))
+    allowed = max(PIECES_OF_TREES * most, PIECES_OF_EACH * int(circled.sum()))
+    return _with_trees(faces, place, circled, tolerance, allowed)
 
 
 def _much_pierced(place: Ints, pairs: Pairs) -> Bools:
@@ -274,7 +279,9 @@ def _with_trees(
 
 def _sorted_out(faces: ImageFaces, place: Ints, pairs: Pairs) -> Ints:
     """The places told apart as far as the pairs do."""
-    involved = np.unique(np.concatenate([pairs.first, pairs.second]))
+    named = np.zeros(len(faces), dtype=np.bool_)
+    named[pairs.first] = named[pairs.second] = True
+    involved = np.flatnonzero(named)
     # Numbered by rank, so that nothing depends on the order in which the faces came.
     by_rank = np.lexsort((involved, faces.rank[involved]))
     number = np.empty(len(involved), dtype=np.intp)
@@ -359,8 +366,11 @@ def _inherited(faces: ImageFaces, pairs: Pairs, children: Ints, tolerance: float
     old, new = pairs.take(~cut), pairs.take(cut)
     first = np.concatenate([children[new.first, a] for a in (0, 0, 1, 1)])
     second = np.concatenate([children[new.second, b] for b in (0, 1, 0, 1)])
-    there = (first >= 0) & (second >= 0)
-    first, second = first[there], second[there]
+    there = np.flatnonzero((first >= 0) & (second >= 0))
+    first, second = first.take(there), second.take(there)
+    # Half of the parts of faces that overlap are apart: most of these in their boxes already.
+    near = boxes_overlap(faces.box, first, second, tolerance)
+    first, second = first[near], second[near]
     return Pairs(
         np.concatenate([children[old.first, 0], first]),
         np.concatenate([children[old.second, 0], second]),

@@ -28,6 +28,7 @@ from vectorplot.visibility.painter.priority_tests import (
     box_pairs,
     boxes_of_items,
     boxes_over,
+    boxes_overlap,
     convex_bodies,
     drawn_before,
     face_relations,
@@ -102,9 +103,9 @@ def painters_order(
         Those of surfaces at the corners of the faces in their place, in the view's coordinates, 0 where there are
         none: surfaces that touch do not pierce each other, whatever such faces do.
     budget : Budget
-        As many cuts of faces along planes of others as it has pieces, and as many pieces in a tree of planes, or four
-        of each; and eight times as many comparisons as it has pairs, or 32 for each face. What is not in order then is
-        painted by depth, and named.
+        As many cuts of faces along planes of others as it has pieces, and sixteen times as many pieces in trees of
+        planes, or four of each, for what these leave; and eight times as many comparisons as it has pairs, or 32 for
+        each face. What is not in order then is painted by depth, and named.
 
     Returns
     -------
@@ -348,14 +349,8 @@ def _all_face_pairs(
     counts = np.diff(two_first)[pair]
     partner = ragged.ranges(two_first[:-1][pair], counts)
     a, b = np.repeat(one, counts), two[partner]
-    near = _boxes_overlap(faces.box, a, b, tolerance)
+    near = boxes_overlap(faces.box, a, b, tolerance)
     return a[near], b[near]
-
-
-def _boxes_overlap(box: Floats, a: Ints, b: Ints, tolerance: float) -> Bools:
-    wide = np.minimum(box[1, a], box[1, b]) - np.maximum(box[0, a], box[0, b]) > tolerance
-    tall = np.minimum(box[3, a], box[3, b]) - np.maximum(box[2, a], box[2, b]) > tolerance
-    return np.asarray(wide & tall, dtype=np.bool_)
 
 
 def _ranks(faces: ImageFaces, things: _Things, more: int, before: Ints, after: Ints) -> Ints:

@@ -433,9 +433,11 @@ def face_relations(faces: ImageFaces, first: Ints, second: Ints, tolerance: floa
     codes = np.zeros(len(first), dtype=np.int8)
     if not len(first):
         return codes
-    used, local = np.unique(np.concatenate([first, second]), return_inverse=True)
-    if len(used) < len(faces):
-        return face_relations(faces.take(used), local[: len(first)], local[len(first) :], tolerance)
+    named = np.zeros(len(faces), dtype=np.bool_)
+    named[first] = named[second] = True
+    if not named.all():
+        number = np.cumsum(named) - 1
+        return face_relations(faces.take(np.flatnonzero(named)), number[first], number[second], tolerance)
     outlines = Outlines.of(faces.points, faces.offsets, tolerance)
     common = np.flatnonzero(overlapping(outlines, first, second, tolerance))
     first, second = first[common], second[common]
@@ -656,6 +658,13 @@ def _together(batches: Iterator[tuple[Ints, Ints]]) -> Iterator[tuple[Ints, Ints
 
 def _joined(batches: list[tuple[Ints, Ints]]) -> tuple[Ints, Ints]:
     return np.concatenate([first for first, _ in batches]), np.concatenate([second for _, second in batches])
+
+
+def boxes_overlap(box: Floats, a: Ints, b: Ints, tolerance: float) -> Bools:
+    """(p,) which pairs of boxes (4 or more, n) overlap by more than a tolerance."""
+    wide = np.minimum(box[1, a], box[1, b]) - np.maximum(box[0, a], box[0, b]) > tolerance
+    tall = np.minimum(box[3, a], box[3, b]) - np.maximum(box[2, a], box[2, b]) > tolerance
+    return np.asarray(wide & tall, dtype=np.bool_)
 
 
 def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[Ints, Ints]]:
