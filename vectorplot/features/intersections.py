@@ -455,7 +455,11 @@ def _through_contacts(
     saddles = touching.of(product < 0.0)
     courses, through = through_nodes(one, two, courses, saddles, ends.zero, ends.height, same=same)
     hills = touching.of(product > 0.0)
-    courses = courses + missed_loops(one, two, courses, hills, ends.zero, ends.height)
+    loops = missed_loops(one, two, courses, hills, ends.zero, ends.height)
+    if same:
+        # Where triangles are much too large both places may run to one, or to one a period on.
+        loops = [loop for loop in loops if (one.cells_apart(loop.one, loop.two) > ONE_PLACE).all()]
+    courses = courses + loops
     if same and isinstance(one, SurfacePatch):
         courses = into_pinch_points(one, courses)
     courses = stitched(one, without_copies(one, two, courses, same=same), ends.size, ends.large)
