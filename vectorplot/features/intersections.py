@@ -455,7 +455,11 @@ def _through_contacts(
     saddles = touching.of(product < 0.0)
     traces, through = through_nodes(one, two, traces, saddles, ends.zero, ends.height, same=same)
     hills = touching.of(product > 0.0)
-    traces = traces + missed_loops(one, two, traces, hills, ends.zero, ends.height)
+    loops = missed_loops(one, two, traces, hills, ends.zero, ends.height)
+    if same:
+        # Where triangles are much too large both places may run to one, or to one a period on.
+        loops = [loop for loop in loops if (one.cells_apart(loop.one, loop.two) > ONE_PLACE).all()]
+    traces = traces + loops
     if same and isinstance(one, SurfacePatch):
         traces = into_pinch_points(one, traces)
     traces = stitched(one, without_copies(one, two, traces, same=same), ends.size, ends.large)

@@ -240,3 +240,16 @@ def test_a_tube_about_a_knot_does_not_meet_itself_a_period_apart(closed_u, close
     domain = Domain(0.4, 0.4 + TURN, 0.4, 0.4 + TURN, closed_u=closed_u, closed_v=closed_v)
     curves = self_intersections(surface_of_function(tube, domain), tracing=Tracing(columns=48, rows=12))
     assert len(curves) == 0 and len(curves.isolated) == 0 and not curves.doubts
+
+
+@pytest.mark.slow
+def test_a_tube_about_a_knot_does_not_meet_itself_one_period_on():
+    """It turns about the knot as it runs along it, so that triangles are much larger than it is thick."""
+    u, ring = "(u+5.995)", "(v-2*u)"
+    out = f"(3+(1.2+0.2*cos{ring})*cos(3*{u})-0.2*sin{ring}*sin(3*{u}))"
+    up = f"(1.2+0.2*cos{ring})*sin(3*{u})+0.2*sin{ring}*cos(3*{u})"
+    formulas = f'"{out}*cos(2*{u})" "{out}*sin(2*{u})" "{up}"'
+    text = f'A gray surface function {formulas} u 0 "2*pi" v 0.914 "0.914+2*pi" closed_u closed_v\n'
+    (item,) = parse_scene(text).items
+    found = self_intersections(item.shape)
+    assert len(found) == 0 and not found.doubts
