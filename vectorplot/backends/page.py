@@ -18,7 +18,6 @@ from vectorplot.curves.arcs import EllipseArcs
 from vectorplot.curves.bezier import BezierPaths, clipped_paths
 from vectorplot.drawing.drawing import STROKES, CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import SEAM_MM, Colours, FillKind, Fills
-from vectorplot.drawing.formulas import without_formulas
 from vectorplot.drawing.stroke_curves import one_mark
 from vectorplot.drawing.strokes import Rectangle, chosen, clipped_parts
 from vectorplot.drawing.texts import Texts
@@ -73,6 +72,8 @@ class PageTexts:
     @property
     def plain(self) -> tuple[str, ...]:
         """The lines for readers that set no formulas."""
+        from vectorplot.drawing.formulas import without_formulas
+
         return tuple(map(without_formulas, self.strings))
 
 

@@ -28,7 +28,6 @@ from vectorplot.backends.page import (
     plain_text,
     rounded,
 )
-from vectorplot.backends.shaded_triangles import grown, merged, slopes, underlaps
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
 from vectorplot.geometry import ragged
@@ -307,6 +306,8 @@ def area_elements(areas: Areas, pen_mm: float, name: str, height: int) -> bytes:
     """
     if not len(areas):
         return b""
+    from vectorplot.backends.shaded_triangles import grown, underlaps
+
     pieces, strips, place, ramps = _with_strips(areas)
     alone = np.concatenate((place, place + 1))
     starts = np.union1d(pieces.runs[:-1], alone[alone < len(pieces)])
@@ -445,6 +446,8 @@ def _gradients(areas: Areas, shaded: Ints, ramps: Ramps, ramp: Ints, colours: Fl
     others = replace(others, triangle=off[others.triangle])
     if not len(on):
         return others
+    from vectorplot.backends.shaded_triangles import merged, slopes
+
     span = np.abs(ramps.ends[ramp[on], 1] - ramps.ends[ramp[on], 0]).max(axis=1)
     rows = np.column_stack([areas.item, areas.group, areas.own_opacity])[shaded[on]]
     follows = np.append(False, (np.diff(shaded[on]) == 1) & (rows[1:] == rows[:-1]).all(axis=1))

@@ -381,8 +381,7 @@ def _sections(planes: Planes, scene: Scene) -> Section:
 
 def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
     from vectorplot.scene.added_lines import heights_times, round_sections
-    from vectorplot.scene.surface_lines import Section
-    from vectorplot.scene.terrains import USUAL_EVERY, with_index_lines
+    from vectorplot.scene.surface_lines import USUAL_EVERY, Section, with_index_lines
 
     if planes is None:
         return ()

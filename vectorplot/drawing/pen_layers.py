@@ -39,7 +39,6 @@ from vectorplot.drawing.strokes import concatenated
 from vectorplot.errors import InputError
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import PenOverrides
-from vectorplot.shading.palettes import palette
 from vectorplot.words import LineKind, check_word, unknown
 
 # Strokes sorted into layers, each drawn with one pen.
@@ -250,6 +249,8 @@ def overlaid_pens(
 
 def sheet_layer(colour: str, page: Page) -> Layer:
     """A layer, not to be plotted, that is the whole sheet in a colour: of a palette its brightest shade."""
+    from vectorplot.shading.palettes import palette
+
     sheet = Fills.whole_page(page.width_mm, page.height_mm, palette(colour)[-1])
     return Layer("background", Pen(), (sheet,), plotted=False)
 

@@ -42,8 +42,7 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, camera_of, fitted_with_room
 from vectorplot.scene.scales import BoxAxes, Colouring, Fields
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines
-from vectorplot.scene.terrains import round_heights
+from vectorplot.scene.surface_lines import NO_LINES, SurfaceLines, round_heights
 from vectorplot.scene.view import View
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
 from vectorplot.tolerances import COLOURED_OF_EXTENT, ZERO_OF_EXTENT

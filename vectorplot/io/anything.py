@@ -21,9 +21,7 @@ from vectorplot.io.read_file import read
 from vectorplot.scene.item import Item
 from vectorplot.scene.scales import Fields
 from vectorplot.scene.scene import Scene, renamed_cuts, renamed_labels, together
-from vectorplot.scene.terrains import terrain_scene
 from vectorplot.surfaces.surface import is_implicit, is_parametrised
-from vectorplot.surfaces.terrains import Terrain
 from vectorplot.tolerances import SINGLE_ULP, ULP
 
 # Cells of finite elements, as other libraries keep them, as faces.
@@ -162,7 +160,11 @@ def _scene_of(shown: Any, around: tuple[object, ...]) -> Scene:
         return shown
     if isinstance(shown, str | os.PathLike):
         return _read(shown)
+    from vectorplot.surfaces.terrains import Terrain
+
     if isinstance(shown, Terrain):
+        from vectorplot.scene.terrains import terrain_scene
+
         return terrain_scene(shown)
     if _is_heights(shown):
         from vectorplot.io.terrain_files import scene_of_array

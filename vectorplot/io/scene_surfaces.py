@@ -22,8 +22,8 @@ from vectorplot.io.shape_arguments import Family, Slot, read_family, read_number
 from vectorplot.io.surface_line_words import AXES, CurveDraft
 from vectorplot.scene.added_lines import evenly_between, least_extent
 from vectorplot.scene.extent import smooth_bounds
-from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector
-from vectorplot.scene.terrains import terrain_mesh, with_index_lines
+from vectorplot.scene.surface_lines import Section, SurfaceLines, Vector, with_index_lines
+from vectorplot.scene.terrains import terrain_mesh
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.surfaces.terrains import densified_terrain, exaggerated, terrain, terrain_of_points

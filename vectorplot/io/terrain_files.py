@@ -14,7 +14,8 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.mesh_file import TextFile, check_announced, check_file, joined, shown, text_file
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.terrains import MOST_DRAWN, terrain_scene, times_power_of_ten
+from vectorplot.scene.surface_lines import times_power_of_ten
+from vectorplot.scene.terrains import MOST_DRAWN, terrain_scene
 from vectorplot.surfaces.graphs import MOST_POINTS
 from vectorplot.surfaces.terrains import Terrain, terrain, terrain_of_points, thinned_terrain
 from vectorplot.tolerances import OFF_REGULAR_GRID, SINGLE_ULP

@@ -23,8 +23,9 @@ from .surface_lines import (
     WaterCourses,
     Watersheds,
     even_cosines,
+    round_heights,
 )
-from .terrains import TINTS, hill_light, level_sections, round_heights, terrain_mesh, terrain_scene, tinted
+from .terrains import TINTS, hill_light, level_sections, terrain_mesh, terrain_scene, tinted
 from .view import look
 
 __all__ = [

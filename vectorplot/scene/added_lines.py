@@ -15,8 +15,16 @@ from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.surface_lines import MAX_LINES, Section, SurfaceLines, Vector
-from vectorplot.scene.terrains import USUAL_COUNT, USUAL_EVERY, round_heights, with_index_lines
+from vectorplot.scene.surface_lines import (
+    MAX_LINES,
+    USUAL_COUNT,
+    USUAL_EVERY,
+    Section,
+    SurfaceLines,
+    Vector,
+    round_heights,
+    with_index_lines,
+)
 from vectorplot.scene.view import View
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
 

@@ -28,8 +28,6 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, PenOverrides
 from vectorplot.scene.scales import BoxAxes, Colouring
 from vectorplot.surfaces.capped_bodies import ball_of, bounds_of_balls, bounds_of_capped_quadrics, capped_quadric_of
-from vectorplot.surfaces.function_surface import FunctionSurface
-from vectorplot.surfaces.graphs import Graph, PolarGraph
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, is_implicit, is_parametrised
 from vectorplot.words import check_colour
 
@@ -287,6 +285,9 @@ def tell_of_empty_surface(item: Item, stacklevel: int) -> None:
 
 def _cut_off(shape: Any) -> str:
     """Where a surface is cut off, in its own coordinates; nothing where it is not."""
+    from vectorplot.surfaces.function_surface import FunctionSurface
+    from vectorplot.surfaces.graphs import Graph, PolarGraph
+
     while not isinstance(shape, Graph | PolarGraph | FunctionSurface) and hasattr(shape, "surface"):
         shape = shape.surface
     if isinstance(shape, PolarGraph):

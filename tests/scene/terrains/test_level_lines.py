@@ -7,7 +7,8 @@ import vectorplot as vp
 from vectorplot.errors import InputError
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
-from vectorplot.scene.terrains import level_sections, round_heights
+from vectorplot.scene.surface_lines import round_heights
+from vectorplot.scene.terrains import level_sections
 from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.surfaces.tori import ImplicitTorus, Torus
 from vectorplot.testing import curves_in_space
