@@ -10,7 +10,7 @@ import sys
 from functools import cache
 
 import pytest
-from support.paths import DOCS, EXAMPLES, PACKAGE, ROOT
+from support.paths import DATA, DOCS, EXAMPLES, PACKAGE, ROOT
 
 import vectorplot as vp
 from vectorplot.geometry import box
@@ -170,6 +170,12 @@ def test_a_name_of_a_room_loads_its_own_modules_only():
     loaded = loaded_after("from vectorplot.surfaces import Torus")
     assert "vectorplot.surfaces.tori" in loaded
     assert not {"scipy", "cairo", "shapely", "vectorplot.surfaces.minimal"} & loaded
+
+
+def test_drawing_the_pencil_loads_few_modules_of_ours(tmp_path):
+    source, picture = str(DATA / "pencil.scene"), str(tmp_path / "pencil.svg")
+    drawn = f"import vectorplot as vp; vp.save(vp.draw(vp.read({source!r})), {picture!r})"
+    assert sum(name.startswith("vectorplot") for name in loaded_after(drawn)) <= 120
 
 
 def test_what_no_room_exports_is_an_attribute_error():
