@@ -17,6 +17,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
 from vectorplot.geometry.budget import slices
+from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.elementary import arccos
 from vectorplot.geometry.vectors import all_finite, any_component, component_sum, cross, greatest_component, norm
@@ -448,12 +449,13 @@ def _roots(
 def _rim(start: Vertices, end: Vertices, border: Bools, between: Between) -> Floats:
     """The last parts of sides, one end of which is in a hole, that are not in it; 0 next to the other end."""
     known = start.known
-    low, high = np.where(known, 0.0, 1.0), np.where(known, 1.0, 0.0)
-    for _ in range(RIM_STEPS):
-        t = 0.5 * (low + high)
-        good = between(start, end, t, border).known
-        low, high = np.where(good, t, low), np.where(good, high, t)
-    return np.where(np.abs(low - np.where(known, 0.0, 1.0)) > NEAR, low, 0.0)
+    own, other = np.where(known, 0.0, 1.0), np.where(known, 1.0, 0.0)
+
+    def in_no_hole(which: Ints, t: Floats) -> Bools:
+        return between(start.take(which), end.take(which), t, border[which]).known
+
+    last, _ = bisected(in_no_hole, own, other, RIM_STEPS)
+    return np.where(np.abs(last - own) > NEAR, last, 0.0)
 
 
 # How far triangles may be from a surface, and how far its normals may turn on them.
