@@ -16,7 +16,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex, inside_convex, polygon_areas
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, joined
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
@@ -143,7 +143,7 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
 
 
 @dataclass(frozen=True, eq=False)
-class SeenThrough:
+class SeenThrough(LineElements):
     """Polygons to be painted right after the windows they are seen through, in this order.
 
     points (3,c) in the image, as of ImageFaces: heights are those of the doubles; offsets (m+1,); source (m,): the face
@@ -161,10 +161,6 @@ class SeenThrough:
 
     def __len__(self) -> int:
         return len(self.source)
-
-    def take(self, which: Ints) -> SeenThrough:
-        """Some of the polygons, in the order asked for."""
-        return take(self, which)
 
 
 def nothing_seen() -> SeenThrough:

@@ -20,6 +20,7 @@ from vectorplot.geometry.budget import slices
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.elementary import arccos
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_finite, any_component, component_sum, cross, greatest_component, norm
 from vectorplot.tolerances import JUMP_OF_DOMAIN
 
@@ -98,17 +99,13 @@ SURFACE = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Vertices:
+class Vertices(Elements):
     """Points of a surface: places (..., d) that tell where they are on it, points (..., 3), unit normals (..., 3); NaN
     in holes."""
 
     places: Floats
     points: Floats
     normals: Floats
-
-    def take(self, which: Ints | Bools) -> Vertices:
-        """Those with these numbers."""
-        return records.take(self, which)
 
     def joined(self, other: Vertices) -> Vertices:
         """These and others behind them."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -14,6 +14,7 @@ from vectorplot.geometry.algebra import linear_solution, matmul
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
+from vectorplot.geometry.polylines import EACH_POINT, LineElements
 from vectorplot.geometry.regions import areas_of, corners_of, without_holes
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
@@ -119,19 +120,15 @@ class Divided:
 
 
 @dataclass(frozen=True, eq=False)
-class _Polygons:
+class _Polygons(LineElements):
     """Corners (c,) and offsets (p+1,) of polygons."""
 
-    corners: Ints
+    corners: Ints = field(metadata=EACH_POINT)
     offsets: Ints
 
     @property
     def count(self) -> int:
         return len(self.offsets) - 1
-
-    def take(self, which: Bools) -> _Polygons:
-        corners, offsets = ragged.take(self.offsets, which)
-        return _Polygons(self.corners[corners], offsets)
 
 
 @dataclass(frozen=True, eq=False)

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances import BEYOND_END, EDGE_ON_SINE, ROUNDING, SAME_EVENT
@@ -96,17 +97,13 @@ NEAR = 0.25
 
 
 @dataclass(frozen=True, eq=False)
-class Roots:
+class Roots(Elements):
     """Roots: the chord (k,) by the point at which it begins, the part (k,) of it, and whether the function falls (k,)
     there."""
 
     chord: Ints
     part: Floats
     falls: Bools
-
-    def take(self, which: Bools) -> Roots:
-        """Some of the roots."""
-        return Roots(self.chord[which], self.part[which], self.falls[which])
 
 
 def roots_along(curves: Curves, function: OnCurve, values: Floats) -> Roots:
