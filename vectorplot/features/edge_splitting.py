@@ -70,7 +70,8 @@ SIDES_AT_ONCE = 1 << 12
 """Sides that are looked at together: few enough for the processor's cache, which halves the time."""
 
 STEPS = 4
-"""Steps of the false position to a fold."""
+"""Steps of the false position to a fold: as many as a split needs that may lie anywhere, which is why this is not done
+by `bracketed_zeros`, to rounding."""
 
 NEAR = 1.0 / 64.0
 """Part of a side below which what is found on it is its end."""

@@ -386,7 +386,8 @@ Asked = Callable[[Floats], LineField]
 """Takes places (k,c) to what a line function says there."""
 
 ROUNDS = 14
-"""Steps of regula falsi, the Illinois way: each doubles the digits, nearly."""
+"""Steps of regula falsi, the Illinois way: each doubles the digits, nearly. So many and no more: where the sign changes
+by rounding alone, as on a torus without ridges, `bracketed_zeros` would look 2.8 times as often before it gives up."""
 
 BESIDE = 0.02
 """Part of a chord beside it at which the slope of a function is taken."""

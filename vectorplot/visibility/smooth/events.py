@@ -84,7 +84,7 @@ OnCurve = Callable[[Ints, Along], Floats]
 
 FALSE_POSITIONS, CUTS, LOOKS = 12, 16, 6
 """Steps of false position; how often what is left is cut in parts; how often the place is looked for at which a
-function comes closest to zero."""
+function comes closest to zero. Jumps are usual here: `bracketed_zeros`, which halves them, would need 50 calls."""
 
 PARTS = 16
 """Parts in which that is done: as fine as by four halvings, in one call."""
