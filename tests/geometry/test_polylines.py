@@ -16,7 +16,6 @@ from vectorplot.features.intersection_tracing import DoubleCurves
 from vectorplot.features.mesh_lines import MeshCurves
 from vectorplot.features.zero_curves import ZeroManifold
 from vectorplot.geometry.polylines import (
-    APART,
     DOUBTS,
     EACH_LINE,
     EACH_POINT,
@@ -28,6 +27,7 @@ from vectorplot.geometry.polylines import (
     take,
     with_points_kept,
 )
+from vectorplot.geometry.records import APART
 from vectorplot.visibility.smooth.traced_curves import Curves
 
 TYPES = (

@@ -13,6 +13,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import determinant, linear_solution, singular_decomposition, symmetric_eigen
 from vectorplot.geometry.elementary import arctan2, power, tan
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import ABOVE_WHOLE, LOOP_TURN, SINGULAR_DETERMINANT, WHOLE_TURN
 
@@ -103,7 +104,7 @@ SMALLEST_RISE = 100.0
 
 
 @dataclass(frozen=True, eq=False)
-class EllipseArcs:
+class EllipseArcs(Elements):
     """Arcs centre + cos(t) first + sin(t) second, from t = start to end: first and second are the semi-axes.
 
     stroke: (a,) the number of the stroke that each arc draws; centre, first, second: (a, 2) the centre and the
@@ -130,10 +131,6 @@ class EllipseArcs:
     def joined(cls, parts: Sequence[EllipseArcs]) -> EllipseArcs:
         """All arcs of all parts."""
         return records.joined((cls.none(), *parts))
-
-    def take(self, which: Ints | Bools) -> EllipseArcs:
-        """Some of the arcs."""
-        return records.take(self, which)
 
     def points(self, t: Floats) -> Floats:
         """(a,...,2) points at the parameters t (a,...)."""

@@ -10,6 +10,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import least_squares, linear_solution, matmul
+from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.elementary import power
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
 from vectorplot.tolerances import ABOVE_WHOLE, LENGTH_SETTLED, ROUNDING
@@ -284,16 +285,18 @@ def _roots(values: Floats) -> Floats:
         q = -0.5 * (b + np.where(b < 0.0, -1.0, 1.0) * np.sqrt(b * b - 4.0 * a * c))
         turns = np.nan_to_num(np.stack((q / a, c / q), axis=1), nan=0.0, posinf=0.0, neginf=0.0)
     knots = np.concatenate((np.zeros((len(a), 1)), np.sort(np.clip(turns, 0.0, 1.0), axis=1), np.ones((len(a), 1))), 1)
-    low, high = knots[:, :-1].copy(), knots[:, 1:].copy()
-    coefficients = values[:, None, :, None]
-    below, above = (bezier_points(coefficients, t)[..., 0] < 0.0 for t in (low, high))
-    changes = below != above
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        left = (bezier_points(coefficients, middle)[..., 0] < 0.0) == below
-        low, high = np.where(left, middle, low), np.where(left, high, middle)
-    root = 0.5 * (low + high)
-    return np.where(changes & (root > 0.0) & (root < 1.0), root, np.inf)
+    below = bezier_points(values[:, None, :, None], knots)[..., 0] < 0.0
+    piece, turn = np.nonzero(below[:, 1:] != below[:, :-1])
+    start, coefficients = below[piece, turn], values[piece, :, None]
+
+    def alike(which: Ints, t: Floats) -> Bools:
+        return np.asarray((bezier_points(coefficients[which], t)[:, 0] < 0.0) == start[which])
+
+    root = np.full((len(values), 3), np.inf)
+    before, after = bisected(alike, knots[piece, turn], knots[piece, turn + 1], _HALVINGS)
+    middle = 0.5 * (before + after)
+    root[piece, turn] = np.where((middle > 0.0) & (middle < 1.0), middle, np.inf)
+    return root
 
 
 # How far a cubic is off a piece of a rational curve that has the same ends and the same derivatives there.

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property, reduce
 
 import numpy as np
@@ -11,9 +11,10 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import BezierPath, BezierPaths
 from vectorplot.curves.curve import Curve
 from vectorplot.errors import InputError
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.elementary import arccos, power, tan
 from vectorplot.geometry.polylines import Polylines, closed_round
+from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.tolerances import (
     FIT_OF_TOLERANCE,
     JUST_BEFORE,
@@ -242,13 +243,13 @@ _STEPS = 5
 
 
 @dataclass(frozen=True, eq=False)
-class Spans:
+class Spans(Elements):
     """Segments from point first to point last (k,): lengths of their handles (2,k), largest distance error (k,) from
     the points, and error_ratio (k,): the larger of it and of how far the curve leaves the polyline beyond the room."""
 
     first: Ints
     last: Ints
-    handles: Floats
+    handles: Floats = field(metadata=IN_COLUMNS)
     error: Floats
     error_ratio: Floats
 
@@ -562,10 +563,10 @@ class _Fit:
         while len(first[0]):
             spans = self.spans(*first)
             done = (spans.error_ratio <= self.tolerance) | (spans.last - spans.first <= 1)
-            found.append(_chosen(spans, done))
-            first = self._parts(_chosen(spans, ~done))
-        spans = _joined(found)
-        return _chosen(spans, np.argsort(spans.first, kind="stable"))
+            found.append(spans.take(done))
+            first = self._parts(spans.take(~done))
+        spans = records.joined(found)
+        return spans.take(np.argsort(spans.first, kind="stable"))
 
     def _parts(self, spans: Spans) -> tuple[Ints, Ints]:
         """Smaller spans in place of those that fail, of equal length."""
@@ -603,8 +604,8 @@ class _Fit:
             good = trial.error_ratio <= self.tolerance
             keep = np.ones(len(spans.first), dtype=np.bool_)
             keep[pair[good]] = keep[pair[good] + 1] = False
-            spans = _joined([_chosen(spans, keep), _chosen(trial, good)])
-            spans = _chosen(spans, np.argsort(spans.first, kind="stable"))
+            spans = records.joined([spans.take(keep), trial.take(good)])
+            spans = spans.take(np.argsort(spans.first, kind="stable"))
         return spans
 
     def control(self, spans: Spans) -> Floats:
@@ -623,22 +624,6 @@ def _between(lines: FitLines, knots: Bools) -> tuple[Ints, Ints]:
     index = np.flatnonzero(knots)
     same = lines.line[index[:-1]] == lines.line[index[1:]]
     return index[:-1][same], index[1:][same]
-
-
-def _chosen(spans: Spans, which: Bools | Ints) -> Spans:
-    return Spans(
-        spans.first[which], spans.last[which], spans.handles[:, which], spans.error[which], spans.error_ratio[which]
-    )
-
-
-def _joined(parts: list[Spans]) -> Spans:
-    return Spans(
-        np.concatenate([part.first for part in parts]),
-        np.concatenate([part.last for part in parts]),
-        np.concatenate([part.handles for part in parts], axis=1),
-        np.concatenate([part.error for part in parts]),
-        np.concatenate([part.error_ratio for part in parts]),
-    )
 
 
 def _check(points: Floats, offsets: Ints, tangents: Floats | None, tolerance: float) -> None:

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -32,12 +32,16 @@ class Placed:
         object.__setattr__(self, "matrix", invertible("a placement", self.matrix))
         object.__setattr__(self, "shift", vector("placement: shift", self.shift))
 
-    def followed_by(self, matrix: ArrayLike) -> tuple[Floats, Floats]:
-        """The matrix (3,3) and the shift (3,) of this placement and, after it, a matrix (4,4) that acts on columns."""
+    def transformed(self, matrix: ArrayLike) -> Self:
+        """The same thing under a matrix (4,4) that acts on columns, in a single placement."""
         rows, shift = rows_and_shift(matrix)
         # What overflows is refused, as any matrix that is not finite.
         with np.errstate(over="ignore", invalid="ignore"):
-            return matmul(np.asarray(self.matrix), rows), matmul(np.asarray(self.shift), rows) + shift
+            changes: Any = {
+                "matrix": matmul(np.asarray(self.matrix), rows),
+                "shift": matmul(np.asarray(self.shift), rows) + shift,
+            }
+        return replace(self, **changes)  # type: ignore[type-var]
 
     def placed_points(self, points: Floats) -> Floats:
         """(..., 3) where points (..., 3) are placed."""
@@ -93,10 +97,6 @@ class PlacedCurve(Placed, MovableCurve):
     curve: Curve
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
-
-    def transformed(self, matrix: ArrayLike) -> PlacedCurve:
-        """The curve under a matrix (4,4) that acts on columns, in a single placement."""
-        return PlacedCurve(self.curve, *self.followed_by(matrix))
 
     @property
     def start(self) -> float:

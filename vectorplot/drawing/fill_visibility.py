@@ -15,6 +15,7 @@ from vectorplot.drawing.painted_fills import Overlay, stacked
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import determinant, linear_solution
 from vectorplot.geometry.mesh import TRIANGLE, next_positions
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.regions import (
     POLYGON,
     corners_of,
@@ -430,7 +431,7 @@ def _reaching_borders(base: Fills, layers: Overlay) -> Bools:
 
 
 @dataclass(frozen=True, eq=False)
-class _Layers:
+class _Layers(Elements):
     """Regions that lie on each other, those of one stack (n,) from below: source (n,) the fill that each has its colour
     and plane of, kept (n,) how much of this colour, and added (n,3) what is added to it; opacity (n,); kind (n,)
     FillKind values."""
@@ -442,9 +443,6 @@ class _Layers:
     added: Floats
     opacity: Floats
     kind: Ints
-
-    def take(self, which: Ints) -> _Layers:
-        return records.take(self, which)
 
     @classmethod
     def joined(cls, *parts: _Layers) -> _Layers:

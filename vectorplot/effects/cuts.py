@@ -26,6 +26,7 @@ from vectorplot.features.parameter_curves import domain_borders
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.clipping import crossed_sides
 from vectorplot.geometry.connectivity import pieces_of_faces, unbalanced_vertices
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import Mesh
@@ -814,13 +815,9 @@ def _parts(corners: Ints, offsets: Ints, inside: Floats, vertices: Floats) -> tu
     """Corners and offsets of the parts of convex faces where inside (v,) is not negative, and the new vertices."""
     here, there = corners, corners[ragged.following(offsets)]
     crossing = inside[here] * inside[there] < 0.0
-    pairs = np.sort(np.stack([here[crossing], there[crossing]], axis=1), axis=1)
-    ends, which = np.unique(pairs, axis=0, return_inverse=True)
-    low, high = ends.T
-    share = inside[low] / (inside[low] - inside[high])
+    (low, high), share, which = crossed_sides(here, there, crossing, inside)
     made = vertices[low] + share[:, None] * (vertices[high] - vertices[low])
-    slots = np.stack([here, np.full(len(here), -1)], axis=1)
-    slots[crossing, 1] = len(vertices) + which.reshape(-1)
+    slots = np.stack([here, len(vertices) + which], axis=1)
     kept = np.stack([inside[here] >= 0.0, crossing], axis=1)
     # Of a face that only touches the plane an edge or a corner would be left.
     face = ragged.owner(np.diff(offsets))

@@ -15,7 +15,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import polylines, ragged, records
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.elementary import arcsin, arctan, tan
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.vectors import normalize
 from vectorplot.scene.view import View
@@ -578,7 +578,7 @@ INNER = 4.0
 
 
 @dataclass(frozen=True, eq=False)
-class Soup:
+class Soup(LineElements):
     """Convex polygons: points (3,c) in the view, offsets (n+1,), source (n,) the faces of the view, or whatever else,
     that they are of, way (n,) the way on which light takes from each to the eye."""
 
@@ -589,10 +589,6 @@ class Soup:
 
     def __len__(self) -> int:
         return len(self.source)
-
-    def take(self, which: Ints) -> Soup:
-        """Some of the polygons."""
-        return polylines.take(self, which)
 
     def on_ways(self, polygon: Ints, way: Ints) -> Soup:
         """Polygons (n,), each on a way (n,) of its own."""

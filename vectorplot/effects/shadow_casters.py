@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -14,6 +14,8 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.light import Light
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.unseen import body_sides
@@ -314,11 +316,11 @@ SURE = 3.0
 
 
 @dataclass(frozen=True, eq=False)
-class Receivers:
+class Receivers(LineElements):
     """Faces that shadows may fall on: face (r,) of the view; points (3,c), offsets (r+1,)."""
 
-    face: Ints
-    points: Floats
+    face: Ints = field(metadata=EACH_LINE)
+    points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
     offsets: Ints
 
     @classmethod
@@ -326,11 +328,6 @@ class Receivers:
         """Some faces of a view."""
         position, offsets = ragged.take(view.offsets, face)
         return cls(face, view.points[:, view.corners[position]], offsets)
-
-    def take(self, which: Ints) -> Receivers:
-        """Some of them."""
-        position, offsets = ragged.take(self.offsets, which)
-        return Receivers(self.face[which], self.points[:, position], offsets)
 
 
 def candidates(

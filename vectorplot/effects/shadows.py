@@ -28,7 +28,7 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL, Budget, mapped, unresolved
 from vectorplot.geometry.polygon_cuts import Crossings, Parts, crossings_of, parts_of
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, joined
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.geometry.regions import cells_of, corners_of, polygons_of, unions, without_holes, without_splinters
 from vectorplot.scene.item import Item
@@ -56,7 +56,7 @@ MOST_CELLS = 3_000_000
 
 
 @dataclass(frozen=True, eq=False)
-class Shadows:
+class Shadows(LineElements):
     """Polygons on faces: points (3,c) in the view, offsets (m+1,); face (m,) of the view; lacking (m,): the lights that
     do not get there, bit k for light k; whole (m,): it is the whole face. Those that one light casts are convex."""
 
@@ -78,10 +78,6 @@ class Shadows:
     def grade(self) -> Ints:
         """(m,) how many lights each lacks."""
         return np.bitwise_count(self.lacking).astype(np.intp)
-
-    def take(self, which: Ints) -> Shadows:
-        """Some of them, in the order asked for."""
-        return take(self, which)
 
     def without_needless(self) -> Shadows:
         """The same without those on faces that another shadow for want of the same lights covers whole."""

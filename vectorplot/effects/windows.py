@@ -10,13 +10,13 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fill_visibility import in_space
 from vectorplot.drawing.fills import Colours, FillKind, Fills
+from vectorplot.drawing.hatching import scanned
 from vectorplot.drawing.painted_fills import Overlay, fills_on_page
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex, inside_convex, polygon_areas
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, joined
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
@@ -30,9 +30,6 @@ from vectorplot.visibility.projected_faces import Floats32
 
 FEWEST, MOST = 2, 4
 """Of transparent faces every second, third or fourth line or pixel is set."""
-
-MOST_STROKES = 10_000_000
-"""No screen has more strokes."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,7 +62,7 @@ def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, a
     points (2 or more, c), offsets (m+1,): simple polygons, convex or not; pitch: distance of the lines that would fill
     a polygon densely, the width of the pen, in the units of the points; every (m,) or a number: which of these lines
     are drawn, 0 for none; angle_deg: from the x-axis. All polygons share one set of lines, so that neighbours fit.
-    Errors: InputError for a pitch that is not positive, or so fine that there are more than MOST_STROKES strokes.
+    Errors: InputError for a pitch that is not positive, or as of `hatching.scanned`.
     Edge cases: polygons between two lines get no stroke.
     Source: Glaeser, section 6.6 (every second, third or fourth pixel), for pens.
     """
@@ -75,30 +72,12 @@ def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, a
     step = np.broadcast_to(np.asarray(every, dtype=np.intp), (count,))
     turn = np.radians(angle_deg)
     along, across = np.array([np.cos(turn), np.sin(turn)]), np.array([-np.sin(turn), np.cos(turn)])
-    u, v = matmul(along, points[:2]), matmul(across, points[:2])
-    owner = ragged.owner(np.diff(offsets))
-    after = next_positions(offsets, np.arange(len(u))) if count else owner
-    drawn = step[owner] > 0
-    distance = pitch * np.maximum(step[owner], 1)
-    # Lines lie at odd multiples of half the distance, seldom through corners; a corner on a line counts as above it.
-    here, there = v / distance - 0.5, v[after] / distance - 0.5
-    low, high = np.ceil(np.minimum(here, there)), np.ceil(np.maximum(here, there))
-    crossed = np.where(drawn, high - low, 0.0)
-    if not crossed.sum() < MOST_STROKES:
-        raise InputError(f"lines {pitch:g} apart are too fine: more than {MOST_STROKES} strokes")
-    crossings = crossed.astype(np.intp)
-    side = ragged.owner(crossings)
-    line = low[side] + np.arange(len(side)) - np.repeat(ragged.starts(crossings), crossings)
-    share = (line - here[side]) / (there - here)[side]
-    place = u[side] + share * (u[after] - u)[side]
-    order = np.lexsort((place, line, owner[side]))
-    side, line, place = side[order], line[order], place[order]
-    height = (line + 0.5) * distance[side]
-    spots = along[:, None] * place + across[:, None] * height
-    # Every line enters and leaves a polygon by turns.
-    start, end = spots[:, 0::2], spots[:, 1::2]
-    full = np.flatnonzero(place[1::2] > place[0::2])
-    return ScreenDoor(start[:, full], end[:, full], owner[side[0::2][full]])
+    # Lines that are infinitely far from each other meet nothing.
+    spacing = np.where(step > 0, pitch * np.maximum(step, 1), np.inf)
+    parts = scanned(matmul(along, points[:2]), matmul(across, points[:2]), offsets, np.arange(count), spacing)
+    height = across[:, None] * ((parts.line + 0.5) * spacing[parts.region])
+    start, end = (along[:, None] * place + height for place in (parts.low, parts.high))
+    return ScreenDoor(start, end, parts.region)
 
 
 def screen_door_pixels(rows: int, columns: int, every: int) -> Bools:
@@ -143,7 +122,7 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
 
 
 @dataclass(frozen=True, eq=False)
-class SeenThrough:
+class SeenThrough(LineElements):
     """Polygons to be painted right after the windows they are seen through, in this order.
 
     points (3,c) in the image, as of ImageFaces: heights are those of the doubles; offsets (m+1,); source (m,): the face
@@ -161,10 +140,6 @@ class SeenThrough:
 
     def __len__(self) -> int:
         return len(self.source)
-
-    def take(self, which: Ints) -> SeenThrough:
-        """Some of the polygons, in the order asked for."""
-        return take(self, which)
 
 
 def nothing_seen() -> SeenThrough:

@@ -23,7 +23,8 @@ from vectorplot.features.zero_curves import ALONG_A_LINE, ZeroManifold, check_gr
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL, Budget, slices
-from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, NumberedLines, joined, take
+from vectorplot.geometry.polylines import DOUBTS, EACH_LINE, EACH_POINT, NumberedLines, joined, take
+from vectorplot.geometry.records import APART
 from vectorplot.geometry.vectors import all_finite, from_components, norm
 from vectorplot.surfaces.surface import Domain, Surface
 from vectorplot.tolerances import (

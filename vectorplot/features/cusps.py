@@ -25,6 +25,7 @@ from vectorplot.features.zero_curves import check_grid
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.polylines import joined, take
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_components, all_finite, cross, dot, from_components, length, norm
 from vectorplot.surfaces.stacked import unit_normals_of
 from vectorplot.surfaces.surface import Domain, OverDomain, Surface, normals
@@ -392,7 +393,7 @@ def _cusps_of_each(contours: StackedConditions[Contour], curves: Sequence[Surfac
     all_curves = joined(curves)
     pieces = _changing(contours, all_curves, ragged.owner(np.diff(first)))
     at, found = _by_newton(contours, pieces)
-    at, pieces = at[found], pieces.chosen(np.flatnonzero(found))
+    at, pieces = at[found], pieces.take(np.flatnonzero(found))
     start, size = np.stack([all_curves.u, all_curves.v], axis=1)[pieces.after], _sizes(contours, pieces.of)
     along = ((at - start) / size * (pieces.end - pieces.start) / size).sum(axis=1)
     order = np.lexsort((along, pieces.after))
@@ -402,7 +403,7 @@ def _cusps_of_each(contours: StackedConditions[Contour], curves: Sequence[Surfac
 
 
 @dataclass(frozen=True, eq=False)
-class _Pieces:
+class _Pieces(Elements):
     """Pieces of curves on surfaces with the numbers of (k,): parameters start, end (k,2) and curvatures low, high (k,)
     there; after (k,): the last point of the curves before them."""
 
@@ -412,10 +413,6 @@ class _Pieces:
     low: Floats
     high: Floats
     after: Ints
-
-    def chosen(self, which: Ints) -> _Pieces:
-        """Those at some positions."""
-        return records.take(self, which)
 
 
 def _sizes(contours: StackedConditions[Contour], of: Ints) -> Floats:
@@ -430,13 +427,13 @@ def _changing(contours: StackedConditions[Contour], curves: SurfaceCurves, of: I
     larger = np.abs(np.stack([pieces.low, pieces.high])).max(axis=0, initial=0.0)
     largest = np.zeros(len(contours))
     np.maximum.at(largest, pieces.of, larger)
-    doubtful = pieces.chosen(np.flatnonzero(_may_dip(_sizes(contours, pieces.of), curves, pieces)))
+    doubtful = pieces.take(np.flatnonzero(_may_dip(_sizes(contours, pieces.of), curves, pieces)))
     change = ((pieces.low < 0.0) != (pieces.high < 0.0)) & (larger > LEVEL_CURVATURE * largest[pieces.of])
-    plain = pieces.chosen(np.flatnonzero(change))
+    plain = pieces.take(np.flatnonzero(change))
     if not len(doubtful.after):
         return plain
     cut = _cut_at_least(contours, doubtful)
-    fine = cut.chosen(np.flatnonzero(cut.low * cut.high < 0.0))
+    fine = cut.take(np.flatnonzero(cut.low * cut.high < 0.0))
     return records.joined((plain, fine))
 
 
@@ -458,7 +455,7 @@ def _segments(contours: StackedConditions[Contour], curves: SurfaceCurves, of: I
         pole = np.isnan(ends)
         ends[pole] = _curvatures(contours, of[pole], (own + BESIDE_POLE * (other - own))[pole])
     real &= np.isfinite(low) & np.isfinite(high)
-    return _Pieces(of, start, end, low, high, first).chosen(np.flatnonzero(real))
+    return _Pieces(of, start, end, low, high, first).take(np.flatnonzero(real))
 
 
 def _may_dip(size: Floats, curves: SurfaceCurves, pieces: _Pieces) -> Bools:

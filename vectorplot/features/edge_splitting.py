@@ -17,8 +17,10 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
 from vectorplot.geometry.budget import slices
+from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.elementary import arccos
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_finite, any_component, component_sum, cross, greatest_component, norm
 from vectorplot.tolerances import JUMP_OF_DOMAIN
 
@@ -68,7 +70,8 @@ SIDES_AT_ONCE = 1 << 12
 """Sides that are looked at together: few enough for the processor's cache, which halves the time."""
 
 STEPS = 4
-"""Steps of the false position to a fold."""
+"""Steps of the false position to a fold: as many as a split needs that may lie anywhere, which is why this is not done
+by `bracketed_zeros`, to rounding."""
 
 NEAR = 1.0 / 64.0
 """Part of a side below which what is found on it is its end."""
@@ -97,17 +100,13 @@ SURFACE = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Vertices:
+class Vertices(Elements):
     """Points of a surface: places (..., d) that tell where they are on it, points (..., 3), unit normals (..., 3); NaN
     in holes."""
 
     places: Floats
     points: Floats
     normals: Floats
-
-    def take(self, which: Ints | Bools) -> Vertices:
-        """Those with these numbers."""
-        return records.take(self, which)
 
     def joined(self, other: Vertices) -> Vertices:
         """These and others behind them."""
@@ -448,12 +447,13 @@ def _roots(
 def _rim(start: Vertices, end: Vertices, border: Bools, between: Between) -> Floats:
     """The last parts of sides, one end of which is in a hole, that are not in it; 0 next to the other end."""
     known = start.known
-    low, high = np.where(known, 0.0, 1.0), np.where(known, 1.0, 0.0)
-    for _ in range(RIM_STEPS):
-        t = 0.5 * (low + high)
-        good = between(start, end, t, border).known
-        low, high = np.where(good, t, low), np.where(good, high, t)
-    return np.where(np.abs(low - np.where(known, 0.0, 1.0)) > NEAR, low, 0.0)
+    own, other = np.where(known, 0.0, 1.0), np.where(known, 1.0, 0.0)
+
+    def in_no_hole(which: Ints, t: Floats) -> Bools:
+        return between(start.take(which), end.take(which), t, border[which]).known
+
+    last, _ = bisected(in_no_hole, own, other, RIM_STEPS)
+    return np.where(np.abs(last - own) > NEAR, last, 0.0)
 
 
 # How far triangles may be from a surface, and how far its normals may turn on them.

@@ -248,11 +248,11 @@ def _crossings(surface: Surface, places: Floats, known: Bools, one: Ints, two: I
     part, _ = last_alike(surface, places[start], way, np.zeros(len(pair)), np.ones(len(pair)))
     # A side along a line with values and no surface beside them: all of it is known.
     line = np.flatnonzero(part >= 1.0 - REPEATED_OF_DOMAIN)
-    inner, outer = np.zeros(len(line)), np.ones(len(line))
-    for _ in range(RIM_HALVINGS if len(line) else 0):
-        middle = 0.5 * (inner + outer)
-        there = _has_surface(surface, places[start[line]] + middle[:, None] * way[line])
-        inner, outer = np.where(there, middle, inner), np.where(there, outer, middle)
+
+    def has_surface(which: Ints, at: Floats) -> Bools:
+        return _has_surface(surface, places[start[line[which]]] + at[:, None] * way[line[which]])
+
+    inner, _ = bisected(has_surface, np.zeros(len(line)), np.ones(len(line)), RIM_HALVINGS)
     part[line] = np.where(_has_surface(surface, places[end[line]]), part[line], inner)
     # Sides that end in one place have one crossing where the rim runs through it.
     number = len(places) + np.arange(len(pair))

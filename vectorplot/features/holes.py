@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats
+from vectorplot.geometry.chord_refinement import narrowed
 from vectorplot.geometry.elementary import log
 from vectorplot.geometry.vectors import all_finite, from_components
 from vectorplot.surfaces.stacked import of_some
@@ -82,15 +83,7 @@ def last_alike(surface: Surface, base: Floats, ways: Floats, low: Floats, high: 
     number = int(np.clip(AT_ONCE // max(len(base), 1), 2, MOST_PARTS))
     steps = int(np.ceil(log(max(long / RIM_FOUND_TO, 1.0)) / log(number)))
     there = is_known(surface, base + low[:, None] * ways)
-    inner = np.arange(1, number)[:, None] / number
-    for _ in range(steps):
-        tried = low + inner * (high - low)
-        alike = is_known(surface, base + tried[..., None] * ways) == there
-        last = np.where(alike.all(axis=0), number - 1, np.argmin(alike, axis=0))
-        nodes = np.concatenate([low[None], tried, high[None]])
-        every = np.arange(len(base))
-        low, high = nodes[last, every], nodes[last + 1, every]
-    return low, high
+    return narrowed(lambda tried: is_known(surface, base + tried[..., None] * ways) == there, low, high, number, steps)
 
 
 def beside_rim_chords(surface: Surface, start: Floats, end: Floats, part: Floats) -> tuple[Floats, Bools]:

@@ -13,6 +13,7 @@ from vectorplot.features.implicit_surfaces import polygonized, settled_from
 from vectorplot.features.mesh_lines import split_at_middles
 from vectorplot.geometry import records
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import (
     all_components,
     any_component,
@@ -107,7 +108,7 @@ STUBBORN = 3
 
 
 @dataclass(frozen=True, eq=False)
-class Nodes:
+class Nodes(Elements):
     """Points with a condition: points (n,3); fixed (n,3): coordinates that stay as they are; values (n,) and slopes
     (n,3) of the condition; gradients (n,3) of the function whose zeros the surface is.
 
@@ -126,10 +127,6 @@ class Nodes:
     def joined(self, more: Nodes) -> Nodes:
         """These and more, numbered on."""
         return records.joined((self, more))
-
-    def chosen(self, which: Ints) -> Nodes:
-        """Some of them."""
-        return records.take(self, which)
 
 
 @dataclass(frozen=True, eq=False)
@@ -166,7 +163,7 @@ def curve_band(
     reached = _reached(nodes, triangles, tangential(nodes.slopes[triangles], source), REACH)
     triangles, source = triangles[reached], source[reached]
     used, corners = np.unique(triangles, return_inverse=True)
-    nodes, triangles = nodes.chosen(used), corners.reshape(-1, 3)
+    nodes, triangles = nodes.take(used), corners.reshape(-1, 3)
     stuck = np.zeros(len(triangles), dtype=np.intp)
     complete = True
     for level in range(LEVELS + 1):
@@ -179,7 +176,7 @@ def curve_band(
         if not goes_on.any() or not complete or level == LEVELS:
             break
         split = split_at_middles(triangles, goes_on, len(nodes.points))
-        nodes = nodes.joined(middles(nodes.chosen(split.low), nodes.chosen(split.high)))
+        nodes = nodes.joined(middles(nodes.take(split.low), nodes.take(split.high)))
         triangles, source, stuck = split.triangles, source[split.parent], stuck[split.parent]
     singular = odd & (stuck > STUBBORN)
     # On singular lines that are known curves end, however they come there.

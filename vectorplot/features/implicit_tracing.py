@@ -29,7 +29,6 @@ from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import (
-    APART,
     DOUBTS,
     EACH_LINE,
     EACH_POINT,
@@ -38,6 +37,7 @@ from vectorplot.geometry.polylines import (
     closed_round,
     joined,
 )
+from vectorplot.geometry.records import APART
 from vectorplot.geometry.vectors import norm
 from vectorplot.geometry.weld import close_points, one_each
 from vectorplot.surfaces.surface import ImplicitSurface, hessians

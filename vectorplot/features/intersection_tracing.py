@@ -15,7 +15,8 @@ from vectorplot.features.triangle_intersections import Contacts
 from vectorplot.geometry.algebra import least_squares, matmul
 from vectorplot.geometry.chord_refinement import Traces, refined
 from vectorplot.geometry.elementary import arctan2
-from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, NumberedLines
+from vectorplot.geometry.polylines import DOUBTS, EACH_LINE, EACH_POINT, NumberedLines
+from vectorplot.geometry.records import APART
 from vectorplot.geometry.vectors import component_sum, cross
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import (

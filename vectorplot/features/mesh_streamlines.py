@@ -27,8 +27,10 @@ from vectorplot.features.streamlines import (
     ROUGHLY,
     SAMPLES,
     SEPARATE,
-    SHORTEST,
     WIDEST,
+    SampledCurves,
+    beside_each_other,
+    taken_in_turn,
     widest_first,
 )
 from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
@@ -215,36 +217,20 @@ FIRST_LOOK = 8
 
 
 @dataclass(frozen=True, eq=False)
-class PlacedCurves:
-    """Curves, and the places (p,) along them at which they are compared: curve (p,); along (p,), lengths from the start
-    of the curve; node (p,); where (p,6). seed (m,): the place nearest to where each curve began; long (m,): how long it
-    is."""
+class PlacedCurves(SampledCurves):
+    """Places along curves: node (p,), where (p,6); lengths are from the start of each curve, and it began near the
+    place that seeds (c,) name."""
 
     curves: MeshCurves
-    curve: Ints
-    along: Floats
     node: Floats
     where: Floats
-    seed: Ints
-    long: Floats
+    seeds: Ints
 
 
 def beside(tree: cKDTree, where: Floats, reach: float) -> Bools:
     """(k,) which places (k,6) are within reach of what a tree has."""
     away = tree.query(where, distance_upper_bound=reach, workers=workers(len(where)))[0]
     return np.asarray(np.isfinite(away))
-
-
-def reached(found: PlacedCurves, free: Bools) -> tuple[Ints, Ints]:
-    """The first and the last (m,) of the places of each curve that are reached from its seed over free ones only: of a
-    closed curve, which begins at its seed, up to the end, and from the end on; none where the seed is not free."""
-    count = len(found.seed)
-    bounds = np.searchsorted(found.curve, np.arange(count + 1))
-    taken = np.concatenate([[-1], np.flatnonzero(~free), [len(free)]])
-    after = np.searchsorted(taken, found.seed, side="left")
-    last = np.minimum(taken[after] - 1, bounds[1:] - 1)
-    first = np.maximum(taken[after - 1] + 1, bounds[:-1])
-    return first, np.where(free[found.seed], last, first - 1)
 
 
 def free_around(found: PlacedCurves, tree: cKDTree | None, reach: float) -> Bools:
@@ -254,11 +240,11 @@ def free_around(found: PlacedCurves, tree: cKDTree | None, reach: float) -> Bool
     if tree is None or not count:
         return np.ones(count, dtype=np.bool_)
     free = np.zeros(count, dtype=np.bool_)
-    free[found.seed] = ~beside(tree, found.where[found.seed], reach)
-    bounds = np.searchsorted(found.curve, np.arange(len(found.seed) + 1))
+    free[found.seeds] = ~beside(tree, found.where[found.seeds], reach)
+    bounds = found.offsets
     for way in (-1, 1):
-        left, look = np.flatnonzero(free[found.seed]), FIRST_LOOK
-        place = found.seed[left]
+        left, look = np.flatnonzero(free[found.seeds]), FIRST_LOOK
+        place = found.seeds[left]
         while len(left):
             room = place - bounds[left] if way < 0 else bounds[left + 1] - 1 - place
             sizes = np.minimum(room, look)
@@ -268,7 +254,7 @@ def free_around(found: PlacedCurves, tree: cKDTree | None, reach: float) -> Bool
             onward = ~shut & (room > look)
             left, place = left[onward], place[onward] + way * look
             look *= 2
-    first, last = reached(found, free)
+    first, last = found.reached(free)
     result = np.zeros(count, dtype=np.bool_)
     result[ragged.ranges(first, np.maximum(last - first + 1, 0))] = True
     return result
@@ -277,16 +263,18 @@ def free_around(found: PlacedCurves, tree: cKDTree | None, reach: float) -> Bool
 def some_places(found: PlacedCurves, free: Bools) -> tuple[PlacedCurves, Ints]:
     """The curves with those of their places alone that are free, and their seeds; and which (k,) they are."""
     chosen = free.copy()
-    chosen[found.seed] = True
+    chosen[found.seeds] = True
     at = np.flatnonzero(chosen)
-    seed = np.searchsorted(at, found.seed)
+    offsets, seeds = np.searchsorted(at, found.offsets), np.searchsorted(at, found.seeds)
     picked = replace(
-        found, curve=found.curve[at], along=found.along[at], node=found.node[at], where=found.where[at], seed=seed
+        found, offsets=offsets, along=found.along[at], node=found.node[at], where=found.where[at], seeds=seeds
     )
     return picked, at
 
 
-# How curves cover a mesh evenly: where they begin, and where they end beside each other.
+# How curves cover a mesh evenly: where they begin, and where they end beside each other. Each is taken as on smooth
+# surfaces (streamlines.taken_in_turn). The rounds differ: here what is taken is one tree, as near places are near along
+# a mesh too, and boxes and cells spare most looks; on surfaces each look asks for the sheet, and itself costs most.
 
 MOST_SAMPLES = 16
 """And so many at most, however near each other its points are."""
@@ -380,7 +368,7 @@ def _seeds(shape: StreamlineMesh, gaps: Floats, tree: cKDTree | None) -> tuple[F
     if not len(lines):
         return gaps, shape.where(gaps)
     found = _compared(shape, lines, shape.where(gaps))
-    signed = found.along - found.along[found.seed][found.curve]
+    signed = found.from_seed
     rounds = np.abs(np.rint(signed / apart))
     near = np.abs(np.abs(signed) - rounds * apart) <= 0.5 * apart / SAMPLES
     if tree is not None:
@@ -401,8 +389,7 @@ def _compared(shape: StreamlineMesh, curves: MeshCurves, spots: Floats) -> Place
     points = curves.points[rounds.index]
     if not len(points):
         none = np.zeros(0)
-        empty = np.zeros(0, dtype=np.intp)
-        return PlacedCurves(curves, empty, none, none, np.zeros((0, 6)), empty, none)
+        return PlacedCurves(np.zeros(1, dtype=np.intp), none, none, curves, none, np.zeros((0, 6)), ragged.owner([]))
     ends = rounds.offsets[1:] - 1
     begins = np.delete(np.arange(len(points)), ends)
     steps = norm(points[begins + 1] - points[begins])
@@ -424,10 +411,10 @@ def _compared(shape: StreamlineMesh, curves: MeshCurves, spots: Floats) -> Place
     owner = ragged.owner(counts)[np.floor(node).astype(np.intp)]
     where = shape.where(shape.at(curves, node))
     away = norm(where - spots[curves.levels.astype(np.intp)][owner])
-    starts = np.searchsorted(owner, np.arange(len(curves)))
-    nearest = np.flatnonzero(away == np.minimum.reduceat(away, starts)[owner])
-    seed = nearest[np.searchsorted(owner[nearest], np.arange(len(curves)))]
-    return PlacedCurves(curves, owner, along, node, where, seed, total[ends])
+    offsets = np.searchsorted(owner, np.arange(len(curves) + 1))
+    nearest = np.flatnonzero(away == np.minimum.reduceat(away, offsets[:-1])[owner])
+    seeds = nearest[np.searchsorted(owner[nearest], np.arange(len(curves)))]
+    return PlacedCurves(offsets, along, np.where(curves.closed, total[ends], np.inf), curves, node, where, seeds)
 
 
 def _without_dense_groups(
@@ -445,14 +432,13 @@ def _without_dense_groups(
     free = free_around(lines, tree, NEAREST * apart)
     found, places = some_places(lines, free)
     free = free[places]
-    count = len(found.seed)
     own = [np.zeros((0, 6))]
     spans = [np.zeros((0, 3), dtype=np.intp)]
-    bounds = np.searchsorted(found.curve, np.arange(count + 1))
+    bounds = found.offsets
     low, high = _boxes(found.where, bounds[:-1])
     cells = PlaceCells.over(found.where[:, :3], CELL * apart)
     cell = cells.of(found.where[:, :3])
-    left = np.flatnonzero(free[found.seed])
+    left = np.flatnonzero(free[found.seeds])
     while len(left):
         group, left = np.split(left, [max(1, int(np.searchsorted(np.cumsum(np.diff(bounds)[left]), GROUP)))])
         kept = _kept(found, group, free, apart)
@@ -461,7 +447,7 @@ def _without_dense_groups(
         spans.append(kept)
         own.append(found.where[ragged.ranges(kept[:, 1], kept[:, 2] - kept[:, 1] + 1)])
         last = cKDTree(own[-1], balanced_tree=False)
-        left = left[~beside(last, found.where[found.seed[left]], WIDEST * apart)]
+        left = left[~beside(last, found.where[found.seeds[left]], WIDEST * apart)]
         about = _boxes(own[-1], ragged.starts(kept[:, 2] - kept[:, 1] + 1))
         reach = NEAREST * apart
         near = left[np.unique(overlapping_boxes(low[:, left], high[:, left], about[0] - reach, about[1] + reach)[0])]
@@ -481,77 +467,19 @@ def _boxes(where: Floats, starts: Ints) -> tuple[Floats, Floats]:
 
 
 def _kept(found: PlacedCurves, lines: Ints, free: Bools, apart: float) -> Ints:
-    """(s,3) which of some lines to keep, one after the other, and their first and last places. free (p,): places that
-    are not beside others; those that are beside lines that are kept, and lines beside themselves, are free no more."""
-    from scipy.spatial import cKDTree
-
-    first, last = (ends[lines] for ends in reached(found, free))
+    """(s,3) which of some lines to keep, and their first and last places, as of taken_in_turn. What is near on a mesh
+    is so along it: the normals of thin shapes' two sides tell them apart."""
+    first, last = (ends[lines] for ends in found.reached(free))
     at = ragged.ranges(first, np.maximum(last - first + 1, 0))
-    if not len(at):
-        return np.zeros((0, 3), dtype=np.intp)
-    tree = cKDTree(found.where[at], balanced_tree=False)
-    pairs = at[tree.query_pairs(NEAREST * apart, output_type="ndarray")]
-    one, two = np.concatenate([pairs, pairs[:, ::-1]]).T
-    free &= ~_beside_itself(found, one, two, apart)
-    one, two, begin = _by_curve(found, one, two)
-    seeds = found.seed[lines]
-    around = cKDTree(found.where[seeds]).sparse_distance_matrix(tree, WIDEST * apart, output_type="ndarray")
-    place, seed, begin_seeds = _by_curve(found, at[around["j"]], seeds[around["i"]])
-    fresh = np.ones(len(found.seed), dtype=np.bool_)
-    bounds = np.searchsorted(found.curve, np.arange(len(found.seed) + 1))
-    spans = []
-    for line in lines.tolist():
-        if not fresh[line]:
-            continue
-        low, high = _span(free[bounds[line] : bounds[line + 1]], int(found.seed[line] - bounds[line]))
-        low, high = low + int(bounds[line]), high + int(bounds[line])
-        if high < low or found.along[high] - found.along[low] < SHORTEST * apart:
-            continue
-        spans.append((line, low, high))
-        own = slice(begin[line], begin[line + 1])
-        free[two[own][(one[own] >= low) & (one[own] <= high)]] = False
-        own = slice(begin_seeds[line], begin_seeds[line + 1])
-        fresh[found.curve[seed[own][(place[own] >= low) & (place[own] <= high)]]] = False
-    return np.array(spans, dtype=np.intp).reshape(-1, 3)
-
-
-def _by_curve(found: PlacedCurves, one: Ints, two: Ints) -> tuple[Ints, Ints, Ints]:
-    """The pairs (k,) of places of different curves in the order of the curves of the first ones, and where (m+1,) those
-    of each curve begin."""
-    curve = found.curve[one]
-    order = np.flatnonzero(curve != found.curve[two])
-    order = order[np.argsort(curve[order], kind="stable")]
-    return one[order], two[order], np.searchsorted(curve[order], np.arange(len(found.seed) + 1))
-
-
-def _span(free: Bools, seed: int) -> tuple[int, int]:
-    """The first and the last place that are reached from one over free ones; none where it is not free."""
-    if not free[seed]:
-        return seed, seed - 1
-    shut = np.flatnonzero(~free)
-    after = int(np.searchsorted(shut, seed))
-    low = int(shut[after - 1]) + 1 if after else 0
-    high = int(shut[after]) - 1 if after < len(shut) else len(free) - 1
-    return low, high
-
-
-def _beside_itself(found: PlacedCurves, one: Ints, two: Ints, apart: float) -> Bools:
-    """(p,) the places where a curve is too near to what it has been through before."""
-    same = found.curve[one] == found.curve[two]
-    one, two = one[same], two[same]
-    way = np.abs(found.along[one] - found.along[two])
-    closed = found.curves.closed[found.curve[one]]
-    way = np.where(closed, np.minimum(way, found.long[found.curve[one]] - way), way)
-    from_seed = np.abs(found.along - found.along[found.seed][found.curve])
-    later = (way > 2.0 * apart) & (from_seed[one] >= from_seed[two])
-    result = np.zeros(len(found.curve), dtype=np.bool_)
-    result[one[later]] = True
-    return result
+    pairs, seeds = beside_each_other(
+        found, found.where, lines, at, apart, lambda one, two, reach: np.ones(len(one), dtype=np.bool_)
+    )
+    return taken_in_turn(found, lines, free, pairs, seeds, apart)
 
 
 def _cut(shape: StreamlineMesh, found: PlacedCurves, line: Ints, first: Ints, last: Ints) -> list[MeshCurves]:
     """Parts of curves, from one place to another; whole curves as they are."""
-    bounds = np.searchsorted(found.curve, np.arange(len(found.seed) + 1))
+    bounds = found.offsets
     whole = (first == bounds[line]) & (last == bounds[line + 1] - 1)
     kept = [take(found.curves, line[whole])]
     if not whole.all():

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import ArrayLike
 
-from vectorplot.arrays import Bools, Floats
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.conditions import SurfacesAtOnce, stacks
 from vectorplot.features.curve_tracing import (
@@ -26,7 +26,15 @@ from vectorplot.features.holes import is_known, wrapped
 from vectorplot.features.scalar_fields import number, of_lines
 from vectorplot.geometry import records
 from vectorplot.geometry.budget import unresolved
-from vectorplot.geometry.chord_refinement import Refined, Traces, refined, straight_between, torn, with_standstills
+from vectorplot.geometry.chord_refinement import (
+    Refined,
+    Traces,
+    bisected,
+    refined,
+    straight_between,
+    torn,
+    with_standstills,
+)
 from vectorplot.geometry.polylines import split, take
 from vectorplot.geometry.vectors import all_finite, from_components, norm
 from vectorplot.surfaces.splines import line_pieces
@@ -229,15 +237,16 @@ def _without_holes(asked: SurfacesAtOnce, axis: int, lines: Traces, looks: int) 
         return lines
     change = np.flatnonzero((good[1:] != good[:-1]) & ~last[:-1])
     enters = ~good[change]
-    low, high = ways[change + enters], ways[change + ~enters]
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        there = _on_surface(asked, axis, middle)[:, None]
-        low, high = np.where(there, middle, low), np.where(there, high, middle)
+    on, way = ways[change + enters], ways[change + ~enters] - ways[change + enters]
+
+    def there(which: Ints, part: Floats) -> Bools:
+        return _on_surface(asked, axis, on[which] + part[:, None] * way[which])
+
+    border = on + bisected(there, np.zeros(len(on)), np.ones(len(on)), HALVINGS)[0][:, None] * way
     kept, ends = np.insert(good, change + 1, True), np.insert(last & good, change + 1, ~enters)
     # A line that consists of a single point is no line.
     kept &= ~(ends & np.concatenate([[True], (ends | ~kept)[:-1]]))
-    return Traces(np.insert(ways, change + 1, low, axis=0), ends).take(kept & np.insert(own, change + 1, True))
+    return Traces(np.insert(ways, change + 1, border, axis=0), ends).take(kept & np.insert(own, change + 1, True))
 
 
 def _on_surface(asked: SurfacesAtOnce, axis: int, ways: Floats) -> Bools:
@@ -399,10 +408,7 @@ def _without_gaps(surface: Surface, path: Callable[[Floats], Floats], t: Floats)
     change = np.flatnonzero(good[1:] != good[:-1])
     on = np.where(good[change], t[change], t[change + 1])
     off = np.where(good[change], t[change + 1], t[change])
-    for _ in range(HALVINGS):
-        middle = 0.5 * (on + off)
-        there = np.isfinite(_points(surface, path, middle)).all(axis=1)
-        on, off = np.where(there, middle, on), np.where(there, off, middle)
+    on, off = bisected(lambda _, at: all_finite(_points(surface, path, at)), on, off, HALVINGS)
     return np.unique(np.concatenate([t, on, off]))
 
 

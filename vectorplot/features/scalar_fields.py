@@ -314,6 +314,8 @@ def zero_by_bisection(
 ) -> Floats:
     """Where f changes its sign between low and high (...), to tolerance times the length of the bracket.
 
+    Not done by `chord_refinement.bisected`, which asks for some of the brackets at a time.
+
     f works entry by entry on arrays of that shape. Edge cases: NaN where f has the same sign at both ends; a zero at
     an end is that end.
     Source: Glaeser, section 8.4; erratum G8-13.

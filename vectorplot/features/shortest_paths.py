@@ -24,6 +24,7 @@ from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard, unresolv
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import take
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.tolerances import LEAST_DIVISOR, SETTLED_OF_EXTENT, ZERO_OF_EXTENT
 
@@ -143,7 +144,7 @@ NOWHERE = -1
 
 
 @dataclass(frozen=True, eq=False)
-class Windows:
+class Windows(Elements):
     """Windows on sides of triangles, as ways go into these: side (w,); low, high (w,) along it from where it begins;
     x, y (w,): where the way was straight from, before the side, unfolded into the plane of the triangle; base (w,): how
     long it was up to there; root (w,): the vertex that is, NOWHERE for the place all begin at; parent (w,): the window
@@ -160,10 +161,6 @@ class Windows:
 
     def __len__(self) -> int:
         return len(self.side)
-
-    def take(self, which: Ints | Bools) -> Windows:
-        """Some of them."""
-        return Windows(*(getattr(self, f.name)[which] for f in fields(self)))
 
     @property
     def nearest(self) -> Floats:

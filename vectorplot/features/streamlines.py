@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TYPE_CHECKING
@@ -38,17 +39,22 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class PlacesAlong:
-    """Places along curves, those of each in the order in which they follow each other.
+class SampledCurves:
+    """Curves on a surface or a mesh, and the places along them at which they are compared, those of each in order.
 
-    offsets (c+1,): curve i has the places offsets[i] to offsets[i+1]; along (p,): lengths from where it began, negative
-    on the way back; places (p,2): u and v; around (c,): how long closed curves are, not finite for open ones.
+    offsets (c+1,): curve i has the places offsets[i] to offsets[i+1]; along (p,): lengths along its curve; around (c,):
+    how long closed curves are, not finite for open ones; seeds (c,): the place where each curve began.
     """
 
     offsets: Ints
     along: Floats
-    places: Floats
     around: Floats
+
+    if TYPE_CHECKING:
+
+        @property
+        def seeds(self) -> Ints:
+            """(c,)."""
 
     @cached_property
     def curve(self) -> Ints:
@@ -56,10 +62,9 @@ class PlacesAlong:
         return ragged.owner(np.diff(self.offsets))
 
     @cached_property
-    def seeds(self) -> Ints:
-        """(c,) the place where each curve began."""
-        from_seed = np.flatnonzero(self.along == 0.0)
-        return from_seed[np.searchsorted(self.curve[from_seed], np.arange(len(self.around)))]
+    def from_seed(self) -> Floats:
+        """(p,) how far each place is along its curve from where this began, negative on the way back."""
+        return np.asarray(self.along - self.along[self.seeds][self.curve])
 
     def reached(self, free: Bools) -> tuple[Ints, Ints]:
         """The first and the last (c,) of the places of each curve that are reached from where it began over free ones
@@ -69,6 +74,25 @@ class PlacesAlong:
         last = np.minimum(taken[after] - 1, self.offsets[1:] - 1)
         first = np.maximum(taken[after - 1] + 1, self.offsets[:-1])
         return first, np.where(free[self.seeds], last, first - 1)
+
+    def way(self, one: Ints, two: Ints) -> Floats:
+        """(k,) how long curves are between two places (k,) of each, the shorter way round closed ones."""
+        straight = np.abs(self.along[one] - self.along[two])
+        return np.minimum(straight, self.around[self.curve[one]] - straight)
+
+
+@dataclass(frozen=True, eq=False)
+class PlacesAlong(SampledCurves):
+    """Places along curves on a surface: u and v (p,2). Lengths are from where a curve began, negative on the way back;
+    the place where it did has just 0."""
+
+    places: Floats
+
+    @cached_property
+    def seeds(self) -> Ints:
+        """(c,) the place where each curve began."""
+        from_seed = np.flatnonzero(self.along == 0.0)
+        return from_seed[np.searchsorted(self.curve[from_seed], np.arange(len(self.around)))]
 
 
 def ways_both(traces: Courses) -> tuple[Floats, Floats]:
@@ -98,7 +122,7 @@ def places_along(traces: Courses, curves: Ints, step: float) -> PlacesAlong:
     row = np.where((along < 0.0) | (traces.lengths[own] == 0.0), own + count, own)
     places = traces.places(*traces.at(row, np.abs(along)))
     around = np.where(traces.closed[:count], traces.lengths[:count], np.inf)[curves]
-    return PlacesAlong(ragged.offsets(np.bincount(owner, minlength=len(curves))), along, places, around)
+    return PlacesAlong(ragged.offsets(np.bincount(owner, minlength=len(curves))), along, around, places)
 
 
 # What curves have taken of a surface, and what is near it on the same sheet.
@@ -240,8 +264,7 @@ def is_near_itself(ground: Ground, line: PlacesAlong, where: Floats, which: Ints
     for count in range(PORTION, len(order) + PORTION, PORTION):
         part = order[:count]
         one, two = part[cKDTree(where[part]).query_pairs(reach, output_type="ndarray")].T
-        way = np.abs(line.along[one] - line.along[two])
-        far = np.minimum(way, line.around[line.curve[one]] - way) > AROUND * ground.apart
+        far = line.way(one, two) > AROUND * ground.apart
         one, two = one[far], two[far]
         same = ground.on_one_sheet(line.places[one], line.places[two], reach)
         one, two = one[same], two[same]
@@ -415,7 +438,7 @@ def uncrowded(lines: PlacesAlong, crowd: SeparationTest) -> tuple[Floats, Separa
     return np.stack([line, lines.along[first], lines.along[last]], axis=1), crowd.together(own)
 
 
-def _long(lines: PlacesAlong, first: Ints, last: Ints, apart: float) -> Bools:
+def _long(lines: SampledCurves, first: Ints, last: Ints, apart: float) -> Bools:
     """(k,) which parts of lines, from first to last places (k,), are long enough to be kept."""
     return np.asarray((last >= first) & (lines.along[last] - lines.along[first] >= SHORTEST * apart))
 
@@ -433,12 +456,59 @@ def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, 
         free[at[is_near_itself(ground, lines, where, at, NEAREST * ground.apart)]] = False
         pairs, seeds = np.zeros((2, 0), dtype=np.intp), np.zeros((2, 0), dtype=np.intp)
     else:
-        pairs, seeds = _beside_each_other(lines, where, group, at, crowd)
-        one, two = pairs
-        same = lines.curve[one] == lines.curve[two]
-        # Of two places of one line the one that is reached later is beside the other.
-        free[one[same & (np.abs(lines.along[one]) >= np.abs(lines.along[two]))]] = False
-    one, two, begin = _by_curve(lines, *pairs)
+
+        def on_one_sheet(one: Ints, two: Ints, reach: float) -> Bools:
+            return ground.on_one_sheet(lines.places[one], lines.places[two], reach)
+
+        pairs, seeds = beside_each_other(lines, where, group, at, ground.apart, on_one_sheet)
+    return taken_in_turn(lines, group, free, pairs, seeds, ground.apart)
+
+
+def beside_each_other(
+    lines: SampledCurves,
+    where: Floats,
+    group: Ints,
+    at: Ints,
+    apart: float,
+    alike: Callable[[Ints, Ints, float], Bools],
+) -> tuple[Ints, Ints]:
+    """(2,n) pairs, both ways round, of the places at (k,) of a group of curves that are near each other, of one curve
+    if it is long between them; and (2,n) places that are beside where another one began, with that place.
+
+    where (p,6) all places are; alike: which of pairs of places within reach in space are so along the surface.
+    """
+    from scipy.spatial import cKDTree
+
+    near, wide = NEAREST * apart, WIDEST * apart
+    empty = np.zeros((2, 0), dtype=np.intp)
+    if not len(at):
+        return empty, empty
+    tree = cKDTree(where[at], balanced_tree=False)
+    one, two = at[tree.query_pairs(near, output_type="ndarray")].T
+    far = (lines.curve[one] != lines.curve[two]) | (lines.way(one, two) > AROUND * apart)
+    one, two = one[far], two[far]
+    same = alike(one, two, near)
+    pairs = np.stack([one[same], two[same]])
+    starts = lines.seeds[group]
+    found = cKDTree(where[starts]).sparse_distance_matrix(tree, wide, output_type="ndarray")
+    place, seed = at[found["j"]], starts[found["i"]]
+    other = lines.curve[place] != lines.curve[seed]
+    place, seed = place[other], seed[other]
+    same = alike(seed, place, wide)
+    return np.concatenate([pairs, pairs[::-1]], axis=1), np.stack([place[same], seed[same]])
+
+
+def taken_in_turn(lines: SampledCurves, group: Ints, free: Bools, pairs: Ints, seeds: Ints, apart: float) -> Ints:
+    """(s,3) which curves of a group to keep, one after the other, and their first and last places. free (p,): places
+    that are not beside what is taken; those beside curves that are kept, and beside their own, are free no more.
+
+    pairs, seeds: as of beside_each_other.
+    """
+    one, two = pairs
+    # Of two places of one curve the one that is reached later is beside the other.
+    way = np.abs(lines.from_seed)
+    free[one[(lines.curve[one] == lines.curve[two]) & (way[one] >= way[two])]] = False
+    one, two, begin = _by_curve(lines, one, two)
     place, seed, begin_seeds = _by_curve(lines, *seeds)
     fresh = np.ones(len(lines.around), dtype=np.bool_)
     result = []
@@ -446,7 +516,7 @@ def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, 
         if not fresh[line]:
             continue
         low, high = _span(free, int(lines.seeds[line]), int(lines.offsets[line]), int(lines.offsets[line + 1]))
-        if high < low or lines.along[high] - lines.along[low] < SHORTEST * ground.apart:
+        if high < low or lines.along[high] - lines.along[low] < SHORTEST * apart:
             continue
         result.append((line, low, high))
         own = slice(begin[line], begin[line + 1])
@@ -456,36 +526,7 @@ def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, 
     return np.array(result, dtype=np.intp).reshape(-1, 3)
 
 
-def _beside_each_other(
-    lines: PlacesAlong, where: Floats, group: Ints, at: Ints, crowd: SeparationTest
-) -> tuple[Ints, Ints]:
-    """(2,n) pairs, both ways round, of the places at (k,) of a group of lines that are near each other, of one line if
-    it is long between them; and (2,n) places that are beside where another line began, with that place."""
-    from scipy.spatial import cKDTree
-
-    ground = crowd.ground
-    near, wide = NEAREST * ground.apart, WIDEST * ground.apart
-    empty = np.zeros((2, 0), dtype=np.intp)
-    if not len(at):
-        return empty, empty
-    tree = cKDTree(where[at], balanced_tree=False)
-    one, two = at[tree.query_pairs(near, output_type="ndarray")].T
-    way = np.abs(lines.along[one] - lines.along[two])
-    curve = lines.curve[one]
-    far = (curve != lines.curve[two]) | (np.minimum(way, lines.around[curve] - way) > AROUND * ground.apart)
-    one, two = one[far], two[far]
-    same = ground.on_one_sheet(lines.places[one], lines.places[two], near)
-    pairs = np.stack([one[same], two[same]])
-    starts = lines.seeds[group]
-    found = cKDTree(where[starts]).sparse_distance_matrix(tree, wide, output_type="ndarray")
-    place, seed = at[found["j"]], starts[found["i"]]
-    other = lines.curve[place] != lines.curve[seed]
-    place, seed = place[other], seed[other]
-    same = ground.on_one_sheet(lines.places[seed], lines.places[place], wide)
-    return np.concatenate([pairs, pairs[::-1]], axis=1), np.stack([place[same], seed[same]])
-
-
-def _by_curve(lines: PlacesAlong, one: Ints, two: Ints) -> tuple[Ints, Ints, Ints]:
+def _by_curve(lines: SampledCurves, one: Ints, two: Ints) -> tuple[Ints, Ints, Ints]:
     """The pairs (k,) of places of different curves in the order of the curves of the first ones, and where (c+1,) those
     of each curve begin."""
     curve = lines.curve[one]

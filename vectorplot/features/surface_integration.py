@@ -21,6 +21,7 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Image, Traces, refined, straight_between
 from vectorplot.geometry.elementary import power
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_finite, dot, from_components, norm
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances import (
@@ -65,7 +66,7 @@ Rates = Callable[[Floats], Floats]
 
 
 @dataclass(frozen=True, eq=False)
-class Steps:
+class Steps(Elements):
     """Steps from states start (k,d): the one by which each leads on, move (k,d); error (k,d): what it differs from that
     of one order less; rates (2,k,d) at both ends, times the length of the step; bend (k,d): the rest of what is
     between.
@@ -99,10 +100,6 @@ class Steps:
         between = rise + x * (bent + y * self.bend)
         way = self.move + y * between
         return np.asarray(way + x * (y * (bent + (y - x) * self.bend) - between))
-
-    def take(self, which: Ints) -> Steps:
-        """Some of the steps."""
-        return records.take(self, which)
 
 
 def steps(rates: Rates, start: Floats, first: Floats, length: Floats) -> Steps:

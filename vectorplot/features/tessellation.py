@@ -37,6 +37,7 @@ from vectorplot.features.implicit_surfaces import BOXED, onto_surface, polygoniz
 from vectorplot.features.intersection_grids import UNEVEN, seam_numbers
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
+from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import all_components, all_finite, any_component, component_sum, cross, dot, norm
@@ -507,14 +508,14 @@ def cut_where_normals_jump(net: Net, between: Between) -> tuple[Net, Bools]:
 
 def _turns(start: Vertices, end: Vertices, border: Bools, between: Between) -> Vertices:
     """The last vertices on sides with normals less than a right angle from those at the starts."""
-    low: Floats = np.zeros(len(start.points))
-    high = np.ones(len(low))
-    for _ in range(HALVINGS if len(low) else 0):
-        t = 0.5 * (low + high)
+
+    def before(which: Ints, t: Floats) -> Bools:
+        there = between(start.take(which), end.take(which), t, border[which])
         with np.errstate(invalid="ignore"):
-            before = (between(start, end, t, border).normals * start.normals).sum(axis=1) > 0.0
-        low, high = np.where(before, t, low), np.where(before, high, t)
-    return between(start, end, low, border)
+            return np.asarray((there.normals * start.normals[which]).sum(axis=1) > 0.0)
+
+    last, _ = bisected(before, np.zeros(len(start.points)), np.ones(len(start.points)), HALVINGS)
+    return between(start, end, last, border)
 
 
 AROUND_POLE = 8

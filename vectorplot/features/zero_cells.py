@@ -19,6 +19,7 @@ from vectorplot.features.scalar_fields import (
     zero_of_cubic_parabola,
 )
 from vectorplot.geometry import records
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import any_component, component_sum, greatest_component, least_component
 from vectorplot.tolerances import FALLS_BESIDE, FIRST_GUESS, GRID_NOISE, ZERO_RESIDUAL
 
@@ -116,7 +117,7 @@ class Lattice:
 
 
 @dataclass(frozen=True, eq=False)
-class Cells:
+class Cells(Elements):
     """Cells i, j (k,) of lattices with the numbers of (k,), all of one level, level 0 being the grid."""
 
     of: Ints
@@ -125,10 +126,6 @@ class Cells:
 
     def __len__(self) -> int:
         return len(self.of)
-
-    def take(self, which: Ints | Bools) -> Cells:
-        """Some of the cells."""
-        return records.take(self, which)
 
     def beside(self, steps: Ints) -> Cells:
         """(k n,) the cells that these steps (n,2) lead to from each."""

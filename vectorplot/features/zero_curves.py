@@ -52,7 +52,8 @@ from vectorplot.geometry.budget import USUAL, Budget, unresolved
 from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.elementary import arctan2
-from vectorplot.geometry.polylines import APART, DOUBTS, EACH_LINE, EACH_POINT, closed_round
+from vectorplot.geometry.polylines import DOUBTS, EACH_LINE, EACH_POINT, closed_round
+from vectorplot.geometry.records import APART
 from vectorplot.geometry.vectors import all_components, all_finite, component_sum
 from vectorplot.geometry.weld import close_points
 from vectorplot.surfaces.surface import Domain

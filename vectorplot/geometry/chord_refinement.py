@@ -200,12 +200,12 @@ def with_standstills(lines: Traces, slopes: Callable[[Floats], Floats]) -> Trace
     if not len(first):
         return lines
     start, run, ahead = points[first], points[first + 1] - points[first], way[first]
-    low, high = np.zeros((len(first), 1)), np.ones((len(first), 1))
-    for _ in range(HALVINGS):
-        middle = 0.5 * (low + high)
-        goes_on = (_seen(slopes, start + middle * run) * ahead).sum(axis=1, keepdims=True) > 0.0
-        low, high = np.where(goes_on, middle, low), np.where(goes_on, high, middle)
-    there = start + high * run
+
+    def goes_on(which: Ints, part: Floats) -> Bools:
+        return np.asarray((_seen(slopes, start[which] + part[:, None] * run[which]) * ahead[which]).sum(axis=1) > 0.0)
+
+    _, high = bisected(goes_on, np.zeros(len(first)), np.ones(len(first)), HALVINGS)
+    there = start + high[:, None] * run
     speed, before, after = (np.sqrt((x * x).sum(axis=1)) for x in (_seen(slopes, there), ahead, way[first + 1]))
     stands = speed <= STANDSTILL_OF_SPEED * np.minimum(before, after)
     stands &= (there != start).any(axis=1) & (there != points[first + 1]).any(axis=1)
@@ -274,11 +274,21 @@ def bisected(
         return low, high
     at_once = int(np.clip(np.log2(AT_ONCE / len(low)), 1, MOST_HALVINGS))
     parts = 1 << at_once
+    ways = np.tile(np.arange(len(low)), parts - 1)
+    return narrowed(
+        lambda tried: goes_on(ways, tried.ravel()).reshape(tried.shape), low, high, parts, -(-halvings // at_once)
+    )
+
+
+def narrowed(
+    goes_on: Callable[[Floats], Bools], low: Floats, high: Floats, parts: int, rounds: int
+) -> tuple[Floats, Floats]:
+    """The same where what is left of all ways is cut into so many parts at a time, in so many rounds; goes_on takes
+    parameters on each of the ways (n,k) to whether (n,k) it is as at low there."""
     way, inner = np.arange(len(low)), np.arange(1, parts)[:, None] / parts
-    ways = np.tile(way, parts - 1)
-    for _ in range(-(-halvings // at_once)):
+    for _ in range(rounds):
         tried = low + inner * (high - low)
-        alike = goes_on(ways, tried.ravel()).reshape(tried.shape)
+        alike = goes_on(tried)
         last = np.where(alike.all(axis=0), parts - 1, np.argmin(alike, axis=0))
         nodes = np.concatenate([low[None], tried, high[None]])
         low, high = nodes[last, way], nodes[last + 1, way]

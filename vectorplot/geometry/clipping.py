@@ -322,21 +322,57 @@ def cut_polygons(polygons: Polygons, distance: Floats) -> tuple[Polygons, Bools]
     >>> right[0].tolist(), is_new.tolist()
     ([[1.0, 0.0], [4.0, 0.0], [4.0, 4.0], [1.0, 4.0]], [True, False, False, True])
     """
-    count = len(polygons.points)
-    following = ragged.following(polygons.offsets)
-    beyond = distance[following]
-    crossing = (distance < 0.0) & (beyond > 0.0) | (distance > 0.0) & (beyond < 0.0)
-    share = np.where(crossing, distance / np.where(crossing, distance - beyond, 1.0), 0.0)
-    made = polygons.points + share[:, None] * (polygons.points[following] - polygons.points)
-    # Every corner may leave itself and, after it, a new corner on its side.
-    pairs = np.stack([polygons.points, made], axis=1).reshape(2 * count, polygons.points.shape[1])
-    kept = np.stack([distance >= 0.0, crossing], axis=1).reshape(2 * count)
-    ends = ragged.offsets(kept)[2 * polygons.offsets]
-    sizes = np.diff(ends)
-    kept &= np.repeat(np.repeat(sizes >= 3, np.diff(polygons.offsets)), 2)
-    offsets = ragged.offsets(np.where(sizes >= 3, sizes, 0))
-    is_new = np.tile(np.array([False, True]), count)
-    return Polygons(pairs[kept], offsets), is_new[kept]
+    left = left_corners(polygons.offsets, distance)
+    points, is_new = left.points(polygons.points, 0), np.zeros(len(left.at), dtype=np.bool_)
+    is_new[left.new] = True
+    sizes = np.diff(left.offsets)
+    kept = np.repeat(sizes >= 3, sizes)
+    return Polygons(points[kept], ragged.offsets(np.where(sizes >= 3, sizes, 0))), is_new[kept]
+
+
+@dataclass(frozen=True, eq=False)
+class LeftCorners:
+    """Corners (c',) of what is left of polygons, of fewer than three too: offsets (n+1,); at (c',): the corner each one
+    is, or, of those that are new (k,), the one before it; there new ones are a share (k,) of the way to after (k,)."""
+
+    offsets: Ints
+    at: Ints
+    new: Ints
+    after: Ints
+    share: Floats
+
+    def points(self, old: Floats, axis: int) -> Floats:
+        """What is said of them, linear along sides, by what is said of the old ones, which an axis of it counts."""
+        result = old.take(self.at, axis=axis)
+        rows, before = np.moveaxis(result, axis, 0), np.moveaxis(old, axis, 0)
+        start = rows[self.new]
+        rows[self.new] = start + self.share[:, None] * (before[self.after] - start)
+        return result
+
+
+def left_corners(offsets: Ints, distance: Floats) -> LeftCorners:
+    """Those of the parts of polygons where a distance (c,) at their corners is not negative. Every corner leaves itself
+    if it is inside and, where its side crosses, a new one after it."""
+    following = ragged.following(offsets)
+    inside, beyond = distance >= 0.0, distance[following]
+    crossing = np.flatnonzero((distance < 0.0) & (beyond > 0.0) | (distance > 0.0) & (beyond < 0.0))
+    counts = inside.astype(np.intp)
+    counts[crossing] += 1
+    ends = ragged.offsets(counts)
+    share = distance[crossing] / (distance[crossing] - beyond[crossing])
+    return LeftCorners(ends[offsets], ragged.owner(counts), ends[crossing + 1] - 1, following[crossing], share)
+
+
+def crossed_sides(here: Ints, there: Ints, crosses: Bools, distance: Floats) -> tuple[Ints, Floats, Ints]:
+    """The ends (2,m) of the sides from corners here to there (c,), numbers of vertices, that cross, each once however
+    many polygons have it; the share (m,) of the way at which they do, by the distance of vertices; and (c,) which of
+    them each corner's is, -1 for none."""
+    low, high = np.minimum(here, there)[crosses], np.maximum(here, there)[crosses]
+    _, first, which = np.unique(low * (len(distance) + 1) + high, return_index=True, return_inverse=True)
+    low, high = low[first], high[first]
+    number = np.full(len(here), -1, dtype=np.intp)
+    number[crosses] = which.reshape(-1)
+    return np.stack([low, high]), distance[low] / (distance[low] - distance[high]), number
 
 
 def clip_polygons_2d(polygons: Polygons, window: Window) -> Polygons:

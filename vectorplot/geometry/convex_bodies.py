@@ -12,6 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.clipping import crossed_sides, left_corners
 from vectorplot.geometry.convex_polygons import convex_polygon_parts, flattened, plane_axes, signed_area
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
@@ -239,11 +240,8 @@ def cut_face(points: ArrayLike, normal: ArrayLike, constant: float) -> Floats:
     side = _sides(distance, ZERO_OF_EXTENT * extent)
     if not (side < 0).any() and (side != 0).any():
         return np.zeros((0, 3))
-    after, far = np.roll(corners, -1, axis=0), np.roll(distance, -1)
-    crosses = side * np.roll(side, -1) < 0
-    t = np.divide(distance, distance - far, out=np.zeros_like(distance), where=crosses)
-    woven = np.stack([corners, corners + t[:, None] * (after - corners)], axis=1).reshape(-1, 3)
-    return np.asarray(woven[np.stack([side <= 0, crosses], axis=1).reshape(-1)])
+    height = np.where(side == 0, 0.0, -distance)
+    return left_corners(np.array([0, len(corners)]), height).points(corners, 0)
 
 
 def _sides(distance: Floats, zero: float) -> Ints:
@@ -298,15 +296,10 @@ def _splittable(body: Mesh, side: Ints) -> tuple[Mesh, Ints]:
 
 def _crossings(body: Mesh, distance: Floats, corner_side: Ints) -> tuple[Floats, Ints]:
     """All vertices and those where edges cross the plane; (c,) the vertex where a corner's edge crosses, or -1."""
-    cut = np.flatnonzero(corner_side * corner_side[body.next_corner] < 0)
-    a, b = body.corners[cut], body.corners[body.next_corner[cut]]
-    keys, where = np.unique(np.minimum(a, b) * len(body.vertices) + np.maximum(a, b), return_inverse=True)
-    low, high = np.divmod(keys, len(body.vertices))
-    t = distance[low] / (distance[low] - distance[high])
+    cut = corner_side * corner_side[body.next_corner] < 0
+    (low, high), t, number = crossed_sides(body.corners, body.corners[body.next_corner], cut, distance)
     new = body.vertices[low] + t[:, None] * (body.vertices[high] - body.vertices[low])
-    crossing = np.full(len(body.corners), -1, dtype=np.intp)
-    crossing[cut] = len(body.vertices) + where
-    return np.concatenate([body.vertices, new]), crossing
+    return np.concatenate([body.vertices, new]), np.where(cut, len(body.vertices) + number, -1)
 
 
 def _border(corners: Ints, sizes: Ints, on_plane: Bools) -> list[tuple[int, int]]:

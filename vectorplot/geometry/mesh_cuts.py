@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -11,9 +11,11 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import linear_solution, matmul
+from vectorplot.geometry.clipping import crossed_sides
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
+from vectorplot.geometry.polylines import EACH_POINT, LineElements
 from vectorplot.geometry.regions import areas_of, corners_of, without_holes
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
@@ -119,19 +121,15 @@ class Divided:
 
 
 @dataclass(frozen=True, eq=False)
-class _Polygons:
+class _Polygons(LineElements):
     """Corners (c,) and offsets (p+1,) of polygons."""
 
-    corners: Ints
+    corners: Ints = field(metadata=EACH_POINT)
     offsets: Ints
 
     @property
     def count(self) -> int:
         return len(self.offsets) - 1
-
-    def take(self, which: Bools) -> _Polygons:
-        corners, offsets = ragged.take(self.offsets, which)
-        return _Polygons(self.corners[corners], offsets)
 
 
 @dataclass(frozen=True, eq=False)
@@ -251,15 +249,12 @@ def _split(
     here = polygons.corners
     there = here[ragged.following(polygons.offsets)]
     crossing = height[here] * height[there] < 0.0
-    low, high = np.minimum(here, there)[crossing], np.maximum(here, there)[crossing]
-    _, first, which = np.unique(low * (len(points) + 1) + high, return_index=True, return_inverse=True)
-    low, high = low[first], high[first]
-    share = height[low] / (height[low] - height[high])
+    ends, share, which = crossed_sides(here, there, crossing, height)
+    low, high = ends
     new = points[low] + share[:, None] * (points[high] - points[low])
     more = heights[:, low] + share * (heights[:, high] - heights[:, low])
     more[number] = 0.0
-    slots = np.stack([here, np.full(len(here), -1)], axis=1)
-    slots[crossing, 1] = len(points) + which.reshape(-1)
+    slots = np.stack([here, len(points) + which], axis=1)
     points, heights = np.concatenate([points, new]), np.concatenate([heights, more], axis=1)
     height = heights[number]
     both = (_count(polygons, height > 0.0) > 0) & (_count(polygons, height < 0.0) > 0)
@@ -271,7 +266,7 @@ def _split(
         kept[~both[owner]] = (True, False) if sign < 0.0 else (False, False)
         sizes = np.bincount(owner, kept.sum(axis=1), polygons.count).astype(np.intp)
         parts.append(_Polygons(slots[kept], ragged.offsets(sizes[sizes > 0])))
-    made = _Made(np.stack([low, high]), np.arange(len(points) - len(new), len(points)))
+    made = _Made(ends, np.arange(len(points) - len(new), len(points)))
     return _joined(parts), points, heights, made
 
 

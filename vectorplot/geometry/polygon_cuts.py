@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.clipping import Polygons, cut_polygons
+from vectorplot.geometry.clipping import Polygons, cut_polygons, left_corners
 from vectorplot.geometry.convex_polygons import convex_hulls
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
@@ -340,7 +340,7 @@ def _lines(points: Floats, offsets: Ints, tolerance: float) -> tuple[Floats, Int
     """
     along, wound, area = _sides(points, offsets)
     length = np.hypot(*along)
-    after = _after(points, offsets)
+    after = ragged.following(offsets)
     bent = wound * (along[0] * along[1, after] - along[1] * along[0, after]) < 0.0
     bent |= length <= tolerance
     if bent.any():
@@ -354,7 +354,7 @@ def _lines(points: Floats, offsets: Ints, tolerance: float) -> tuple[Floats, Int
 def _sides(points: Floats, offsets: Ints) -> tuple[Floats, Floats, Floats]:
     """(2,d) the sides of polygons, (d,) -1 where they go around clockwise, and (n,) twice the areas, signed."""
     area = _doubled_areas(points, offsets)
-    along = points[:2, _after(points, offsets)] - points[:2]
+    along = points[:2, ragged.following(offsets)] - points[:2]
     return along, np.repeat(np.where(area < 0.0, -1.0, 1.0), np.diff(offsets)), area
 
 
@@ -368,14 +368,6 @@ def _with_hulls(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Int
     return every[:, ragged.ranges(first, sizes)], ragged.offsets(sizes)
 
 
-def _after(points: Floats, offsets: Ints) -> Ints:
-    """(c,) where the corner stands that follows each one in its polygon."""
-    after = np.arange(1, points.shape[1] + 1)
-    filled = offsets[1:] > offsets[:-1]
-    after[offsets[1:][filled] - 1] = offsets[:-1][filled]
-    return after
-
-
 def _doubled_areas(points: Floats, offsets: Ints) -> Floats:
     """(n,) twice the signed areas of polygons, measured from their first corners."""
     sizes = np.diff(offsets)
@@ -383,7 +375,7 @@ def _doubled_areas(points: Floats, offsets: Ints) -> Floats:
     if not points.shape[1]:
         return area
     arm = points[:2] - np.repeat(points[:2, np.minimum(offsets[:-1], points.shape[1] - 1)], sizes, axis=1)
-    after = arm[:, _after(points, offsets)]
+    after = arm[:, ragged.following(offsets)]
     filled = sizes > 0
     area[filled] = np.add.reduceat(arm[0] * after[1] - arm[1] * after[0], offsets[:-1][filled])
     return area
@@ -391,9 +383,7 @@ def _doubled_areas(points: Floats, offsets: Ints) -> Floats:
 
 def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
     """Some of the polygons, and their offsets."""
-    sizes = offsets[which + 1] - offsets[which]
-    ends = ragged.offsets(sizes)
-    position = ragged.ranges(offsets[which], sizes)
+    position, ends = ragged.take(offsets, which)
     return points[:, position], ends
 
 
@@ -415,19 +405,8 @@ def _cut_by_sides(points: Floats, offsets: Ints, height: Floats) -> tuple[Floats
     if not out.any():
         return points, offsets, np.arange(len(offsets) - 1)
     touched = np.logical_or.reduceat(out, offsets[:-1])
-    after = _after(points, offsets)
-    beyond = height[after]
-    crossing = np.flatnonzero((out & (beyond > 0.0)) | ((height > 0.0) & (beyond < 0.0)))
-    # Every corner leaves itself if inside and, where its side crosses, a new corner after it.
-    counts = (~out).astype(np.intp)
-    counts[crossing] += 1
-    ends = ragged.offsets(counts)
-    made = np.empty((len(points), int(ends[-1])))
-    kept = np.flatnonzero(~out)
-    made[:, ends[kept]] = points[:, kept]
-    share = height[crossing] / (height[crossing] - beyond[crossing])
-    made[:, ends[crossing + 1] - 1] = points[:, crossing] + share * (points[:, after[crossing]] - points[:, crossing])
-    starts = ends[offsets]
+    corners = left_corners(offsets, height)
+    made, starts = corners.points(points, 1), corners.offsets
     enough = np.maximum.reduceat(height, offsets[:-1]) > 0.0
     left = np.flatnonzero(~touched | (enough & (np.diff(starts) >= 3)))
     if len(left) == len(offsets) - 1:

@@ -12,26 +12,21 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import Field, dataclass, field, fields, replace
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any, ClassVar, Protocol, TypeVar
+from typing import TYPE_CHECKING, Any, ClassVar, Protocol, Self, TypeVar
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.records import entries, in_a_row
+from vectorplot.geometry.records import BELONGS_TO, entries, in_a_row
 
-_BELONGS_TO = "belongs to"
-
-EACH_POINT = {_BELONGS_TO: "point"}
+EACH_POINT = {BELONGS_TO: "point"}
 """Marks a field with one row for every point."""
 
-EACH_LINE = {_BELONGS_TO: "line"}
+EACH_LINE = {BELONGS_TO: "line"}
 """Marks a field with one row for every polyline."""
 
-APART = {_BELONGS_TO: "none"}
-"""Marks a field with rows that belong to none of the polylines: single points, or nodes."""
-
-DOUBTS = {_BELONGS_TO: "doubts"}
+DOUBTS = {BELONGS_TO: "doubts"}
 """Marks a field with sentences about all polylines."""
 
 
@@ -54,6 +49,21 @@ class RingRecord(LineRecord, Protocol):
 
 
 L = TypeVar("L", bound=LineRecord)
+
+
+class LineElements:
+    """What records of polylines or polygons give: some of these."""
+
+    if TYPE_CHECKING:
+        __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
+
+        @property
+        def offsets(self) -> Ints:
+            """(m+1,)."""
+
+    def take(self, which: Ints | Bools) -> Self:
+        """Some of the polylines, as of the function of that name."""
+        return take(self, which)
 
 
 class NumberedLines:
@@ -151,9 +161,9 @@ def split(lines: L, bounds: Ints) -> list[L]:
     """The polylines in parts, with all that is said of them: part k has those from bounds[k] to bounds[k+1]."""
     ends = bounds.tolist()
     at = lines.offsets[bounds].tolist()
-    said = [(f, getattr(lines, f.name)) for f in fields(lines) if _BELONGS_TO in f.metadata]
-    of_points = [(f, values) for f, values in said if f.metadata[_BELONGS_TO] == "point" and values is not None]
-    of_lines = [(f, values) for f, values in said if f.metadata[_BELONGS_TO] == "line" and values is not None]
+    said = [(f, getattr(lines, f.name)) for f in fields(lines) if BELONGS_TO in f.metadata]
+    of_points = [(f, values) for f, values in said if f.metadata[BELONGS_TO] == "point" and values is not None]
+    of_lines = [(f, values) for f, values in said if f.metadata[BELONGS_TO] == "line" and values is not None]
 
     def part(k: int, begin: int, end: int) -> L:
         points, which = slice(at[k], at[k + 1]), slice(begin, end)
@@ -182,9 +192,9 @@ def _with_rows(lines: L, points: Ints | Bools | slice, which: Ints | Bools | sli
     values = {f.name: getattr(lines, f.name) for f in fields(lines)}
     chosen = {"point": points, "line": which}
     rows = {
-        f.name: entries(f, values[f.name], chosen[f.metadata[_BELONGS_TO]])
+        f.name: entries(f, values[f.name], chosen[f.metadata[BELONGS_TO]])
         for f in fields(lines)
-        if f.metadata.get(_BELONGS_TO) in chosen and values[f.name] is not None
+        if f.metadata.get(BELONGS_TO) in chosen and values[f.name] is not None
     }
     return replace(lines, offsets=offsets, **rows)
 
@@ -197,7 +207,7 @@ def joined(parts: Sequence[L]) -> L:
         values = [getattr(part, f.name) for part in parts]
         if f.metadata == DOUBTS:
             rows[f.name] = tuple(dict.fromkeys(text for texts in values for text in texts))
-        elif _BELONGS_TO in f.metadata and values[0] is not None:
+        elif BELONGS_TO in f.metadata and values[0] is not None:
             rows[f.name] = in_a_row(f, values)
     offsets = ragged.offsets(np.concatenate([np.diff(part.offsets) for part in parts]))
     return replace(parts[0], offsets=offsets, **rows)

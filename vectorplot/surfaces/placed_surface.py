@@ -78,10 +78,6 @@ class PlacedSurface(Placed, MovableSurface):
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
 
-    def transformed(self, matrix: ArrayLike) -> PlacedSurface:
-        """The surface under a matrix (4,4) that acts on columns, in a single placement."""
-        return PlacedSurface(self.surface, *self.followed_by(matrix))
-
     @cached_property
     def domain(self) -> Domain:
         """That of the surface."""
@@ -159,10 +155,6 @@ class PlacedImplicit(Placed, MovableImplicit):
     surface: ImplicitSurface
     matrix: ArrayLike
     shift: ArrayLike = (0.0, 0.0, 0.0)
-
-    def transformed(self, matrix: ArrayLike) -> PlacedImplicit:
-        """The surface under a matrix (4,4) that acts on columns, in a single placement."""
-        return PlacedImplicit(self.surface, *self.followed_by(matrix))
 
     @property
     def box(self) -> Floats:

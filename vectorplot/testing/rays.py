@@ -15,6 +15,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
@@ -1039,11 +1040,12 @@ def _zeros(
 ) -> Floats:
     """Distances along rays between low and high, at which a function of the point has the value start, where it
     changes its sign."""
-    for _ in range(BISECTIONS):
-        middle = 0.5 * (low + high)
-        same = function(rays.origin[ray] + middle[:, None] * rays.direction[ray]) * start > 0.0
-        low, high = np.where(same, middle, low), np.where(same, high, middle)
-    return 0.5 * (low + high)
+
+    def alike(which: Ints, t: Floats) -> Bools:
+        return function(rays.origin[ray[which]] + t[:, None] * rays.direction[ray[which]]) * start[which] > 0.0
+
+    before, after = bisected(alike, low, high, BISECTIONS)
+    return 0.5 * (before + after)
 
 
 def _extremes(field: _Field, rays: Rays, t: Floats, slope: Floats, on_contour: Bools) -> Floats:

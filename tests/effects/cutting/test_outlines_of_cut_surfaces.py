@@ -12,7 +12,11 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot import features, surfaces
-from vectorplot.features.contours_and_isophotes import parallel_contour
+from vectorplot.features.contours_and_isophotes import (
+    parallel_contour,
+    point_light_isophotes,
+    section_by_implicit,
+)
 from vectorplot.features.parameter_curves import domain_borders
 from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.surfaces.trimmed import CutSurface
@@ -98,10 +102,10 @@ def test_all_of_the_contour_of_a_cut_surface_is_there_and_nothing_else(family, t
         normals /= np.linalg.norm(normals, axis=1)[:, None]
         way /= np.linalg.norm(way)
         region = HalfSpaces(tuple(map(tuple, normals.tolist())), tuple(random.uniform(-0.6, 0.6, len(normals))))
-        cut = surfaces.CutSurface(surface, (region,))
+        cut = CutSurface(surface, (region,))
         parallel = number % 2 == 0
         eye = way if parallel else 12.0 * way
-        found = features.parallel_contour(cut, eye) if parallel else features.contour(cut, eye)
+        found = parallel_contour(cut, eye) if parallel else features.contour(cut, eye)
         whole = sampled_contour(surface, eye, parallel)
         left = whole[~region.is_inside(whole)]
         extent = np.linalg.norm(np.ptp(surface.points(*surface.domain.grid(16, 16)), axis=0))
@@ -121,12 +125,12 @@ def test_all_of_the_contour_of_a_cut_surface_is_there_and_nothing_else(family, t
 def test_sections_and_isophotes_of_cut_surfaces_end_on_the_planes_too():
     """At whatever angle they come to these: circles on a ball, cut ever nearer to the place at which they touch."""
     for gap in (1e-2, 1e-4, 1e-6):
-        cut = surfaces.CutSurface(surfaces.Sphere(), (HalfSpaces(((1.0, 0.0, 0.0),), (1.0 - gap,)),))
+        cut = CutSurface(surfaces.Sphere(), (HalfSpaces(((1.0, 0.0, 0.0),), (1.0 - gap,)),))
         for found in (
             features.plane_sections(cut, (0.0, 0.0, 1.0), 0.0),
             features.isophotes(cut, (0.0, 0.0, 1.0), 0.0),
-            features.point_light_isophotes(cut, (0.0, 0.0, 5.0), 0.2),
-            features.section_by_implicit(cut, surfaces.implicit_sphere(1.0, (0.0, 0.0, 1.0))),
+            point_light_isophotes(cut, (0.0, 0.0, 5.0), 0.2),
+            section_by_implicit(cut, surfaces.implicit_sphere(1.0, (0.0, 0.0, 1.0))),
         ):
             y, z = found.points.T[1:]
             height = z.mean()

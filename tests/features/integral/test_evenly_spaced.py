@@ -165,7 +165,7 @@ def test_what_is_near_is_so_on_the_same_sheet_and_for_a_line_not_a_little_before
     places = np.stack([x, np.repeat([0.0, 0.4], 3000)], axis=1)
     steps = np.linalg.norm(np.diff(places, axis=0), axis=1)
     along = np.concatenate([[0.0], np.cumsum(steps)])
-    line = PlacesAlong(np.array([0, 6000]), along, places, np.array([np.inf]))
+    line = PlacesAlong(np.array([0, 6000]), along, np.array([np.inf]), places)
     where = ground.where(places)
     beside = is_near_itself(ground, line, where, np.arange(6000), 0.5)
     first = int(np.argmax(beside))
@@ -192,7 +192,7 @@ def test_lines_are_taken_one_after_the_other_however_many_are_compared_at_a_time
     angles = np.repeat(random.uniform(0.0, np.pi, count), 33)
     seeds = np.repeat(random.uniform(-0.8, 0.8, (count, 2)), 33, axis=0)
     places = seeds + along[:, None] * np.stack([np.cos(angles), np.sin(angles)], axis=1)
-    lines = PlacesAlong(33 * np.arange(count + 1), along, places, np.full(count, np.inf))
+    lines = PlacesAlong(33 * np.arange(count + 1), along, np.full(count, np.inf), places)
     found = []
     for group in (50, 400, 1 << 14):
         monkeypatch.setattr(uncrowded_lines, "GROUP", group)

@@ -16,6 +16,7 @@ from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polylines import joined, take
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View
@@ -200,7 +201,7 @@ SHARE_CUT = 8
 
 
 @dataclass(frozen=True, eq=False)
-class Pairs:
+class Pairs(Elements):
     """Faces whose images overlap: first, second (p,), and the codes of face_relations."""
 
     first: Ints
@@ -209,10 +210,6 @@ class Pairs:
 
     def __len__(self) -> int:
         return len(self.first)
-
-    def take(self, which: Ints | Bools) -> Pairs:
-        """Some of the pairs."""
-        return records.take(self, which)
 
 
 def cut_into_order(

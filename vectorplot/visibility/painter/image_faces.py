@@ -12,7 +12,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, take
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
 from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.view import View
 from vectorplot.visibility.painter.unseen import body_sides
@@ -23,7 +23,7 @@ from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
 
 
 @dataclass(frozen=True, eq=False)
-class ImageFaces:
+class ImageFaces(LineElements):
     """Convex polygons in the image, after the projective map that makes all sight lines parallel.
 
     points: (3, c) x and y in the image plane, and the height above it, which grows towards the eye; offsets: (n+1,)
@@ -48,10 +48,6 @@ class ImageFaces:
         """(6,n) smallest and largest x, y and height."""
         extremes = (np.minimum, np.maximum)
         return np.stack([over_corners(extreme, row, self.offsets) for row in self.points for extreme in extremes])
-
-    def take(self, which: Ints) -> ImageFaces:
-        """Some of the polygons, in the order asked for."""
-        return take(self, which)
 
     def heights(self, face: Ints, x: Floats, y: Floats) -> Floats:
         """(..., p) heights of the planes of faces (p,) above the points x, y (..., p) of the image."""

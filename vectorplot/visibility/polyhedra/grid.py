@@ -10,8 +10,8 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact.radix import radix_order
-from vectorplot.geometry import ragged, records
-from vectorplot.geometry.records import IN_COLUMNS
+from vectorplot.geometry import ragged
+from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.tolerances import SMALLEST_CELL
 
 Floats32 = NDArray[np.float32]
@@ -91,7 +91,7 @@ class Grid:
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class Pieces(Elements):
     """Segments cut at the borders of the finest cells: segment (p,), parameters low and high (p,) along the segment in
     space, column and row of its cell, ends (4,p) in the image, x and y of the first, then of the last, box (4,p) around
     them, nearest and farthest (p,) depth."""
@@ -108,10 +108,6 @@ class Pieces:
 
     def __len__(self) -> int:
         return len(self.segment)
-
-    def take(self, which: Ints | Bools) -> Pieces:
-        """Some of the pieces."""
-        return records.take(self, which)
 
 
 def cell_size(start: Floats, end: Floats, typical: float) -> float:

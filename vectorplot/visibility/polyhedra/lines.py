@@ -31,7 +31,7 @@ from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import HalfSpaces, segments_outside
 from vectorplot.geometry.mesh_repair import MANY_FACES
 from vectorplot.geometry.polylines import segments
-from vectorplot.geometry.records import IN_COLUMNS
+from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.scene.added_lines import curve_light
 from vectorplot.scene.item import Item
 from vectorplot.scene.page import Page
@@ -48,7 +48,7 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, eq=False)
-class Lines:
+class Lines(Elements):
     """Straight lines in the view's coordinates.
 
     start, end: (3, n) their ends; kind: (n,) lineKind values; item: (n,) of which item each is a line; side: (n,) 1 or
@@ -70,25 +70,6 @@ class Lines:
 
     def __len__(self) -> int:
         return len(self.kind)
-
-    def take(self, which: Ints | Bools) -> Lines:
-        """Some of the lines, in the order asked for.
-
-        which: (k,) their numbers, or whether each is wanted.
-        """
-        if which.dtype == np.bool_:
-            which = np.flatnonzero(which)
-        return Lines(
-            self.start.take(which, axis=1),
-            self.end.take(which, axis=1),
-            self.kind[which],
-            self.item[which],
-            self.side[which],
-            self.smooth[which],
-            self.behind[which],
-            self.aside.take(which, axis=1),
-            self.chords.take(which) if self.chords else None,
-        )
 
     def sides(self, view: View) -> Ints:
         """The sides of all outlines, as of side, those of smooth surfaces too.

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, Protocol
 
@@ -13,6 +13,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.algebra import inverse_matrix, matmul
 from vectorplot.geometry.elementary import arccos, arctan2
 from vectorplot.geometry.projections import Projection
+from vectorplot.geometry.records import APART, Elements
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.item import Item
 from vectorplot.scene.view import View
@@ -65,16 +66,16 @@ _MIRROR = np.array([1.0, 1.0, -1.0])
 
 
 @dataclass(frozen=True, eq=False)
-class UnitBodies:
+class UnitBodies(Elements):
     """Images of unit bodies in the coordinates of sight: the points centre + s @ frame; centre (n,3), frame (n,3,3),
     item (n,); hides (n,); tolerance: what counts as distance zero."""
 
-    sight: EyeCoordinates
+    sight: EyeCoordinates = field(metadata=APART)
     centre: Floats
     frame: Floats
     item: Ints
     hides: Bools
-    tolerance: float
+    tolerance: float = field(metadata=APART)
 
     def __len__(self) -> int:
         return len(self.item)
@@ -161,12 +162,6 @@ class Balls(UnitBodies):
         distance = np.sqrt(dot(eye, eye))
         height = 1.0 / distance if self.sight.central else np.zeros(len(which))
         return self.circles(which, eye / distance[:, None], height)
-
-    def take(self, which: Ints | Bools) -> Balls:
-        """Some of the balls."""
-        return Balls(
-            self.sight, self.centre[which], self.frame[which], self.item[which], self.hides[which], self.tolerance
-        )
 
 
 def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Ball]) -> Balls:
@@ -353,20 +348,6 @@ class CappedBodies(UnitBodies):
     def rims(self, which: Ints, end: int) -> tuple[Floats, Floats, Floats]:
         """Centres and two conjugate radii (k,3) of the rims at one end of bodies which (k,)."""
         return self.circles(which, self.ends[which, end], self.radii[which, end])
-
-    def take(self, which: Ints | Bools) -> CappedBodies:
-        """Some of the bodies."""
-        return CappedBodies(
-            self.sight,
-            self.centre[which],
-            self.frame[which],
-            self.item[which],
-            self.hides[which],
-            self.tolerance,
-            self.ends[which],
-            self.radii[which],
-            self.is_round[which],
-        )
 
 
 _AXES = np.eye(3)

@@ -11,7 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.exact import intervals
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.elementary import arccos, arctan, arctan2, tan
-from vectorplot.geometry.records import IN_COLUMNS
+from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.geometry.vectors import dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances import LEAST_DIVISOR, UNION_OF_SEGMENT, WHOLE_TURN
@@ -26,7 +26,7 @@ from vectorplot.words import LineKind
 
 
 @dataclass(frozen=True, eq=False)
-class Arcs:
+class Arcs(Elements):
     """The points middle + cos(t) first + sin(t) second, low <= t <= high, divided by 1 + cos(t) weight; of a straight
     line middle + t first.
 
@@ -74,10 +74,6 @@ class Arcs:
         first = sight.vectors(self.first) + self.weight[:, None] * origin
         second = sight.vectors(self.second)
         return replace(self, middle=sight.points_of_view(self.middle), first=first, second=second)
-
-    def take(self, which: Ints | Bools) -> Arcs:
-        """Some of the arcs."""
-        return records.take(self, which)
 
 
 @dataclass(frozen=True, eq=False)
@@ -187,7 +183,7 @@ LARGE, MOST = 2.0, 512
 
 
 @dataclass(frozen=True, eq=False)
-class Pieces:
+class Pieces(Elements):
     """Parts of arcs: control (3,4,n) homogeneous control points; arc (n,); middle, half (n,):
     from middle - half to middle + half in the arc's parameter; box (4,n) left, right, bottom, top in the image; nearest
     and farthest (n,) depth."""
@@ -202,10 +198,6 @@ class Pieces:
 
     def __len__(self) -> int:
         return len(self.arc)
-
-    def take(self, which: Ints | Bools) -> Pieces:
-        """Some of the pieces."""
-        return records.take(self, which)
 
     def parameters(self, arcs: Arcs, which: Ints, t: Floats) -> Floats:
         """(k,) the arcs' parameters at t, 0 to 1 along pieces which (k,)."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_components, dot
 from vectorplot.scene.view import View
 from vectorplot.tolerances import (
@@ -41,7 +42,7 @@ Ends = tuple[list[Floats], list[Floats]]
 
 
 @dataclass(frozen=True, eq=False)
-class Cubics:
+class Cubics(Elements):
     """Cubic arcs (k,3) by powers of the part of the arc, the constant first: in space, or in the image and in depth."""
 
     constant: Floats
@@ -57,10 +58,6 @@ class Cubics:
         """
         way = end - start
         return cls(start, leaving, 3.0 * way - 2.0 * leaving - arriving, leaving + arriving - 2.0 * way)
-
-    def take(self, which: Ints) -> Cubics:
-        """Some of the arcs."""
-        return records.take(self, which)
 
     def at(self, part: Floats) -> tuple[Floats, Floats]:
         """(k,3) a point of each arc, and the derivatives there."""
@@ -140,17 +137,13 @@ NEAR_MISSES = 2.0
 
 
 @dataclass(frozen=True, eq=False)
-class Pairs:
+class Pairs(Elements):
     """Chords of curves and chords of edges, by the points at which they begin, and parts of them: all (k,)."""
 
     chord: Ints
     part: Floats
     edge: Ints
     edge_part: Floats
-
-    def take(self, which: Bools | Ints) -> Pairs:
-        """Some of the pairs."""
-        return records.take(self, which)
 
 
 def crossings(
@@ -267,7 +260,7 @@ def _near_cusps(view: View, sheets: Sheets, edges: Curves) -> Bools:
 
 
 @dataclass(frozen=True, eq=False)
-class _Chords:
+class _Chords(Elements):
     """Chords in front of the eye: their numbers (c,), ends (c,2) in the image and depths."""
 
     chord: Ints
@@ -286,10 +279,6 @@ class _Chords:
         chord = chord[long & (depth[chord] > view.near) & (depth[chord + 1] > view.near)]
         a, b = depth[chord], depth[chord + 1]
         return cls(chord, image[chord], image[chord + 1], np.minimum(a, b), np.maximum(a, b))
-
-    def take(self, which: Ints) -> _Chords:
-        """Some of the chords."""
-        return records.take(self, which)
 
     def strips(self, margin: float) -> BoxStrips:
         """Their boxes, enlarged by a margin."""

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances import BEYOND_END, EDGE_ON_SINE, ROUNDING, SAME_EVENT
@@ -83,7 +84,7 @@ OnCurve = Callable[[Ints, Along], Floats]
 
 FALSE_POSITIONS, CUTS, LOOKS = 12, 16, 6
 """Steps of false position; how often what is left is cut in parts; how often the place is looked for at which a
-function comes closest to zero."""
+function comes closest to zero. Jumps are usual here: `bracketed_zeros`, which halves them, would need 50 calls."""
 
 PARTS = 16
 """Parts in which that is done: as fine as by four halvings, in one call."""
@@ -96,17 +97,13 @@ NEAR = 0.25
 
 
 @dataclass(frozen=True, eq=False)
-class Roots:
+class Roots(Elements):
     """Roots: the chord (k,) by the point at which it begins, the part (k,) of it, and whether the function falls (k,)
     there."""
 
     chord: Ints
     part: Floats
     falls: Bools
-
-    def take(self, which: Bools) -> Roots:
-        """Some of the roots."""
-        return Roots(self.chord[which], self.part[which], self.falls[which])
 
 
 def roots_along(curves: Curves, function: OnCurve, values: Floats) -> Roots:

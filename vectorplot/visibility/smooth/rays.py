@@ -10,6 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_finite, dot, greatest_component, least_component
 from vectorplot.scene.view import View
 from vectorplot.tolerances import (
@@ -316,7 +317,7 @@ class _Met:
 
 
 @dataclass(frozen=True, eq=False)
-class Samples:
+class Samples(Elements):
     """Points (k,3) to look from; own sheet (k,) or -1 and place (k,3) there; second sheet and place likewise; contour
     (k,): whether the point lies on the contour of its own sheet; cuspidal (k,): whether on a cuspidal edge of it."""
 
@@ -330,10 +331,6 @@ class Samples:
 
     def __len__(self) -> int:
         return len(self.points)
-
-    def take(self, which: Ints) -> Samples:
-        """Some of the points."""
-        return records.take(self, which)
 
     @property
     def own(self) -> tuple[tuple[Ints, Floats, Bools], ...]:

@@ -15,7 +15,8 @@ from vectorplot.features.curve_tracing import SurfaceCurves
 from vectorplot.features.pinch_points import ThroughPinchPoints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, closed_round, joined, take
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, closed_round, joined
+from vectorplot.geometry.records import APART, Elements
 from vectorplot.geometry.vectors import all_components, all_finite, any_component, dot, from_components, norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances import BESIDE_STANDSTILL, LEAST_DIVISOR, SAME_DIRECTION_SINE
@@ -42,7 +43,7 @@ def _none() -> Ints:
 
 
 @dataclass(frozen=True, eq=False)
-class Curves:
+class Curves(LineElements):
     """Polylines in the view's coordinates.
 
     points (n,3); places (n,3) of them on their sheets; second_places (n,3) those on a second sheet, of curves in which
@@ -154,10 +155,6 @@ class Curves:
             (x.take(begin, axis=0), x.take(end, axis=0)) for x in (self.places, self.points, self.second_places)
         )
         return Chords(places, points, second, self.level[self.owner[begin]])
-
-    def take(self, which: Ints) -> Curves:
-        """Some of the curves."""
-        return take(self, which)
 
 
 def at_once(asked: Sequence[tuple[Curves, Ints, Floats]]) -> list[Along]:
@@ -282,19 +279,15 @@ come from a standstill near by."""
 
 
 @dataclass(frozen=True, eq=False)
-class ChordParts:
+class ChordParts(Elements):
     """What lines (n,) are of curves on sheets: chord (n,) by the point at which it begins, -1 for lines that are of
     none; begin and end (n,): the part of the curve above it."""
 
-    sheets: Sheets
-    curves: Curves
+    sheets: Sheets = field(metadata=APART)
+    curves: Curves = field(metadata=APART)
     chord: Ints
     begin: Floats
     end: Floats
-
-    def take(self, which: Ints | Bools) -> ChordParts:
-        """That of some of the lines."""
-        return ChordParts(self.sheets, self.curves, self.chord[which], self.begin[which], self.end[which])
 
     def cut(self, view: View, low: Floats, high: Floats, start: Floats, end: Floats) -> tuple[Floats, Floats]:
         """Parts (n,) of the curves at which parts of the lines, from low to high (n,), begin and end; start and end
