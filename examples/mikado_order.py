@@ -40,7 +40,7 @@ def main(folder: Path) -> None:
     before, after = demands(priorities(view_objects(look(scene, camera))))
     found = topological_order(12, before, after)
     place = np.argsort(found.order)
-    assert not len(found.knot) and (place[before] < place[after]).all()
+    assert not len(found.cycle) and (place[before] < place[after]).all()
     assert (before < after).all(), "the eye is above: higher sticks come later"
     for number, left in enumerate((12, 7, 3)):
         kept = tuple(scene.items[k] for k in sorted(found.order[:left]))

@@ -53,7 +53,7 @@ def main(folder: Path) -> None:
     before, after = demands(priorities(view_objects(look(scene, camera))))
     found = grouped_order(len(items), before, after, group)
     place = np.argsort(found.order)
-    assert not found.undone and not found.knots
+    assert not found.undone and not found.cycles
     assert (place[before] < place[after]).all(), "the order inside the groups is right too"
     assert (np.diff(group[found.order]) != 0).sum() == 1, "one group comes after the other"
     within = (group[:, None] == group).sum() - len(items)

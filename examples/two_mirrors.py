@@ -49,7 +49,7 @@ def main(folder: Path) -> None:
     )
     scene = vp.Scene(items, LIGHTS, title="Two mirrors")
     camera = vp.Camera(eye=(11, -15, 9), target=(-0.2, -0.8, 1.2), fov_deg=28)
-    drawing = vp.paint(scene, camera, page=vp.Page(150, 128, 4), lines="contour,boundary,crease", tolerance_mm=0.12)
+    drawing = vp.paint(scene, camera, page=vp.Page(150, 128, 4), lines="contour,boundary,crease", tolerance_mm=0.1)
     tip = np.array([-0.8, -2.6, 2.2])
     doubles = [tip - 2 * (tip @ normal - level) * normal for normal, level in PLANES.values()]
     places = on_page(drawing, [tip, *doubles])
