@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.edge_splitting import Within
+from vectorplot.features import tessellation
+from vectorplot.features.edge_splitting import Within, refined
 from vectorplot.features.tessellation import LOT, facets, facets_of_all
 from vectorplot.geometry.budget import USUAL
 from vectorplot.shading.facet_resolution import Coarse
-from vectorplot.surfaces.capped_bodies import Capped
+from vectorplot.surfaces.capped_bodies import Capped, rod
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.quadrics import Cylinder, Sphere, implicit_sphere
+from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.tori import Torus
 
@@ -31,7 +32,8 @@ def mixed():
     rings = [placed(Torus(1.0, 0.2 + 0.05 * k), k) for k in range(4)]
     balls = [placed(Sphere(0.5 + 0.1 * k), k) for k in range(3)]
     wave = surface_of_function(lambda u, v: (u, v, np.sin(u) * v), Domain(-1.0, 1.0, -1.0, 1.0))
-    others = [Capped(Cylinder(0.3, 0.0, 1.0)), wave, implicit_sphere(0.5), Torus(1.0, 0.3), Sphere(0.4)]
+    rods = [rod((0.0, 0.0, 0.0), (1.0, 0.4 * k, 0.3), 0.1 + 0.02 * k) for k in range(3)]
+    others = [*rods, Capped(Sphere(1.0), (0.0, 1.0)), wave, implicit_sphere(0.5), Torus(1.0, 0.3), Sphere(0.4)]
     return [shape for some in zip(rings, balls, others[:3], strict=False) for shape in some] + rings[3:] + others[3:]
 
 
@@ -50,6 +52,17 @@ def test_the_budget_is_that_of_each():
     found = facets_of_all(shapes, demands.__getitem__, 2000)
     assert [f.complete for f in found] == [True, False, True]
     assert all(same(f, facets(s, d, 2000)) for f, s, d in zip(found, shapes, demands, strict=True))
+
+
+def test_rods_of_all_sizes_are_one_family(monkeypatch):
+    divided = []
+    monkeypatch.setattr(tessellation, "refined", lambda net, *rest: divided.append(net) or refined(net, *rest))
+    rods = [rod((0.0, 0.0, 0.0), (1.0, 0.4 * k, 0.3), 0.1 + 0.02 * k) for k in range(5)]
+    found = facets_of_all(rods, lambda _: Coarse((0.01,)), USUAL.facets)
+    assert len(divided) == 1
+    for facet, shape in zip(found, rods, strict=True):
+        ends = facet.mesh.vertices @ (shape.matrix[2] / np.linalg.norm(shape.matrix[2]))
+        assert np.allclose([ends.min(), ends.max()], shape.surface.mantle)
 
 
 @pytest.mark.parametrize("count", [0, 1, LOT + 1])

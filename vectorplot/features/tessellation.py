@@ -40,6 +40,7 @@ from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import all_components, all_finite, any_component, component_sum, cross, dot, norm
+from vectorplot.surfaces.capped_bodies import Capped, Frustum, capped_quadric_of
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import (
     ExactRows,
@@ -546,6 +547,7 @@ def facets(shape: Surface | ImplicitSurface, demand: Criterion, most: int = USUA
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
     if is_parametrised(shape):
+        (shape,) = standard_forms([shape])
         patch = Patch(shape, tuple(poles(shape)))
         return finished(patch, refined(first_net(shape, demand), patch, demand, most))
     if is_implicit(shape):
@@ -624,8 +626,8 @@ def _facets(net: Net, sharp: Bools, apex: Bools | None = None) -> Facets:
 
 # Facets of many surfaces: those of one family are divided as one, which takes few more calls than one of them.
 
-LOT = 16
-"""So many surfaces are divided at once at most: with more of them caches no longer hold their arrays."""
+LOT = 64
+"""So many surfaces are divided at once at most, for their arrays all have to be held."""
 
 MANY = 1000
 """Triangles of the first nets in the mean from which on surfaces are divided one after the other: each has enough to
@@ -649,8 +651,8 @@ class Joinable(Criterion, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Patches(Patch):
-    """Surfaces of one family over one domain with the same poles and without sharp edges, the first one for all in what
-    they have in common; the fourth number of a place tells which one it is on."""
+    """Surfaces of one family over one domain with the same poles and sharp edges, the first one for all in what they
+    have in common; the fourth number of a place tells which one it is on."""
 
     stack: StackedSurfaces
 
@@ -672,6 +674,7 @@ def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Criterion], mos
     """
     made: dict[int, Facets] = {}
     families: dict[Hashable, list[int]] = {}
+    shapes = standard_forms(shapes)
     for number, shape in enumerate(shapes):
         families.setdefault(_family(shape) or number, []).append(number)
     for family in families.values():
@@ -685,9 +688,26 @@ def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Criterion], mos
     return [made[number] for number in range(len(shapes))]
 
 
+def standard_forms(shapes: Sequence[Any]) -> list[Any]:
+    """The shapes, those that are capped cylinders, cones or frusta as placements of one such body of height 1 for each
+    ratio of radii: with one domain whatever their size, they are one family."""
+    bodies: dict[tuple[float, float], Capped] = {}
+    found = []
+    for shape in shapes:
+        quadric = capped_quadric_of(shape)
+        if quadric is None or quadric.is_round:
+            found.append(shape)
+            continue
+        body = bodies.setdefault(quadric.radii, Capped(Frustum(*quadric.radii, 1.0)))
+        found.append(PlacedSurface(body, quadric.frame, quadric.centre))
+    return found
+
+
 def _family(shape: Any) -> Hashable:
     """Equal for surfaces that can be divided as one, None for others."""
     inner = shape.surface if isinstance(shape, PlacedSurface) else shape
+    if isinstance(inner, Capped):
+        return Capped, id(inner)
     names = dimensions_of(inner)
     if not names or not is_parametrised(inner) or len(creases(shape)):
         return None
