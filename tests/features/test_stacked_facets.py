@@ -54,15 +54,49 @@ def test_the_budget_is_that_of_each():
     assert all(same(f, facets(s, d, 2000)) for f, s, d in zip(found, shapes, demands, strict=True))
 
 
-def test_rods_of_all_sizes_are_one_family(monkeypatch):
+def times_divided(monkeypatch, shapes, demand):
     divided = []
     monkeypatch.setattr(tessellation, "refined", lambda net, *rest: divided.append(net) or refined(net, *rest))
-    rods = [rod((0.0, 0.0, 0.0), (1.0, 0.4 * k, 0.3), 0.1 + 0.02 * k) for k in range(5)]
-    found = facets_of_all(rods, lambda _: Coarse((0.01,)), USUAL.facets)
-    assert len(divided) == 1
-    for facet, shape in zip(found, rods, strict=True):
+    return facets_of_all(shapes, demand, USUAL.facets), len(divided)
+
+
+def rods(count):
+    return [rod((0.0, 0.0, 0.0), (1.0, 0.4 * k, 0.3), 0.1 + 0.02 * k) for k in range(count)]
+
+
+def test_rods_of_all_sizes_are_one_family(monkeypatch):
+    monkeypatch.setattr(tessellation, "_shared_net", lambda *_: None)
+    found, divided = times_divided(monkeypatch, rods(5), lambda _: Coarse((0.01,)))
+    assert divided == 1
+    for facet, shape in zip(found, rods(5), strict=True):
         ends = facet.mesh.vertices @ (shape.matrix[2] / np.linalg.norm(shape.matrix[2]))
         assert np.allclose([ends.min(), ends.max()], shape.surface.mantle)
+
+
+@pytest.mark.slow
+def test_balls_and_rods_share_nets_that_are_as_fine_as_each_asks_for(monkeypatch):
+    eye, mirror = np.array([0.0, 0.0, 30.0]), np.diag([1.0, 1.0, -1.0])
+    demand = Within(lambda points: 2e-4 * np.linalg.norm(points - eye, axis=-1))
+    balls = [PlacedSurface(Sphere(1.0), 0.3 * (mirror if k % 2 else np.eye(3)), (k, 0.0, 0.0)) for k in range(8)]
+    shapes = balls + rods(4)
+    found, divided = times_divided(monkeypatch, shapes, lambda _: demand)
+    assert divided < 8
+    for ball, facet in zip(balls, found, strict=False):
+        arms = facet.mesh.vertices - ball.shift
+        assert np.allclose(np.linalg.norm(arms, axis=1), 0.3)
+        outwards = arms / 0.3 * np.sign(np.linalg.det(ball.matrix))
+        assert np.allclose(facet.normals, outwards)
+        middles = facet.mesh.vertices[facet.mesh.corners].reshape(-1, 3, 3).mean(axis=1)
+        off = 0.3 - np.linalg.norm(middles - ball.shift, axis=1)
+        assert (off <= 2e-4 * np.linalg.norm(middles - eye, axis=1)).all()
+    assert all(same(f, facets(s, demand)) for f, s in zip(found, shapes, strict=True))
+
+
+def test_large_balls_near_the_eye_and_ellipsoids_share_none(monkeypatch):
+    demand = Within(lambda points: 0.01 * np.linalg.norm(points - (0.0, 0.0, 2.0), axis=-1))
+    shapes = [Sphere(1.0), Sphere(1.0), PlacedSurface(Sphere(1.0), np.diag([1.0, 1.0, 0.1]))]
+    shared = tessellation._shared_net
+    assert [shared(shape, demand) for shape in shapes] == [None] * 3
 
 
 @pytest.mark.parametrize("count", [0, 1, LOT + 1])

@@ -15,6 +15,7 @@ from vectorplot.features.curve_tracing import Pole, poles
 from vectorplot.features.edge_splitting import (
     LOOKS,
     NONE,
+    AllSidesAlike,
     Between,
     Criterion,
     Edges,
@@ -36,12 +37,14 @@ from vectorplot.features.implicit_singular_lines import (
 from vectorplot.features.implicit_surfaces import BOXED, onto_surface, polygonized, settled_from, sides_of
 from vectorplot.features.intersection_grids import UNEVEN, seam_numbers
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import all_components, all_finite, any_component, component_sum, cross, dot, norm
-from vectorplot.surfaces.capped_bodies import Capped, Frustum, capped_quadric_of
+from vectorplot.surfaces.capped_bodies import Capped, Frustum, ball_of, capped_quadric_of
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.surfaces.stacked import (
     ExactRows,
     StackedSurfaces,
@@ -64,6 +67,7 @@ from vectorplot.surfaces.trimmed import creases
 from vectorplot.tolerances import (
     ASIDE_OF_CREASE,
     FLAT_COSINE,
+    HOMOTHETIC,
     ON_BORDER_OF_DOMAIN,
     SAME_NORMAL_COSINE,
     TURNED_OVER,
@@ -547,14 +551,21 @@ def facets(shape: Surface | ImplicitSurface, demand: Criterion, most: int = USUA
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
     if is_parametrised(shape):
-        (shape,) = standard_forms([shape])
-        patch = Patch(shape, tuple(poles(shape)))
-        return finished(patch, refined(first_net(shape, demand), patch, demand, most))
+        surface: Surface = standard_forms([shape])[0]
+        if shared := _shared_net(surface, demand):
+            return shared.placed(_alone(shared.body, shared.demand, most))
+        return _alone(surface, demand, most)
     if is_implicit(shape):
         level = level_net(shape)
         net = refined(level.net, level, demand, most)
         return _facets(net, np.zeros(len(net.vertices.points), dtype=np.bool_))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
+
+
+def _alone(surface: Surface, demand: Criterion, most: int) -> Facets:
+    """The facets of a parametrised surface by itself."""
+    patch = Patch(surface, tuple(poles(surface)))
+    return finished(patch, refined(first_net(surface, demand), patch, demand, most))
 
 
 def finished(patch: Patch, net: Net) -> Facets:
@@ -674,6 +685,7 @@ def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Criterion], mos
     """
     made: dict[int, Facets] = {}
     families: dict[Hashable, list[int]] = {}
+    nets: dict[Hashable, Facets] = {}
     shapes = standard_forms(shapes)
     for number, shape in enumerate(shapes):
         families.setdefault(_family(shape) or number, []).append(number)
@@ -681,16 +693,23 @@ def facets_of_all(shapes: Sequence[Any], demand: Callable[[int], Criterion], mos
         for start in range(0, len(family), LOT):
             lot = family[start : start + LOT]
             asked = [demand(number) for number in lot]
-            for own in _joinable(asked):
-                numbers = [lot[k] for k in own]
-                found = _together([shapes[k] for k in numbers], [asked[k] for k in own], most)
+            shared = [_shared_net(shapes[number], one) for number, one in zip(lot, asked, strict=True)]
+            for number, one in zip(lot, shared, strict=True):
+                if one is not None:
+                    if one.key not in nets:
+                        nets[one.key] = _alone(one.body, one.demand, most)
+                    made[number] = one.placed(nets[one.key])
+            left = [k for k, one in enumerate(shared) if one is None]
+            for own in _joinable([asked[k] for k in left]):
+                numbers = [lot[left[k]] for k in own]
+                found = _together([shapes[k] for k in numbers], [asked[left[k]] for k in own], most)
                 made.update(zip(numbers, found, strict=True))
     return [made[number] for number in range(len(shapes))]
 
 
 def standard_forms(shapes: Sequence[Any]) -> list[Any]:
-    """The shapes, those that are capped cylinders, cones or frusta as placements of one such body of height 1 for each
-    ratio of radii: with one domain whatever their size, they are one family."""
+    """The shapes, those that are capped cylinders, cones or frusta as placements of one such body of height 1 and
+    largest radius 1 for each ratio of radii: with one domain whatever their size, they are one family."""
     bodies: dict[tuple[float, float], Capped] = {}
     found = []
     for shape in shapes:
@@ -701,6 +720,68 @@ def standard_forms(shapes: Sequence[Any]) -> list[Any]:
         body = bodies.setdefault(quadric.radii, Capped(Frustum(*quadric.radii, 1.0)))
         found.append(PlacedSurface(body, quadric.frame, quadric.centre))
     return found
+
+
+# Balls and rods of which the same is asked, measured by their radii, share one net.
+
+EVENLY = 0.8
+"""Part of the largest distance that is allowed on a body which the smallest one has at least where a net is shared."""
+
+SIZES = 8
+"""Distances are rounded down to so many sizes between 0 and each power of two, half of which are there twice."""
+
+
+@dataclass(frozen=True, eq=False)
+class _SharedNet:
+    """A ball or a rod (points x @ frame + centre of a unit one, body), what is asked of the unit one, and a key: equal
+    for those with the same net."""
+
+    body: Surface
+    frame: Floats
+    centre: Floats
+    demand: AllSidesAlike
+    key: Hashable
+
+    def placed(self, net: Facets) -> Facets:
+        """The net of the unit body where this one is."""
+        turned = self.frame / norm(self.frame)[:, None] * np.sign(dot(self.frame[0], cross(*self.frame[1:])))
+        mesh = replace(net.mesh, vertices=matmul(net.mesh.vertices, self.frame) + self.centre)
+        return replace(net, mesh=mesh, normals=matmul(net.normals, turned))
+
+
+def _shared_net(shape: Any, demand: Criterion) -> _SharedNet | None:
+    """The shared net of a ball, or of a rod in its standard form, of which nearly the same is asked everywhere; its
+    distances are those at the middle less all by which others in its box can be smaller, as they are convex functions.
+    None for other shapes, for ellipsoids and elliptic rods, and where outlines matter."""
+    if not isinstance(demand, AllSidesAlike):
+        return None
+    if isinstance(shape, PlacedSurface) and isinstance(shape.surface, Capped) and _is_rod(shape.surface):
+        body: Surface = shape.surface
+        frame, centre, low = np.asarray(shape.matrix), np.asarray(shape.shift), 0.0
+    elif ball := ball_of(shape):
+        body, frame, centre, low = Sphere(1.0), ball.frame, ball.centre, -1.0
+    else:
+        return None
+    lengths, (a, b, c) = norm(frame), frame
+    radius = float(lengths[0])
+    skew = max(abs(float(dot(one, two))) for one, two in ((a, b), (a, c), (b, c)))
+    round_ = lengths if low else lengths[:2]
+    if max(skew / float(lengths.max()), float(np.abs(round_ - radius).max())) > HOMOTHETIC * radius:
+        return None
+    corners = np.array(list(np.ndindex(2, 2, 2))) * (2.0, 2.0, 1.0 - low) + (-1.0, -1.0, low)
+    middle = np.array([[0.0, 0.0, 0.5 * (1.0 + low)]])
+    allowed = demand.distances_at(matmul(np.concatenate([middle, corners]), frame) + centre)
+    least = 2.0 * float(allowed[0]) - float(allowed.max())
+    if not least >= EVENLY * float(allowed.max()) > 0.0:
+        return None
+    part, power = np.frexp(least / radius)
+    distance = float(np.ldexp(np.floor(part * SIZES) / SIZES, power))
+    return _SharedNet(body, frame, centre, demand.with_distance(distance), (low, type(demand), distance))
+
+
+def _is_rod(body: Capped) -> bool:
+    """Whether the standard form of a body is that of a rod."""
+    return isinstance(body.surface, Frustum) and body.surface.radius == body.surface.top_radius == 1.0
 
 
 def _family(shape: Any) -> Hashable:
@@ -727,7 +808,7 @@ def _joinable(asked: Sequence[Criterion]) -> list[list[int]]:
 def _together(shapes: Sequence[Any], asked: Sequence[Any], most: int) -> list[Facets]:
     """The facets of shapes of one family."""
     if len(shapes) == 1:
-        return [facets(shapes[0], asked[0], most)]
+        return [_alone(shapes[0], asked[0], most) if is_parametrised(shapes[0]) else facets(shapes[0], asked[0], most)]
     demand = type(asked[0]).joined(asked)
     single = [Patch(shape, tuple(poles(shape))) for shape in shapes]
     patches = Patches(shapes[0], single[0].poles, StackedSurfaces.of(shapes))

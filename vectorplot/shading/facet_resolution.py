@@ -300,6 +300,14 @@ class Coarse(AllSidesAlike):
         """All of these distances, of surfaces one after the other."""
         return cls(tuple(chain(*(some.distances for some in asked))))
 
+    def distances_at(self, points: Floats) -> Floats:
+        """(n,) as AllSidesAlike, of a single surface."""
+        return np.full(len(points), self.distances[0])
+
+    def with_distance(self, distance: float) -> Coarse:
+        """As AllSidesAlike."""
+        return Coarse((distance,))
+
     def excess(self, edges: Edges) -> Floats:
         """(k,n) as Criterion."""
         distance = np.array(self.distances)[surface_numbers(edges.start.places)]
