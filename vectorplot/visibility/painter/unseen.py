@@ -163,6 +163,8 @@ def crossing_items(view: View, face: Ints) -> Ints:
     triangles, place, of = triangles[wide], place[wide], of[wide]
     item = view.face_item[face[of]]
     points = view.points[:, triangles]
+    left = ~_star_shaped(points, item, len(view.item_vertices) - 1, view.tolerance)[item]
+    triangles, place, of, item, points = triangles[left], place[left], of[left], item[left], points[:, left]
     shift = np.zeros((3, len(item)))
     shift[0] = AXIS_SHIFT * item
     low, high = points.min(axis=2) + shift - view.tolerance, points.max(axis=2) + shift + view.tolerance
@@ -180,6 +182,28 @@ def crossing_items(view: View, face: Ints) -> Ints:
         met = _meet(points[:, a], points[:, b], view.tolerance)
         found[item[a[met]]] = True
     return np.flatnonzero(found)
+
+
+def _star_shaped(points: Floats, item: Ints, count: int, tolerance: float) -> Bools:
+    """(i,) which closed items with triangles (3,n,3) are seen whole from their middle, so that they cannot cross
+    themselves: the planes of all triangles leave it, by more than a tolerance, on one side, and a ray from there meets
+    one of them, as all rays then do, for how many are met never changes.
+
+    Source: Preparata and Shamos, Computational Geometry (1985): star-shaped polygons and their kernels.
+    """
+    size = np.maximum(np.bincount(item, minlength=count), 1)
+    middle = np.stack([np.bincount(item, along.mean(axis=1), minlength=count) for along in points]) / size
+    a, b, c = np.moveaxis(points - middle[:, item, None], 2, 0)
+    normal = cross(b - a, c - a)
+    height = dot(a, normal) / np.maximum(np.sqrt(dot(normal, normal)), np.finfo(np.float64).tiny)
+    side = np.sign(np.bincount(item, height, minlength=count))
+    aside = np.bincount(item, side[item] * height <= tolerance, minlength=count)
+    first = np.zeros(count, dtype=np.intp)
+    first[item[::-1]] = np.arange(len(item))[::-1]
+    ray = ((a + b + c)[:, first] if len(item) else np.zeros((3, count)))[:, item]
+    within = [side[item] * dot(ray, cross(one, two)) >= 0.0 for one, two in ((a, b), (b, c), (c, a))]
+    met = np.bincount(item, np.logical_and.reduce(within), minlength=count)
+    return np.asarray((aside == 0) & (met == 1), dtype=np.bool_)
 
 
 def _meet(one: Floats, two: Floats, tolerance: float) -> Ints:
