@@ -42,7 +42,7 @@ from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import all_components, all_finite, any_component, component_sum, cross, dot, norm
-from vectorplot.surfaces.capped_bodies import Capped, Frustum, ball_of, capped_quadric_of
+from vectorplot.surfaces.capped_bodies import Capped, Frustum, capped_quadric_of, round_body_of
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.surfaces.stacked import (
@@ -67,7 +67,6 @@ from vectorplot.surfaces.trimmed import creases
 from vectorplot.tolerances import (
     ASIDE_OF_CREASE,
     FLAT_COSINE,
-    HOMOTHETIC,
     ON_BORDER_OF_DOMAIN,
     SAME_NORMAL_COSINE,
     TURNED_OVER,
@@ -755,33 +754,20 @@ def _shared_net(shape: Any, demand: Criterion) -> _SharedNet | None:
     None for other shapes, for ellipsoids and elliptic rods, and where outlines matter."""
     if not isinstance(demand, AllSidesAlike):
         return None
-    if isinstance(shape, PlacedSurface) and isinstance(shape.surface, Capped) and _is_rod(shape.surface):
-        body: Surface = shape.surface
-        frame, centre, low = np.asarray(shape.matrix), np.asarray(shape.shift), 0.0
-    elif ball := ball_of(shape):
-        body, frame, centre, low = Sphere(1.0), ball.frame, ball.centre, -1.0
-    else:
+    form = round_body_of(shape)
+    if form is None:
         return None
-    lengths, (a, b, c) = norm(frame), frame
-    radius = float(lengths[0])
-    skew = max(abs(float(dot(one, two))) for one, two in ((a, b), (a, c), (b, c)))
-    round_ = lengths if low else lengths[:2]
-    if max(skew / float(lengths.max()), float(np.abs(round_ - radius).max())) > HOMOTHETIC * radius:
-        return None
+    body: Surface = Sphere(1.0) if form.is_ball else shape.surface
+    frame, centre, low = form.frame, form.centre, -1.0 if form.is_ball else 0.0
     corners = np.array(list(np.ndindex(2, 2, 2))) * (2.0, 2.0, 1.0 - low) + (-1.0, -1.0, low)
     middle = np.array([[0.0, 0.0, 0.5 * (1.0 + low)]])
     allowed = demand.distances_at(matmul(np.concatenate([middle, corners]), frame) + centre)
     least = 2.0 * float(allowed[0]) - float(allowed.max())
     if not least >= EVENLY * float(allowed.max()) > 0.0:
         return None
-    part, power = np.frexp(least / radius)
+    part, power = np.frexp(least / form.radius)
     distance = float(np.ldexp(np.floor(part * SIZES) / SIZES, power))
-    return _SharedNet(body, frame, centre, demand.with_distance(distance), (low, type(demand), distance))
-
-
-def _is_rod(body: Capped) -> bool:
-    """Whether the standard form of a body is that of a rod."""
-    return isinstance(body.surface, Frustum) and body.surface.radius == body.surface.top_radius == 1.0
+    return _SharedNet(body, frame, centre, demand.with_distance(distance), (form.is_ball, type(demand), distance))
 
 
 def _family(shape: Any) -> Hashable:
