@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_pairs
-from vectorplot.geometry.budget import Budget
+from vectorplot.geometry.budget import Budget, slices
 from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh
@@ -162,9 +162,9 @@ def crossing_items(view: View, face: Ints) -> Ints:
     wide = np.flatnonzero((place != np.roll(place, 1, axis=1)).all(axis=1))
     triangles, place, of = triangles[wide], place[wide], of[wide]
     item = view.face_item[face[of]]
+    left = ~_star_shaped(view, triangles, item)[item]
+    triangles, place, of, item = triangles[left], place[left], of[left], item[left]
     points = view.points[:, triangles]
-    left = ~_star_shaped(points, item, len(view.item_vertices) - 1, view.tolerance)[item]
-    triangles, place, of, item, points = triangles[left], place[left], of[left], item[left], points[:, left]
     shift = np.zeros((3, len(item)))
     shift[0] = AXIS_SHIFT * item
     low, high = points.min(axis=2) + shift - view.tolerance, points.max(axis=2) + shift + view.tolerance
@@ -184,25 +184,34 @@ def crossing_items(view: View, face: Ints) -> Ints:
     return np.flatnonzero(found)
 
 
-def _star_shaped(points: Floats, item: Ints, count: int, tolerance: float) -> Bools:
-    """(i,) which closed items with triangles (3,n,3) are seen whole from their middle, so that they cannot cross
-    themselves: the planes of all triangles leave it, by more than a tolerance, on one side, and a ray from there meets
-    one of them, as all rays then do, for how many are met never changes.
+def _star_shaped(view: View, triangles: Ints, item: Ints) -> Bools:
+    """(i,) which closed items with triangles (n,3), of items (n,), are seen whole from their middle, so that they never
+    cross themselves: the planes of all triangles leave it, by more than a tolerance, on one side, and a ray from there
+    meets one of them, as all rays then do, for how many are met never changes.
 
     Source: Preparata and Shamos, Computational Geometry (1985): star-shaped polygons and their kernels.
     """
+    count, lots = len(view.item_vertices) - 1, slices(len(item), PAIRS_AT_ONCE)
     size = np.maximum(np.bincount(item, minlength=count), 1)
-    middle = np.stack([np.bincount(item, along.mean(axis=1), minlength=count) for along in points]) / size
-    a, b, c = np.moveaxis(points - middle[:, item, None], 2, 0)
-    normal = cross(b - a, c - a)
-    height = dot(a, normal) / np.maximum(np.sqrt(dot(normal, normal)), np.finfo(np.float64).tiny)
+    corners = np.zeros((3, count))
+    for lot in lots:
+        mean = view.points[:, triangles[lot]].mean(axis=2)
+        corners += [np.bincount(item[lot], along, minlength=count) for along in mean]
+    middle, height = corners / size, np.empty(len(item))
+    for lot in lots:
+        a, b, c = np.moveaxis(view.points[:, triangles[lot]] - middle[:, item[lot], None], 2, 0)
+        normal = cross(b - a, c - a)
+        height[lot] = dot(a, normal) / np.maximum(np.sqrt(dot(normal, normal)), np.finfo(np.float64).tiny)
     side = np.sign(np.bincount(item, height, minlength=count))
-    aside = np.bincount(item, side[item] * height <= tolerance, minlength=count)
-    first = np.zeros(count, dtype=np.intp)
-    first[item[::-1]] = np.arange(len(item))[::-1]
-    ray = ((a + b + c)[:, first] if len(item) else np.zeros((3, count)))[:, item]
-    within = [side[item] * dot(ray, cross(one, two)) >= 0.0 for one, two in ((a, b), (b, c), (c, a))]
-    met = np.bincount(item, np.logical_and.reduce(within), minlength=count)
+    aside = np.bincount(item, side[item] * height <= view.tolerance, minlength=count)
+    number, first = np.unique(item, return_index=True)
+    ray, met = np.zeros((3, count)), np.zeros(count)
+    ray[:, number] = view.points[:, triangles[first]].sum(axis=2) - 3.0 * middle[:, number]
+    for lot in lots:
+        a, b, c = np.moveaxis(view.points[:, triangles[lot]] - middle[:, item[lot], None], 2, 0)
+        turned = side[item[lot]]
+        within = [turned * dot(ray[:, item[lot]], cross(*two)) >= 0.0 for two in ((a, b), (b, c), (c, a))]
+        met += np.bincount(item[lot], np.logical_and.reduce(within), minlength=count)
     return np.asarray((aside == 0) & (met == 1), dtype=np.bool_)
 
 
