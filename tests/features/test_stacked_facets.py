@@ -3,14 +3,15 @@
 import numpy as np
 import pytest
 
-from vectorplot.features.edge_splitting import Within
+from vectorplot.features import tessellation
+from vectorplot.features.edge_splitting import Within, refined
 from vectorplot.features.tessellation import LOT, facets, facets_of_all
 from vectorplot.geometry.budget import USUAL
 from vectorplot.shading.facet_resolution import Coarse
-from vectorplot.surfaces.capped_bodies import Capped
+from vectorplot.surfaces.capped_bodies import Capped, rod
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.placed_surface import PlacedSurface
-from vectorplot.surfaces.quadrics import Cylinder, Sphere, implicit_sphere
+from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.tori import Torus
 
@@ -31,7 +32,8 @@ def mixed():
     rings = [placed(Torus(1.0, 0.2 + 0.05 * k), k) for k in range(4)]
     balls = [placed(Sphere(0.5 + 0.1 * k), k) for k in range(3)]
     wave = surface_of_function(lambda u, v: (u, v, np.sin(u) * v), Domain(-1.0, 1.0, -1.0, 1.0))
-    others = [Capped(Cylinder(0.3, 0.0, 1.0)), wave, implicit_sphere(0.5), Torus(1.0, 0.3), Sphere(0.4)]
+    rods = [rod((0.0, 0.0, 0.0), (1.0, 0.4 * k, 0.3), 0.1 + 0.02 * k) for k in range(3)]
+    others = [*rods, Capped(Sphere(1.0), (0.0, 1.0)), wave, implicit_sphere(0.5), Torus(1.0, 0.3), Sphere(0.4)]
     return [shape for some in zip(rings, balls, others[:3], strict=False) for shape in some] + rings[3:] + others[3:]
 
 
@@ -50,6 +52,51 @@ def test_the_budget_is_that_of_each():
     found = facets_of_all(shapes, demands.__getitem__, 2000)
     assert [f.complete for f in found] == [True, False, True]
     assert all(same(f, facets(s, d, 2000)) for f, s, d in zip(found, shapes, demands, strict=True))
+
+
+def times_divided(monkeypatch, shapes, criterion):
+    divided = []
+    monkeypatch.setattr(tessellation, "refined", lambda net, *rest: divided.append(net) or refined(net, *rest))
+    return facets_of_all(shapes, criterion, USUAL.facets), len(divided)
+
+
+def rods(count):
+    return [rod((0.0, 0.0, 0.0), (1.0, 0.4 * k, 0.3), 0.1 + 0.02 * k) for k in range(count)]
+
+
+def test_rods_of_all_sizes_are_one_family(monkeypatch):
+    monkeypatch.setattr(tessellation, "_shared_net", lambda *_: None)
+    found, divided = times_divided(monkeypatch, rods(5), lambda _: Coarse((0.01,)))
+    assert divided == 1
+    for facet, shape in zip(found, rods(5), strict=True):
+        ends = facet.mesh.vertices @ (shape.matrix[2] / np.linalg.norm(shape.matrix[2]))
+        assert np.allclose([ends.min(), ends.max()], shape.surface.mantle)
+
+
+@pytest.mark.slow
+def test_balls_and_rods_share_nets_that_are_as_fine_as_each_asks_for(monkeypatch):
+    eye, mirror = np.array([0.0, 0.0, 30.0]), np.diag([1.0, 1.0, -1.0])
+    criterion = Within(lambda points: 2e-4 * np.linalg.norm(points - eye, axis=-1))
+    balls = [PlacedSurface(Sphere(1.0), 0.3 * (mirror if k % 2 else np.eye(3)), (k, 0.0, 0.0)) for k in range(8)]
+    shapes = balls + rods(4)
+    found, divided = times_divided(monkeypatch, shapes, lambda _: criterion)
+    assert divided < 8
+    for ball, facet in zip(balls, found, strict=False):
+        arms = facet.mesh.vertices - ball.shift
+        assert np.allclose(np.linalg.norm(arms, axis=1), 0.3)
+        outwards = arms / 0.3 * np.sign(np.linalg.det(ball.matrix))
+        assert np.allclose(facet.normals, outwards)
+        middles = facet.mesh.vertices[facet.mesh.corners].reshape(-1, 3, 3).mean(axis=1)
+        off = 0.3 - np.linalg.norm(middles - ball.shift, axis=1)
+        assert (off <= 2e-4 * np.linalg.norm(middles - eye, axis=1)).all()
+    assert all(same(f, facets(s, criterion)) for f, s in zip(found, shapes, strict=True))
+
+
+def test_large_balls_near_the_eye_and_ellipsoids_share_none(monkeypatch):
+    criterion = Within(lambda points: 0.01 * np.linalg.norm(points - (0.0, 0.0, 2.0), axis=-1))
+    shapes = [Sphere(1.0), Sphere(1.0), PlacedSurface(Sphere(1.0), np.diag([1.0, 1.0, 0.1]))]
+    shared = tessellation._shared_net
+    assert [shared(shape, criterion) for shape in shapes] == [None] * 3
 
 
 @pytest.mark.parametrize("count", [0, 1, LOT + 1])

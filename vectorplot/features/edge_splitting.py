@@ -484,6 +484,14 @@ class AllSidesAlike(ABC):
         return 0
 
     @abstractmethod
+    def distances_at(self, points: Floats) -> Floats:
+        """(n,) how far triangles may be off the surface, the only one, at points (n,3)."""
+
+    @abstractmethod
+    def with_distance(self, distance: float) -> AllSidesAlike:
+        """What asks the same, but for so far everywhere."""
+
+    @abstractmethod
     def error_ratio(self, edges: Edges) -> Floats:
         """(k,n) as Criterion."""
 
@@ -512,6 +520,14 @@ class Within(AllSidesAlike):
     def joined(cls, asked: Sequence[Within]) -> Within:
         """What is asked for is the same for all of these."""
         return asked[0]
+
+    def distances_at(self, points: Floats) -> Floats:
+        """(n,) as AllSidesAlike."""
+        return self.allowed(points)
+
+    def with_distance(self, distance: float) -> Within:
+        """As AllSidesAlike."""
+        return Within(lambda points: np.full(points.shape[:-1], distance))
 
     def error_ratio(self, edges: Edges) -> Floats:
         """(k,n) as Criterion: the larger of the distances and the turning of the normals, as parts of their limits."""

@@ -15,6 +15,7 @@ from vectorplot.features.curve_tracing import Pole, poles
 from vectorplot.features.edge_splitting import (
     LOOKS,
     NONE,
+    AllSidesAlike,
     Between,
     Criterion,
     Edges,
@@ -36,12 +37,15 @@ from vectorplot.features.implicit_singular_lines import (
 from vectorplot.features.implicit_surfaces import BOXED, onto_surface, polygonized, settled_from, sides_of
 from vectorplot.features.intersection_grids import UNEVEN, seam_numbers
 from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import all_components, all_finite, any_component, component_sum, cross, dot, norm
+from vectorplot.surfaces.capped_bodies import Capped, Frustum, capped_quadric_of, round_body_of
 from vectorplot.surfaces.placed_surface import PlacedSurface
+from vectorplot.surfaces.quadrics import Sphere
 from vectorplot.surfaces.stacked import (
     ExactRows,
     StackedSurfaces,
@@ -547,13 +551,21 @@ def facets(shape: Surface | ImplicitSurface, criterion: Criterion, most: int = U
     Source: Glaeser, section 8.4 (polygonised surfaces).
     """
     if is_parametrised(shape):
-        patch = Patch(shape, tuple(poles(shape)))
-        return finished(patch, refined(first_net(shape, criterion), patch, criterion, most))
+        surface: Surface = standard_forms([shape])[0]
+        if shared := _shared_net(surface, criterion):
+            return shared.placed(_alone(shared.body, shared.criterion, most))
+        return _alone(surface, criterion, most)
     if is_implicit(shape):
         level = level_net(shape)
         net = refined(level.net, level, criterion, most)
         return _facets(net, np.zeros(len(net.vertices.points), dtype=np.bool_))
     raise InputError(f"a {type(shape).__name__} is no smooth surface")
+
+
+def _alone(surface: Surface, criterion: Criterion, most: int) -> Facets:
+    """The facets of a parametrised surface by itself."""
+    patch = Patch(surface, tuple(poles(surface)))
+    return finished(patch, refined(first_net(surface, criterion), patch, criterion, most))
 
 
 def finished(patch: Patch, net: Net) -> Facets:
@@ -625,8 +637,8 @@ def _facets(net: Net, sharp: Bools, apex: Bools | None = None) -> Facets:
 
 # Facets of many surfaces: those of one family are divided as one, which takes few more calls than one of them.
 
-LOT = 16
-"""So many surfaces are divided at once at most: with more of them caches no longer hold their arrays."""
+LOT = 64
+"""So many surfaces are divided at once at most, for their arrays all have to be held."""
 
 MANY = 1000
 """Triangles of the first nets in the mean from which on surfaces are divided one after the other: each has enough to
@@ -650,8 +662,8 @@ class Joinable(Criterion, Protocol):
 
 @dataclass(frozen=True, eq=False)
 class Patches(Patch):
-    """Surfaces of one family over one domain with the same poles and without sharp edges, the first one for all in what
-    they have in common; the fourth number of a place tells which one it is on."""
+    """Surfaces of one family over one domain with the same poles and sharp edges, the first one for all in what they
+    have in common; the fourth number of a place tells which one it is on."""
 
     stack: StackedSurfaces
 
@@ -673,22 +685,97 @@ def facets_of_all(shapes: Sequence[Any], criterion: Callable[[int], Criterion], 
     """
     made: dict[int, Facets] = {}
     families: dict[Hashable, list[int]] = {}
+    nets: dict[Hashable, Facets] = {}
+    shapes = standard_forms(shapes)
     for number, shape in enumerate(shapes):
         families.setdefault(_family(shape) or number, []).append(number)
     for family in families.values():
         for start in range(0, len(family), LOT):
             batch = family[start : start + LOT]
             asked = [criterion(number) for number in batch]
-            for own in _joinable(asked):
-                numbers = [batch[k] for k in own]
-                found = _together([shapes[k] for k in numbers], [asked[k] for k in own], most)
+            shared = [_shared_net(shapes[number], one) for number, one in zip(batch, asked, strict=True)]
+            for number, one in zip(batch, shared, strict=True):
+                if one is not None:
+                    if one.key not in nets:
+                        nets[one.key] = _alone(one.body, one.criterion, most)
+                    made[number] = one.placed(nets[one.key])
+            left = [k for k, one in enumerate(shared) if one is None]
+            for own in _joinable([asked[k] for k in left]):
+                numbers = [batch[left[k]] for k in own]
+                found = _together([shapes[k] for k in numbers], [asked[left[k]] for k in own], most)
                 made.update(zip(numbers, found, strict=True))
     return [made[number] for number in range(len(shapes))]
+
+
+def standard_forms(shapes: Sequence[Any]) -> list[Any]:
+    """The shapes, those that are capped cylinders, cones or frusta as placements of one such body of height 1 and
+    largest radius 1 for each ratio of radii: with one domain whatever their size, they are one family."""
+    bodies: dict[tuple[float, float], Capped] = {}
+    found = []
+    for shape in shapes:
+        quadric = capped_quadric_of(shape)
+        if quadric is None or quadric.is_round:
+            found.append(shape)
+            continue
+        body = bodies.setdefault(quadric.radii, Capped(Frustum(*quadric.radii, 1.0)))
+        found.append(PlacedSurface(body, quadric.frame, quadric.centre))
+    return found
+
+
+# Balls and rods of which the same is asked, measured by their radii, share one net.
+
+EVENLY = 0.8
+"""Part of the largest distance that is allowed on a body which the smallest one has at least where a net is shared."""
+
+SIZES = 8
+"""Distances are rounded down to so many sizes between 0 and each power of two, half of which are there twice."""
+
+
+@dataclass(frozen=True, eq=False)
+class _SharedNet:
+    """A ball or a rod (points x @ frame + centre of a unit one, body), what is asked of the unit one, and a key: equal
+    for those with the same net."""
+
+    body: Surface
+    frame: Floats
+    centre: Floats
+    criterion: AllSidesAlike
+    key: Hashable
+
+    def placed(self, net: Facets) -> Facets:
+        """The net of the unit body where this one is."""
+        turned = self.frame / norm(self.frame)[:, None] * np.sign(dot(self.frame[0], cross(*self.frame[1:])))
+        mesh = replace(net.mesh, vertices=matmul(net.mesh.vertices, self.frame) + self.centre)
+        return replace(net, mesh=mesh, normals=matmul(net.normals, turned))
+
+
+def _shared_net(shape: Any, criterion: Criterion) -> _SharedNet | None:
+    """The shared net of a ball, or of a rod in its standard form, of which nearly the same is asked everywhere; its
+    distances are those at the middle less all by which others in its box can be smaller, as they are convex functions.
+    None for other shapes, for ellipsoids and elliptic rods, and where outlines matter."""
+    if not isinstance(criterion, AllSidesAlike):
+        return None
+    form = round_body_of(shape)
+    if form is None:
+        return None
+    body: Surface = Sphere(1.0) if form.is_ball else shape.surface
+    frame, centre, low = form.frame, form.centre, -1.0 if form.is_ball else 0.0
+    corners = np.array(list(np.ndindex(2, 2, 2))) * (2.0, 2.0, 1.0 - low) + (-1.0, -1.0, low)
+    middle = np.array([[0.0, 0.0, 0.5 * (1.0 + low)]])
+    allowed = criterion.distances_at(matmul(np.concatenate([middle, corners]), frame) + centre)
+    least = 2.0 * float(allowed[0]) - float(allowed.max())
+    if not least >= EVENLY * float(allowed.max()) > 0.0:
+        return None
+    part, power = np.frexp(least / form.radius)
+    distance = float(np.ldexp(np.floor(part * SIZES) / SIZES, power))
+    return _SharedNet(body, frame, centre, criterion.with_distance(distance), (form.is_ball, type(criterion), distance))
 
 
 def _family(shape: Any) -> Hashable:
     """Equal for surfaces that can be divided as one, None for others."""
     inner = shape.surface if isinstance(shape, PlacedSurface) else shape
+    if isinstance(inner, Capped):
+        return Capped, id(inner)
     names = dimensions_of(inner)
     if not names or not is_parametrised(inner) or len(creases(shape)):
         return None
@@ -708,7 +795,7 @@ def _joinable(asked: Sequence[Criterion]) -> list[list[int]]:
 def _together(shapes: Sequence[Any], asked: Sequence[Any], most: int) -> list[Facets]:
     """The facets of shapes of one family."""
     if len(shapes) == 1:
-        return [facets(shapes[0], asked[0], most)]
+        return [_alone(shapes[0], asked[0], most) if is_parametrised(shapes[0]) else facets(shapes[0], asked[0], most)]
     criterion = type(asked[0]).joined(asked)
     single = [Patch(shape, tuple(poles(shape))) for shape in shapes]
     patches = Patches(shapes[0], single[0].poles, StackedSurfaces.of(shapes))

@@ -30,11 +30,12 @@ from vectorplot.features.edge_splitting import (
 )
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import USUAL, Budget, unresolved
+from vectorplot.geometry.boxes import PAIRS_AT_ONCE
+from vectorplot.geometry.budget import USUAL, Budget, slices, unresolved
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polygon_cuts import planes_of
 from vectorplot.geometry.projections import Projection
-from vectorplot.geometry.vectors import cross, norm
+from vectorplot.geometry.vectors import all_components, component_sum, cross, norm
 from vectorplot.scene.extent import smooth_bounds
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
@@ -52,6 +53,7 @@ from vectorplot.visibility.projected_faces import newell
 
 if TYPE_CHECKING:
     from vectorplot.features.tessellation import Facets
+    from vectorplot.surfaces.capped_bodies import RoundBody
 
 
 # Scenes without smooth surfaces: triangles so small that pictures show no corners, with true normals at theirs.
@@ -300,6 +302,14 @@ class Coarse(AllSidesAlike):
         """All of these distances, of surfaces one after the other."""
         return cls(tuple(chain(*(some.distances for some in asked))))
 
+    def distances_at(self, points: Floats) -> Floats:
+        """(n,) as AllSidesAlike, of a single surface."""
+        return np.full(len(points), self.distances[0])
+
+    def with_distance(self, distance: float) -> Coarse:
+        """As AllSidesAlike."""
+        return Coarse((distance,))
+
     def error_ratio(self, edges: Edges) -> Floats:
         """(k,n) as Criterion."""
         distance = np.array(self.distances)[surface_numbers(edges.start.places)]
@@ -333,6 +343,48 @@ class Nearby:
             distance, _ = self._tree.query(points[inside], distance_upper_bound=far)
             found[inside] = np.clip(distance - self.gap, 0.0, most[inside])
         return found
+
+
+@dataclass(frozen=True, eq=False)
+class NearBody:
+    """What there is of a ball or a rod in a box (2,3): how far it is from a point is known in closed form. axis (3,): a
+    unit vector along a rod from the middle (3,) of one end on, along which it reaches from low to high; none of a
+    ball, which reaches everywhere."""
+
+    box: Floats
+    middle: Floats
+    axis: Floats
+    radius: float
+    low: float
+    high: float
+
+    @classmethod
+    def of(cls, body: RoundBody, box: Floats) -> NearBody:
+        """That of a body in a box."""
+        if body.is_ball:
+            return cls(box, body.centre, np.zeros(3), body.radius, -np.inf, np.inf)
+        length = float(norm(body.frame[2]))
+        return cls(box, body.centre, body.frame[2] / length, body.radius, 0.0, length)
+
+    @property
+    def row(self) -> Floats:
+        """(15,) all that it is."""
+        return np.concatenate([self.box.ravel(), self.middle, self.axis, (self.radius, self.low, self.high)])
+
+
+def distances_from_bodies(points: Floats, rows: Floats, most: Floats) -> Floats:
+    """(n,) how far points (n,3) are from bodies with rows (n,15), each from one, up to most (n,); most beside its
+    box."""
+    box_low, box_high, middle, axis = (rows[:, k : k + 3] for k in (0, 3, 6, 9))
+    radius, low, high = rows[:, 12:].T
+    arm = points - middle
+    height = component_sum(arm * axis)
+    beside = norm(arm - height[:, None] * axis) - radius
+    beyond = np.maximum(low - height, height - high)
+    outside = np.hypot(np.maximum(beside, 0.0), np.maximum(beyond, 0.0))
+    distance = np.abs(np.minimum(np.maximum(beside, beyond), 0.0) + outside)
+    inside = all_components((points >= box_low) & (points <= box_high))
+    return np.where(inside, np.minimum(distance, most), most)
 
 
 def triangles_of_items(items: Sequence[Item], boxes: Sequence[Floats]) -> list[tuple[Floats, float]]:
@@ -455,7 +507,7 @@ class PictureFineness:
     lights: tuple[Light, ...]
     casts: bool
     deep: Floats
-    others: tuple[tuple[Nearby, ...], ...]
+    others: tuple[tuple[Nearby | NearBody, ...], ...]
     allowed: Allowed
     shade_error: float
     doubles: tuple[Source, ...] = ()
@@ -536,12 +588,26 @@ class PictureFineness:
         around = AROUND * np.linalg.norm(edges.end.points - edges.start.points, axis=-1)
         far = most[middle] / SHARE + around
         of = surface_numbers(edges.start.places)
+        offsets, rows = self._bodies
+        widest = int(np.diff(offsets).max(initial=1))
+        for some in slices(len(of), max(PAIRS_AT_ONCE // widest, 1)) if len(rows) else ():
+            body, ends = ragged.take(offsets, of[some])
+            side = some.start + ragged.owner(np.diff(ends))
+            points = edges.at.points[middle][side]
+            np.minimum.at(far, side, distances_from_bodies(points, rows[body], far[side]))
         for number in np.unique(of).tolist():
-            own = np.flatnonzero(of == number)
-            points = edges.at.points[middle][own]
-            for other in self.others[number]:
-                far[own] = other.distances(points, far[own])
+            if sampled := [other for other in self.others[number] if isinstance(other, Nearby)]:
+                own = np.flatnonzero(of == number)
+                points = edges.at.points[middle][own]
+                for other in sampled:
+                    far[own] = other.distances(points, far[own])
         return np.asarray(np.clip(SHARE * (far - around), least, most))
+
+    @cached_property
+    def _bodies(self) -> tuple[Ints, Floats]:
+        """(s+1,) where those near each item begin among the rows (b,15) of balls and rods."""
+        near = [[other.row for other in own if isinstance(other, NearBody)] for own in self.others]
+        return ragged.offsets([len(own) for own in near]), np.array(list(chain(*near))).reshape(-1, 15)
 
     def _shade_errors(self, edges: Edges) -> Floats:
         """(k,n) how far shades are from those between the shades of the ends of a side."""
@@ -595,14 +661,23 @@ def picture_fineness(
     smooth = [k for k, item in enumerate(scene.items) if is_parametrised(item.shape) or is_implicit(item.shape)]
     meeting = {number: _meeting(boxes, first, number) for number in smooth}
 
+    bodies: dict[int, RoundBody] = {}
+    if smooth:
+        from vectorplot.surfaces.capped_bodies import round_body_of
+
+        bodies = {k: body for k in smooth if (body := round_body_of(scene.items[k].shape))}
+
     @cache
     def triangles() -> dict[int, tuple[Floats, float]]:
-        asked = sorted({other for those in meeting.values() for other, _ in those})
+        asked = sorted({other for those in meeting.values() for other, _ in those if other not in bodies})
         found = triangles_of_items([scene.items[k] for k in asked], [boxes[k] for k in asked])
         return dict(zip(asked, found, strict=True))
 
     def criterion(number: int) -> PictureFineness:
-        near = tuple(nearby(*triangles()[other], box) for other, box in meeting[number])
+        near = tuple(
+            NearBody.of(bodies[other], box) if other in bodies else nearby(*triangles()[other], box)
+            for other, box in meeting[number]
+        )
         item = without_curved_mirror(scene.items[number])
         # Light goes through what is transparent: shadows fall on patterns only.
         dark = casts and (item.material.opacity >= 1.0 or bool(item.patterns))

@@ -131,20 +131,45 @@ def _pixel(values: Integers) -> Integers:
 def small_fragments(triangles: Snapped, box: Boxes, chosen: Ints, stride: int) -> Iterator[Fragments]:
     """The fragments of the chosen triangles, whose boxes are small.
 
-    They are grouped by the shape of their boxes, so that each group is one array without gaps.
+    Rows of boxes are grouped by their width, so that each group is one array without gaps.
     """
-    width, height = box.right[chosen] - box.left[chosen], box.bottom[chosen] - box.top[chosen]
-    shape = ((height - 1) * SMALL_SIDE + width - 1).astype(np.uint8)
-    order = np.argsort(shape, kind="stable")
-    ends = np.cumsum(np.bincount(shape, minlength=SMALL_SIDE * SMALL_SIDE))
-    for code in np.flatnonzero(np.diff(ends, prepend=0)).tolist():
-        high, wide = code // SMALL_SIDE + 1, code % SMALL_SIDE + 1
-        members = chosen[order[ends[code - 1] if code else 0 : ends[code]]]
-        step = max(1, CANDIDATES // (high * wide))
-        for begin in range(0, len(members), step):
-            part = members[begin : begin + step]
-            # Distances within the box are below 2^13 subpixels, products of them below 2^31.
-            yield covered(triangles, part, box.left[part], box.top[part], (high, wide), stride, np.int32)
+    left, top = box.left[chosen], box.top[chosen]
+    width, height = box.right[chosen] - left, box.bottom[chosen] - top
+    # Distances within the box are below 2^13 subpixels, products of them below 2^31.
+    begin, right, below = _edge_functions(triangles, chosen, left, top, np.int32)
+    below <<= SUBPIXEL_BITS
+    right <<= SUBPIXEL_BITS
+    for code in range(1, SMALL_SIDE + 1):
+        alike = np.flatnonzero(width == code)
+        ends = np.cumsum(height[alike] * code)
+        cuts = np.searchsorted(ends, np.arange(CANDIDATES, int(ends[-1]) if len(ends) else 0, CANDIDATES))
+        for part in np.split(alike, np.unique(cuts)):
+            of, down = np.repeat(part, height[part]), ragged.place(height[part]).astype(np.int32)
+            along = np.arange(code, dtype=np.int32)[:, None]
+            first, second, third = (
+                (start.take(of) + rise.take(of) * down) + slope.take(of) * along
+                for start, rise, slope in zip(begin, below, right, strict=True)
+            )
+            flat = np.flatnonzero((first | second | third) >= 0)
+            cell = flat // max(len(of), 1)
+            row = flat - cell * len(of)
+            pixel = ((top.take(of) + down) * stride + left.take(of)).take(row) + cell
+            yield Fragments(pixel, chosen.take(of).take(row), second.take(flat), third.take(flat))
+
+
+def _edge_functions(
+    triangles: Snapped, index: Ints, left: Ints, top: Ints, kind: type[np.int32] | type[np.int64]
+) -> tuple[Integers, Integers, Integers]:
+    """Of the edges opposite to corners of some triangles (k,), each (3,k): their edge functions in the first centres
+    of boxes with corners of their own (k,), lowered by one where the edge does not own its centres, and by how much
+    these rise from one subpixel to the next to the right, and below."""
+    x, y = (np.stack([corner[index] for corner in part]).astype(kind) for part in (triangles.x, triangles.y))
+    # Relative to the box's first centre.
+    x, y = x - (left << SUBPIXEL_BITS).astype(kind), y - (top << SUBPIXEL_BITS).astype(kind)
+    next_x, next_y, last_x, last_y = x[[1, 2, 0]], y[[1, 2, 0]], x[[2, 0, 1]], y[[2, 0, 1]]
+    right, below = next_y - last_y, last_x - next_x
+    here = next_y * (next_x - last_x) + next_x * (last_y - next_y) - ~_owns(right, below)
+    return here, right, below
 
 
 def covered(
@@ -159,14 +184,8 @@ def covered(
     """The fragments of some triangles (k,), each in a box of the same shape with a corner of its own (k,)."""
     high, wide = shape
     down, along = np.arange(high)[:, None, None], np.arange(wide)[None, :, None]
-    x, y = (np.stack([corner[index] for corner in part]).astype(kind) for part in (triangles.x, triangles.y))
-    # Relative to the box's first centre.
-    x, y = x - (left << SUBPIXEL_BITS).astype(kind), y - (top << SUBPIXEL_BITS).astype(kind)
     values = []
-    for k in range(3):
-        a, b = (k + 1) % 3, (k + 2) % 3
-        right, below = y[a] - y[b], x[b] - x[a]
-        here = y[a] * (x[a] - x[b]) + x[a] * (y[b] - y[a]) - ~_owns(right, below)
+    for here, right, below in zip(*_edge_functions(triangles, index, left, top, kind), strict=True):
         rows = here + (below << SUBPIXEL_BITS) * down.astype(kind)
         values.append((rows + (right << SUBPIXEL_BITS) * along.astype(kind)).reshape(high * wide, len(index)))
     first, second, third = values

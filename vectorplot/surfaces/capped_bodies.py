@@ -15,11 +15,11 @@ from vectorplot.curves.curve import parameter_range, positive, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.rotations import axis_frame
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import Cone, Cylinder, Ellipsoid, EllipticSections, Profile, Sphere
 from vectorplot.surfaces.surface import Domain
-from vectorplot.tolerances import ROUNDING
+from vectorplot.tolerances import HOMOTHETIC, ROUNDING
 
 # Bodies between flat ends: cylinders, cones, frusta, parts of balls and other surfaces with elliptic sections.
 
@@ -412,6 +412,37 @@ def capped_quadric_of(shape: object) -> CappedQuadric | None:
         low, high = np.sin(shape.mantle).tolist()
         return CappedQuadric(surface.place, np.diag(axes), low, high, (bottom.radius, top.radius), True)
     return None
+
+
+@dataclass(frozen=True, eq=False)
+class RoundBody:
+    """A ball, or a rod (a circular cylinder between upright caps): the points centre + s @ frame for the points s of
+    the unit sphere, or of the cylinder of radius 1 from z = 0 to 1; centre (3,), frame (3,3)."""
+
+    centre: Floats
+    frame: Floats
+    is_ball: bool
+
+    @property
+    def radius(self) -> float:
+        """In world units."""
+        return float(norm(self.frame[0]))
+
+
+def round_body_of(shape: object) -> RoundBody | None:
+    """The ball or the rod that a shape is the whole surface of; None for other shapes, ellipsoids, and rods that are
+    elliptic or oblique."""
+    if ball := ball_of(shape):
+        body = RoundBody(ball.centre, ball.frame, True)
+    elif (rod_ := capped_quadric_of(shape)) and rod_.radii == (1.0, 1.0) and not rod_.is_round:
+        body = RoundBody(rod_.centre, rod_.frame, False)
+    else:
+        return None
+    a, b, c = body.frame
+    lengths, radius = norm(body.frame), body.radius
+    skew = max(abs(float(dot(one, two))) for one, two in ((a, b), (a, c), (b, c)))
+    off = float(np.abs(lengths[: 3 if body.is_ball else 2] - radius).max())
+    return body if max(skew / float(lengths.max()), off) <= HOMOTHETIC * radius else None
 
 
 def bounds_of_capped_quadrics(bodies: Sequence[CappedQuadric]) -> Floats:

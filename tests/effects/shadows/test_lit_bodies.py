@@ -9,9 +9,10 @@ from support.blocked_lights import face_points, scene_triangles, wrong_points
 from support.triangle_rays import blocked
 
 import vectorplot as vp
-from vectorplot.effects.body_shadows import LitBodies, lit_bodies
+from vectorplot.effects.body_shadows import LitBodies, _runs_around, lit_bodies
 from vectorplot.effects.shadow_casters import FacePlanes, Receivers, light_system
 from vectorplot.effects.shadows import cast_within, shadow_decals
+from vectorplot.geometry import ragged
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.scene.item import Item
@@ -162,3 +163,43 @@ def test_smooth_balls_throw_less_shadows_than_they_have_facets() -> None:
         explain=lambda report: counts.setdefault(report.name, report.count) and None,
     )
     assert 0 < counts["shadows"] < counts["unseen facets"] / 2
+
+
+def turns_around(point, ends):
+    """By how many turns, in all, sides (2,2,s) run around a point, as angles say it."""
+    one, two = ((end - point[:, None]) for end in ends)
+    angle = np.arctan2(one[0] * two[1] - one[1] * two[0], (one * two).sum(axis=0))
+    return round(angle.sum() / (2.0 * np.pi))
+
+
+def rings(sizes):
+    """Closed zigzags, some of them run around twice: their sides (2,2,s) and which body they are of."""
+    rng = np.random.default_rng(5)
+    parts = []
+    for number, size in enumerate(sizes):
+        angle = np.arange(size) * (1 + number % 2) * 2.0 * np.pi / max(size, 1)
+        ring = rng.uniform(0.5, 2.0, size) * np.stack((np.cos(angle), np.sin(angle)))
+        parts.append(np.stack((ring, np.roll(ring, -1, axis=1))))
+    return np.concatenate(parts, axis=2), np.repeat(np.arange(len(sizes)), sizes)
+
+
+def test_how_often_outlines_run_around_points_is_what_angles_say():
+    ends, of = rings((3, 40, 0, 7, 200))
+    points = np.random.default_rng(6).uniform(-2.2, 2.2, (2, 100))
+    of_point = np.arange(100) % 5
+    expected = [turns_around(points[:, k], ends[:, :, of == of_point[k]]) for k in range(100)]
+    assert _runs_around(points, of_point, ends, of, 5).tolist() == expected
+    assert len(set(expected)) > 2
+
+
+def test_points_are_compared_with_few_sides(monkeypatch):
+    """2,000 points in a round outline of 2,000 sides: in all, not many times as many comparisons as there are both."""
+    angle = np.arange(2000) * np.pi / 1000.0
+    ring = np.stack((np.cos(angle), np.sin(angle)))
+    made = []
+    take = ragged.take
+    monkeypatch.setattr(ragged, "take", lambda *asked: made.append(take(*asked)) or made[-1])
+    points = np.random.default_rng(6).uniform(-0.7, 0.7, (2, 2000))
+    ends, zeros = np.stack((ring, np.roll(ring, -1, axis=1))), np.zeros(2000, dtype=np.intp)
+    assert (_runs_around(points, zeros, ends, zeros, 1) == 1).all()
+    assert sum(len(number) for number, _ in made) < 20 * 2000

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from vectorplot.geometry.solids import box
 from vectorplot.scene.item import Item
-from vectorplot.shading.facet_resolution import nearby, triangles_of_items
+from vectorplot.shading.facet_resolution import NearBody, distances_from_bodies, nearby, triangles_of_items
+from vectorplot.surfaces.capped_bodies import rod, round_body_of
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import Sphere, implicit_sphere
 
 PLACES = np.random.default_rng(3).uniform(-1.5, 1.5, (2000, 3))
@@ -24,6 +27,20 @@ def test_distances_of_a_ball_are_no_larger_than_they_are_and_nearly_as_large(sha
     found, gap = distances(shape, bounds)
     true = np.abs(np.linalg.norm(PLACES, axis=1) - 1.0)
     assert (found <= true + 1e-12).all() and (found >= true - 3.0 * gap).all() and gap < 0.1
+
+
+def test_distances_of_balls_and_rods_are_those_of_their_points():
+    ball, wide = Sphere(0.7, (0.2, -0.1, 0.3)), np.array(((-1.0, -1.0, -1.0), (1.5, 1.5, 1.5)))
+    stick = rod((-0.5, 0.2, 0.0), (0.6, -0.3, 0.9), 0.3)
+    for shape in (ball, stick, PlacedSurface(stick, 0.5 * np.diag([1.0, 1.0, -1.0]), (0.0, 0.3, 0.0))):
+        rows = np.repeat(NearBody.of(round_body_of(shape), wide).row[None], len(PLACES), axis=0)
+        found = distances_from_bodies(PLACES, rows, np.full(len(PLACES), 9.0))
+        u, v = shape.domain.grid(200, 200)
+        points = shape.points(*np.meshgrid(u, v)).reshape(-1, 3)
+        true = cKDTree(points).query(PLACES)[0]
+        inside = ((PLACES >= wide[0]) & (PLACES <= wide[1])).all(axis=1)
+        assert (found[inside] <= true[inside] + 1e-12).all() and (found[~inside] == 9.0).all()
+        assert (true[inside] - found[inside] < 0.01).all()
 
 
 def test_beside_the_box_nothing_is_near():

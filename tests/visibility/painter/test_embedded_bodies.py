@@ -5,8 +5,10 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.geometry import box
+from vectorplot.geometry.boxes import overlapping_pairs
 from vectorplot.scene import look
 from vectorplot.visibility import project_faces
+from vectorplot.visibility.painter import unseen
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.painter.unseen import body_sides
 
@@ -68,7 +70,22 @@ def _inverted_beside():
     return np.concatenate([one.vertices, 0.7 * two.vertices]), triangles
 
 
+def _ball(around, turns=1):
+    """A ball with a bulge, run around so many times."""
+    u = np.arange(around * turns) * 2 * np.pi / around
+    v = np.linspace(-np.pi / 2, np.pi / 2, 8)[1:-1, None]
+    bulge = 1.0 + 0.05 * np.cos(u / turns)
+    ring = np.stack(np.broadcast_arrays(bulge * np.cos(v) * np.cos(u), bulge * np.cos(v) * np.sin(u), np.sin(v)), -1)
+    number = np.arange(ring.size // 3).reshape(ring.shape[:2])
+    right, south, north = np.roll(number, -1, axis=1), number.size, number.size + 1
+    parts = [(number[:-1], right[:-1], right[1:]), (number[:-1], right[1:], number[1:])]
+    parts += [(right[0], number[0], np.full_like(u, south)), (number[-1], right[-1], np.full_like(u, north))]
+    triangles = np.concatenate([np.stack(part, -1).reshape(-1, 3) for part in parts]).astype(int)
+    return np.concatenate([ring.reshape(-1, 3), [(0, 0, -1), (0, 0, 1)]]), triangles
+
+
 CROSSING = {
+    "a ball run around twice": _ball(12, turns=2),
     "ring of an eight": _eight_ring(16),
     "ring of an eight, double point between corners": _eight_ring(17),
     "ring of an eight that turns": _eight_ring(16, turns=2.0),
@@ -82,6 +99,7 @@ CROSSING = {
 EMBEDDED = {
     "torus": _closed_grid(lambda u, v: ((3 + np.cos(u)) * np.cos(v), (3 + np.cos(u)) * np.sin(v), np.sin(u)), 12, 18),
     "dented": _pushed_through(0.8),
+    "ball": _ball(12),
 }
 
 
@@ -142,3 +160,17 @@ def test_cavities_are_no_crossings():
     faces = np.concatenate([outer.corners.reshape(-1, 4), 8 + inner.corners.reshape(-1, 4)[:, ::-1]])
     triangles = np.concatenate([faces[:, :3], faces[:, [0, 2, 3]]])
     assert body_sides(_view(np.concatenate([outer.vertices, inner.vertices]), triangles, 0)).tolist() == [1]
+
+
+def test_bodies_seen_whole_from_their_middle_are_not_searched_for_crossings(monkeypatch):
+    searched = []
+
+    def pairs(low, high):
+        searched.append(low.shape[1])
+        return overlapping_pairs(low, high)
+
+    monkeypatch.setattr(unseen, "overlapping_pairs", pairs)
+    assert body_sides(_view(*_ball(12), 0)).tolist() == [1]
+    points, triangles = EMBEDDED["torus"]
+    assert body_sides(_view(points, triangles, 0)).tolist() != [0]
+    assert searched == [0, len(triangles)]

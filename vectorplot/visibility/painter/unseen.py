@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_pairs
-from vectorplot.geometry.budget import Budget
+from vectorplot.geometry.budget import Budget, slices
 from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh
@@ -162,6 +162,8 @@ def crossing_items(view: View, face: Ints) -> Ints:
     wide = np.flatnonzero((place != np.roll(place, 1, axis=1)).all(axis=1))
     triangles, place, of = triangles[wide], place[wide], of[wide]
     item = view.face_item[face[of]]
+    left = ~_star_shaped(view, triangles, item)[item]
+    triangles, place, of, item = triangles[left], place[left], of[left], item[left]
     points = view.points[:, triangles]
     shift = np.zeros((3, len(item)))
     shift[0] = AXIS_SHIFT * item
@@ -180,6 +182,37 @@ def crossing_items(view: View, face: Ints) -> Ints:
         met = _meet(points[:, a], points[:, b], view.tolerance)
         found[item[a[met]]] = True
     return np.flatnonzero(found)
+
+
+def _star_shaped(view: View, triangles: Ints, item: Ints) -> Bools:
+    """(i,) which closed items with triangles (n,3), of items (n,), are seen whole from their middle, so that they never
+    cross themselves: the planes of all triangles leave it, by more than a tolerance, on one side, and a ray from there
+    meets one of them, as all rays then do, for how many are met never changes.
+
+    Source: Preparata and Shamos, Computational Geometry (1985): star-shaped polygons and their kernels.
+    """
+    count, batches = len(view.item_vertices) - 1, slices(len(item), PAIRS_AT_ONCE)
+    size = np.maximum(np.bincount(item, minlength=count), 1)
+    corners = np.zeros((3, count))
+    for batch in batches:
+        mean = view.points[:, triangles[batch]].mean(axis=2)
+        corners += [np.bincount(item[batch], along, minlength=count) for along in mean]
+    middle, height = corners / size, np.empty(len(item))
+    for batch in batches:
+        a, b, c = np.moveaxis(view.points[:, triangles[batch]] - middle[:, item[batch], None], 2, 0)
+        normal = cross(b - a, c - a)
+        height[batch] = dot(a, normal) / np.maximum(np.sqrt(dot(normal, normal)), np.finfo(np.float64).tiny)
+    side = np.sign(np.bincount(item, height, minlength=count))
+    aside = np.bincount(item, side[item] * height <= view.tolerance, minlength=count)
+    number, first = np.unique(item, return_index=True)
+    ray, met = np.zeros((3, count)), np.zeros(count)
+    ray[:, number] = view.points[:, triangles[first]].sum(axis=2) - 3.0 * middle[:, number]
+    for batch in batches:
+        a, b, c = np.moveaxis(view.points[:, triangles[batch]] - middle[:, item[batch], None], 2, 0)
+        turned = side[item[batch]]
+        within = [turned * dot(ray[:, item[batch]], cross(*two)) >= 0.0 for two in ((a, b), (b, c), (c, a))]
+        met += np.bincount(item[batch], np.logical_and.reduce(within), minlength=count)
+    return np.asarray((aside == 0) & (met == 1), dtype=np.bool_)
 
 
 def _meet(one: Floats, two: Floats, tolerance: float) -> Ints:

@@ -173,7 +173,7 @@ def test_boxes_of_other_items_count_where_they_meet_and_once():
 
 def test_what_is_near_is_looked_for_only_where_it_tells(monkeypatch):
     """Sides that are too coarse are so by as much as if all were compared with all other items; and few are."""
-    rings = [Item("A", Torus(1.0, 0.3)), Item("B", Torus(1.0, 0.31)), Item("C", Sphere(0.5))]
+    rings = [Item("A", Torus(1.0, 0.3)), Item("B", Torus(1.0, 0.31)), Item("C", implicit_sphere(0.5))]
     scene = Scene(tuple(rings))
     projection = projection_of(default_camera(scene), scene.bounds)
     allowed = allowed_in_space(scene, projection, Page(), True, 0.02)
