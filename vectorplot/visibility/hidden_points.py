@@ -98,7 +98,7 @@ def _by_sheets(scene: Scene, view: View, points: Floats, items: int) -> Bools:
     count = points.shape[1]
     nothing, nowhere = np.full(count, -1), np.full((count, 3), np.nan)
     no = np.zeros(count, dtype=np.bool_)
-    samples = Samples(points.T, nothing, nowhere, nothing, nowhere, no, no)
+    samples = Samples(points.T, nothing, nowhere, nothing[:, None], nowhere[:, None], no, no)
     counts, _ = counts_in_front(view, sheets, targets_of(view, sheets), samples, USUAL.pairs)
     return np.asarray(counts.table(count, items) > 0, dtype=np.bool_)
 

@@ -23,7 +23,7 @@ def test_points_behind_inside_in_front_and_beside() -> None:
     points = radius * np.array([[0.3, 0.2, -2.0], [0.3, 0.2, 0.0], [0.3, 0.2, 2.0], [1.2, 0.0, -2.0]])
     none, nowhere = np.full(4, -1), np.full((4, 3), np.nan)
     no = np.zeros(4, dtype=np.bool_)
-    samples = Samples(points, none, nowhere, none, nowhere, no, no)
+    samples = Samples(points, none, nowhere, none[:, None], nowhere[:, None], no, no)
     assert counts_in_front(view, sheets, targets_of(view, sheets), samples, USUAL.pairs)[0].table(len(samples), 1)[
         :, 0
     ].tolist() == [
@@ -40,7 +40,7 @@ def test_a_sphere_hides_its_own_lower_half() -> None:
     latitude = np.radians([-80.0, -30.0, -2.0, 2.0, 30.0, 80.0])
     places = np.stack([np.full(6, 0.7), latitude, np.zeros(6)], axis=1)
     points, none, no = sheet.points(places), np.full(6, -1), np.zeros(6, dtype=np.bool_)
-    samples = Samples(points, np.zeros(6, np.intp), places, none, np.full((6, 3), np.nan), no, no)
+    samples = Samples(points, np.zeros(6, np.intp), places, none[:, None], np.full((6, 1, 3), np.nan), no, no)
     found = counts_in_front(view, sheets, targets_of(view, sheets), samples, USUAL.pairs)[0].table(len(samples), 1)[
         :, 0
     ]
@@ -60,7 +60,7 @@ def test_sight_lines_close_to_outlines_meet_a_torus_as_often_as_in_closed_form(s
     points = _beside_outlines(rng, way, 2.0, 0.7)
     behind = (points - 9.0 * way - view.centre) @ view.axes.T / view.scale
     none, nowhere, no = np.full(len(points), -1), np.full((len(points), 3), np.nan), np.zeros(len(points), np.bool_)
-    samples = Samples(behind, none, nowhere, none, nowhere, no, no)
+    samples = Samples(behind, none, nowhere, none[:, None], nowhere[:, None], no, no)
     found = counts_in_front(view, sheets, targets_of(view, sheets), samples, USUAL.pairs)[0].table(len(samples), 1)
     assert np.flatnonzero(found[:, 0] != _meetings_in_closed_form(points, way, 2.0, 0.7)).tolist() == []
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -15,6 +15,7 @@ from vectorplot.scene.view import View
 from vectorplot.tolerances import BEYOND_END, EDGE_ON_SINE, ROUNDING, SAME_EVENT
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.curve_families import Along
+from vectorplot.visibility.smooth.lines_on_several_sheets import Stretches
 from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.visibility.smooth.traced_curves import Curves
 from vectorplot.words import LineKind
@@ -249,21 +250,29 @@ def _facing(view: View, sheets: Sheets, number: Ints, points: Floats, places: Fl
         return np.asarray(dot(sheets.normals(number, places), way) / norm(way))
 
 
-def own_events(view: View, sheets: Sheets, curves: Curves, facing: Floats, edge_on: Bools) -> Events:
+def own_events(
+    view: View, sheets: Sheets, curves: Curves, stretches: Stretches, facing: Floats, edge_on: Bools
+) -> Events:
     """The events where curves pass the contours of their own sheets, and cusps of curves that are contours.
 
-    facing (n,): as `facing_of` gives it; edge_on (m,): as `edge_on_curves` tells.
+    stretches: of the curves, on further sheets; facing (n,): as `facing_of` gives it; edge_on (m,): as `edge_on_curves`
+    tells.
     """
     hides = np.append(sheets.hides, False)
     first, second = np.flatnonzero(hides[curves.sheet] & ~edge_on), np.flatnonzero(hides[curves.second_sheet])
     folds = np.flatnonzero(hides[curves.sheet] & edge_on)
     on_first = facing[ragged.take(curves.offsets, first)[0]]
     on_second = _facing_on_second(view, sheets, curves.take(second))
+    lines = stretches.curves
+    further = np.flatnonzero(hides[lines.second_sheet])
+    on_further = _facing_on_second(view, sheets, lines.take(further))
+    passed = _passings(view, sheets, lines, further, lines.second_sheet, on_further, _second_places)
     return all_events(
         [
             _passings(view, sheets, curves, first, curves.sheet, on_first, _first_places),
             _cusps(view, sheets, curves, folds),
             _passings(view, sheets, curves, second, curves.second_sheet, on_second, _second_places),
+            replace(passed, chord=stretches.point[passed.chord]),
         ]
     )
 

@@ -19,6 +19,7 @@ from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.crossings import crossings
 from vectorplot.visibility.smooth.curve_families import StraightLines
 from vectorplot.visibility.smooth.events import Events, all_events, edge_on_curves, facing_of, own_events
+from vectorplot.visibility.smooth.lines_on_several_sheets import Stretches
 from vectorplot.visibility.smooth.piercings import piercings
 from vectorplot.visibility.smooth.rays import Cells, Samples, Tally, Targets, all_tallies, counts_in_front, targets_of
 from vectorplot.visibility.smooth.scene_curves import TracedScene
@@ -202,6 +203,7 @@ def counted(
     sheets: Sheets,
     targets: Targets,
     curves: Curves,
+    stretches: Stretches,
     edges: Curves,
     edge_on: Bools,
     pieces: Pieces,
@@ -215,7 +217,7 @@ def counted(
     pairs: what the budget has for all sight lines together.
     """
     long = _seen(view, curves, pieces, shortest)
-    samples, clearance = _safest(view, sheets, curves, edges, edge_on, pieces.take(long), shortest)
+    samples, clearance = _safest(view, sheets, curves, stretches, edges, edge_on, pieces.take(long), shortest)
     found, unlooked = counts_in_front(view, sheets, targets, samples, pairs)
     safe, taken = np.zeros(len(pieces), dtype=np.bool_), np.zeros(len(pieces), dtype=np.bool_)
     safe[long], taken[long] = clearance > SAFE_IN_IMAGE, True
@@ -325,7 +327,14 @@ def _nearest(pieces: Pieces, known: Bools) -> Ints:
 
 
 def _safest(
-    view: View, sheets: Sheets, curves: Curves, edges: Curves, edge_on: Bools, pieces: Pieces, tolerance: float
+    view: View,
+    sheets: Sheets,
+    curves: Curves,
+    stretches: Stretches,
+    edges: Curves,
+    edge_on: Bools,
+    pieces: Pieces,
+    tolerance: float,
 ) -> tuple[Samples, Floats]:
     """The point of each piece whose image is farthest from those of edges, and how far that is; none where the sight
     line grazes a sheet of the point's own, which near by may bend either way."""
@@ -340,7 +349,7 @@ def _safest(
     def best(which: Ints) -> Samples:
         place = at[np.argmax(clear[:, which], axis=0), which]
         chord = _chords_at(pieces.take(which), place)
-        return samples_at(curves, edge_on, chord, place - chord)
+        return samples_at(curves, stretches, edge_on, chord, place - chord)
 
     clear[0] = _clear(view, curves, edges, edge_on, pieces, at[:1], tolerance)[0]
     # The others are looked at only where the first one is not good enough.
@@ -388,14 +397,20 @@ def _chords_at(pieces: Pieces, at: Floats) -> Ints:
     return np.asarray(np.minimum(at.astype(np.intp), pieces.end_chord))
 
 
-def samples_at(curves: Curves, edge_on: Bools, chord: Ints, part: Floats) -> Samples:
-    """Points of curves, to look from."""
+def samples_at(curves: Curves, stretches: Stretches, edge_on: Bools, chord: Ints, part: Floats) -> Samples:
+    """Points of curves, to look from; stretches: of the curves, on further sheets."""
     found, curve = curves.at(chord, part), curves.owner[chord]
     second = curves.second_sheet[curve]
+    row, own = stretches.of_chords(chord)
+    sizes = np.bincount(row, minlength=len(chord))
+    column = 1 + ragged.place(sizes)
+    others = np.full((len(chord), 1 + int(sizes.max(initial=0))), -1)
+    places = np.full((*others.shape, 3), np.nan)
+    others[:, 0], places[:, 0] = second, found.second_places
+    others[row, column] = stretches.curves.second_sheet[stretches.curves.owner[own]]
+    places[row, column] = stretches.curves.at(own, part[row]).second_places
     cuspidal = (curves.kind[curve] == LineKind.CREASE) & (second < 0)
-    return Samples(
-        found.points, curves.sheet[curve], found.places, second, found.second_places, edge_on[curve], cuspidal
-    )
+    return Samples(found.points, curves.sheet[curve], found.places, others, places, edge_on[curve], cuspidal)
 
 
 def _ends(pieces: Pieces) -> list[tuple[Ints, Floats]]:
@@ -454,6 +469,7 @@ def missed_events(
     sheets: Sheets,
     targets: Targets,
     curves: Curves,
+    stretches: Stretches,
     edge_on: Bools,
     pieces: Pieces,
     counts: Counts,
@@ -467,7 +483,7 @@ def missed_events(
 
     def count(at: Floats, last: Ints, pairs: int) -> tuple[Tally, Tally]:
         chord = np.minimum(at.astype(np.intp), last)
-        samples = samples_at(curves, edge_on, chord, at - chord)
+        samples = samples_at(curves, stretches, edge_on, chord, at - chord)
         return counts_in_front(view, sheets, targets, samples, max(1, pairs))
 
     suspicious = suspects(pieces, counts)
@@ -588,21 +604,25 @@ def hidden_curves(
     targets = targets_of(view, sheets)
     facing = facing_of(view, sheets, curves)
     edge_on = edge_on_curves(curves, facing)
-    own = own_events(view, sheets, curves, facing, edge_on)
+    own = own_events(view, sheets, curves, traced.stretches, facing, edge_on)
     done(0.2)
     crossed, short_of_crossings = crossings(view, sheets, curves, edges, edge_on, tolerance, budget.pairs)
     done(0.4)
-    pierced, short_of_piercings = piercings(view, sheets, targets, curves, traced.meets_itself, budget.pairs)
+    pierced, short_of_piercings = piercings(
+        view, sheets, targets, curves, traced.stretches, traced.meets_itself, budget.pairs
+    )
     done(0.6)
     events = all_events([own, crossed, pierced])
     pieces = cut(curves, events)
 
     def count(pieces: Pieces) -> Counts:
-        return counted(view, sheets, targets, curves, edges, edge_on, pieces, tolerance, budget.pairs)
+        return counted(view, sheets, targets, curves, traced.stretches, edges, edge_on, pieces, tolerance, budget.pairs)
 
     counts = count(pieces)
     done(0.8)
-    more, short_of_halvings = missed_events(view, sheets, targets, curves, edge_on, pieces, counts, budget.pairs)
+    more, short_of_halvings = missed_events(
+        view, sheets, targets, curves, traced.stretches, edge_on, pieces, counts, budget.pairs
+    )
     if len(more):
         again = cut(curves, all_events([events, more]))
         pieces, counts = again, recounted(pieces, counts, again, count)

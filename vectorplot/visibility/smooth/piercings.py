@@ -26,6 +26,7 @@ from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.box_strips import Block, in_blocks
 from vectorplot.visibility.smooth.crossings import cubics_in_space
 from vectorplot.visibility.smooth.events import Events, all_events, hopped, on_chord, once
+from vectorplot.visibility.smooth.lines_on_several_sheets import Stretches
 from vectorplot.visibility.smooth.rays import Targets, inside, weights
 from vectorplot.visibility.smooth.sheets import Sheets
 from vectorplot.visibility.smooth.traced_curves import Curves
@@ -129,7 +130,13 @@ class _Close:
 
 
 def piercings(
-    view: View, sheets: Sheets, targets: Targets, curves: Curves, meets_itself: Bools, pairs: int
+    view: View,
+    sheets: Sheets,
+    targets: Targets,
+    curves: Curves,
+    stretches: Stretches,
+    meets_itself: Bools,
+    pairs: int,
 ) -> tuple[Events, tuple[int, ...]]:
     """The events where curves pierce sheets, behind which there is one more in front; and the items for which the
     budget's pairs did not do. Where curves come close to a sheet and no such event is found they are cut, with no
@@ -137,11 +144,11 @@ def piercings(
 
     meets_itself (s,): sheets that may be pierced by curves that lie on them.
     """
-    near, short = _close(view, sheets, targets, curves, meets_itself, pairs)
+    near, short = _close(view, sheets, targets, curves, stretches, meets_itself, pairs)
     if not len(near.chord):
         return all_events([]), short
-    number, chord, part, places = _met(view, sheets, curves, _roughly_met(sheets, curves, near))
-    kept = _elsewhere(sheets, number, curves, chord, part, places, APART_OF_DOMAIN)
+    number, chord, part, places = _met(view, sheets, curves, _roughly_met(sheets, curves, stretches, near))
+    kept = _elsewhere(sheets, number, curves, stretches, chord, part, places, APART_OF_DOMAIN)
     number, chord, part, places = number[kept], chord[kept], part[kept], places[kept]
     each = once(curves, chord, part, number.astype(np.float64))
     met = number[each]
@@ -151,7 +158,13 @@ def piercings(
 
 
 def _close(
-    view: View, sheets: Sheets, targets: Targets, curves: Curves, meets_itself: Bools, pairs: int
+    view: View,
+    sheets: Sheets,
+    targets: Targets,
+    curves: Curves,
+    stretches: Stretches,
+    meets_itself: Bools,
+    pairs: int,
 ) -> tuple[_Close, tuple[int, ...]]:
     """Where chords of curves come close to sheets, and the items for which the budget's pairs did not do."""
     depth, image = sight_lines.depth(view, curves.points), sight_lines.image(view, curves.points)
@@ -178,7 +191,7 @@ def _close(
         def look(rows: Ints, target: Targets = target, number: int = number) -> Block[_Close]:
             chord, part, places, reach, looked = _near_triangles(target, curves, rows, image, depth)
             found = _Close(chord, np.full(len(chord), number), part, places, reach)
-            kept = _elsewhere(sheets, found.number, curves, chord, part, places, APART_AT_FIRST)
+            kept = _elsewhere(sheets, found.number, curves, stretches, chord, part, places, APART_AT_FIRST)
             return Block(records.take(found, kept), looked, int(kept.sum()))
 
         found, done = in_blocks(chord, pairs, len(target), look)
@@ -225,15 +238,29 @@ def _near_each_other(below: Floats, above: Floats, chord: Ints, corners: Floats,
 
 
 def _elsewhere(
-    sheets: Sheets, number: Ints, curves: Curves, chord: Ints, part: Floats, places: Floats, apart: float
+    sheets: Sheets,
+    number: Ints,
+    curves: Curves,
+    stretches: Stretches,
+    chord: Ints,
+    part: Floats,
+    places: Floats,
+    apart: float,
 ) -> Bools:
-    """(k,) which places on sheets are not those of the curves themselves, which may lie on them once or twice."""
+    """(k,) which places on sheets are not those of the curves themselves, which may lie on them any number of times."""
     away = np.ones(len(chord), dtype=np.bool_)
-    for on, own_places in ((curves.sheet, curves.places), (curves.second_sheet, curves.second_places)):
-        mine = np.flatnonzero(on[curves.owner[chord]] == number)
-        at, begin = part[mine, None], chord[mine]
-        own = own_places[begin] + at * (own_places[begin + 1] - own_places[begin])
-        away[mine] &= sheets.apart(number[mine], places[mine], own) > apart
+    row, further = stretches.of_chords(chord)
+    lines, every = stretches.curves, np.arange(len(chord))
+    for line, on, own_places, rows, chords in (
+        (curves, curves.sheet, curves.places, every, chord),
+        (curves, curves.second_sheet, curves.second_places, every, chord),
+        (lines, lines.second_sheet, lines.second_places, row, further),
+    ):
+        mine = np.flatnonzero(on[line.owner[chords]] == number[rows])
+        begin, mine = chords[mine], rows[mine]
+        own = own_places[begin] + part[mine, None] * (own_places[begin + 1] - own_places[begin])
+        near = ~(sheets.apart(number[mine], places[mine], own) > apart)
+        away[mine[near]] = False
     return away
 
 
@@ -286,7 +313,7 @@ def _in_space(corners: Floats, points: Floats) -> Floats:
     return weights(np.stack(flat[:3], axis=1), flat[3])
 
 
-def _roughly_met(sheets: Sheets, curves: Curves, near: _Close) -> _Close:
+def _roughly_met(sheets: Sheets, curves: Curves, stretches: Stretches, near: _Close) -> _Close:
     """The places, once each, where cubic arcs close to the curves pierce the sheets.
 
     Where they do not, or run along a sheet, nothing that is known happens: a surface that covers itself several times
@@ -317,7 +344,7 @@ def _roughly_met(sheets: Sheets, curves: Curves, near: _Close) -> _Close:
         LEAST_DIVISOR
     )
     kept = ~(np.abs(through) <= ROUGHLY_ALONG_SHEET_SINE)
-    kept &= _elsewhere(sheets, found.number, curves, found.chord, found.part, found.places, APART_OF_DOMAIN)
+    kept &= _elsewhere(sheets, found.number, curves, stretches, found.chord, found.part, found.places, APART_OF_DOMAIN)
     found = records.take(found, kept)
     return records.take(found, once(curves, found.chord, found.part, found.number.astype(np.float64)))
 

@@ -318,14 +318,15 @@ class _Met:
 
 @dataclass(frozen=True, eq=False)
 class Samples(Elements):
-    """Points (k,3) to look from; own sheet (k,) or -1 and place (k,3) there; second sheet and place likewise; contour
-    (k,): whether the point lies on the contour of its own sheet; cuspidal (k,): whether on a cuspidal edge of it."""
+    """Points (k,3) to look from; own sheet (k,) or -1 and place (k,3) there; others (k,s) and other_places (k,s,3): s
+    other sheets and places likewise; contour (k,): whether the point lies on the contour of its own sheet; cuspidal
+    (k,): whether on a cuspidal edge of it."""
 
     points: Floats
     sheet: Ints
     places: Floats
-    second: Ints
-    second_places: Floats
+    others: Ints
+    other_places: Floats
     contour: Bools
     cuspidal: Bools
 
@@ -334,10 +335,11 @@ class Samples(Elements):
 
     @property
     def own(self) -> tuple[tuple[Ints, Floats, Bools], ...]:
-        """The first and the second sheet of every point: its number (k,), the place there (k,3), and whether (k,) the
+        """The sheets of every point, one after the other: its number (k,), the place there (k,3), and whether (k,) the
         point lies on its contour."""
         none = np.zeros(len(self), dtype=np.bool_)
-        return (self.sheet, self.places, self.contour), (self.second, self.second_places, none)
+        others = zip(self.others.T, self.other_places.swapaxes(0, 1), strict=True)
+        return (self.sheet, self.places, self.contour), *((number, places, none) for number, places in others)
 
 
 def counts_in_front(view: View, sheets: Sheets, targets: Targets, samples: Samples, pairs: int) -> tuple[Tally, Tally]:
@@ -362,7 +364,7 @@ def counts_in_front(view: View, sheets: Sheets, targets: Targets, samples: Sampl
         rows = rows[done:]
         for number in np.flatnonzero(spent > pairs).tolist() if len(rows) else ():
             own = targets.of_sheet(number)
-            mine = (samples.sheet[rows] == number) | (samples.second[rows] == number)
+            mine = (samples.sheet[rows] == number) | (samples.others[rows] == number).any(axis=1)
             missed = rows[mine | own.may_reach(image[rows], image[rows])]
             unlooked.append(Tally(missed, np.full(len(missed), sheets.item[number]), np.ones_like(missed)))
             targets = targets.take(targets.sheet != number)

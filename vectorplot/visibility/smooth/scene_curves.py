@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -25,7 +25,7 @@ from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.curve_families import Along, Chords, ParameterCurves, inner_part
 from vectorplot.visibility.smooth.implicit_items import curves_of_implicit
 from vectorplot.visibility.smooth.intersections import SmoothSheet, meetings
-from vectorplot.visibility.smooth.lines_on_two_sheets import with_second_sheets
+from vectorplot.visibility.smooth.lines_on_several_sheets import Stretches, no_stretches, with_other_sheets
 from vectorplot.visibility.smooth.parametric_items import (
     contours_of_parametrised,
     curves_of_parametrised,
@@ -318,13 +318,14 @@ HIDING = (LineKind.CONTOUR, LineKind.BOUNDARY, LineKind.CREASE)
 class TracedScene:
     """The sheets of all smooth items, and for each (s,) whether it may meet itself; the curves that are drawn; edges:
     the folds, borders and cuspidal edges of the sheets that hide; doubts: of what item or items,
-    by name, what could not be decided."""
+    by name, what could not be decided; stretches: of the curves that are drawn, on further sheets."""
 
     sheets: Sheets
     meets_itself: Bools
     curves: Curves
     edges: Curves
     doubts: tuple[tuple[str, str], ...]
+    stretches: Stretches = field(default_factory=no_stretches)
 
     def __len__(self) -> int:
         return len(self.curves)
@@ -388,8 +389,8 @@ def traced_scene(
     all_sheets = Sheets(sheets)
     seen = [_with_images(view, together(parts)) for parts in ([*drawn, met.curves], edges)]
     curves, hiding = with_merged_families(seen, all_sheets)
-    curves = with_second_sheets(curves, hiding, all_sheets)
-    return TracedScene(all_sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)))
+    curves, stretches = with_other_sheets(curves, hiding, all_sheets)
+    return TracedScene(all_sheets, met.meets_itself, curves, hiding, tuple(dict.fromkeys(doubts)), stretches)
 
 
 def _holds_eye(view: View, sheet: SmoothSheet) -> bool:

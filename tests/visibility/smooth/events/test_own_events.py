@@ -17,6 +17,7 @@ from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.tori import Torus
 from vectorplot.visibility.smooth.curve_families import ParameterCurves
 from vectorplot.visibility.smooth.events import edge_on_curves, facing_of, own_events
+from vectorplot.visibility.smooth.lines_on_several_sheets import no_stretches
 from vectorplot.visibility.smooth.parametric_items import sheets_of_parametrised
 from vectorplot.visibility.smooth.scene_curves import scene_sheets, traced_scene
 from vectorplot.visibility.smooth.sheets import Sheets
@@ -40,7 +41,9 @@ def test_a_meridian_goes_behind_the_sphere_at_the_equator() -> None:
     v = np.linspace(1.0, -1.0, 8)
     view, sheet, meridian = on_ball(np.stack([np.full(8, 0.3), v, np.zeros(8)], axis=1))
     sheets = Sheets((sheet,))
-    found = own_events(view, sheets, meridian, facing_of(view, sheets, meridian), np.zeros(1, dtype=np.bool_))
+    found = own_events(
+        view, sheets, meridian, no_stretches(), facing_of(view, sheets, meridian), np.zeros(1, dtype=np.bool_)
+    )
     assert found.chord.tolist() == [3] and np.allclose(found.part, 0.5, atol=1e-9)
     # In front of the lower half there is the upper one, too.
     assert found.change.tolist() == [1]
@@ -62,7 +65,9 @@ def test_a_border_goes_behind_its_sheet_where_that_goes_on(end: float, slope: fl
     places = np.stack([np.full(8, end), np.linspace(0.5, -0.6, 8), np.zeros(8)], axis=1)
     border = replace(on_ball(places)[2], points=sheet.points(places), families=(ParameterCurves(sheet, 0),))
     sheets = Sheets((sheet,))
-    found = own_events(view, sheets, border, facing_of(view, sheets, border), np.zeros(1, dtype=np.bool_))
+    found = own_events(
+        view, sheets, border, no_stretches(), facing_of(view, sheets, border), np.zeros(1, dtype=np.bool_)
+    )
     assert found.change.tolist() == [int(end * slope > 0.0)]
 
 
@@ -83,7 +88,7 @@ def test_cusps_of_a_torus_come_in_pairs_that_begin_and_end_two_sheets() -> None:
     contour = traced_scene(scene, view, sheets, frozenset(map(LineKind.from_word, DRAWN)), 1e-4).edges
     contour = contour.take(np.flatnonzero(contour.kind == LineKind.CONTOUR))
     facing = facing_of(view, Sheets(sheets), contour)
-    found = own_events(view, Sheets(sheets), contour, facing, np.ones(len(contour), dtype=np.bool_))
+    found = own_events(view, Sheets(sheets), contour, no_stretches(), facing, np.ones(len(contour), dtype=np.bool_))
     assert sorted(found.change.tolist()) == [-1, -1, 1, 1]
     # There the sight line is an asymptotic direction: the contour runs along it.
     at = contour.at(found.chord, found.part).slopes

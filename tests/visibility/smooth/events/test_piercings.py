@@ -11,6 +11,7 @@ import vectorplot as vp
 from vectorplot.geometry.budget import USUAL
 from vectorplot.scene.view import View, look
 from vectorplot.surfaces import Domain, surface_of_function
+from vectorplot.visibility.smooth.lines_on_several_sheets import no_stretches
 from vectorplot.visibility.smooth.piercings import piercings
 from vectorplot.visibility.smooth.rays import targets_of
 from vectorplot.visibility.smooth.scene_curves import TracedScene, scene_sheets, traced_scene
@@ -23,7 +24,9 @@ def test_a_line_through_a_sphere_goes_in_behind_one_sheet_and_out_behind_none() 
     sheets = Sheets((sheet,))
     above, beside = [(-2.0, 0.1, 0.6), (2.0, 0.1, 0.6)], [(-2.0, 1.1, 0.0), (2.0, 1.1, 0.0)]
     lines = polylines(*(radius * np.array(line) for line in (above, beside)))
-    found = piercings(view, sheets, targets_of(view, sheets), lines, np.zeros(1, dtype=np.bool_), USUAL.pairs)[0]
+    found = piercings(
+        view, sheets, targets_of(view, sheets), lines, no_stretches(), np.zeros(1, dtype=np.bool_), USUAL.pairs
+    )[0]
     order = np.argsort(found.part)
     half = np.sqrt(1.0 - 0.1**2 - 0.6**2)
     assert np.allclose(found.part[order], [0.5 - half / 4.0, 0.5 + half / 4.0], atol=1e-12)
@@ -34,9 +37,9 @@ def test_a_line_that_touches_does_not_pierce() -> None:
     view, sheet, radius = ball_from_above()
     sheets = Sheets((sheet,))
     line = polylines(radius * np.array([(-2.0, 0.0, 1.0), (2.0, 0.0, 1.0)]))
-    assert not piercings(view, sheets, targets_of(view, sheets), line, np.zeros(1, dtype=np.bool_), USUAL.pairs)[
-        0
-    ].change.any()
+    assert not piercings(
+        view, sheets, targets_of(view, sheets), line, no_stretches(), np.zeros(1, dtype=np.bool_), USUAL.pairs
+    )[0].change.any()
 
 
 def covered_twice() -> tuple[View, TracedScene]:
@@ -59,5 +62,5 @@ def test_lines_that_run_along_other_covers_of_their_surface_are_not_followed(mon
     asked: list[int] = []
     at = Curves.at
     monkeypatch.setattr(Curves, "at", lambda self, chord, part: asked.append(len(chord)) or at(self, chord, part))
-    piercings(view, two.sheets, targets_of(view, two.sheets), two.curves, two.meets_itself, USUAL.pairs)
+    piercings(view, two.sheets, targets_of(view, two.sheets), two.curves, two.stretches, two.meets_itself, USUAL.pairs)
     assert two.meets_itself.any() and sum(asked) < len(two.curves.points)

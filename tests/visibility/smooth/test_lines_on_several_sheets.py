@@ -1,4 +1,4 @@
-"""Lines that lie on a sheet twice: seams that the domain does not know of, and lines in double curves."""
+"""Lines that lie on a sheet several times: seams that the domain does not know of, and lines in multiple curves."""
 
 import numpy as np
 import pytest
@@ -21,6 +21,11 @@ def ball(u, v):
 def klein_bottle(u, v):
     r = 3 + np.cos(u / 2) * np.sin(v) - np.sin(u / 2) * np.sin(2 * v)
     return r * np.cos(u), r * np.sin(u), np.sin(u / 2) * np.sin(v) + np.cos(u / 2) * np.sin(2 * v)
+
+
+def clover_ring(u, v):
+    r = 3 + np.cos(3 * v) * np.cos(v)
+    return r * np.cos(u), r * np.sin(u), np.cos(3 * v) * np.sin(v)
 
 
 def ring(u, v):
@@ -51,3 +56,30 @@ def test_a_seam_is_seen_as_the_same_line_amid_the_surface(points, start, eye):
     true = seen(points, Domain(-np.pi, np.pi, start, start + TURN), eye, LineKind.PARAMETER, columns=2)
     found = seen(points, Domain(0, TURN, start, start + TURN), eye, LineKind.BOUNDARY) / 2
     assert true > 0.01 and abs(found - true) < 2e-3
+
+
+def crossed(x, way, start):
+    """Which rays from points x (n,3) meet the clover ring, by the signs of its equation, from start on."""
+    at = x[:, None] + np.geomspace(start, 30.0, 3000)[:, None] * way[:, None]
+    x, z = np.hypot(at[..., 0], at[..., 1]) - 3, at[..., 2]
+    sign = np.sign((x * x + z * z) ** 2 - x**3 + 3 * x * z * z)
+    return (sign[:, 1:] * sign[:, :-1] < 0.0).any(axis=1)
+
+
+@pytest.mark.slow
+@pytest.mark.spread(parts=3)
+@pytest.mark.parametrize("eye", EYES)
+@pytest.mark.parametrize(("start", "closed"), [(0.0, True), (np.pi / 6, False)])
+def test_a_line_in_which_three_sheets_meet_is_seen_where_its_equation_says_so(start, closed, eye):
+    domain = Domain(0, TURN, start, start + np.pi, closed_u=True, closed_v=closed)
+    item = vp.Item("IT", surface_of_function(clover_ring, domain), curves=SurfaceLines(rows=6))
+    found = chords_seen(vp.Scene((item,)), vp.Camera(eye=eye, target=(0, 0, 0)), kinds=ALL | {LineKind.PARAMETER})
+    middle = (found.start + found.end) / 2
+    kept = (np.abs(np.hypot(middle[:, 0], middle[:, 1]) - 3) < 1e-3) & (np.abs(middle[:, 2]) < 1e-6)
+    kept = np.flatnonzero(kept)[::7]
+    middle, hidden = middle[kept], found.hidden_by[kept] > 0
+    middle[:, :2] *= 3 / np.hypot(middle[:, 0], middle[:, 1])[:, None]
+    way = np.array(eye) - middle
+    way /= np.linalg.norm(way, axis=1, keepdims=True)
+    true, also = (crossed(middle, way, start) for start in (1e-3, 4e-3))
+    assert len(kept) > 300 and np.mean(hidden[true == also] != true[true == also]) < 5e-3
