@@ -2,11 +2,11 @@
 
 import numpy as np
 import pytest
-from vectorplot.geometry.adjacency import face_barycentres
 
 import vectorplot as vp
 from vectorplot.effects.glass import items_in_glass
 from vectorplot.geometry.projections import projection_of
+from vectorplot.geometry.winding import face_barycentres
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.pictures.prepared_scene import with_face_looks
 from vectorplot.scene.page import Page
