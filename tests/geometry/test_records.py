@@ -62,3 +62,23 @@ def test_polygons_may_keep_coordinates_in_columns():
     np.testing.assert_array_equal(both.offsets, [0, 4, 7, 11])
     np.testing.assert_array_equal(both.planes, [[2.0, 1.0, 2.0], [4.0, 3.0, 4.0]])
     assert both.opacity is None
+
+
+@dataclass(frozen=True, eq=False)
+class _Inner(records.Elements):
+    values: np.ndarray
+
+
+@dataclass(frozen=True, eq=False)
+class _Outer(records.Elements):
+    inner: _Inner
+    number: np.ndarray
+    common: str = field(metadata=records.APART)
+
+
+@pytest.mark.parametrize("which", [np.array([2, 0]), np.array([True, False, True])])
+def test_what_is_said_of_all_stays_and_records_within_are_chosen_from_too(which):
+    outer = _Outer(_Inner(np.arange(3.0)), np.arange(3), "all")
+    some = outer.take(which)
+    assert some.common == "all" and some.number.tolist() == outer.number[which].tolist()
+    assert some.inner.values.tolist() == outer.inner.values[which].tolist()

@@ -220,13 +220,15 @@ class Casters:
 
     def take(self, which: Ints) -> Casters:
         """Some of them, given by ascending numbers."""
-        position, first = ragged.take(self.volumes.first, which)
         number = np.full(len(self), -1, dtype=np.intp)
         number[which] = np.arange(len(which))
         own = np.flatnonzero(number[self.caster] >= 0)
-        volumes = PlaneBundles(self.volumes.planes[:, position], first)
         return replace(
-            self, volumes=volumes, item=self.item[which], face=self.face[own], caster=number[self.caster[own]]
+            self,
+            volumes=self.volumes.take(which),
+            item=self.item[which],
+            face=self.face[own],
+            caster=number[self.caster[own]],
         )
 
 

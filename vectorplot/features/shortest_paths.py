@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -19,7 +19,7 @@ from vectorplot.features.mesh_lines import (
     without_inner,
 )
 from vectorplot.features.nearest import nearest_on_mesh, nearest_triangles
-from vectorplot.geometry import ragged
+from vectorplot.geometry import ragged, records
 from vectorplot.geometry.budget import USUAL, Budget, part_of, unheard, unresolved
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
@@ -169,11 +169,6 @@ class Windows(Elements):
         return np.asarray(self.base + np.hypot(across, self.y))
 
 
-def all_windows(parts: list[Windows]) -> Windows:
-    """Those of all parts."""
-    return Windows(*(np.concatenate([getattr(part, f.name) for part in parts]) for f in fields(Windows)))
-
-
 @dataclass(eq=False)
 class Reached:
     """How far vertices (v,) and targets (t,) are, as known so far, and how they are reached: through windows (v,) and
@@ -234,7 +229,7 @@ def lead_on(
         reached.fresh[vertices] = False
         _along_edges(sides, vertices, reached)
         now = keys <= limit
-        batch = all_windows([waiting.take(now), _from_vertices(sides, vertices, reached.far[vertices])])
+        batch = records.joined([waiting.take(now), _from_vertices(sides, vertices, reached.far[vertices])])
         batch = batch.take(_useful(sides, batch, reached, aimed))
         numbers = reached.count + np.arange(len(batch))
         reached.found.append(batch)
@@ -244,7 +239,7 @@ def lead_on(
             raise InputError(unresolved(f"shortest paths on {count} triangles need more than {most} windows"))
         children = _led_through(sides, batch, numbers, reached, targets)
         children = children.take(_useful(sides, children, reached, aimed))
-        waiting = all_windows([waiting.take(~now), children])
+        waiting = records.joined([waiting.take(~now), children])
         to_go = _to_go(sides.middles(children.side), aimed, sides.lengths[children.side])
         keys = np.concatenate([keys[~now], children.nearest + to_go])
 
@@ -332,7 +327,7 @@ def _led_through(sides: TriangleSides, w: Windows, numbers: Ints, reached: Reach
         x = np.where(back, long[own] - x, x)
         fits = kept[own] & (high - low > sides.slack)
         parts.append(Windows(beyond, low, high, x, off[own], w.base[own], w.root[own], numbers[own]).take(fits))
-    return all_windows(parts)
+    return records.joined(parts)
 
 
 def _met(w: Windows, at: Floats, begin_x: Floats, toward_x: Floats, toward_y: Floats) -> Floats:
@@ -623,7 +618,7 @@ def _ways(
 def _traced(sides: TriangleSides, reached: Reached, source: Floats, ends: Floats) -> tuple[Ints, Floats]:
     """The points (n,3) of ways, from their ends back to the source, and the way (n,) of each."""
     none, zero = np.zeros(0, dtype=np.intp), np.zeros(0)
-    windows = all_windows([Windows(none, zero, zero, zero, zero, zero, none, none), *reached.found])
+    windows = records.joined([Windows(none, zero, zero, zero, zero, zero, none, none), *reached.found])
     way, point = np.arange(len(ends)), np.array(ends)
     window, vertex = reached.target_window, reached.target_before
     ways, points = [way], [point]

@@ -15,7 +15,7 @@ from vectorplot.geometry.clipping import crossed_sides
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import TRIANGLE, Mesh
-from vectorplot.geometry.polylines import EACH_POINT, LineElements
+from vectorplot.geometry.polylines import EACH_POINT, LineElements, joined
 from vectorplot.geometry.regions import areas_of, corners_of, without_holes
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import ROUNDING, ZERO_OF_EXTENT
@@ -267,7 +267,7 @@ def _split(
         sizes = np.bincount(owner, kept.sum(axis=1), polygons.count).astype(np.intp)
         parts.append(_Polygons(slots[kept], ragged.offsets(sizes[sizes > 0])))
     made = _Made(ends, np.arange(len(points) - len(new), len(points)))
-    return _joined(parts), points, heights, made
+    return joined(parts), points, heights, made
 
 
 def _with_corners(polygons: _Polygons, tables: list[_Made], count: int) -> _Polygons:
@@ -293,14 +293,9 @@ def _with_corners(polygons: _Polygons, tables: list[_Made], count: int) -> _Poly
     return polygons
 
 
-def _joined(parts: list[_Polygons]) -> _Polygons:
-    sizes = np.concatenate([np.diff(part.offsets) for part in parts])
-    return _Polygons(np.concatenate([part.corners for part in parts]), ragged.offsets(sizes))
-
-
 def _mesh(points: Floats, parts: list[_Polygons]) -> Mesh:
     """The mesh of polygons, without the vertices that none of them has."""
-    polygons = _joined(parts)
+    polygons = joined(parts)
     used = np.zeros(len(points), dtype=np.bool_)
     used[polygons.corners] = True
     return Mesh(points[used], (np.cumsum(used) - 1)[polygons.corners], polygons.offsets)

@@ -12,7 +12,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.clipping import Polygons, cut_polygons, left_corners
 from vectorplot.geometry.convex_polygons import convex_hulls
 from vectorplot.geometry.mesh import next_positions
-from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined, take
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, joined, take
 from vectorplot.geometry.records import IN_COLUMNS
 
 # Convex polygons in space, each cut by several planes, many at once.
@@ -28,15 +28,15 @@ RUNGS = np.array([3, 4, 6, 8, 12, 16, 32, 64, 256, 1024, 1 << 14, 1 << 20, 1 << 
 
 
 @dataclass(frozen=True, eq=False)
-class PlaneBundles:
+class PlaneBundles(LineElements):
     """Bundles of planes: planes (4,p) unit normals and constants, normal . point - constant is positive on the side
-    that is kept; first (b+1,): bundle k has the planes first[k] to first[k+1]."""
+    that is kept; offsets (b+1,): bundle k has the planes offsets[k] to offsets[k+1]."""
 
-    planes: Floats
-    first: Ints
+    planes: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
+    offsets: Ints
 
     def __len__(self) -> int:
-        return len(self.first) - 1
+        return len(self.offsets) - 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -62,15 +62,15 @@ def planes_of(normal: Floats, point: Floats) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class Crossings:
+class Crossings(LineElements):
     """Pairs of convex polygons and bundles of planes of which something is left.
 
-    pair (m,), ascending; planes (4,k), first (m+1,): pair[j] is cut by the planes first[j] to first[j+1].
+    pair (m,), ascending; planes (4,k), offsets (m+1,): pair[j] is cut by the planes offsets[j] to offsets[j+1].
     """
 
-    pair: Ints
-    planes: Floats
-    first: Ints
+    pair: Ints = field(metadata=EACH_LINE)
+    planes: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
+    offsets: Ints
 
     def __len__(self) -> int:
         return len(self.pair)
@@ -78,12 +78,7 @@ class Crossings:
     @property
     def whole(self) -> Bools:
         """(m,) whether nothing is cut off."""
-        return np.asarray(self.first[1:] == self.first[:-1], dtype=np.bool_)
-
-    def take(self, which: Ints) -> Crossings:
-        """Some of them, given by ascending numbers."""
-        position, first = ragged.take(self.first, which)
-        return Crossings(self.pair[which], self.planes[:, position], first)
+        return np.asarray(self.offsets[1:] == self.offsets[:-1], dtype=np.bool_)
 
 
 def crossings_of(
@@ -153,7 +148,7 @@ def _batches(points: Floats, offsets: Ints, polygon: Ints) -> Iterator[tuple[Int
 
 def _sorted_out(corners: Floats, bundles: PlaneBundles, bundle: Ints, tolerance: float) -> tuple[Ints, Ints, Ints]:
     """Which pairs have nothing above some plane; and pairs and planes that cut them, some of them gone later."""
-    counts = np.diff(bundles.first)[bundle]
+    counts = np.diff(bundles.offsets)[bundle]
     here = np.arange(len(bundle))
     none = np.zeros(0, dtype=np.intp)
     gone, pairs, planes = [none], [none], [none]
@@ -161,7 +156,7 @@ def _sorted_out(corners: Floats, bundles: PlaneBundles, bundle: Ints, tolerance:
         more = counts[here] > step
         if not more.all():
             here, corners = here[more], corners[:, :, more]
-        plane = bundles.first[bundle[here]] + step
+        plane = bundles.offsets[bundle[here]] + step
         a, b, c, d = bundles.planes[:, plane]
         height = a * corners[0]
         height += b * corners[1]
@@ -179,7 +174,7 @@ def _sorted_out(corners: Floats, bundles: PlaneBundles, bundle: Ints, tolerance:
 
 def _cut(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tolerance: float) -> Parts:
     """The polygons cut by their planes one after the other."""
-    counts = np.diff(crossings.first)
+    counts = np.diff(crossings.offsets)
     found: list[tuple[Ints, Polygons]] = []
     here = np.arange(len(crossings))
     now = take(Polygons(points.T, offsets), polygon[crossings.pair])
@@ -188,7 +183,7 @@ def _cut(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tol
         found.append((here[done], take(now, np.flatnonzero(done))))
         rest = np.flatnonzero(~done)
         here, now = here[rest], take(now, rest)
-        a, b, c, d = np.repeat(crossings.planes[:, crossings.first[here] + step], np.diff(now.offsets), axis=1)
+        a, b, c, d = np.repeat(crossings.planes[:, crossings.offsets[here] + step], np.diff(now.offsets), axis=1)
         height = a * now.points[:, 0] + b * now.points[:, 1] + c * now.points[:, 2] - d
         height[np.abs(height) <= tolerance] = 0.0
         now, _ = cut_polygons(now, height)

@@ -57,8 +57,8 @@ def _by_faces(view: View, faces: ProjectedFaces, points: Floats, items: int) -> 
         return hides
     which, number = np.unique(face, return_inverse=True)
     occluders = face_occluders(view, faces, which)
-    count = np.diff(occluders.first)[number]
-    pair, plane = ragged.owner(count), ragged.ranges(occluders.first[number], count)
+    count = np.diff(occluders.offsets)[number]
+    pair, plane = ragged.owner(count), ragged.ranges(occluders.offsets[number], count)
     normal = occluders.planes[:, plane]
     height = (normal[:3] * points[:, point[pair]]).sum(axis=0) - normal[3]
     # The first plane is that of the face itself: what lies in it is not hidden. The others are its borders.

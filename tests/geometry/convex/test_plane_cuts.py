@@ -83,4 +83,4 @@ def test_parts_on_both_sides_add_up_and_lie_on_their_sides(seed: int) -> None:
 def test_crossings_name_only_planes_that_cut() -> None:
     planes = bundle((1.0, 0.0, 0.0, -1.0), (1.0, 0.0, 0.0, 0.5), (0.0, 1.0, 0.0, 0.25))
     found = crossings_of(SQUARE, ONE, planes, ZERO, ZERO, 1e-9)
-    assert found.first.tolist() == [0, 2] and np.array_equal(found.planes[3], [0.5, 0.25])
+    assert found.offsets.tolist() == [0, 2] and np.array_equal(found.planes[3], [0.5, 0.25])

@@ -17,7 +17,7 @@ def hides(occluders: Occluders, points: np.ndarray) -> np.ndarray:
     """(k,n) which occluder hides which point (3,n)."""
     heights = occluders.planes[:3].T @ points - occluders.planes[3][:, None]
     return np.array(
-        [(heights[a:b] > 1e-9).all(axis=0) for a, b in zip(occluders.first[:-1], occluders.first[1:], strict=True)]
+        [(heights[a:b] > 1e-9).all(axis=0) for a, b in zip(occluders.offsets[:-1], occluders.offsets[1:], strict=True)]
     )
 
 

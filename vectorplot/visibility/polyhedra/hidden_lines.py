@@ -15,11 +15,12 @@ from vectorplot.exact import intervals
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.component_arrays import cross
+from vectorplot.geometry.polylines import joined
 from vectorplot.scene.view import View, first_coincident
 from vectorplot.tolerances import COVERED_MARGIN, SINGLE_LINE_SHARE
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import MAX_COVER_TESTS, Entries, Floats32, Grid, Pieces
-from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, joined, solid_occluders
+from vectorplot.visibility.polyhedra.occluders import Occluders, face_occluders, solid_occluders
 from vectorplot.visibility.projected_faces import CHUNK, ProjectedFaces
 
 # Which pairs of a piece of a line and an occluder need a closer look: those that nothing in the image keeps apart.
@@ -74,15 +75,15 @@ def _sides(view: View, grid: Grid, occluders: Occluders) -> tuple[Packed, ...]:
         abs(grid.left + grid.cell * float(grid.columns[0])),
         abs(grid.bottom + grid.cell * float(grid.rows[0])),
     )
-    last = occluders.first[1:] - 1
+    last = occluders.offsets[1:] - 1
     sides = []
     for number in range(SIDES):
-        plane = np.minimum(occluders.first[:-1] + occluders.behind + number, last)
+        plane = np.minimum(occluders.offsets[:-1] + occluders.behind + number, last)
         a, b, c, d = occluders.planes.take(plane, axis=1)
         shift = _shift(view, a, b, c) - d
         size = (np.abs(a) + np.abs(b)) * reach + np.abs(shift)
         # An occluder without an outline fills the image.
-        outline = occluders.first[:-1] + occluders.behind <= last
+        outline = occluders.offsets[:-1] + occluders.behind <= last
         line = np.stack([a, b, shift + SINGLE_LINE_SHARE * size, np.zeros_like(a)]) / np.where(size > 0.0, size, 1.0)
         line[:3, ~outline] = [[0.0], [0.0], [1.0]]
         sides.append(_packed(line.astype(np.float32)))
@@ -177,14 +178,14 @@ def clip_pairs(
     """
     skipped = occluders.behind.take(occluder) * beyond
     pair, reach = _over_first_plane(
-        view, segments, occluders, segment, occluders.first.take(occluder) + skipped, beyond
+        view, segments, occluders, segment, occluders.offsets.take(occluder) + skipped, beyond
     )
     low, high, side = low.take(pair), high.take(pair), np.zeros(len(pair), dtype=np.intp)
     of = segment.take(pair)
     ends = np.concatenate([segments.start.take(of, axis=1), segments.end.take(of, axis=1)])
     occluder, skipped = occluder.take(pair), skipped.take(pair)
-    first, behind = occluders.first.take(occluder) + skipped, occluders.behind.take(occluder) - skipped
-    count = occluders.first.take(occluder + 1) - first
+    first, behind = occluders.offsets.take(occluder) + skipped, occluders.behind.take(occluder) - skipped
+    count = occluders.offsets.take(occluder + 1) - first
     through = [(pair[:0], low[:0], high[:0], side[:0])]
     final = occluders.planes.shape[1] - 1
     for step in range(int(count.max(initial=0))):
@@ -363,8 +364,8 @@ def _inside_outline(
         depth = np.full((1, len(occluder)), view.eye[2] - view.focus)
         base = np.concatenate([corner + view.eye[:2, None], depth])
     result = np.ones(len(occluder), dtype=np.bool_)
-    last, step = occluders.first[1:] - 1, 0
-    plane = occluders.first[occluder] + occluders.behind[occluder]
+    last, step = occluders.offsets[1:] - 1, 0
+    plane = occluders.offsets[occluder] + occluders.behind[occluder]
     left = np.arange(len(occluder))
     while len(left):
         # Of few cells many planes at once, of many one after the other, each of those that are left.
@@ -616,7 +617,7 @@ def _occluders(view: View, faces: ProjectedFaces, solid: Bools, grid: Grid, deep
     by_face = face_occluders(view, faces, np.concatenate(kept))
     if not solid.any():
         return by_face
-    return joined(by_face, solid_occluders(view, faces, np.flatnonzero(solid)))
+    return joined([by_face, solid_occluders(view, faces, np.flatnonzero(solid))])
 
 
 def _all_hits(

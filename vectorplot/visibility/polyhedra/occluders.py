@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -11,6 +11,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.connectivity import unbalanced_vertices
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined
+from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.view import View
 from vectorplot.tolerances import SINGLE_DEPTH_LEAST, SINGLE_DEPTH_SHARE
 from vectorplot.visibility.projected_faces import CHUNK, Floats32, ProjectedFaces, newell
@@ -24,18 +26,18 @@ would."""
 class Occluders:
     """Convex things that hide.
 
-    Occluder k hides the points with a positive distance from its planes first[k] to first[k+1]: planes (4,p) unit
+    Occluder k hides the points with a positive distance from its planes offsets[k] to offsets[k+1]: planes (4,p) unit
     normal and constant; of these the first behind[k] bound it towards the eye, the others are its outline's planes
     through the eye, those of a solid by the lengths of their edges in the image, the longest first. box (4,k), nearest
     (k,), farthest (k,): in the image, as in ProjectedFaces; item (k,)."""
 
-    planes: Floats
-    first: Ints
-    behind: Ints
-    box: Floats32
-    nearest: Floats32
-    farthest: Floats32
-    item: Ints
+    planes: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
+    offsets: Ints
+    behind: Ints = field(metadata=EACH_LINE)
+    box: Floats32 = field(metadata=EACH_LINE | IN_COLUMNS)
+    nearest: Floats32 = field(metadata=EACH_LINE)
+    farthest: Floats32 = field(metadata=EACH_LINE)
+    item: Ints = field(metadata=EACH_LINE)
 
     def __len__(self) -> int:
         return len(self.behind)
@@ -116,7 +118,7 @@ def _blocks(sizes: Ints, most: int = 1 << 20) -> list[tuple[int, int]]:
 def face_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:
     """Some faces as occluders, whichever side they show; none of them may be edge-on."""
     chunks = slices(len(which), CHUNK) or [slice(0, 0)]
-    return joined(*mapped(lambda some: _faces_as_occluders(view, faces, which[some]), chunks))
+    return joined([*mapped(lambda some: _faces_as_occluders(view, faces, which[some]), chunks)])
 
 
 def _faces_as_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:
@@ -163,21 +165,6 @@ def solid_occluders(view: View, faces: ProjectedFaces, items: Ints) -> Occluders
     depth_counts = np.bincount(owner, minlength=len(items))
     side_counts = np.bincount(side_owner, minlength=len(items))
     return _interleaved(view, depth_planes, depth_counts, side, side_counts, faces, which, items)
-
-
-def joined(*parts: Occluders) -> Occluders:
-    """All occluders of some sets, at least one, in their order."""
-    if len(parts) == 1:
-        return parts[0]
-    return Occluders(
-        np.concatenate([part.planes for part in parts], axis=1),
-        ragged.offsets(np.concatenate([np.diff(part.first) for part in parts])),
-        np.concatenate([part.behind for part in parts]),
-        np.concatenate([part.box for part in parts], axis=1),
-        np.concatenate([part.nearest for part in parts]),
-        np.concatenate([part.farthest for part in parts]),
-        np.concatenate([part.item for part in parts]),
-    )
 
 
 def _planes(normal: Floats, point: Floats) -> Floats:

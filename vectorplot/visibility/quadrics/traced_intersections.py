@@ -4,7 +4,7 @@ mantles and caps, or traced; and hidden like the others."""
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from enum import IntEnum
 from functools import cached_property, partial
 from typing import Protocol
@@ -19,6 +19,7 @@ from vectorplot.geometry.chord_refinement import HALVINGS, Traces, bisected, ref
 from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -421,10 +422,10 @@ class RuledCurves:
     """Polylines: points (n,3), those of closed ones with the first one once more at the end; offsets (m+1,);
     closed (m,); row (m,): which of the pairs of surfaces meet in them."""
 
-    points: Floats
+    points: Floats = field(metadata=EACH_POINT)
     offsets: Ints
-    closed: Bools
-    row: Ints
+    closed: Bools = field(metadata=EACH_LINE)
+    row: Ints = field(metadata=EACH_LINE)
 
 
 @dataclass(frozen=True, eq=False)
@@ -712,7 +713,7 @@ def part_meetings(bodies: Bodies, pairs: PartPairs, tracing: Tracing) -> tuple[R
     many = int(met.sum())
     points = np.stack([start[met], end[met]], axis=1).reshape(-1, 3)
     found.append(RuledCurves(points, 2 * np.arange(many + 1), np.zeros(many, dtype=np.bool_), row[met]))
-    return _together(found), np.sort(np.concatenate(left))
+    return joined(found), np.sort(np.concatenate(left))
 
 
 def parts_shown(bodies: Bodies, body: Ints, part: Ints) -> Floats:
@@ -783,16 +784,6 @@ def _discs(bodies: Bodies, which: Ints, end: Ints) -> Discs:
         at = end == number
         centre[at], across[at], along[at] = bodies.capped.rims(capped[at], number)
     return Discs(centre, across, along)
-
-
-def _together(parts: list[RuledCurves]) -> RuledCurves:
-    """All curves."""
-    return RuledCurves(
-        np.concatenate([part.points for part in parts]),
-        ragged.offsets(np.concatenate([np.diff(part.offsets) for part in parts])),
-        np.concatenate([part.closed for part in parts]),
-        np.concatenate([part.row for part in parts]),
-    )
 
 
 # Curves in which quadrics meet, and planes do: between their points they lie on both.
