@@ -6,8 +6,10 @@ from support.smooth_seen import ALL, chords_seen
 
 import vectorplot as vp
 from vectorplot.scene.surface_lines import SurfaceLines
+from vectorplot.scene.view import look
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.surface import Domain
+from vectorplot.visibility.smooth.scene_curves import scene_sheets, traced_scene
 from vectorplot.words import LineKind
 
 TURN = 2 * np.pi
@@ -83,3 +85,14 @@ def test_a_line_in_which_three_sheets_meet_is_seen_where_its_equation_says_so(st
     way /= np.linalg.norm(way, axis=1, keepdims=True)
     true, also = (crossed(middle, way, start) for start in (1e-3, 4e-3))
     assert len(kept) > 300 and np.mean(hidden[true == also] != true[true == also]) < 5e-3
+
+
+def test_a_line_lies_on_another_sheet_as_far_as_that_goes():
+    wave = surface_of_function(lambda u, v: (u, v, 0.1 * np.sin(3 * v)), Domain(-1, 1, -1, 1))
+    wall = surface_of_function(lambda u, v: (0.4 * v, u, v + 0.1 * np.sin(3 * u)), Domain(-0.5, 0.3, -0.4, 0.6))
+    scene = vp.Scene((vp.Item("WAVE", wave, curves=SurfaceLines(columns=2)), vp.Item("WALL", wall)))
+    view = look(scene, vp.Camera(eye=(4, 0.3, 3), target=(0, 0, 0)))
+    traced = traced_scene(scene, view, scene_sheets(scene, view), ALL | {LineKind.PARAMETER}, 1e-4)
+    found = traced.stretches.curves
+    y = view.world_of(found.points.T)[:, 1]
+    assert len(found) == 1 and -0.5 <= y.min() < -0.4 and 0.25 < y.max() <= 0.3

@@ -126,7 +126,9 @@ def with_other_sheets(curves: Curves, borders: Curves, sheets: Sheets) -> tuple[
     if not len(which) or not len(places.number):
         return curves, no_stretches()
     row, _, _ = _others(curves, *_at_parts(curves, which), sheets, places)
-    which = which[np.unique(row // len(TESTED))]
+    hits = np.bincount(np.unique(row) // len(TESTED), minlength=len(which))
+    # Straight lines have few points: between these the parts that are tested say whether they lie on the sheet.
+    which = which[hits >= np.where(np.diff(curves.offsets)[which] < FEWEST, len(TESTED), 1)]
     on = _stretches(curves, which, sheets, places)
     whole = np.flatnonzero(alone[on.of] & (on.sizes == np.diff(curves.offsets)[on.of]))
     _, first = np.unique(on.of[whole], return_index=True)
@@ -223,7 +225,8 @@ def _stretches(curves: Curves, which: Ints, sheets: Sheets, known: _Doubles) -> 
     point = index[row]
     chain, count = _chains(curves, point, number, there, sheets)
     order = np.lexsort((point, chain))
-    order = order[count[chain[order]] >= FEWEST]
+    enough = np.minimum(FEWEST, np.diff(curves.offsets)[curves.owner[point]])
+    order = order[(count[chain] >= enough)[order]]
     point, number, there, chain = point[order], number[order], there[order], chain[order]
     begin = np.flatnonzero(np.diff(chain, prepend=-1))
     of, number = curves.owner[point[begin]], number[begin]
