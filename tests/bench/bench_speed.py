@@ -23,6 +23,7 @@ LIMITS = {
     "tori": (2.0, 4e6, 200),
     "boxes in colour": (1.2, 2000, 100),
     "pixels of one mesh": (1.15, 45, 300),
+    "pixels of spheres": (1.15, 250000, 1600),
 }
 """Growth exponent, points projected and sorted for each thing, and megabytes."""
 

@@ -120,6 +120,7 @@ SERIES = (
     Series("tori", "draw", {}, tori, (1, 2, 4), "torus"),
     Series("boxes in colour", "paint", {"shadows": "none"}, boxes, (200, 400, 800), "box"),
     Series("pixels of one mesh", "render", {"size": (400, 300)}, _lump_of, _TRIANGLES[:3], "triangle"),
+    Series("pixels of spheres", "render", {"size": (400, 300)} | _FROM_AFAR, spheres, (20, 80, 320), "sphere"),
 )
 
 
