@@ -38,13 +38,15 @@ def scene(*lights: Light, items: tuple[Item, ...] = ()) -> Scene:
     )
 
 
-def fills_of(picture: Scene) -> Fills:
-    (fills,) = (some for layer in vp.paint(picture, CAMERA, tolerance_mm=4.0).layers for some in layer.fills)
+def fills_of(picture: Scene, *, smooth: bool = True) -> Fills:
+    drawing = vp.paint(picture, CAMERA, tolerance_mm=4.0, smooth=smooth)
+    (fills,) = (some for layer in drawing.layers for some in layer.fills)
     return fills
 
 
 def colours(picture: Scene) -> np.ndarray:
-    return fills_of(picture).colours.astype(int)
+    """Of the corners of polygons, which are the same in light of every colour where none has a gradient."""
+    return fills_of(picture, smooth=False).colours.astype(int)
 
 
 @pytest.mark.slow
