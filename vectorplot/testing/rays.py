@@ -1032,17 +1032,17 @@ def _walk(field: _Field, rays: Rays) -> Hiding:
 def _roots(field: _Field, rays: Rays, t: Floats, value: Floats) -> tuple[Ints, Floats]:
     """Rays, and distances along them, at which F changes its sign."""
     ray, step = np.nonzero(value[:, :-1] * value[:, 1:] < 0.0)
-    return ray, _zeros(lambda points: field.values(points), rays, ray, t[step], t[step + 1], value[ray, step])
+    return ray, _zeros(lambda points, _which: field.values(points), rays, ray, t[step], t[step + 1], value[ray, step])
 
 
 def _zeros(
-    function: Callable[[Floats], Floats], rays: Rays, ray: Ints, low: Floats, high: Floats, start: Floats
+    function: Callable[[Floats, Ints], Floats], rays: Rays, ray: Ints, low: Floats, high: Floats, start: Floats
 ) -> Floats:
-    """Distances along rays between low and high, at which a function of the point has the value start, where it
-    changes its sign."""
+    """Distances along rays between low and high, at which a function of points (n,3), on those of the rays with numbers
+    (n,), changes its sign from that of start."""
 
     def alike(which: Ints, t: Floats) -> Bools:
-        return function(rays.origin[ray[which]] + t[:, None] * rays.direction[ray[which]]) * start[which] > 0.0
+        return function(rays.origin[ray[which]] + t[:, None] * rays.direction[ray[which]], which) * start[which] > 0.0
 
     before, after = bisected(alike, low, high, BISECTIONS)
     return 0.5 * (before + after)
@@ -1054,8 +1054,8 @@ def _extremes(field: _Field, rays: Rays, t: Floats, slope: Floats, on_contour: B
     ray, step = np.nonzero(slope[:, :-1] * slope[:, 1:] <= 0.0)
     direction = rays.direction[ray]
 
-    def slopes(points: Floats) -> Floats:
-        return np.asarray((field.gradients(points) * direction).sum(axis=-1))
+    def slopes(points: Floats, which: Ints) -> Floats:
+        return np.asarray((field.gradients(points) * direction[which]).sum(axis=-1))
 
     along = _zeros(slopes, rays, ray, t[step], t[step + 1], slope[ray, step])
     at = rays.origin[ray] + along[:, None] * direction

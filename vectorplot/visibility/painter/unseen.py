@@ -14,6 +14,7 @@ from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.winding import components, edge_uses, inside_out, signed_volumes, turned_faces
 from vectorplot.scene.view import View
+from vectorplot.tolerances import LEAST_DIVISOR
 from vectorplot.visibility.polyhedra.hidden_lines import Segments, tried_pairs, visible_parts
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import EVERYWHERE, ProjectedFaces
@@ -201,7 +202,7 @@ def _star_shaped(view: View, triangles: Ints, item: Ints) -> Bools:
     for batch in batches:
         a, b, c = np.moveaxis(view.points[:, triangles[batch]] - middle[:, item[batch], None], 2, 0)
         normal = cross(b - a, c - a)
-        height[batch] = dot(a, normal) / np.maximum(np.sqrt(dot(normal, normal)), np.finfo(np.float64).tiny)
+        height[batch] = dot(a, normal) / np.maximum(np.sqrt(dot(normal, normal)), LEAST_DIVISOR)
     side = np.sign(np.bincount(item, height, minlength=count))
     aside = np.bincount(item, side[item] * height <= view.tolerance, minlength=count)
     number, first = np.unique(item, return_index=True)
