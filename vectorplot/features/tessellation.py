@@ -538,11 +538,11 @@ class Facets:
 
 
 def facets(shape: Surface | ImplicitSurface, criterion: Criterion, most: int = USUAL_BUDGET.facets) -> Facets:
-    """Triangles of a smooth surface as fine as the demand says, every vertex on the surface.
+    """Triangles of a smooth surface as fine as the criterion says, every vertex on the surface.
 
     Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
     seams and at poles are one; neighbours of different sizes share their vertices.
-    Error: the demand is kept at LOOKS of every side, and where it crosses a fold; what is smaller may be missed, and
+    Error: the criterion is kept at LOOKS of every side, and where it crosses a fold; what is smaller may be missed, and
     where it calls for more than most triangles it is not kept. Sides that lead into a hole end at its rim, and those
     along a rim follow it; cuspidal edges lie on sides, up to their chords.
     Errors: InputError for what is no smooth surface.
@@ -647,7 +647,7 @@ do by itself."""
 
 @runtime_checkable
 class Joinable(Criterion, Protocol):
-    """A demand that can be made of several surfaces at once."""
+    """A criterion that can be made of several surfaces at once."""
 
     @property
     def alike(self) -> Hashable:

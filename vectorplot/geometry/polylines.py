@@ -62,7 +62,7 @@ class LineElements:
             """(m+1,)."""
 
     def take(self, which: Ints | Bools) -> Self:
-        """Some of the polylines, as of the function of that name."""
+        """Some of the polylines, see `take`."""
         return take(self, which)
 
 

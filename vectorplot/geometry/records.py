@@ -44,7 +44,7 @@ class Elements:
         __dataclass_fields__: ClassVar[dict[str, Field[Any]]]
 
     def take(self, which: Ints | Bools) -> Self:
-        """Some of the elements, as of the function of that name."""
+        """Some of the elements, see `take`."""
         return take(self, which)
 
 
