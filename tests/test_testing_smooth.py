@@ -12,11 +12,13 @@ from support.torus_runs import contour_of, isophotes_of, parameter_lines, runs_o
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.pictures.draw import draw
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import SurfaceLines
 from vectorplot.surfaces.graphs import graph
+from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import (
     Cone,
     Cylinder,
@@ -29,7 +31,9 @@ from vectorplot.surfaces.quadrics import (
 )
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.tori import ImplicitCyclide, ImplicitTorus, Torus, dupin_cyclide
+from vectorplot.surfaces.trimmed import CutSurface
 from vectorplot.testing import assert_drawing_is_right, visible_by_rays
+from vectorplot.testing.drawings import _where_strokes_meet
 
 SURE = 2e-5
 
@@ -134,6 +138,33 @@ def test_a_hole_hides_nothing() -> None:
     assert sight.hidden_by.tolist() == [0, 1]
 
 
+@pytest.mark.parametrize("moved", [False, True])
+@pytest.mark.parametrize("view", [(5.0, -4.0, 3.0), (1.2, 0.4, 2.5), (-1.0, 6.0, 0.4)])
+def test_a_cut_surface_hides_up_to_its_rim(view, moved) -> None:
+    taken = (HalfSpaces(((0.0, 0.0, 1.0),), (0.2,)), HalfSpaces(((1.0, 0.0, 0.0), (0.0, -1.0, 0.0)), (0.1, -0.3)))
+    cut = CutSurface(Sphere(1.0), taken, HalfSpaces(((0.0, 0.6, 0.8),), (-0.9,)))
+    shift = np.array([3.0, -2.0, 1.0]) * moved
+    scale = 2.0 if moved else 1.0
+    scene = Scene((Item("bowl", PlacedSurface(cut, scale * np.eye(3), shift) if moved else cut),))
+    random = np.random.default_rng(5)
+    points = random.uniform(-1.0, 1.0, size=(6000, 3))
+    eye = np.array(view)
+    sight = visible_by_rays(scene, Camera(tuple(scale * eye + shift)), scale * points + shift)
+
+    way = eye - points
+    a, b, c = (way * way).sum(axis=1), (way * points).sum(axis=1), (points * points).sum(axis=1) - 1.0
+    root = np.sqrt(np.maximum(b * b - a * c, 0.0))
+    met = np.zeros(len(points), dtype=bool)
+    for t in ((-b - root) / a, (-b + root) / a):
+        at = points + t[:, None] * way
+        left = ~np.any([region.is_inside(at) for region in taken], axis=0) & (at @ (0.0, 0.6, 0.8) >= -0.9)
+        met |= (b * b > a * c) & (t > 0.0) & (t < 1.0) & left
+    sure = sight.clearance > 1e-6
+    assert sure.mean() > 0.98
+    assert 500 < met.sum() < 5500
+    assert (sight.hidden_by[sure] == met[sure]).all()
+
+
 @pytest.mark.slow
 def test_what_does_not_occlude_hides_nothing() -> None:
     points = [(0.0, 0.0, -1.0)]
@@ -208,3 +239,12 @@ def test_cells_of_very_unequal_size_leave_few_points_open() -> None:
     sure = np.minimum(sight.clearance, other.clearance) > SURE
     assert sure.mean() > 0.5
     assert np.array_equal(sight.hidden_by[sure], other.hidden_by[sure])
+
+
+def test_strokes_that_end_closely_together_meet() -> None:
+    """Where three sheets meet two borders bend, one before and one behind, a hundred millionth of the extent apart."""
+    near = 1e-8
+    before = [[(1.0, 0.0, 0.0), (near, 0.0, 0.0)], [(near, 0.0, 0.0), (0.0, 0.0, 1.0)]]
+    behind = [[(-1.0, 0.0, 0.0), (0.0, 0.0, 0.0)], [(0.0, 0.0, 0.0), (0.0, 0.0, -1.0)]]
+    meet = _where_strokes_meet(np.array(before + behind), np.arange(4))
+    assert meet.tolist() == [[False, True], [True, False]] * 2

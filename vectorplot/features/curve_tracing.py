@@ -471,6 +471,7 @@ def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> Surf
         offsets = np.concatenate([[0], np.cumsum(known)])[curves.offsets]
         u, v, points = curves.u[known], curves.v[known], curves.points[known]
         curves = replace(curves, u=u, v=v, points=points, offsets=offsets)
+        curves = take(curves, np.flatnonzero(np.diff(offsets)))
     own = np.flatnonzero(~curves.closed & (np.diff(curves.offsets) > 1))
     first, last = curves.offsets[:-1][own], curves.offsets[1:][own] - 1
     # The end of a curve comes before the beginning of the next.

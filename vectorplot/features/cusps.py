@@ -20,6 +20,7 @@ from vectorplot.features.curve_tracing import (
     samples,
     with_points,
 )
+from vectorplot.features.cut_curves import cut_as
 from vectorplot.features.holes import wrapped
 from vectorplot.features.zero_curves import check_grid
 from vectorplot.geometry import ragged, records
@@ -29,6 +30,7 @@ from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_components, all_finite, cross, dot, from_components, length, norm
 from vectorplot.surfaces.stacked import unit_normals_of
 from vectorplot.surfaces.surface import Domain, OverDomain, Surface, normals
+from vectorplot.surfaces.trimmed import uncut
 from vectorplot.tolerances import (
     BESIDE_POLE,
     BEYOND_END,
@@ -67,14 +69,15 @@ def singular_lines(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCu
     check_grid(surface.domain, tracing.columns, tracing.rows, tracing.resolution)
     if not len(samples(surface)[2]):
         return no_curves()
-    size = _size(surface)
+    whole = uncut(surface)
+    size = _size(whole)
     if size == 0.0:
         return no_curves()
-    area = _signed_area(surface, tracing)
-    found = curves_where_zero(OverDomain(surface, area.domain), area, size=size, rounding=0.0, tracing=tracing)
+    area = _signed_area(whole, tracing)
+    found = curves_where_zero(OverDomain(whole, area.domain), area, size=size, rounding=0.0, tracing=tracing)
     at = _onto(area, from_components(found.u, found.v))
-    onto = replace(found, u=at[:, 0], v=at[:, 1], points=surface.points(*wrapped(surface.domain, *at.T)))
-    return _with_cusps(area, _singular_only(surface, onto, size))
+    onto = replace(found, u=at[:, 0], v=at[:, 1], points=whole.points(*wrapped(whole.domain, *at.T)))
+    return cut_as(surface, _with_cusps(area, _singular_only(whole, onto, size)), area)
 
 
 @dataclass(frozen=True, eq=False)

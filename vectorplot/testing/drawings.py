@@ -17,7 +17,7 @@ from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.scene import Scene
 from vectorplot.surfaces.surface import ImplicitSurface, Surface, hessians, is_implicit, is_parametrised
 from vectorplot.testing.rays import edges_of_faces, inside, nearest_places, visible_by_rays
-from vectorplot.tolerances import CLEARANCE_OF_EXTENT, COVERED_OF_TOLERANCE, ZERO_OF_EXTENT
+from vectorplot.tolerances import CLEARANCE_OF_EXTENT, COVERED_OF_TOLERANCE
 from vectorplot.words import LineKind
 
 # Whether two drawings show the same lines, however these are cut into strokes.
@@ -262,11 +262,12 @@ def stroke_points(drawing: Drawing, scene: Scene, camera: Camera, samples: int, 
 
 
 def _where_strokes_meet(lines: Floats, some: Ints) -> Bools:
-    """(n,2) whether more than two ends of segments (m,2,3) are where an end of some of them is, (n,) their indices."""
+    """(n,2) whether more than two ends of segments (m,2,3) are where an end of some of them is, (n,) their indices: as
+    near as points are that are not compared."""
     from scipy.spatial import cKDTree
 
     ends = lines.reshape(-1, 3)
-    near = ZERO_OF_EXTENT * float(np.ptp(ends, axis=0).max())
+    near = CLEARANCE_OF_EXTENT * float(np.ptp(ends, axis=0).max())
     tree = cKDTree(ends, balanced_tree=False, compact_nodes=False)
     return np.asarray(tree.query_ball_point(lines[some].reshape(-1, 3), near, return_length=True).reshape(-1, 2) > 2)
 

@@ -31,7 +31,7 @@ from vectorplot.surfaces.surface import (
     is_implicit,
     is_parametrised,
 )
-from vectorplot.surfaces.trimmed import smooth_parts
+from vectorplot.surfaces.trimmed import CutSurface, cuts_of, smooth_parts, uncut
 from vectorplot.tolerances import (
     FIRST_DAMPING,
     FOOT_NO_BETTER,
@@ -818,11 +818,38 @@ def _spread(t: Floats, density: Floats) -> Floats:
     return np.interp(np.linspace(0.0, reach[-1], max(int(reach[-1]), FIRST_CELLS // 2) + 1), reach, t)
 
 
+@dataclass(frozen=True, eq=False)
+class _Cuts:
+    """What is cut away of a whole surface, whose rim no net of what is left would follow: cuts, the last one first;
+    size: of a unit."""
+
+    whole: Surface
+    cuts: list[CutSurface]
+    size: float
+
+    def gone(self, u: Floats, v: Floats) -> Floats:
+        """(n,) how far places are from the border of what is cut away, in units; negative for what is left."""
+        depth = np.full(len(u), -np.inf)
+        if not len(u):
+            return depth
+        for cut in self.cuts:
+            points = cut.surface.points(u, v)
+            behind = [region.heights(points).min(axis=0) for region in cut.regions]
+            behind += [] if cut.within is None else [(-cut.within.heights(points)).max(axis=0)]
+            # What was scaled since is as much farther away, at least.
+            outer, inner = (np.stack([norm(by) for by in s.partials(u, v)]) for s in (self.whole, cut.surface))
+            scale = (outer / np.maximum(inner, LEAST_DIVISOR)).min(axis=0)
+            for some in behind:
+                depth = np.maximum(depth, some * scale / self.size)
+        return depth
+
+
 def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floats, size: float) -> Hiding:
     """Which points a parametrised surface hides; eye (3,) in unit coordinates, None for parallel rays."""
-    net = fine_net(surface, middle, size, rays)
-    feet = feet_on(net, rays)
-    hidden, clearance = _hits(net, rays, feet)
+    cuts = _Cuts(uncut(surface), cuts_of(surface), size)
+    net = fine_net(cuts.whole, middle, size, rays)
+    feet = feet_on(net, rays, cuts)
+    hidden, clearance = _hits(net, rays, feet, cuts)
     direction = rays.direction[0] if len(rays.direction) else np.array([0.0, 0.0, 1.0])
     for (segments, errors), own in ((net.contour(eye, direction), feet.on_contour), (net.borders(), feet.on_border)):
         edges = near_together(segments, np.arange(len(segments)))
@@ -831,7 +858,7 @@ def surface_hides(surface: Surface, eye: Floats | None, rays: Rays, middle: Floa
     return Hiding(hidden, np.where(feet.unsure, 0.0, clearance), feet.on_contour)
 
 
-def _hits(net: Net, rays: Rays, feet: RayFeet) -> tuple[Bools, Floats]:
+def _hits(net: Net, rays: Rays, feet: RayFeet, cuts: _Cuts) -> tuple[Bools, Floats]:
     """Whether each ray meets the surface, and the distance from its point to the nearest sheet on its line."""
     hidden, clearance = np.zeros(len(rays.length), dtype=np.bool_), np.full(len(rays.length), REACH_OF_CLEARANCE)
     corners = net.triangles
@@ -845,8 +872,12 @@ def _hits(net: Net, rays: Rays, feet: RayFeet) -> tuple[Bools, Floats]:
         met = np.isfinite(along)
         ray, along, triangle = ray[met], along[met], corners[solids.item[index[met]]]
         start = net.parameters[triangle].mean(axis=1)
-        along, there, lost, steep = _refined(net, rays, ray, along, start)
-        clearance[ray[lost & (np.abs(along) > own[ray])]] = 0.0
+        along, at, there, lost, steep = _refined(net, rays, ray, along, start)
+        gone = cuts.gone(*at.T)
+        far = np.abs(along) > own[ray]
+        clearance[ray[lost & far]] = 0.0
+        np.minimum.at(clearance, ray[far], np.abs(gone[far]))
+        there &= ~(gone > 0.0)
         ray, along, steep = ray[there], along[there], steep[there]
         # Beside a cuspidal edge or a self-intersection another sheet may be that near.
         other = (~feet.on_contour[ray] | steep) & (np.abs(along) > SAME_HIT) & (np.abs(along) <= own[ray])
@@ -859,10 +890,12 @@ def _hits(net: Net, rays: Rays, feet: RayFeet) -> tuple[Bools, Floats]:
     return hidden, clearance
 
 
-def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> tuple[Floats, Bools, Bools, Bools]:
-    """Where rays meet the surface near places where they meet the net, whether that is within the domain, whether
-    Newton's method found no such place, as next to the contour: then it is left where the net has it; and whether they
-    pass through the surface there rather than along it."""
+def _refined(
+    net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats
+) -> tuple[Floats, Floats, Bools, Bools, Bools]:
+    """Where rays meet the surface near places where they meet the net, the parameters (n,2) there, whether these are
+    within the domain, whether Newton's method found no such place, as next to the contour: then it is left where the
+    net has it; and whether they pass through the surface there rather than along it."""
     origin, direction = rays.origin[ray], rays.direction[ray]
     at, t = start.copy(), along.copy()
     for _ in range(NEWTON_STEPS):
@@ -884,11 +917,11 @@ def _refined(net: Net, rays: Rays, ray: Ints, along: Floats, start: Floats) -> t
         rounding = ROUNDING_OF_DOMAIN * (high - low)
         within &= closed | ((at[:, axis] >= low - rounding) & (at[:, axis] <= high + rounding))
     steep = good & (np.abs(slope) > STEEP * np.sqrt(square))
-    return np.where(good, t, along), within | ~good, ~good, steep
+    return np.where(good, t, along), np.where(good[:, None], at, start), within | ~good, ~good, steep
 
 
-def feet_on(net: Net, rays: Rays) -> RayFeet:
-    """How the rays' points lie on the surface."""
+def feet_on(net: Net, rays: Rays, cuts: _Cuts) -> RayFeet:
+    """How the rays' points lie on what is left of the surface."""
     from scipy.spatial import cKDTree
 
     on_surface, on_contour, on_border, unsure = (np.zeros(len(rays.length), dtype=np.bool_) for _ in range(4))
@@ -903,6 +936,8 @@ def feet_on(net: Net, rays: Rays) -> RayFeet:
     places = nearest_places(net.surface, rays.origin[near] * net.size + net.middle)
     row, column = np.nonzero(places.distance <= ON_SURFACE * net.size)
     ray, u, v = near[row], places.u[row, column], places.v[row, column]
+    left = ~(cuts.gone(u, v) > ON_SURFACE)
+    ray, u, v = ray[left], u[left], v[left]
     slope, bend = bending(net, u, v, rays.direction[ray])
     touching = np.abs(slope) < ON_CONTOUR_SINE
     # The second hit of a ray that leaves a curved sheet, and for a ray that touches it the third.

@@ -6,13 +6,16 @@ import pytest
 from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.cusps import singular_lines
+from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.surfaces.function_surface import surface_of_function
 from vectorplot.surfaces.quadrics import Cylinder, Sphere
 from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.tori import Torus
+from vectorplot.surfaces.trimmed import CutSurface
 
 TURN = 2.0 * np.pi
 SQUARE = Domain(-1, 1, -1, 1)
+SLAB = ((0.0, 0.0, 1.0), (0.0, 0.0, -1.0))
 
 
 @pytest.mark.slow
@@ -41,6 +44,31 @@ def test_edge_of_the_swallowtail_has_its_cusp(domain):
     # In space the edge is (-3 v^4, -8 v^3, -6 v^2), with a cusp at v = 0 which is a point of the polyline.
     assert np.linalg.norm(curves.points, axis=1).min() < 1e-12
     assert np.abs(curves.points[:, 2].min() + 1.0) < 1e-9
+
+
+@pytest.mark.slow
+@pytest.mark.hard(49)
+def test_edges_of_cut_surfaces_end_in_the_planes():
+    tail = surface_of_function(lambda u, v: (3 * v**4 + u * v * v, 4 * v**3 + 2 * u * v, u), SQUARE)
+    # Along the edge x = -3 v^4, y = -8 v^3, z = -6 v^2: what is left is -0.4 < v < 0.2, but for z between.
+    cut = CutSurface(tail, (HalfSpaces(((0.0, -1.0, 0.0),), (8.0 * 0.2**3,)), HalfSpaces(SLAB, (-0.06, 0.0054))))
+    cut = CutSurface(cut, (HalfSpaces(((0.0, 1.0, 0.0),), (8.0 * 0.4**3,)),))
+    curves = singular_lines(cut)
+    ends = np.sort(curves.v[np.concatenate([curves.offsets[:-1], curves.offsets[1:] - 1])])
+    assert ends == pytest.approx([-0.4, -0.1, -0.03, 0.03, 0.1, 0.2], abs=1e-9)
+    assert np.abs(curves.u + 6 * curves.v**2).max() < 1e-9
+
+
+def test_a_cut_surface_of_which_no_point_is_left_on_its_singular_lines():
+    """The double lines of a Roman surface, in which its borders lie, are cut away in part."""
+
+    def roman(u, v):
+        return np.sin(2 * u) * np.cos(v) ** 2, np.sin(u) * np.sin(2 * v), np.cos(u) * np.sin(2 * v)
+
+    surface = surface_of_function(roman, Domain(0.0, np.pi, -0.5 * np.pi, 0.5 * np.pi))
+    region = HalfSpaces(((np.sqrt(0.5), 0.0, np.sqrt(0.5)), (0.0, 1.0, 0.0)), (0.449 * np.sqrt(0.5), -0.238))
+    curves = singular_lines(CutSurface(surface, (region,)))
+    assert not region.is_inside(curves.points).any() and (np.diff(curves.offsets) > 0).all()
 
 
 @pytest.mark.slow
