@@ -612,6 +612,9 @@ STEEP = 0.1
 RAY_AROUND = 5e-3
 """Contour and borders on which a point lies are its own up to this distance, as a part of the extent."""
 
+TOUCH = 4.0
+"""So many times as far as rounding may lead from the place where a ray touches a surface its root may be found."""
+
 NEWTON_STEPS = 8
 
 
@@ -625,12 +628,14 @@ class Hiding(NamedTuple):
 
 
 class RayFeet(NamedTuple):
-    """How points lie on a surface, (n,) each: on_contour, on_border; unsure: so near its contour that neither."""
+    """How points lie on a surface, (n,) each: on_contour, on_border; unsure: so near its contour that neither; touch: how
+    far from points of the contour rays may be found to meet the surface where they touch it."""
 
     on_surface: Bools
     on_contour: Bools
     on_border: Bools
     unsure: Bools
+    touch: Floats
 
 
 @dataclass(frozen=True, eq=False)
@@ -880,7 +885,8 @@ def _hits(net: Net, rays: Rays, feet: RayFeet, cuts: _Cuts) -> tuple[Bools, Floa
         there &= ~(gone > 0.0)
         ray, along, steep = ray[there], along[there], steep[there]
         # Beside a cuspidal edge or a self-intersection another sheet may be that near.
-        other = (~feet.on_contour[ray] | steep) & (np.abs(along) > SAME_HIT) & (np.abs(along) <= own[ray])
+        other = (~feet.on_contour[ray] | steep) & (np.abs(along) > SAME_HIT)
+        other = (other | (feet.on_contour[ray] & (np.abs(along) > feet.touch[ray]))) & (np.abs(along) <= own[ray])
         clearance[ray[other]] = 0.0
         free = np.abs(along) > own[ray]
         np.minimum.at(clearance, ray[free], np.abs(along[free]))
@@ -925,14 +931,15 @@ def feet_on(net: Net, rays: Rays, cuts: _Cuts) -> RayFeet:
     from scipy.spatial import cKDTree
 
     on_surface, on_contour, on_border, unsure = (np.zeros(len(rays.length), dtype=np.bool_) for _ in range(4))
+    touch = np.zeros(len(rays.length))
     there = ~is_hole(net.points)
     if not there.any():
-        return RayFeet(on_surface, on_contour, on_border, unsure)
+        return RayFeet(on_surface, on_contour, on_border, unsure, touch)
     tree = cKDTree(net.points[there], balanced_tree=False, compact_nodes=False)
     distance, _ = tree.query(rays.origin)
     near = np.flatnonzero(distance <= 2.0 * net.longest + ZERO_OF_EXTENT)
     if not len(near):
-        return RayFeet(on_surface, on_contour, on_border, unsure)
+        return RayFeet(on_surface, on_contour, on_border, unsure, touch)
     places = nearest_places(net.surface, rays.origin[near] * net.size + net.middle)
     row, column = np.nonzero(places.distance <= ON_SURFACE * net.size)
     ray, u, v = near[row], places.u[row, column], places.v[row, column]
@@ -943,8 +950,10 @@ def feet_on(net: Net, rays: Rays, cuts: _Cuts) -> RayFeet:
     # The second hit of a ray that leaves a curved sheet, and for a ray that touches it the third.
     with np.errstate(divide="ignore", invalid="ignore"):
         second = np.abs(2.0 * slope / bend)
+        double = TOUCH * (np.sqrt(ZERO_OF_EXTENT / np.abs(bend)) + 2.0 * ON_CONTOUR_SINE / np.abs(bend))
     vague = np.where(touching, ~_bends_alike(net, u, v, rays.direction[ray], bend), ~(second > 4.0 * OWN_HIT))
     on_surface[ray], on_contour[ray[touching]], unsure[ray[vague]] = True, True, True
+    np.maximum.at(touch, ray[touching], double[touching])
     domain = net.surface.domain
     for x, low, high, closed in (
         (u, domain.u_start, domain.u_end, domain.closed_u),
@@ -952,7 +961,7 @@ def feet_on(net: Net, rays: Rays, cuts: _Cuts) -> RayFeet:
     ):
         at_end = (np.minimum(x - low, high - x) <= ON_BORDER_OF_DOMAIN * (high - low)) & (not closed)
         on_border[ray[at_end]] = True
-    return RayFeet(on_surface, on_contour, on_border, unsure)
+    return RayFeet(on_surface, on_contour, on_border, unsure, touch)
 
 
 def bending(net: Net, u: Floats, v: Floats, direction: Floats) -> tuple[Floats, Floats]:
