@@ -628,8 +628,8 @@ class Hiding(NamedTuple):
 
 
 class RayFeet(NamedTuple):
-    """How points lie on a surface, (n,) each: on_contour, on_border; unsure: so near its contour that neither; touch: how
-    far from points of the contour rays may be found to meet the surface where they touch it."""
+    """How points lie on a surface, (n,) each: on_contour, on_border; unsure: so near its contour that neither; touch:
+    how far from points of the contour rays may be found to meet the surface where they touch it."""
 
     on_surface: Bools
     on_contour: Bools
