@@ -239,9 +239,10 @@ def refined(net: Net, between: Between, criterion: Criterion, most: int) -> Net:
         count = len(net.vertices.points)
         edges, sides, uses = edges_of(net.triangles, count)
         found, new = found.of(edges[:, 0] << 32 | edges[:, 1])
+        extent = np.ptp(net.vertices.places, axis=0) if count else 0.0
         for some in slices(len(new), SIDES_AT_ONCE):
             own = new[some]
-            found.rows[:, own] = _splits(net, edges[own], uses[own] == 1, between, criterion)
+            found.rows[:, own] = _splits(net, extent, edges[own], uses[own] == 1, between, criterion)
         error_ratio, as_border, part = found.rows
         border = (uses == 1) | _outlines(front, sides, uses)
         error_ratio = np.where(border, np.maximum(error_ratio, as_border), error_ratio)
@@ -311,11 +312,14 @@ def _outlines(front: Bools, sides: Ints, uses: Ints) -> Bools:
     return found
 
 
-def _splits(net: Net, edges: Ints, border: Bools, between: Between, criterion: Criterion) -> Floats:
-    """(3,n) by how many times sides are too coarse, and would be as borders; at which part they are to be split."""
+def _splits(
+    net: Net, extent: Floats | float, edges: Ints, border: Bools, between: Between, criterion: Criterion
+) -> Floats:
+    """(3,n) by how many times sides are too coarse, and would be as borders; at which part they are to be split.
+    extent: of all places."""
     start, end = net.vertices.take(edges[:, 0]), net.vertices.take(edges[:, 1])
     found = np.repeat([[0.0], [0.0], [0.5]], len(edges), axis=1)
-    apart = _apart(net.vertices, edges)
+    apart = _apart(net.vertices.places, extent, edges)
     inside = np.flatnonzero(start.known & end.known & apart)
     if len(inside):
         found[:, inside] = _in_sight(start.take(inside), end.take(inside), border[inside], between, criterion)
@@ -326,11 +330,9 @@ def _splits(net: Net, edges: Ints, border: Bools, between: Between, criterion: C
     return found
 
 
-def _apart(vertices: Vertices, edges: Ints) -> Bools:
+def _apart(places: Floats, extent: Floats | float, edges: Ints) -> Bools:
     """(e,) which sides lead from one place to another one, and not across a jump: the parts of those would be as long
     as the whole."""
-    places = vertices.places
-    extent = np.ptp(places, axis=0) if len(places) else np.zeros(places.shape[1])
     way = np.abs(places[edges[:, 1]] - places[edges[:, 0]])
     return any_component(way > JUMP_OF_DOMAIN * extent)
 

@@ -277,18 +277,21 @@ def _wrapped(domain: Domain, places: Floats) -> Floats:
     return places
 
 
-def first_net(surface: Surface, criterion: Criterion) -> Net:
-    """A grid that has as few columns and rows as it may, but not so few that something between its lines is missed."""
-    ((columns, rows),) = first_counts(Patch(surface, ()), 1, criterion)
+def first_net(surface: Surface, criterion: Criterion, most: int) -> Net:
+    """A grid that has as few columns and rows as it may, but not so few that something between its lines is missed, and
+    no more triangles than most."""
+    ((columns, rows),) = first_counts(Patch(surface, ()), 1, criterion, most)
     return grid_net(surface, columns, rows)
 
 
-def first_counts(patch: Patch, surfaces: int, criterion: Criterion) -> list[tuple[int, int]]:
-    """The columns and rows of the first nets of so many surfaces."""
+def first_counts(patch: Patch, surfaces: int, criterion: Criterion, most: int) -> list[tuple[int, int]]:
+    """The columns and rows of the first nets of so many surfaces, none with more triangles than most."""
     domain = patch.surface.domain
     columns = _enough(lambda count, own: _lines(patch, count, own, True), domain.closed_u, surfaces, criterion)
     rows = _enough(lambda count, own: _lines(patch, count, own, False), domain.closed_v, surfaces, criterion)
-    return list(zip(columns.tolist(), rows.tolist(), strict=True))
+    share = np.minimum(1.0, np.sqrt(most / (2.0 * columns * rows)))
+    counts = [np.maximum((share * count).astype(np.intp), np.minimum(count, USUAL)) for count in (columns, rows)]
+    return list(zip(*(count.tolist() for count in counts), strict=True))
 
 
 def grid_net(surface: Surface, columns: int, rows: int) -> Net:
@@ -565,7 +568,7 @@ def facets(shape: Surface | ImplicitSurface, criterion: Criterion, most: int = U
 def _alone(surface: Surface, criterion: Criterion, most: int) -> Facets:
     """The facets of a parametrised surface by itself."""
     patch = Patch(surface, tuple(poles(surface)))
-    return finished(patch, refined(first_net(surface, criterion), patch, criterion, most))
+    return finished(patch, refined(first_net(surface, criterion, most), patch, criterion, most))
 
 
 def finished(patch: Patch, net: Net) -> Facets:
@@ -799,7 +802,7 @@ def _together(shapes: Sequence[Any], asked: Sequence[Any], most: int) -> list[Fa
     criterion = type(asked[0]).joined(asked)
     single = [Patch(shape, tuple(poles(shape))) for shape in shapes]
     patches = Patches(shapes[0], single[0].poles, StackedSurfaces.of(shapes))
-    counts = first_counts(patches, len(shapes), criterion)
+    counts = first_counts(patches, len(shapes), criterion, most)
     first = [grid_net(shape, *count) for shape, count in zip(shapes, counts, strict=True)]
     if sum(len(net.triangles) for net in first) > MANY * len(shapes):
         nets = [refined(*each, most) for each in zip(first, single, asked, strict=True)]
