@@ -64,6 +64,14 @@ def test_cost_grows_as_the_tolerance_asks() -> None:
     assert np.all(np.diff(np.log10(counts)) > 0.6)
 
 
+@pytest.mark.parametrize("most", [3000, 20_000])
+def test_waves_finer_than_the_budget_are_shown_by_not_many_more_triangles_than_it_has(most: int) -> None:
+    """Cuts where normals seem to jump, as they do between triangles that are too coarse, make some more."""
+    waves = graph(lambda x, y: np.sin(100.0 * x) * np.cos(100.0 * y), Domain(-1.0, 1.0, -1.0, 1.0))
+    found = facets(waves, within(1e-6), most)
+    assert not found.complete and 0.3 * most < found.mesh.face_count <= 3 * most
+
+
 @pytest.mark.slow
 def test_poles_and_apices_are_one_vertex_with_a_normal() -> None:
     ball = facets(Sphere(2.0), within(0.01))

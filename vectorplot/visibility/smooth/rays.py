@@ -399,7 +399,9 @@ def _in_front(
         again[here] = _second_meeting(sheets, own[here], way[here], own_places[here]) * long[here]
         nearby = np.abs(again) < LOCAL_MEETING
         reach = np.where(nearby, 2.0, 0.5) * LOCAL_MEETING
-        front[mine] &= ~(~edge & (np.abs(near) < reach[sample[mine]]) & (apart < 0.05))
+        # Nearer than curvature says the sheet is met again only beside a cuspidal edge: on its other wing.
+        wing = np.abs(again[sample[mine]]) > FOUND * near
+        front[mine] &= ~(~edge & ~wing & (np.abs(near) < reach[sample[mine]]) & (apart < 0.05))
         here = here[nearby[here] & (again[here] > 0.0)]
         into = dot(sheets.inwards(own[here], own_places[here]), way[here]) >= 0.0
         again_at += [here[into], own[here[into]]]
