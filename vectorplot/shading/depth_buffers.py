@@ -441,7 +441,7 @@ class DepthBuffer:
 
     code: (rows, columns) codes of the depths, 0 where there is nothing; triangle: (rows, columns) number in triangles,
     -1 where there is nothing; depth_code: what the codes mean; triangles: what the picture is of; top: the row of the
-    whole picture that is row 0 here.
+    whole picture that is row 0 here; body: (rows, columns) number of the round body in front, -1 where there is none.
     Source: Glaeser, section 7.3.
     """
 
@@ -450,6 +450,7 @@ class DepthBuffer:
     depth_code: DepthCode
     triangles: ScreenTriangles
     top: int = 0
+    body: NDArray[np.int32] | None = None
 
     @property
     def depth(self) -> Floats:
@@ -551,7 +552,7 @@ def strip(
     columns, rows = raster_size(columns, rows)
     if not 0 <= top < bottom <= rows:
         raise InputError(f"rows {top} to {bottom} are no strip of a picture of {rows} rows")
-    code = _finest_code(triangles) if depth_code is None else depth_code
+    code = finest_code(triangles) if depth_code is None else depth_code
     task = _task(triangles, code, columns, top, bottom)
     keys = front_keys(task, np.arange(len(triangles)) if chosen is None else np.flatnonzero(chosen))
     return DepthBuffer(keys >> task.number_bits, _numbers(keys, task.number_bits), code, triangles, top)
@@ -560,7 +561,7 @@ def strip(
 def depth_codes(triangles: ScreenTriangles, columns: int, rows: int) -> tuple[NDArray[np.int64], DepthCode]:
     """(rows, columns) the codes of a depth buffer alone, 0 where there is nothing, and what they mean."""
     columns, rows = raster_size(columns, rows)
-    code = _finest_code(triangles)
+    code = finest_code(triangles)
     task = _task(triangles, code, columns, 0, rows)
     return front_keys(task, np.arange(len(triangles))) >> task.number_bits, code
 
@@ -578,8 +579,11 @@ def layers_before(buffer: DepthBuffer, chosen: Bools) -> tuple[Ints, Ints, NDArr
     return pixel, np.asarray(mask - (key & mask), dtype=np.intp), key >> task.number_bits
 
 
-def _finest_code(triangles: ScreenTriangles) -> DepthCode:
+def finest_code(triangles: ScreenTriangles, others: tuple[float, float] = (np.inf, -np.inf)) -> DepthCode:
+    """The finest code of the depths of triangles, and of others between two limits, that there is room for."""
     low, high = depth_range(triangles)
+    if others[0] <= others[1]:
+        low, high = (min(low, others[0]), max(high, others[1])) if len(triangles) else others
     margin = (high - low) / THINNEST
     bits = min(KEY_BITS - len(triangles).bit_length(), FINEST_BITS)
     return DepthCode.fine(low - margin, high + margin, bits)

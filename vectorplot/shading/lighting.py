@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
@@ -30,6 +30,7 @@ from vectorplot.shading.illumination import (
     towards,
 )
 from vectorplot.shading.palettes import COLOUR_MAP, Colours, palette
+from vectorplot.shading.round_bodies import BodyPoints
 from vectorplot.shading.screen import SceneTriangles
 from vectorplot.shading.shaded_faces import depth_limits, light_colours, unit, view_eye
 from vectorplot.shading.shaded_faces import mesh_face_normals as face_normals
@@ -213,7 +214,10 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
     things takes on their colour in its shadow, as far as they are opaque. On clear things no shadows fall.
     Source: Glaeser, sections 4.5, equations 2 to 7, 6.3, 6.6, 8.5, equations 30 to 33, and 8.6.
     """
-    lit = _lit(triangles, found, lighting)
+    places = found.interpolated(triangles.points)
+    to_eye = towards(places, lighting.eye)
+    faces, normals = _normals(triangles, found, to_eye)
+    lit = _lit(places, to_eye, faces, normals, found.triangle, triangles.item[found.triangle], lighting)
     kept = np.where(lit.gone, SHADOW_SHARE, 1.0)
     colours = _colours(lighting, lighting.palette[lit.item], lit, kept, np.arange(len(found)))
     for casters in lighting.clear:
@@ -229,14 +233,22 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
     return ShadedPoints(lit.places, lit.faces, np.rint(colours).astype(np.uint8))
 
 
-def _lit(triangles: SceneTriangles, found: VisiblePoints, lighting: Lighting) -> _Lit:
-    """What visible points get of all lights."""
-    places = found.interpolated(triangles.points)
-    to_eye = towards(places, lighting.eye)
-    faces, normals = _normals(triangles, found, to_eye)
-    item = triangles.item[found.triangle]
+def shaded_bodies(found: BodyPoints, lighting: Lighting) -> NDArray[np.uint8]:
+    """(m, 3) the colours of points of round bodies, on which no shadows fall."""
+    to_eye = towards(found.places, lighting.eye)
+    none = np.full(len(found.item), -1)
+    unshadowed = replace(lighting, blocked=())
+    lit = _lit(found.places, to_eye, found.normals, found.normals, none, found.item, unshadowed)
+    kept = np.ones(lit.given.shape)
+    return np.rint(_colours(lighting, lighting.palette[lit.item], lit, kept, np.arange(len(none)))).astype(np.uint8)
+
+
+def _lit(
+    places: Floats, to_eye: Floats, faces: Floats, normals: Floats, triangle: Ints, item: Ints, lighting: Lighting
+) -> _Lit:
+    """What points get of all lights: on faces, and on the surface they stand for, with such normals."""
     receives = lighting.receives[item]
-    shape = (len(lighting.lights), len(found))
+    shape = (len(lighting.lights), len(places))
     given, gone, facing = np.zeros(shape), np.zeros(shape, dtype=np.bool_), np.zeros(shape, dtype=np.bool_)
     for number, light in enumerate(lighting.lights):
         to_light = towards(places, homogeneous_light(light))
@@ -245,13 +257,13 @@ def _lit(triangles: SceneTriangles, found: VisiblePoints, lighting: Lighting) ->
         facing[number] = alpha > 0.0
         if lighting.blocked:
             asked = np.flatnonzero(facing[number] & receives)
-            dark = asked[lighting.blocked[number](places[asked], faces[asked], found.triangle[asked])]
+            dark = asked[lighting.blocked[number](places[asked], faces[asked], triangle[asked])]
             share[dark] = _matt_shares(lighting, item[dark], alpha[dark])
             gone[number, dark] = True
         given[number] = share * fading_factors(light, lighting.reach[number], places.T)
     low, high = lighting.depths
     cue = depth_cue(places[:, 2], low, high - low)
-    return _Lit(places, faces, found.triangle, item, given, gone, facing, cue)
+    return _Lit(places, faces, triangle, item, given, gone, facing, cue)
 
 
 def _colours(lighting: Lighting, own: Ints, lit: _Lit, kept: Floats, which: Ints) -> Floats:

@@ -12,8 +12,9 @@ from vectorplot.geometry.algebra import linear_solution, matmul
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import norm
-from vectorplot.shading.depth_buffers import CoplanarFaces, DepthBuffer, layers_before, ranked, strip
-from vectorplot.shading.lighting import Lighting, points_in_pixels, shaded_points, visible_points
+from vectorplot.shading.depth_buffers import CoplanarFaces, DepthBuffer, finest_code, layers_before, ranked, strip
+from vectorplot.shading.lighting import Lighting, points_in_pixels, shaded_bodies, shaded_points, visible_points
+from vectorplot.shading.round_bodies import ScreenBodies, body_points, front_bodies
 from vectorplot.shading.screen import (
     HalfSpace,
     SceneTriangles,
@@ -45,7 +46,7 @@ class Picture:
     opacity (i,) and mirror (i,) of every item; outer_side (i,): 1 and -1 for those of which only the outside is seen,
     wound as it should be or inside out, 0 for others; coplanar: faces in one plane; background (3,); points_at_once: so
     many points are shaded together; every (i,): of each transparent item one of so many pixels is set, 0 where all are
-    blended, and a pixel is door samples wide.
+    blended, and a pixel is door samples wide; bodies: opaque round bodies, of which there are no triangles.
     """
 
     triangles: SceneTriangles
@@ -63,6 +64,7 @@ class Picture:
     points_at_once: int = POINTS_AT_ONCE
     every: Ints | None = None
     door: int = 1
+    bodies: ScreenBodies | None = None
 
     @property
     def shaded_at_once(self) -> int:
@@ -96,9 +98,18 @@ def picture_of(
 
 
 def opaque_buffer(picture: Picture, top: int, bottom: int) -> DepthBuffer:
-    """The depth buffer of the opaque triangles in the rows from top to bottom (exclusive)."""
+    """The depth buffer of the opaque triangles and the round bodies in the rows from top to bottom (exclusive)."""
     chosen = None if (picture.opacity >= 1.0).all() else picture.opaque
-    return strip(picture.screen, picture.columns, picture.rows, top, bottom, chosen=chosen)
+    if picture.bodies is None:
+        return strip(picture.screen, picture.columns, picture.rows, top, bottom, chosen=chosen)
+    depths = finest_code(picture.screen, picture.bodies.depths)
+    found = strip(picture.screen, picture.columns, picture.rows, top, bottom, depth_code=depths, chosen=chosen)
+    code, body = front_bodies(picture.bodies, depths, picture.columns, top, bottom)
+    nearer = code > found.code
+    triangle = np.where(nearer, np.int32(-1), found.triangle)
+    return replace(
+        found, code=np.where(nearer, code, found.code), triangle=triangle, body=np.where(nearer, body, np.int32(-1))
+    )
 
 
 def shaded(picture: Picture, buffer: DepthBuffer) -> Colours:
@@ -113,6 +124,9 @@ def shaded(picture: Picture, buffer: DepthBuffer) -> Colours:
         found = visible_points(piece, picture.homogeneous, picture.triangles.corners)
         made = shaded_points(picture.triangles, found, picture.lighting)
         colours[found.pixel + part.start * columns] = made.colours
+        if picture.bodies is not None and buffer.body is not None:
+            met = body_points(picture.bodies, buffer.body[part], piece.top)
+            colours[met.pixel + part.start * columns] = shaded_bodies(met, picture.lighting)
 
     for _ in mapped(shade, slices(rows, step)):
         pass

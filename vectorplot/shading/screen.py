@@ -309,6 +309,11 @@ class SceneTriangles:
     def __len__(self) -> int:
         return len(self.corners)
 
+    def take(self, which: Bools) -> SceneTriangles:
+        """Some of them, with all points."""
+        normals = replace(self.normals, index=self.normals.index[which])
+        return replace(self, corners=self.corners[which], face=self.face[which], item=self.item[which], normals=normals)
+
 
 def scene_triangles(view: View, normals: Sequence[TrueNormals | None], crease_angle_deg: float) -> SceneTriangles:
     """The faces of a view; normals and crease angle as of view_normals."""
