@@ -209,7 +209,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
         if any(item.dims_light for item in scene.items):
             stages.append(Stage("transparent shadows", "items are transparent"))
     stages.append(Stage("coplanar", "which of the faces in one plane is seen"))
-    stages.append(Stage("depth", "which triangle is in front in every pixel"))
+    stages.append(Stage("depth", "which triangle or round body is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
     if any(item.material.is_mirror for item in scene.items):
         stages.append(Stage("mirrors", "what mirrors show"))

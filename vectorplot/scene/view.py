@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.boxes import overlapping_pairs
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.mesh import Mesh, next_positions
@@ -374,10 +375,15 @@ def _keys_of_turned(scene: Scene, keys: list[Hashable]) -> list[Hashable]:
     # Boxes are known to a thousandth.
     near = BOX_ERROR * (boxes[:, 3:] - boxes[:, :3]).max(axis=1)
     first = dict(zip(names, names, strict=True))
-    for k, surface in enumerate(surfaces):
-        others = np.flatnonzero((np.abs(boxes[:k] - boxes[k]) <= near[k]).all(axis=1))
-        same = (m for m in others.tolist() if first[names[m]] == names[m] and are_in_one_place(surfaces[m], surface))
-        first[names[k]] = names[next(same, k)]
+    known = np.flatnonzero(np.isfinite(near))
+    low, high = ((boxes[known, :3] + side * near[known, None]).T for side in (-1.0, 1.0))
+    pairs = np.stack(overlapping_pairs(low, high))
+    one, two = known[pairs[:, np.lexsort(pairs)]]
+    close = (np.abs(boxes[one] - boxes[two]) <= near[two, None]).all(axis=1)
+    # By the second one: of several that are in its place the first counts.
+    for m, k in zip(one[close].tolist(), two[close].tolist(), strict=True):
+        if first[names[k]] == names[k] and first[names[m]] == names[m] and are_in_one_place(surfaces[m], surfaces[k]):
+            first[names[k]] = names[m]
     return [first.get(key, key) for key in keys]
 
 

@@ -75,7 +75,7 @@ class RoundBodies(Elements):
         return self._placed(unit)
 
     def outlines(self, projection: Projection) -> Floats:
-        """(k,3) points that span the outline of each, all in the world: on the contour, where they are balls, and on the
+        """(k,3) points that span the outline of each, all in the world: on the contour where they are balls, and on the
         rims of ends."""
         eye = projection.world_eye
         angle = 2.0 * np.pi * np.arange(AROUND) / AROUND
@@ -233,7 +233,7 @@ def screen_bodies(bodies: RoundBodies, system: CoordinateSystem, columns: int, r
 
 
 def _half_widths(form: Floats) -> Floats:
-    """(n,2,2) how far the outlines of balls reach from their middles in columns and rows, to smaller and larger ones."""
+    """(n,2,2) how far outlines of balls reach from their middles in columns and rows, to smaller and larger ones."""
     x, y, z, one = range(4)
     across = [form[:, z, k] for k in (x, y, one)]
 
@@ -339,8 +339,8 @@ def _between_ends(
     high: Floats,
 ) -> tuple[Floats, Floats, Ints, Bools]:
     """Of bodies (m,) with ends, from where to where sight lines at x, y are inside, by which part they enter, and
-    whether they do. a, b, c, square: of the quadratic that is negative within the mantle, as depth grows; low, high: its
-    roots."""
+    whether they do. a, b, c, square: of the quadratic that is negative within the mantle, as depth grows; low, high:
+    its roots."""
     first, last = np.full(len(of), -np.inf), np.full(len(of), np.inf)
     entered, open_ = np.zeros(len(of), dtype=np.intp), np.ones(len(of), dtype=np.bool_)
     for number, plane in enumerate(screen.ends):
