@@ -312,7 +312,9 @@ def _passings(
     roots = roots_along(own, facing, values)
     at, passed = own.at(roots.chord, roots.part), sheet[numbers[own.owner[roots.chord]]]
     chord = _chords(own, numbers, curves, roots.chord)
-    return _passed(view, sheets, passed, at.points, places(at), roots.falls, chord, roots.part)
+    before, ahead = (places(own.at(roots.chord, roots.part + side)) for side in (-ASIDE, ASIDE))
+    edge = dot(sheets.normals(passed, before), sheets.normals(passed, ahead)) < 0.0
+    return _passed(view, sheets, passed, at.points, places(at), roots.falls, edge, ahead, chord, roots.part)
 
 
 def _chords(own: Curves, numbers: Ints, curves: Curves, chord: Ints) -> Ints:
@@ -322,13 +324,26 @@ def _chords(own: Curves, numbers: Ints, curves: Curves, chord: Ints) -> Ints:
 
 
 def _passed(
-    view: View, sheets: Sheets, number: Ints, points: Floats, places: Floats, falls: Bools, chord: Ints, part: Floats
+    view: View,
+    sheets: Sheets,
+    number: Ints,
+    points: Floats,
+    places: Floats,
+    falls: Bools,
+    edge: Bools,
+    ahead: Floats,
+    chord: Ints,
+    part: Floats,
 ) -> Events:
     """Near the contour the sight line meets the sheet once more, at twice facing by bend: in front of the curve where
-    that is positive; unless the sheet ends there."""
+    that is positive; where curves pass a cuspidal edge (edge), to places ahead of them, one of its wings is in front of
+    the other. Unless the sheet ends there."""
     way = sight_lines.sight(view, points)
     bend = sheets.bends(number, places, way)
     change = np.where(falls, -1, 1) * np.sign(bend).astype(np.intp)
+    over = np.flatnonzero(edge)
+    nearer = dot(np.nan_to_num(sheets.wings(number[over], places[over], ahead[over])), way[over])
+    change[over] = -np.sign(nearer).astype(np.intp)
     change[dot(sheets.inwards(number, places), way) < 0.0] = 0
     return Events(chord, part, sheets.item[number], change)
 

@@ -42,6 +42,9 @@ from vectorplot.tolerances import (
     SAME_DIRECTION_SINE,
 )
 
+BESIDE_EDGE = 1.0 / 256.0
+"""Part of the domain from a cuspidal edge, at which its wings are compared."""
+
 
 class OnSheet(Protocol):
     """What is known at places (k,3) on a smooth surface, in the view's coordinates.
@@ -73,6 +76,11 @@ class OnSheet(Protocol):
 
     def turnings(self, places: Floats) -> Floats:
         """(k,3) the direction to which both wings of a cuspidal edge turn, at places on it."""
+        ...
+
+    def wings(self, places: Floats, ahead: Floats) -> Floats:
+        """(k,3) to which side the wing of a cuspidal edge on which other places lie, ahead, is beside the other one, at
+        places on the edge; 0 where that is not known."""
         ...
 
     def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
@@ -246,9 +254,26 @@ class OnParametrised(ABC):
     def turnings(self, places: Floats) -> Floats:
         """(k,3) second derivatives along the direction in which the point stands still."""
         surface = self.surface_at(places)
-        u, v = inside(surface.domain, places)
-        along_u, along_v = surface.partials(u, v)
-        uu, uv, vv = surface.second_partials(u, v)
+        uu, uv, vv = surface.second_partials(*inside(surface.domain, places))
+        a, b = (part[:, None] for part in self._standing(places))
+        return np.asarray(uu * a * a + 2.0 * uv * a * b + vv * b * b)
+
+    def wings(self, places: Floats, ahead: Floats) -> Floats:
+        """(k,3) along the normals in the edge, the difference of points on both wings as far from it."""
+        width, height = self.surface_at(places).domain.size
+        a, b = self._standing(places)
+        size = np.maximum(np.hypot(a / width, b / height), LEAST_DIVISOR) / BESIDE_EDGE
+        step = from_components(a / size, b / size, 0.0)
+        normals, others = self.normals(places + step), self.normals(places - step)
+        # On both sides of the edge the normals of a parametrisation oppose each other.
+        middle = normals - others
+        lift = dot(self.points(places + step) - self.points(places - step), middle)
+        return np.asarray((np.sign(dot(normals, self.normals(ahead))) * lift)[:, None] * middle)
+
+    def _standing(self, places: Floats) -> tuple[Floats, Floats]:
+        """(k,) each: u and v of the direction in which the point stands still, at places on cuspidal edges."""
+        surface = self.surface_at(places)
+        along_u, along_v = surface.partials(*inside(surface.domain, places))
         # Both partials have one direction: that of a x_u + b x_v = 0, in proportion to the domain.
         width, height = surface.domain.size
         along_u, along_v = along_u * np.asarray(width)[..., None], along_v * np.asarray(height)[..., None]
@@ -256,8 +281,7 @@ class OnParametrised(ABC):
         product = dot(along_u, along_v)
         a = np.where(long, -product, dot(along_v, along_v))
         b = np.where(long, dot(along_u, along_u), -product)
-        a, b = (a * width)[:, None], (b * height)[:, None]
-        return np.asarray(uu * a * a + 2.0 * uv * a * b + vv * b * b)
+        return a * width, b * height
 
     def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
         """(k,) and (k,3) one Newton step for where lines meet the sheet; and the points (k,3) at the places."""
@@ -644,6 +668,10 @@ class ImplicitSheet:
         """(k,3) into both wings of cuspidal edges."""
         return CuspidalEdges(self.surface, 1.0).turnings(places)
 
+    def wings(self, places: Floats, ahead: Floats) -> Floats:
+        """(k,3) zero."""
+        return np.zeros((len(places), 3))
+
     def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
         """(k,) and (k,3) one Newton step along lines, from the points of them that are nearest to places; and the
         points (k,3) of the sheet at these."""
@@ -862,6 +890,11 @@ class Sheets:
     def turnings(self, number: Ints, places: Floats) -> Floats:
         """(k,3) the direction to which both wings of cuspidal edges turn, at places on them."""
         return self._vectors(number, places, lambda sheet, which, at: sheet.turnings(at))
+
+    def wings(self, number: Ints, places: Floats, ahead: Floats) -> Floats:
+        """(k,3) to which side the wing on which places ahead (k,3) lie is beside the other one."""
+        ahead = self.places(number, ahead)
+        return self._vectors(number, places, lambda sheet, which, at: sheet.wings(at, ahead[which]))
 
     def missed(self, number: Ints, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
         """(k,) and (k,3): one Newton step for where lines points + t ways meet the sheets: t, and the places there; and

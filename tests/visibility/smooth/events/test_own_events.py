@@ -71,6 +71,23 @@ def test_a_border_goes_behind_its_sheet_where_that_goes_on(end: float, slope: fl
     assert found.change.tolist() == [int(end * slope > 0.0)]
 
 
+@pytest.mark.parametrize("side", [1.0, -1.0])
+@pytest.mark.parametrize("ahead", [1.0, -1.0])
+@pytest.mark.parametrize("slope", [0.0, 0.4, -0.4])
+def test_a_line_over_a_cuspidal_edge_goes_from_one_wing_to_the_other(side: float, ahead: float, slope: float) -> None:
+    """Of the wings y = x^1.5 and y = -x^1.5 that one is in front which is on the eye's side."""
+    wings = surface_of_function(lambda u, v: (u * u, u**3, v), Domain(-1.0, 1.0, -1.0, 1.0))
+    scene = Scene((Item("wings", wings),))
+    view = look(scene, Camera((0.3, side, 0.4), (0.0, 0.0, 0.0), up=(0.0, 0.0, 1.0), parallel=True))
+    (sheet,) = sheets_of_parametrised(view, wings, 0, True)
+    u = ahead * np.linspace(-0.43, 0.5, 8)
+    places = np.stack([u, 0.1 + slope * u, np.zeros(8)], axis=1)
+    line = replace(on_ball(places)[2], points=sheet.points(places), families=(ParameterCurves(sheet, 0),))
+    sheets = Sheets((sheet,))
+    found = own_events(view, sheets, line, no_stretches(), facing_of(view, sheets, line), np.zeros(1, dtype=np.bool_))
+    assert found.change.tolist() == [-int(side * ahead)]
+
+
 def test_the_equator_is_edge_on_and_a_parallel_circle_not() -> None:
     for latitude, expected in ((0.0, True), (0.2, False)):
         u = np.linspace(0.0, 2.0, 9)
