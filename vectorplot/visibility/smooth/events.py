@@ -341,11 +341,22 @@ def _passed(
     way = sight_lines.sight(view, points)
     bend = sheets.bends(number, places, way)
     change = np.where(falls, -1, 1) * np.sign(bend).astype(np.intp)
-    over = np.flatnonzero(edge)
-    nearer = dot(np.nan_to_num(sheets.wings(number[over], places[over], ahead[over])), way[over])
-    change[over] = -np.sign(nearer).astype(np.intp)
     change[dot(sheets.inwards(number, places), way) < 0.0] = 0
+    over = np.flatnonzero(edge)
+    change[over] = _wings_passed(sheets, number[over], places[over], ahead[over], way[over])
     return Events(chord, part, sheets.item[number], change)
+
+
+def _wings_passed(sheets: Sheets, number: Ints, places: Floats, ahead: Floats, way: Floats) -> Ints:
+    """(k,) 1 where the wing of a cuspidal edge ahead is behind the other one, as seen along ways to the eye, -1 where it
+    is in front; 0 where the sheet ends before the sight lines meet the nearer one."""
+    across = np.nan_to_num(sheets.wings(number, places, ahead))
+    normals = sheets.normals(number, ahead)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        far = np.nan_to_num(dot(across, normals) / dot(way, normals), posinf=0.0, neginf=0.0)
+    nearer = np.sign(far)
+    beside = nearer[:, None] * (far[:, None] * way - across)
+    return np.where(dot(sheets.inwards(number, ahead), beside) < 0.0, 0, -nearer).astype(np.intp)
 
 
 def _cusps(view: View, sheets: Sheets, curves: Curves, numbers: Ints) -> Events:

@@ -79,8 +79,8 @@ class OnSheet(Protocol):
         ...
 
     def wings(self, places: Floats, ahead: Floats) -> Floats:
-        """(k,3) to which side the wing of a cuspidal edge on which other places lie, ahead, is beside the other one, at
-        places on the edge; 0 where that is not known."""
+        """(k,3) short ways from the one wing of a cuspidal edge to that on which other places lie, ahead, at places on
+        the edge; 0 where that is not known."""
         ...
 
     def missed(self, points: Floats, ways: Floats, places: Floats) -> tuple[Floats, Floats, Floats]:
@@ -259,16 +259,13 @@ class OnParametrised(ABC):
         return np.asarray(uu * a * a + 2.0 * uv * a * b + vv * b * b)
 
     def wings(self, places: Floats, ahead: Floats) -> Floats:
-        """(k,3) along the normals in the edge, the difference of points on both wings as far from it."""
+        """(k,3) from points of one wing to those of the other that are as far from the edge."""
         width, height = self.surface_at(places).domain.size
         a, b = self._standing(places)
         size = np.maximum(np.hypot(a / width, b / height), LEAST_DIVISOR) / BESIDE_EDGE
         step = from_components(a / size, b / size, 0.0)
-        normals, others = self.normals(places + step), self.normals(places - step)
-        # On both sides of the edge the normals of a parametrisation oppose each other.
-        middle = normals - others
-        lift = dot(self.points(places + step) - self.points(places - step), middle)
-        return np.asarray((np.sign(dot(normals, self.normals(ahead))) * lift)[:, None] * middle)
+        turned = np.sign(dot(self.normals(places + step), self.normals(ahead)))
+        return np.asarray(turned[:, None] * (self.points(places + step) - self.points(places - step)))
 
     def _standing(self, places: Floats) -> tuple[Floats, Floats]:
         """(k,) each: u and v of the direction in which the point stands still, at places on cuspidal edges."""
@@ -892,7 +889,7 @@ class Sheets:
         return self._vectors(number, places, lambda sheet, which, at: sheet.turnings(at))
 
     def wings(self, number: Ints, places: Floats, ahead: Floats) -> Floats:
-        """(k,3) to which side the wing on which places ahead (k,3) lie is beside the other one."""
+        """(k,3) short ways from one wing of cuspidal edges to that on which places ahead (k,3) lie."""
         ahead = self.places(number, ahead)
         return self._vectors(number, places, lambda sheet, which, at: sheet.wings(at, ahead[which]))
 

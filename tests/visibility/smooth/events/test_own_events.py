@@ -88,6 +88,23 @@ def test_a_line_over_a_cuspidal_edge_goes_from_one_wing_to_the_other(side: float
     assert found.change.tolist() == [-int(side * ahead)]
 
 
+@pytest.mark.parametrize("rise", [-0.3, 0.3])
+@pytest.mark.parametrize("pitch", [-0.8, 0.8])
+@pytest.mark.parametrize("end", [1.0, -1.0])
+def test_a_border_over_a_cuspidal_edge_is_hidden_where_the_sheet_goes_on(rise: float, pitch: float, end: float) -> None:
+    """Sight lines meet the nearer wing higher by what they rise from wing to wing, less by what the border does."""
+    wings = surface_of_function(lambda u, v: (u * u, u**3, v + pitch * u**3), Domain(-1.0, 1.0, -1.0, 1.0))
+    scene = Scene((Item("wings", wings),))
+    view = look(scene, Camera((0.3, 1.0, rise), (0.0, 0.0, 0.0), up=(0.0, 0.0, 1.0), parallel=True))
+    (sheet,) = sheets_of_parametrised(view, wings, 0, True)
+    places = np.stack([np.linspace(-0.43, 0.5, 8), np.full(8, end), np.zeros(8)], axis=1)
+    border = replace(on_ball(places)[2], points=sheet.points(places), families=(ParameterCurves(sheet, 0),))
+    sheets = Sheets((sheet,))
+    none = np.zeros(1, dtype=np.bool_)
+    found = own_events(view, sheets, border, no_stretches(), facing_of(view, sheets, border), none)
+    assert found.change.tolist() == [-int(end * (rise - pitch) < 0.0)]
+
+
 def test_the_equator_is_edge_on_and_a_parallel_circle_not() -> None:
     for latitude, expected in ((0.0, True), (0.2, False)):
         u = np.linspace(0.0, 2.0, 9)
