@@ -348,8 +348,8 @@ def _passed(
 
 
 def _wings_passed(sheets: Sheets, number: Ints, places: Floats, ahead: Floats, way: Floats) -> Ints:
-    """(k,) 1 where the wing of a cuspidal edge ahead is behind the other one, as seen along ways to the eye, -1 where it
-    is in front; 0 where the sheet ends before the sight lines meet the nearer one."""
+    """(k,) 1 where the wing of a cuspidal edge ahead is behind the other one, as seen along ways to the eye, -1 where
+    it is in front; 0 where the sheet ends before the sight lines meet the nearer one."""
     across = np.nan_to_num(sheets.wings(number, places, ahead))
     normals = sheets.normals(number, ahead)
     with np.errstate(invalid="ignore", divide="ignore"):
