@@ -6,6 +6,7 @@ Each case runs in a process of its own, so that its peak memory is its own.
 
 from __future__ import annotations
 
+import math
 import os
 import subprocess
 import sys
@@ -78,3 +79,44 @@ def test_three_lights_trapezoids_exact_shadows_and_supersampling():
     measured(**case, lights=1, samples=1, shadows="exact")
     _, peak = measured(**case, lights=1, samples=2, shadows="buffer")
     assert peak < 1500.0
+
+
+BALLS = """
+import time
+import numpy as np
+import vectorplot as vp
+from vectorplot import surfaces
+
+count = {count}
+random = np.random.default_rng(0)
+places, radius = random.uniform(-1.0, 1.0, (count, 3)), 0.5 * count ** (-1.0 / 3.0)
+balls = [surfaces.Sphere(radius, centre=tuple(place)) for place in places]
+scene = vp.Scene(tuple(vp.Item(f"BALL {{k}}", ball, ("red", "blue", "gray")[k % 3]) for k, ball in enumerate(balls)))
+vp.render(vp.Scene(scene.items[:2]), size=(64, 64))
+start = time.process_time()
+image = vp.render(scene, size=(1280, 960), samples=1)
+seconds = time.process_time() - start
+# Bare: one square root for each pixel that shows a ball.
+seen = int((image.pixels != 255).any(axis=2).sum())
+start = time.process_time()
+np.sqrt(random.random(seen))
+bare = time.process_time() - start
+with open("/proc/self/status") as status:
+    peak = next(int(line.split()[1]) / 1024.0 for line in status if line.startswith("VmHWM"))
+ratio = f"{{seconds / bare:.0f}} times a root a pixel"
+print(f"{{count}} balls, {{seen}} pixels: {{seconds:.2f}} s, {{ratio}}, {{peak:.0f}} MB")
+print(seconds, peak)
+"""
+
+
+def test_balls_in_closed_form_and_how_that_grows():
+    seconds = []
+    for count in (300, 3000, 30_000):
+        run = subprocess.run(
+            [sys.executable, "-c", BALLS.format(count=count)], capture_output=True, text=True, check=True
+        )
+        text, numbers = run.stdout.strip().rsplit("\n", 1)
+        time, peak = map(float, numbers.split())
+        print(text + (f", exponent {math.log10(time / seconds[-1]):.2f}" if seconds else ""))
+        seconds.append(time)
+        assert peak < 1500.0
