@@ -10,6 +10,7 @@ from support.scene_rays import faces_of, lacking, page_rays
 
 import vectorplot as vp
 from vectorplot import surfaces
+from vectorplot.geometry.polylines import segments
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene import Page
@@ -86,7 +87,8 @@ def test_strokes_lie_closer_in_shadows() -> None:
     for shift in np.array([(1, 0), (-1, 0), (0, 1), (0, -1)]) * 0.7:
         _, there, other = seen_items(town, places + shift)
         sure &= (there == face) & (lacking(faces, town, there, other, other - eye)[0] == dark)
-    tree = shapely.STRtree(shapely.linestrings(strokes.points.reshape(-1, 2, 2)))
+    parts = segments(strokes)
+    tree = shapely.STRtree(shapely.linestrings(strokes.points[parts]))
 
     def farthest(some: np.ndarray) -> float:
         spots = shapely.points(places[some])
