@@ -67,7 +67,7 @@ from vectorplot.shading.shaded_faces import (
     shows_inside,
 )
 from vectorplot.shading.shadow_rays import blocked_exactly
-from vectorplot.tolerances import HATCH_GAP_MM, NEAR_OF_DISTANCE, SAME_PLANE_SINE
+from vectorplot.tolerances import HATCH_GAP_MM, NEAR_OF_DISTANCE, ROUNDING, SAME_PLANE_SINE
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Segments, visible_parts
 from vectorplot.visibility.polyhedra.lines import inside, near_plane, window_planes
@@ -88,13 +88,15 @@ TONES = 64
 class Tone:
     """How dark the faces of a view look.
 
-    lighting: what they are shaded with; seen (f,): which of them can be seen; turned (l,f): whether the side of a face
+    lighting: what they are shaded with; seen (f,): which of them can be seen; crumbs (f,): which are so small that only
+    what they look like together counts; turned (l,f): whether the side of a face
     that is seen is turned to each light that casts shadows, so that it may lack it.
     """
 
     view: View
     lighting: Lighting
     seen: Bools
+    crumbs: Bools
     turned: Bools
 
     @cached_property
@@ -144,11 +146,11 @@ class Tone:
 
     @cached_property
     def values(self) -> Floats:
-        """(3+2l,c) at the corners of faces their normals, zero on faces of one shade each, and for these what lights
+        """(3+2l,c) at the corners of faces their normals, zero on faces of one shade each, and for crumbs what lights
         give: the mean, by area, of those around the corner."""
         normals = np.where(np.repeat(self.smooth, self.view.face_sizes), self.lighting.normals, 0.0)
         lights, corners = len(self.lighting.lights), self.view.corners
-        flat = np.flatnonzero(~self.smooth & self.seen)
+        flat = np.flatnonzero(self.crumbs)
         means = np.zeros((2 * lights, len(corners)))
         if len(flat):
             given, (area, _, _) = self.shares_at(np.zeros((3, len(flat))), flat), newell(self.view, flat)
@@ -169,7 +171,7 @@ class Tone:
         bit = np.arange(len(given))[:, None]
         given = np.where((lacking >> bit) & 1 == 1, matt, given)
         shade = np.atleast_2d(shadow_shades(given, self._intensity, lacking, AMBIENT))
-        flat = ~self.smooth[face]
+        flat = ~(self.smooth | self.crumbs)[face]
         shade[:, flat] = shade_numbers(shade[:, flat], TONES) / (TONES - 1.0)
         item = self.view.shown_item[face]
         ramp = self._ramps[:, item]
@@ -229,8 +231,9 @@ class Pieces(Elements):
 
     start, end (3,n): in the view; depths (2,n): how far these are from the eye, where lines are straight on the page,
     or 1; begin, stop: where along its line each begins and ends, in mm; face; line: its number; family: of which lines
-    that number is; threshold: what has to be darker is drawn; lacking: the lights that a place has to lack, -1 whatever
-    it lacks; shares (2l,n) and shares_end: what lights give to the ends, as of Tone.
+    that number is; spacing: how far these are apart, in mm; threshold: what has to be darker is drawn; lacking: the
+    lights that a place has to lack, -1 whatever it lacks; window: darkness is its mean over so many mm; pen: its width
+    in mm; shares (2l,n) and shares_end: what lights give to the ends, as of Tone.
     """
 
     start: Floats = field(metadata=IN_COLUMNS)
@@ -241,8 +244,11 @@ class Pieces(Elements):
     face: Ints
     line: Ints
     family: Ints
+    spacing: Floats
     threshold: Floats
     lacking: Ints
+    window: Floats
+    pen: Floats
     shares: Floats = field(metadata=IN_COLUMNS)
     shares_end: Floats = field(metadata=IN_COLUMNS)
 
@@ -337,9 +343,12 @@ def _between(one: Floats, other: Floats, part: Floats) -> Floats:
 
 # The lines that may be drawn: of plain faces those of each shade that they can have, of others all.
 
-CRUMB = 4.0
-"""Planes of one shade that are smaller, in squares of the distance between lines, have no strokes of their own: they
-are shaded with those around them."""
+CRUMB = 16.0
+"""Smaller planes, in squares of the distance between lines, say nothing one by one where there are many of them: their
+strokes would be shorter than three distances."""
+
+MANY_CRUMBS = 64
+"""So many small planes make the surface of an item rough; fewer are faces of something small."""
 
 WHATEVER = -1
 """What pieces lack that are drawn whatever lights they lack, as long as it is dark enough."""
@@ -372,21 +381,14 @@ class HatchedScene:
             page = _page_scan(self.view, self.placement, outlines, angle_of(hatching, family))
             plain = np.ones(len(outlines), dtype=np.bool_)
             if tone is not None:
-                plain = self._plain(tone, outlines, hatching.spacing_mm)
-            for lay, which in ((self._plain_lines, plain), (self._varied_lines, ~plain)):
-                part = lay(tone, outlines, page, np.flatnonzero(which), hatching, family, first)
-                first = max(first, int(part.family.max(initial=-1)) + 1)
-                found.append(part)
+                plain = ~(tone.smooth | tone.crumbs)[outlines.face]
+            parts = [self._plain_lines(tone, outlines, page, np.flatnonzero(plain), hatching, family)]
+            if tone is not None:
+                parts.append(self._varied_lines(tone, outlines, page, np.flatnonzero(~plain), hatching, family))
+            for part in parts:
+                found.append(replace(part, family=first + part.family))
+                first += int(part.family.max(initial=-1)) + 1
         return found
-
-    def _plain(self, tone: Tone, outlines: FaceOutlines, spacing_mm: float) -> Bools:
-        """(n,) the faces in planes of one shade that are large enough for strokes of their own."""
-        x, y = self.placement.on_page(self.view.image_of(outlines.points)).T
-        after = ragged.following(outlines.offsets)
-        area = 0.5 * np.abs(np.add.reduceat(x * y[after] - x[after] * y, outlines.offsets[:-1]))
-        plane = tone.lighting.plane[outlines.face]
-        large = np.bincount(plane, area) >= CRUMB * spacing_mm * spacing_mm
-        return np.asarray(large[plane] & ~tone.smooth[outlines.face])
 
     def _plain_lines(
         self,
@@ -396,7 +398,6 @@ class HatchedScene:
         which: Ints,
         hatching: Hatching,
         family: int,
-        first: int,
     ) -> Pieces:
         """Lines evenly apart on outlines which (n,), for each of the shades that they can have."""
         lacking, dark = np.full(len(which), WHATEVER), np.ones(len(which))
@@ -412,29 +413,23 @@ class HatchedScene:
         laid = _laid(outlines, scan, which, spacing, np.full(len(which), np.inf))
         group = np.unique(spacing, return_inverse=True)[1].ravel() * (int(sheet.max(initial=0)) + 1) + sheet[which]
         none = np.zeros((self.share_rows, len(laid.row)))
-        always = np.full(len(laid.row), -1.0)
-        return _pieces(outlines, laid, which, first + group[laid.row], always, lacking[laid.row], none, none)
+        zero = none.sum(axis=0)
+        rest = spacing[laid.row], zero - 1.0, lacking[laid.row], zero, zero + hatching.width_mm
+        return _pieces(outlines, laid, which, group[laid.row], *rest, none, none)
 
     def _varied_lines(
-        self,
-        tone: Tone | None,
-        outlines: FaceOutlines,
-        page: Scan,
-        which: Ints,
-        hatching: Hatching,
-        family: int,
-        first: int,
+        self, tone: Tone, outlines: FaceOutlines, page: Scan, which: Ints, hatching: Hatching, family: int
     ) -> Pieces:
         """Lines on outlines which (n,), each with the darkness from which on it is drawn."""
         every = np.ones(len(which))
         laid = _laid(outlines, page, which, hatching.spacing_mm * every, STEP_MM * every)
         face = outlines.face[which][laid.row]
-        ends = [np.zeros((self.share_rows, len(face)))] * 2
-        if tone is not None:
-            ends = [tone.shares_of(columns, face) for columns in (laid.first, laid.last)]
+        ends = [tone.shares_of(columns, face) for columns in (laid.first, laid.last)]
         least = thresholds(hatching, family, laid.line)
-        group, whatever = np.full(len(face), first), np.full(len(face), WHATEVER)
-        return _pieces(outlines, laid, which, group, least, whatever, *ends)
+        one, zero = np.ones(len(face), dtype=np.intp), np.zeros(len(face))
+        window = np.where(tone.crumbs[face], WINDOW * hatching.spacing_mm, 0.0)
+        rest = zero + hatching.spacing_mm, least, WHATEVER * one, window, zero + hatching.width_mm
+        return _pieces(outlines, laid, which, 0 * one, *rest, *ends)
 
     def _plane_frame(self, outlines: FaceOutlines, angle: float) -> PlaneFrame:
         """Lines in the planes of outlines."""
@@ -444,6 +439,30 @@ class HatchedScene:
         place = corners[outlines.offsets[:-1]]
         item, world = view.face_item[outlines.face], self.placement.page_from_world
         return plane_frame(corners, of, normal, place, item, angle, world)
+
+
+def _areas(places: Floats, offsets: Ints) -> Floats:
+    """(n,) the areas of polygons, corners (c,2)."""
+    if len(offsets) == 1:
+        return np.zeros(0)
+    x, y = places.T
+    after = ragged.following(offsets)
+    return np.asarray(0.5 * np.abs(np.add.reduceat(x * y[after] - x[after] * y, offsets[:-1])))
+
+
+def _rough(view: View, normals: Floats) -> Bools:
+    """(f,) the faces at all corners of which the normals (3,c) of the faces that meet there differ: a rough surface, on
+    which single faces say nothing."""
+    count = view.points.shape[1]
+    low, high = np.full((3, count), np.inf), np.full((3, count), -np.inf)
+    known = np.isfinite(normals).all(axis=0)
+    for least, most, row in zip(low, high, normals, strict=True):
+        np.minimum.at(least, view.corners[known], row[known])
+        np.maximum.at(most, view.corners[known], row[known])
+    sharp = (high - low).max(axis=0) > ROUNDING
+    # Faces of one shade each have none, and differ.
+    sharp[view.corners[~known]] = True
+    return np.asarray(np.logical_and.reduceat(sharp[view.corners], view.offsets[:-1]), dtype=np.bool_)
 
 
 def angle_of(hatching: Hatching, family: int) -> float:
@@ -466,31 +485,25 @@ def _shades_of_plain(tone: Tone, outlines: FaceOutlines, which: Ints) -> tuple[I
     return outline, lacking, dark
 
 
-def _pieces(
-    outlines: FaceOutlines,
-    laid: Laid,
-    which: Ints,
-    family: Ints,
-    threshold: Floats,
-    lacking: Ints,
-    shares: Floats,
-    shares_end: Floats,
-) -> Pieces:
-    """Pieces of lines that were laid on outlines which (r,)."""
+def _pieces(outlines: FaceOutlines, laid: Laid, which: Ints, family: Ints, *rest: Floats | Ints) -> Pieces:
+    """Pieces of lines that were laid on outlines which (r,); rest: what else is said of them, from spacing on."""
     ends = np.ascontiguousarray(laid.first[:, :3].T), np.ascontiguousarray(laid.last[:, :3].T)
     face = outlines.face[which][laid.row]
-    along = laid.depths, laid.begin, laid.stop
-    return Pieces(*ends, *along, face, laid.line, family, threshold, lacking, shares, shares_end)
+    return Pieces(*ends, laid.depths, laid.begin, laid.stop, face, laid.line, family, *rest)
 
 
 # Which parts of lines are drawn: those that are dark enough, seen, and lack the lights that they have to.
+
+WINDOW = 3.0
+"""Over so many distances of lines the darkness of small faces that have one shade each is averaged: nobody could see
+them one by one."""
 
 
 def _dark_at_most(tone: Tone, pieces: Pieces) -> Pieces:
     """The parts of pieces that are dark enough where all lights that may lack do."""
     lacking = tone.lacking[pieces.face]
     dark = [tone.darkness(shares, lacking, pieces.face) for shares in (pieces.shares, pieces.shares_end)]
-    which, low, high = _above(dark[0] - pieces.threshold, dark[1] - pieces.threshold)
+    which, low, high = _above(*(np.where(pieces.window > 0.0, 1.0, one - pieces.threshold) for one in dark))
     return pieces.cut(which, low, high)
 
 
@@ -503,20 +516,106 @@ def _above(here: Floats, there: Floats) -> tuple[Ints, Floats, Floats]:
     return kept, low[kept], high[kept]
 
 
-def _in_their_light(scene: HatchedScene, lights: Sequence[Light], pieces: Pieces) -> Pieces:
+@dataclass(frozen=True, eq=False)
+class Runs:
+    """Pieces that are seen, run after run: parts of a line of one item and family without gaps.
+
+    run (n,): of each piece, ascending; behind (2,r): whether something in front ends a run where it begins, and where
+    it stops.
+    """
+
+    pieces: Pieces
+    run: Ints
+    behind: Bools
+
+    @cached_property
+    def limits(self) -> Floats:
+        """(2,r) where runs begin and stop."""
+        first = np.flatnonzero(np.diff(self.run, prepend=-1))
+        stop = np.maximum.reduceat(self.pieces.stop, first) if len(first) else self.pieces.stop
+        return np.stack([self.pieces.begin[first], stop])
+
+    def places(self, run: Ints, along: Floats) -> Floats:
+        """(3,k) the points of runs (k,) at places along their lines."""
+        order = np.searchsorted(self._key(self.run, self.pieces.begin), self._key(run, along), side="right") - 1
+        at = np.clip(order, np.searchsorted(self.run, run), np.searchsorted(self.run, run, side="right") - 1)
+        some = self.pieces.take(at)
+        part = some.parameter(along)
+        return np.where(part < 1.0, some.start + part * (some.end - some.start), some.end)
+
+    def _key(self, run: Ints, along: Floats) -> Floats:
+        """(k,) what grows from run to run, and along each."""
+        return np.asarray(run * (2.0 * float(np.abs(self.limits).max(initial=0.0)) + 1.0) + along)
+
+
+def _runs(scene: HatchedScene, pieces: Pieces, behind: Bools) -> Runs:
+    """Pieces in runs; behind (2,n): whether something hides what comes before and after each."""
+    item = scene.view.face_item[pieces.face]
+    order = np.lexsort((pieces.begin, pieces.line, pieces.family, item))
+    pieces, rows = pieces.take(order), np.stack([pieces.line, pieces.family, item])[:, order]
+    same = (rows[:, 1:] == rows[:, :-1]).all(axis=0)
+    new = np.ones(len(order), dtype=np.bool_)
+    new[1:] = ~same | (pieces.begin[1:] > _reached(np.cumsum(~np.append(False, same)[: len(order)]), pieces)[:-1])
+    first = np.flatnonzero(new)
+    last = np.append(first[1:], len(new))[: len(first)] - 1
+    ends = np.stack([behind[0, order[first]], behind[1, order[last]]])
+    return Runs(pieces, np.cumsum(new) - 1, ends)
+
+
+def _reached(line: Ints, pieces: Pieces) -> Floats:
+    """(n,) how far pieces reach up to each one on its line, by the numbers of lines (n,), ascending."""
+    size = 2.0 * float(np.abs(np.stack([pieces.begin, pieces.stop])).max(initial=0.0)) + 1.0
+    return np.asarray(np.maximum.accumulate(line * size + pieces.stop) - line * size + HATCH_GAP_MM)
+
+
+def _drawn(scene: HatchedScene, lights: Sequence[Light], runs: Runs) -> Runs:
     """The parts of pieces that are drawn, as lights reach them or not."""
-    tone = scene.tone
-    if tone is None:
-        return pieces
+    if scene.tone is None:
+        return runs
+    tone, (of, low, high, lacking) = scene.tone, _lacking(scene.tone, lights, runs.pieces)
+    cut = runs.pieces.cut(of, low, high)
+    plain, same = cut.lacking != WHATEVER, cut.lacking == lacking
+    dark = [tone.darkness(shares, lacking, cut.face) - cut.threshold for shares in (cut.shares, cut.shares_end)]
+    dark = _averaged(runs.run[of], cut, *dark)
+    which, low, high = _above(*(np.where(plain, np.where(same, 1.0, -1.0), one) for one in dark))
+    return replace(runs, pieces=cut.cut(which, low, high), run=runs.run[of[which]])
+
+
+def _averaged(run: Ints, pieces: Pieces, here: Floats, there: Floats) -> list[Floats]:
+    """What is linear from here to there (n,) along pieces, run after run, averaged over their windows."""
+    soft = np.flatnonzero(pieces.window > 0.0)
+    if not len(soft):
+        return [here, there]
+    length = np.maximum(pieces.stop - pieces.begin, 0.0)
+    end, total = np.cumsum(length), np.cumsum(0.5 * (here + there) * length)
+    begin = end - length
+    first = np.flatnonzero(np.diff(run, prepend=-1))
+    last = np.append(first[1:], len(run)) - 1
+    number = np.searchsorted(first, soft, side="right") - 1
+    lowest, highest = begin[first][number], end[last][number]
+    found = []
+    for value, place in ((here, begin), (there, end)):
+        half = 0.5 * pieces.window[soft]
+        low, high = np.maximum(place[soft] - half, lowest), np.minimum(place[soft] + half, highest)
+        sums = [np.interp(at, np.append(0.0, end), np.append(0.0, total)) for at in (low, high)]
+        value = value.copy()
+        value[soft] = np.where(high > low, (sums[1] - sums[0]) / np.where(high > low, high - low, 1.0), value[soft])
+        found.append(value)
+    return found
+
+
+def _lacking(tone: Tone, lights: Sequence[Light], pieces: Pieces) -> tuple[Ints, Floats, Floats, Ints]:
+    """Parts of pieces, in their order, that lack the same lights all over: of which they are, from where to where, and
+    what they lack, as far as it says whether they are drawn."""
     face, none = pieces.face, np.zeros(len(pieces), dtype=np.intp)
-    exact = pieces.lacking != WHATEVER
     lit = [tone.darkness(shares, none, face) - pieces.threshold for shares in (pieces.shares, pieces.shares_end)]
-    open_still = exact | (np.minimum(*lit) <= 0.0)
+    asked = (pieces.lacking != WHATEVER) | (pieces.window > 0.0) | (np.minimum(*lit) <= 0.0)
+    asked &= (pieces.lacking != WHATEVER) | (pieces.threshold >= 0.0)
     begin, bits = np.arange(len(pieces)), none
     owner, at, step = [begin, begin], [none * 0.0, none + 1.0], [bits, bits]
     for number, light in enumerate(lights):
-        which = np.flatnonzero(open_still & tone.turned[number, face])
-        of, low, high = _shadowed(scene.view, light, pieces.take(which))
+        which = np.flatnonzero(asked & tone.turned[number, face])
+        of, low, high = _shadowed(tone.view, light, pieces.take(which))
         owner += [which[of], which[of]]
         at += [low, high]
         step += [np.full(len(of), 1 << number), np.full(len(of), -(1 << number))]
@@ -525,14 +624,7 @@ def _in_their_light(scene: HatchedScene, lights: Sequence[Light], pieces: Pieces
     of, place = of[order], place[order]
     missing = np.cumsum(np.concatenate(step)[order])
     part = np.flatnonzero((of[1:] == of[:-1]) & (place[1:] > place[:-1]))
-    lacking = missing[part]
-    cut = pieces.cut(of[part], place[part], place[part + 1])
-    dark = [tone.darkness(shares, lacking, cut.face) - cut.threshold for shares in (cut.shares, cut.shares_end)]
-    same = cut.lacking == lacking
-    plain = cut.lacking != WHATEVER
-    dark = [np.where(plain, np.where(same, 1.0, -1.0), one) for one in dark]
-    which, low, high = _above(*dark)
-    return cut.cut(which, low, high)
+    return of[part], place[part], place[part + 1], missing[part]
 
 
 def _shadowed(view: View, light: Light, pieces: Pieces) -> tuple[Ints, Floats, Floats]:
@@ -635,23 +727,41 @@ def _nearest(corners: Floats, points: Floats) -> tuple[Ints, Floats]:
 
 # Pieces that follow each other on a line as strokes.
 
+SHORTEST = 3.0
+"""So many distances of lines strokes are long at least that begin or end because it becomes lighter."""
 
-def _strokes(scene: HatchedScene, pieces: Pieces) -> Paths:
-    """Pieces as strokes of two points, those of one item and family that follow each other on a line as one."""
-    item = scene.view.face_item[pieces.face]
-    order = np.lexsort((pieces.begin, pieces.line, pieces.family, item))
-    rows = np.stack([pieces.line, pieces.family, item])[:, order]
-    begin, stop = pieces.begin[order], pieces.stop[order]
-    new = np.ones(len(order), dtype=np.bool_)
-    new[1:] = (rows[:, 1:] != rows[:, :-1]).any(axis=0) | (begin[1:] > stop[:-1] + HATCH_GAP_MM)
+CLOSED = 1.0
+"""Gaps that are shorter, in distances of lines, and only because it becomes lighter, are closed."""
+
+LEAST_MM = 0.5
+"""Shorter strokes are specks."""
+
+BEHIND = 2.0
+"""Strokes end so many widths of their pen before what is in front of them."""
+
+
+def _strokes(scene: HatchedScene, seen: Runs, drawn: Runs) -> Paths:
+    """The drawn pieces as strokes of two points, those that follow each other in a run as one."""
+    pieces, run = drawn.pieces, drawn.run
+    new = np.ones(len(run), dtype=np.bool_)
+    gap = np.where(pieces.threshold >= 0.0, CLOSED * pieces.spacing, 0.0)[1:]
+    new[1:] = (run[1:] != run[:-1]) | (pieces.begin[1:] > _reached(run, pieces)[:-1] + gap)
     first = np.flatnonzero(new)
-    last = np.append(first[1:], len(new))[: len(first)] - 1
-    ends = np.stack([pieces.start[:, order[first]], pieces.end[:, order[last]]], axis=2).reshape(3, -1)
-    count, none = len(first), np.zeros(len(first), dtype=np.intp)
+    low = pieces.begin[first]
+    high = np.maximum.reduceat(pieces.stop, first) if len(first) else low
+    run, spacing, room = run[first], pieces.spacing[first], BEHIND * pieces.pen[first]
+    begin, stop = seen.limits[:, run]
+    inner = (low > begin + HATCH_GAP_MM) | (high < stop - HATCH_GAP_MM)
+    inner &= pieces.threshold[first] >= 0.0
+    low = np.maximum(low, begin + np.where(seen.behind[0, run], room, 0.0))
+    high = np.minimum(high, stop - np.where(seen.behind[1, run], room, 0.0))
+    kept = np.flatnonzero(high - low >= np.where(inner, np.maximum(SHORTEST * spacing, LEAST_MM), LEAST_MM))
+    run, low, high, first = run[kept], low[kept], high[kept], first[kept]
+    ends = np.stack([seen.places(run, low), seen.places(run, high)], axis=2).reshape(3, -1)
+    count, none = len(kept), np.zeros(len(kept), dtype=np.intp)
     kind, open_ = np.full(count, int(LineKind.HATCH)), np.zeros(count, dtype=np.bool_)
-    points = scene.placement.on_page(scene.view.image_of(ends))
-    owner = item[order[first]]
-    return Paths(points, 2 * np.arange(count + 1), open_, kind, owner, none, scene.view.world_of(ends))
+    points, item = scene.placement.on_page(scene.view.image_of(ends)), scene.view.face_item[pieces.face[first]]
+    return Paths(points, 2 * np.arange(count + 1), open_, kind, item, none, scene.view.world_of(ends))
 
 
 def strokes_on_faces(
@@ -676,7 +786,8 @@ def strokes_on_faces(
     solid = solid_items(scene.view, scene.projected)
     seen = visible_parts(scene.view, scene.projected, solid, Segments(pieces.start, pieces.end), progress)
     pieces = pieces.cut(seen.segment, seen.low, seen.high)
-    return _strokes(scene, _in_their_light(scene, lights, pieces))
+    runs = _runs(scene, pieces, np.stack([seen.low > 0.0, seen.high < 1.0]))
+    return _strokes(scene, runs, _drawn(scene, lights, runs))
 
 
 # A scene hatched: on its faces, or where these show more than light and shadow, in what is painted.
@@ -729,7 +840,7 @@ class HatchedPicture:
         projected = project_faces(view)
         face = drawn_faces(view, projected)
         toning = any(one is not None and one.by not in ("even", "none") for one in how)
-        tone = self._tone(facets, view, projected, face) if toning else None
+        tone = self._tone(how, facets, view, projected, face) if toning else None
         along = [followed(item, one) for item, one in zip(self.scene.items, how, strict=True)]
         if any(along):
             on_lines = np.array(along, dtype=np.bool_)[view.face_item[face]]
@@ -739,23 +850,36 @@ class HatchedPicture:
             face = face[~on_lines | flat]
         return HatchedScene(view, projected, face, self.placement, tone)
 
-    def _tone(self, facets: FacetedScene, view: View, projected: ProjectedFaces, face: Ints) -> Tone:
+    def _tone(
+        self,
+        how: Sequence[Hatching | Stippling | None],
+        facets: FacetedScene,
+        view: View,
+        projected: ProjectedFaces,
+        face: Ints,
+    ) -> Tone:
         """How dark the faces of a view are, those that can be seen by their numbers."""
         toned = self.toned
         _, lights = exposed_scene(view, facets.scene)
         plane = plane_numbers(view)
         # Planes have one shade each: no light varies on them.
         normals = painted_normals(view, toned.items, (), facets.normals, plane, self.crease_angle_deg)
-        lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
+        spacing = max(one.spacing_mm for one in how if isinstance(one, Hatching))
+        areas = _areas(self.placement.on_page(view.image[:, view.corners]), view.offsets)
         seen = np.zeros(view.face_count, dtype=np.bool_)
         seen[face] = True
+        crumbs = np.bincount(plane, areas * seen)[plane] < CRUMB * spacing * spacing
+        crumbs &= seen & _rough(view, normals)
+        crumbs &= (np.bincount(view.face_item, crumbs, len(how)) >= MANY_CRUMBS)[view.face_item]
+        normals[:, np.repeat(crumbs, view.face_sizes)] = np.nan
+        lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
         planes, solid = FacePlanes.of(view), opacities(toned.items)[view.shown_item] >= 1.0
         turned = np.zeros((len(toned.lights), view.face_count), dtype=np.bool_)
         for row, light in zip(turned, toned.lights, strict=True):
             if light.intensity != 0.0:
                 facing = light_system(view, light).facing(planes, view.tolerance)
                 row[:] = solid & (facing * projected.facing > 0)
-        return Tone(view, lighting, seen, turned)
+        return Tone(view, lighting, seen, crumbs, turned)
 
     @property
     def _allowed(self) -> Allowed:
