@@ -12,6 +12,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.hatching import FollowedLines, place_ranks, ranks
 from vectorplot.errors import InputError
+from vectorplot.features.cross_fields import CombedCurvature
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent
 from vectorplot.features.mesh_lines import MeshCurves, face_triangles
 from vectorplot.features.mesh_streamlines import evenly_spaced_on_faces
@@ -30,7 +31,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round
-from vectorplot.geometry.vectors import cross, norm, normalize
+from vectorplot.geometry.vectors import cross, dot, norm, normalize
+from vectorplot.geometry.winding import signed_volumes
 from vectorplot.scene.added_lines import curve_light
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.item import Item
@@ -125,6 +127,9 @@ def flowing_lines(
     bent = BentFaces(shape, crease_angle_deg) if isinstance(shape, Mesh) else None
     try:
         if bent is not None:
+            if isinstance(field, PrincipalDirections):
+                field = CombedCurvature(bent, field.family)
+                bent = _seen_of(bent, placement)
             points, area = bent.mesh.vertices, _area_of_mesh(bent, field)
             whole = float(np.ptp(bent.mesh.bounds, axis=0).max())
         else:
@@ -143,6 +148,18 @@ def flowing_lines(
     if bent is not None and not len(curves):
         warn_of_no_lines(item.name, field, crease_angle_deg)
     return _sampled(item, curves, area, apart, placement)
+
+
+def _seen_of(bent: BentFaces, placement: Placement) -> BentFaces:
+    """What can be seen of a mesh: of one that closes, from outside the box of it, the faces that face the eye."""
+    mesh, eye = bent.mesh, placement.projection.world_eye
+    low, high = mesh.bounds
+    if not mesh.is_closed or (eye[3] > 0.0 and ((eye[:3] >= low) & (eye[:3] <= high)).all()):
+        return bent
+    rays = eye[:3] - eye[3] * mesh.vertices[mesh.corners[mesh.offsets[:-1]]]
+    front = dot(mesh.face_normals, rays) * signed_volumes(mesh).sum() > 0.0
+    present = front if mesh.present is None else front & mesh.present
+    return replace(bent, mesh=Mesh(mesh.vertices, mesh.corners, mesh.offsets, present))
 
 
 def _area_of_mesh(bent: BentFaces, field: TangentField) -> float:

@@ -795,6 +795,9 @@ def strokes_on_faces(
 ROUGHLY = 8.0
 """Shades on round bodies may be off by so many times as much as in paintings: by a hundredth of black."""
 
+SHADE_ERROR = 0.05
+"""So much shades may change along a triangle of a surface beside a straight line."""
+
 ENDS = 3.0
 """Strokes may end so many tolerances before outlines, or behind them: usually by less than half the width of a pen."""
 
@@ -834,7 +837,8 @@ class HatchedPicture:
         if not all(isinstance(item.shape, Mesh) for item in shown.items):
             projection, casts = self.placement.projection, bool(self.toned.lights)
             fine = picture_fineness(shown, projection, casts, self._allowed, ROUGHLY * self.tolerance_mm)
-            facets = faceted(shown, fine, self.budget)
+            # Places between corners are shaded with normals of their own.
+            facets = faceted(shown, lambda number: replace(fine(number), shade_error=SHADE_ERROR), self.budget)
         facets = replace(facets, scene=with_clear_items(facets.scene))
         view = view_of(facets.scene, self.placement.projection)
         projected = project_faces(view)
