@@ -50,10 +50,6 @@ if TYPE_CHECKING:
 
 # A mesh and a field of directions as what curves are to cover evenly: places on it, and curves through them.
 
-LONGEST = 1.0
-"""Curves are no longer, in extents of the mesh, to either side of where they begin: those that wind round it again and
-again take all the time and room that others would need."""
-
 MOST_PLACES = 40_000
 """Places at which gaps are looked for, at most, as far as triangles need not be divided for them."""
 
@@ -61,7 +57,7 @@ MOST_PLACES = 40_000
 @dataclass(frozen=True, eq=False)
 class StreamlineMesh:
     """A mesh (bent: and how it bends), a field, and the distance of curves; turned: the flow at right angles to that of
-    the field.
+    the field; longest: how long curves are to either side of where they begin at most, None: as of integral curves.
 
     Places are x, y, z and the number of the face (k,4); nodes (k,) count the points of curves that are led round, and
     what part of the way to the next one.
@@ -73,6 +69,7 @@ class StreamlineMesh:
     sides: MeshSides
     flow: FaceFieldFlow
     turned: FaceFieldFlow
+    longest: float | None = None
 
     @property
     def mesh(self) -> Mesh:
@@ -102,7 +99,7 @@ class StreamlineMesh:
 
     def along(self, places: Floats) -> MeshCurves:
         """Curves of the field through places."""
-        return self._led(self.flow, places, LONGEST * self.extent)
+        return self._led(self.flow, places, self.longest)
 
     def across(self, places: Floats) -> MeshCurves:
         """Curves at right angles to the field."""
@@ -301,8 +298,8 @@ CELL = 2.0
 """Times the distance of curves that the cells are large by which is told what is near what is taken."""
 
 PLACES_AT_ONCE = 1 << 20
-"""About so many places of curves are looked at in one go: where they begin beside those of the last go, they are not
-led at all."""
+"""About so many places of curves of a known length are looked at in one go: where they would begin beside those of the
+last one, they are not led at all."""
 
 GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
@@ -321,7 +318,7 @@ def combed(shape: StreamlineMesh) -> MeshCurves:
         )
     from scipy.spatial import cKDTree
 
-    some = max(1, int(PLACES_AT_ONCE * apart / (2.0 * LONGEST * SAMPLES * size)))
+    some = None if shape.longest is None else max(1, int(PLACES_AT_ONCE * apart / (2.0 * SAMPLES * shape.longest)))
     places = shape.over()
     where = shape.where(places)
     taken = np.zeros((0, 6))
@@ -344,6 +341,8 @@ def combed(shape: StreamlineMesh) -> MeshCurves:
             found += kept
             every.append(own)
             trees.append(cKDTree(own, balanced_tree=False))
+            if some is None:
+                break
             seeds, spots = seeds[some:], spots[some:]
             open_ = ~beside(trees[-1:], spots, WIDEST * apart)
             seeds, spots = seeds[open_], spots[open_]
@@ -518,13 +517,15 @@ def evenly_spaced_mesh_curves(
     return evenly_spaced_on_faces(BentFaces(mesh, crease_angle_deg), field, apart)
 
 
-def evenly_spaced_on_faces(bent: BentFaces, field: TangentField, apart: float) -> MeshCurves:
-    """The same on a mesh of which is known how it bends."""
+def evenly_spaced_on_faces(
+    bent: BentFaces, field: TangentField, apart: float, longest: float | None = None
+) -> MeshCurves:
+    """The same on a mesh of which is known how it bends; longest: as of StreamlineMesh."""
     positive("evenly spaced curves: distance", apart)
     sides, none = mesh_sides(bent.mesh), all_mesh_curves([])
     if not bent.mesh.face_count or sides.extent == 0.0:
         return none
     flow = face_field_flow(sides, bent, field)
     across = face_field_flow(sides, bent, TurnedField(field, 0.5 * np.pi))
-    result = combed(StreamlineMesh(bent, field, apart, sides, flow, across))
+    result = combed(StreamlineMesh(bent, field, apart, sides, flow, across, longest))
     return replace(result, levels=np.zeros(len(result)))

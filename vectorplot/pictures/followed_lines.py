@@ -139,7 +139,7 @@ def flowing_lines(
         apart = max(spacing_mm / largest, whole / (FEWER * MOST_LINES_of_streamlines))
         curves: SurfaceCurves | MeshCurves
         if bent is not None:
-            curves = evenly_spaced_on_faces(bent, field, apart)
+            curves = evenly_spaced_on_faces(bent, field, apart, LONGEST * whole)
         else:
             assert is_parametrised(shape)
             curves = evenly_spaced_curves(shape, field, apart, tracing=Tracing(tolerance=tolerance_mm / largest))
@@ -248,6 +248,10 @@ FEWEST, MOST_LINES = 16, 2048
 
 MOST_SAMPLES = 1 << 20
 """Of one surface, where the distance of neighbouring lines is known."""
+
+LONGEST = 1.0
+"""Curves on meshes are no longer, in extents of the mesh, to either side of where they begin: those that wind round it
+again and again would take all the time and room."""
 
 SHORTEST = 3.0
 """Times their distance that strokes are long which flow, at least: shorter ones are specks."""

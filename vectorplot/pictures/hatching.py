@@ -683,7 +683,7 @@ def _light_views(view: View, light: Light) -> list[LightView]:
 
 # How dark places are that lie on a surface, beside the faces that stand for it.
 
-NEAREST = 8
+NEAREST = 4
 """Of so many triangles with the nearest middles the nearest one is that which a place counts as one of."""
 
 
