@@ -30,6 +30,7 @@ from vectorplot.features.edge_splitting import Allowed, Criterion
 from vectorplot.features.nearest import feet_on_triangles
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.budget import Budget, unheard, workers
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.component_arrays import dot
@@ -54,6 +55,7 @@ from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of, without_coincident
+from vectorplot.shading.depth_buffers import coplanar_faces
 from vectorplot.shading.facet_resolution import FacetedScene, faceted, picture_fineness
 from vectorplot.shading.illumination import AMBIENT, shade_numbers, shadow_shades
 from vectorplot.shading.painted_colours import Lighting, corner_shades_of, opacities, painted_normals, smooth_faces
@@ -71,7 +73,7 @@ from vectorplot.tolerances import HATCH_GAP_MM, NEAR_OF_DISTANCE, ROUNDING, SAME
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Segments, visible_parts
 from vectorplot.visibility.polyhedra.lines import inside, near_plane, window_planes
-from vectorplot.visibility.polyhedra.occluders import solid_items
+from vectorplot.visibility.polyhedra.occluders import face_occluders, solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces, newell, project_faces
 from vectorplot.words import LineKind
 
@@ -516,6 +518,53 @@ def _above(here: Floats, there: Floats) -> tuple[Ints, Floats, Floats]:
     return kept, low[kept], high[kept]
 
 
+def _on_top(scene: HatchedScene, pieces: Pieces) -> Pieces:
+    """The parts of pieces on which no face of another item lies in the same plane, as painters have it: the smaller one
+    is seen."""
+    view = scene.view
+    if len(view.occludes) < 2:
+        return pieces
+    coplanar = coplanar_faces(view)
+    plane, item = coplanar.plane, view.face_item
+    drawn = np.zeros(view.face_count, dtype=np.bool_)
+    drawn[drawn_faces(view, scene.projected)] = True
+    shared = np.flatnonzero(drawn & (plane >= 0))
+    order = shared[np.lexsort((item[shared], plane[shared]))]
+    mixed = np.unique(plane[order[1:]][(np.diff(plane[order]) == 0) & (np.diff(item[order]) != 0)])
+    cover = shared[np.isin(plane[shared], mixed) & view.occludes[item[shared]]]
+    which = np.flatnonzero(np.isin(plane[pieces.face], mixed))
+    if not len(cover) or not len(which):
+        return pieces
+    # Boxes in the image, and each plane at a height of its own.
+    one, two = (
+        np.concatenate([view.image_of(ends[:, which]), plane[pieces.face[which]][None]])
+        for ends in (pieces.start, pieces.end)
+    )
+    low, high = (np.concatenate([scene.projected.box[k::2, cover], plane[cover][None]]) for k in (0, 1))
+    piece, face = overlapping_boxes(np.minimum(one, two), np.maximum(one, two), low, high)
+    piece, face = which[piece], cover[face]
+    below = pieces.face[piece]
+    above = (item[below] != item[face]) & (coplanar.rank[below] < coplanar.rank[face])
+    piece, face = piece[above], face[above]
+    names, number = np.unique(face, return_inverse=True)
+    outline = face_occluders(view, scene.projected, names)
+    count = np.diff(outline.offsets)[number.ravel()]
+    pair, side = ragged.owner(count), ragged.ranges(outline.offsets[number.ravel()], count)
+    side, pair = (each[ragged.place(count) >= 1] for each in (side, pair))
+    normal = outline.planes[:, side]
+    here, there = (dot(normal[:3], ends[:, piece[pair]]) - normal[3] for ends in (pieces.start, pieces.end))
+    low, high = np.zeros(len(piece)), np.ones(len(piece))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        cut = here / (here - there)
+    np.maximum.at(low, pair, np.where((here < 0.0) & (there > here), cut, 0.0))
+    np.minimum.at(high, pair, np.where((there < 0.0) & (here > there), cut, 1.0))
+    outside = np.bincount(pair, np.maximum(here, there) <= view.tolerance, len(piece)) > 0
+    covered = np.flatnonzero(~outside & (low < high))
+    gap = np.zeros(len(pieces))
+    of, low, high = intervals.union(piece[covered], low[covered], high[covered], gap)
+    return pieces.cut(*intervals.complement(len(pieces), of, low, high, gap))
+
+
 @dataclass(frozen=True, eq=False)
 class Runs:
     """Pieces that are seen, run after run: parts of a line of one item and family without gaps.
@@ -783,7 +832,7 @@ def strokes_on_faces(
     pieces = joined_records(found)
     if scene.tone is not None:
         pieces = _dark_at_most(scene.tone, pieces)
-    solid = solid_items(scene.view, scene.projected)
+    pieces, solid = _on_top(scene, pieces), solid_items(scene.view, scene.projected)
     seen = visible_parts(scene.view, scene.projected, solid, Segments(pieces.start, pieces.end), progress)
     pieces = pieces.cut(seen.segment, seen.low, seen.high)
     runs = _runs(scene, pieces, np.stack([seen.low > 0.0, seen.high < 1.0]))

@@ -199,6 +199,24 @@ def test_neither_size_nor_place_changes_a_stroke(scale: float, shift: float) -> 
     assert np.abs(np.sort(one[order[0]].reshape(-1)) - np.sort(two[order[1]].reshape(-1))).max() < 1e-3
 
 
+def test_what_lies_in_the_plane_of_something_larger_is_hatched_in_its_place() -> None:
+    def plate(low: tuple[float, float], high: tuple[float, float]) -> vp.Mesh:
+        corners = [(low[0], low[1], 0.0), (high[0], low[1], 0.0), (high[0], high[1], 0.0), (low[0], high[1], 0.0)]
+        return vp.Mesh.from_polygons(corners, [(0, 1, 2, 3)])
+
+    bare = vp.Hatching("none")
+    floor, hole = vp.Item("floor", plate((0, 0), (8, 6))), vp.Item("hole", plate((2, 2), (5, 4)), hatch=bare)
+    for items in ((floor, hole), (hole, floor)):
+        hatch = vp.Hatching("even", spacing_mm=1.0, angle_deg=0.0)
+        paths = strokes_of(vp.draw(vp.Scene(items), "top", page=PAGE, lines="none", hatch=hatch))
+        space = np.stack([paths.points3d[paths.offsets[:-1]], paths.points3d[paths.offsets[1:] - 1]], axis=1)
+        beside = np.abs(space[:, 0, 0] - space[:, 1, 0])
+        within = (space[:, 0, 1] > 2.0) & (space[:, 0, 1] < 4.0)
+        assert within.sum() > 20
+        assert np.unique(np.round(beside[within], 6)).tolist() == [2.0, 3.0]
+        assert np.abs(beside[~within] - 8.0).max() < 1e-9
+
+
 def test_what_has_no_faces_that_one_sees_has_no_strokes() -> None:
     corners = np.array([(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 0.0, 1.0)])
     for scene in (
