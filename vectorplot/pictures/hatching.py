@@ -776,8 +776,9 @@ def _nearest(corners: Floats, points: Floats) -> tuple[Ints, Floats]:
 
 # Pieces that follow each other on a line as strokes.
 
-SHORTEST = 3.0
-"""So many distances of lines strokes are long at least that begin or end because it becomes lighter."""
+SHORTEST, TIP = 3.0, 1.0
+"""So many distances of lines strokes are long at least that begin and end because it becomes lighter; and those that do
+only one of both, as beside outlines."""
 
 CLOSED = 1.0
 """Gaps that are shorter, in distances of lines, and only because it becomes lighter, are closed."""
@@ -800,11 +801,12 @@ def _strokes(scene: HatchedScene, seen: Runs, drawn: Runs) -> Paths:
     high = np.maximum.reduceat(pieces.stop, first) if len(first) else low
     run, spacing, room = run[first], pieces.spacing[first], BEHIND * pieces.pen[first]
     begin, stop = seen.limits[:, run]
-    inner = (low > begin + HATCH_GAP_MM) | (high < stop - HATCH_GAP_MM)
-    inner &= pieces.threshold[first] >= 0.0
+    fading = np.where(low > begin + HATCH_GAP_MM, 1, 0) + np.where(high < stop - HATCH_GAP_MM, 1, 0)
+    fading[pieces.threshold[first] < 0.0] = 0
+    shortest = np.maximum(np.array([0.0, TIP, SHORTEST])[fading] * spacing, LEAST_MM)
     low = np.maximum(low, begin + np.where(seen.behind[0, run], room, 0.0))
     high = np.minimum(high, stop - np.where(seen.behind[1, run], room, 0.0))
-    kept = np.flatnonzero(high - low >= np.where(inner, np.maximum(SHORTEST * spacing, LEAST_MM), LEAST_MM))
+    kept = np.flatnonzero(high - low >= shortest)
     run, low, high, first = run[kept], low[kept], high[kept], first[kept]
     ends = np.stack([seen.places(run, low), seen.places(run, high)], axis=2).reshape(3, -1)
     count, none = len(kept), np.zeros(len(kept), dtype=np.intp)
