@@ -75,7 +75,7 @@ def _combed(bent: BentFaces, sides: MeshSides) -> Floats:
     frame = np.stack([first, cross(normals, first)])
     places = FaceSites(face_barycentres(bent.mesh)[sides.source], normals, bent, sides.source)
     (most, _), (larger, smaller) = principal(places, "combed directions")
-    known = np.isfinite(most).all(axis=1)
+    known = np.asarray(np.isfinite(most).all(axis=1), dtype=np.bool_)
     most = np.where(known[:, None], most, _level(normals))
     with np.errstate(invalid="ignore", divide="ignore"):
         weight = np.nan_to_num(CURVED * (larger - smaller) / (np.abs(larger) + np.abs(smaller)))
@@ -99,7 +99,7 @@ def _combed(bent: BentFaces, sides: MeshSides) -> Floats:
 def _level(normals: Floats) -> Floats:
     """(f,3) what is level in planes; in level ones the x axis."""
     level = cross(np.array([0.0, 0.0, 1.0]), normals)
-    level[norm(level) <= FLAT_SLOPE] = (1.0, 0.0, 0.0)
+    level[np.flatnonzero(norm(level) <= FLAT_SLOPE)] = (1.0, 0.0, 0.0)
     return unit(level)
 
 
@@ -130,7 +130,7 @@ class _Links:
 
     def sums(self, values: Floats) -> Floats:
         """(count,) sums of values (n,) over the neighbours of each."""
-        return np.bincount(self.one, values, self.count)
+        return np.asarray(np.bincount(self.one, values, self.count), dtype=np.float64)
 
 
 def _turned_by(angle: Floats) -> Callable[[Floats], Floats]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from typing import Any
 
 import numpy as np
 
@@ -487,7 +488,7 @@ def _shades_of_plain(tone: Tone, outlines: FaceOutlines, which: Ints) -> tuple[I
     return outline, lacking, dark
 
 
-def _pieces(outlines: FaceOutlines, laid: Laid, which: Ints, family: Ints, *rest: Floats | Ints) -> Pieces:
+def _pieces(outlines: FaceOutlines, laid: Laid, which: Ints, family: Ints, *rest: Any) -> Pieces:
     """Pieces of lines that were laid on outlines which (r,); rest: what else is said of them, from spacing on."""
     ends = np.ascontiguousarray(laid.first[:, :3].T), np.ascontiguousarray(laid.last[:, :3].T)
     face = outlines.face[which][laid.row]
