@@ -787,7 +787,7 @@ CLOSED = 1.0
 LEAST_MM = 0.5
 """Shorter strokes are specks."""
 
-BEHIND = 2.0
+BEHIND = 3.0
 """Strokes end so many widths of their pen before what is in front of them."""
 
 
