@@ -37,6 +37,9 @@ CROSSED_FROM = 0.5
 LEAST_COVER = 0.02
 """What needs less ink than this share of the paper stays white: a stroke alone would be a line, and no shade."""
 
+LEAST_MM = 0.5
+"""Shorter strokes are specks."""
+
 LEVELS = 4
 """Lines begin at two to this power different darknesses: more of them look restless, fewer show as steps."""
 

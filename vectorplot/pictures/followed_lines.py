@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Paths
-from vectorplot.drawing.hatching import FollowedLines, place_ranks, ranks
+from vectorplot.drawing.hatching import LEAST_MM, FollowedLines, place_ranks, ranks
 from vectorplot.errors import InputError
 from vectorplot.features.cross_fields import CombedCurvature
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent
@@ -319,7 +319,7 @@ class SpacedLines:
     apart: Floats
     line: Ints
     ranks: Floats
-    shortest_mm: float = 0.0
+    shortest_mm: float
 
 
 def _spaced(
@@ -343,7 +343,7 @@ def _spaced(
     count = _count(item.shape, family, hatching.spacing_mm, placement)
     samples, apart = _samples(item.shape, family, count, placement)
     asked = SurfaceLines(columns=count) if family == 0 else SurfaceLines(rows=count)
-    return SpacedLines(asked, samples, apart, *_numbered(count, len(samples)))
+    return SpacedLines(asked, samples, apart, *_numbered(count, len(samples)), LEAST_MM)
 
 
 def _numbered(count: int, samples: int) -> tuple[Ints, Floats]:

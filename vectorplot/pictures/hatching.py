@@ -12,6 +12,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.hatching import (
+    LEAST_MM,
     LUMINANCE,
     FollowedLines,
     PageFrame,
@@ -359,11 +360,13 @@ WHATEVER = -1
 
 @dataclass(frozen=True, eq=False)
 class HatchedScene:
-    """A scene whose faces are hatched, surfaces as triangles: its view, its faces in the image, those of them that are
-    hatched, and where the picture is; tone: how dark they are, None where that does not matter."""
+    """A scene whose faces are hatched, surfaces as triangles: its view, its faces in the image, which of them can be
+    seen (f,), the numbers of those that are hatched, and where the picture is; tone: how dark they are, None where that
+    does not matter."""
 
     view: View
     projected: ProjectedFaces
+    seen: Bools
     face: Ints
     placement: Placement
     tone: Tone | None
@@ -527,9 +530,7 @@ def _on_top(scene: HatchedScene, pieces: Pieces) -> Pieces:
         return pieces
     coplanar = coplanar_faces(view)
     plane, item = coplanar.plane, view.face_item
-    drawn = np.zeros(view.face_count, dtype=np.bool_)
-    drawn[drawn_faces(view, scene.projected)] = True
-    shared = np.flatnonzero(drawn & (plane >= 0))
+    shared = np.flatnonzero(scene.seen & (plane >= 0))
     order = shared[np.lexsort((item[shared], plane[shared]))]
     mixed = np.unique(plane[order[1:]][(np.diff(plane[order]) == 0) & (np.diff(item[order]) != 0)])
     cover = shared[np.isin(plane[shared], mixed) & view.occludes[item[shared]]]
@@ -784,9 +785,6 @@ only one of both, as beside outlines."""
 CLOSED = 1.0
 """Gaps that are shorter, in distances of lines, and only because it becomes lighter, are closed."""
 
-LEAST_MM = 0.5
-"""Shorter strokes are specks."""
-
 BEHIND = 3.0
 """Strokes end so many widths of their pen before what is in front of them."""
 
@@ -895,8 +893,10 @@ class HatchedPicture:
         view = view_of(facets.scene, self.placement.projection)
         projected = project_faces(view)
         face = drawn_faces(view, projected)
+        seen = np.zeros(view.face_count, dtype=np.bool_)
+        seen[face] = True
         toning = any(one is not None and one.by not in ("even", "none") for one in how)
-        tone = self._tone(how, facets, view, projected, face) if toning else None
+        tone = self._tone(how, facets, view, projected, seen) if toning else None
         along = [followed(item, one) for item, one in zip(self.scene.items, how, strict=True)]
         if any(along):
             on_lines = np.array(along, dtype=np.bool_)[view.face_item[face]]
@@ -904,7 +904,7 @@ class HatchedPicture:
             normal = matmul(face_normals(view)[:, face].T, view.axes)
             flat = ends.any(axis=1) & (norm(cross(normal, ends)) <= SAME_PLANE_SINE)
             face = face[~on_lines | flat]
-        return HatchedScene(view, projected, face, self.placement, tone)
+        return HatchedScene(view, projected, seen, face, self.placement, tone)
 
     def _tone(
         self,
@@ -912,9 +912,9 @@ class HatchedPicture:
         facets: FacetedScene,
         view: View,
         projected: ProjectedFaces,
-        face: Ints,
+        seen: Bools,
     ) -> Tone:
-        """How dark the faces of a view are, those that can be seen by their numbers."""
+        """How dark the faces (f,) of a view are, those that can be seen."""
         toned = self.toned
         _, lights = exposed_scene(view, facets.scene)
         plane = plane_numbers(view)
@@ -922,8 +922,6 @@ class HatchedPicture:
         normals = painted_normals(view, toned.items, (), facets.normals, plane, self.crease_angle_deg)
         spacing = max(one.spacing_mm for one in how if isinstance(one, Hatching))
         areas = _areas(self.placement.on_page(view.image[:, view.corners]), view.offsets)
-        seen = np.zeros(view.face_count, dtype=np.bool_)
-        seen[face] = True
         crumbs = np.bincount(plane, areas * seen)[plane] < CRUMB * spacing * spacing
         crumbs &= seen & _rough(view, normals)
         crumbs &= (np.bincount(view.face_item, crumbs, len(how)) >= MANY_CRUMBS)[view.face_item]

@@ -12,8 +12,8 @@ import pytest
 from support.rough import rough_sphere
 
 import vectorplot as vp
-from vectorplot.drawing.hatching import thresholds
-from vectorplot.pictures.hatching import LEAST_MM, SHORTEST, HatchedScene, _shadowed
+from vectorplot.drawing.hatching import LEAST_MM, thresholds
+from vectorplot.pictures.hatching import SHORTEST, HatchedScene, _shadowed
 from vectorplot.scene.placement import fitted_picture
 from vectorplot.scene.view import look
 from vectorplot.shading.shadow_rays import blocked_exactly
@@ -158,7 +158,8 @@ def test_shadows_along_strokes_are_those_of_rays(light: vp.Light) -> None:
     view = look(scene, vp.Camera((6.0, -8.0, 9.0)))
     faces = project_faces(view)
     place = fitted_picture(view, PAGE, view.image)
-    hatched = HatchedScene(view, faces, drawn_faces(view, faces), place, None)
+    seen = drawn_faces(view, faces)
+    hatched = HatchedScene(view, faces, np.isin(np.arange(view.face_count), seen), seen, place, None)
     mine = np.zeros(len(items), dtype=bool)
     mine[0] = True
     (pieces,) = hatched.lines(vp.Hatching("even", spacing_mm=0.7), mine, 0)
