@@ -14,6 +14,7 @@ from vectorplot.drawing.hatching import LEAST_MM, FollowedLines, place_ranks, ra
 from vectorplot.errors import InputError
 from vectorplot.features.cross_fields import CombedCurvature
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent
+from vectorplot.features.mesh_integration import mesh_sides
 from vectorplot.features.mesh_lines import MeshCurves, face_triangles
 from vectorplot.features.mesh_streamlines import evenly_spaced_on_faces
 from vectorplot.features.streamlines import MOST_LINES as MOST_LINES_of_streamlines
@@ -128,7 +129,9 @@ def flowing_lines(
     try:
         if bent is not None:
             if isinstance(field, PrincipalDirections):
-                field = CombedCurvature(bent, field.family)
+                # Faces that are not plane in their parts, in whose planes strokes lie.
+                bent = replace(bent, mesh=mesh_sides(bent.mesh).mesh)
+                item, field = replace(item, shape=bent.mesh), CombedCurvature(bent, field.family)
                 bent = _seen_of(bent, placement)
             points, area = bent.mesh.vertices, _area_of_mesh(bent, field)
             whole = float(np.ptp(bent.mesh.bounds, axis=0).max())
