@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
@@ -35,6 +36,9 @@ CROSSED_FROM = 0.5
 
 LEAST_COVER = 0.02
 """What needs less ink than this share of the paper stays white: a stroke alone would be a line, and no shade."""
+
+LEAST_MM = 0.5
+"""Shorter strokes are specks."""
 
 LEVELS = 4
 """Lines begin at two to this power different darknesses: more of them look restless, fewer show as steps."""
@@ -268,16 +272,15 @@ class FollowedLines:
     shortest_mm: float = 0.0
 
 
-def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) -> Paths:
-    """Those parts of lines that hatch an item as dark as its regions are.
+def dark_parts(lines: FollowedLines, hatching: Hatching, darkness: Callable[[Floats, Floats], Floats]) -> Paths:
+    """Those parts of lines that hatch an item as dark as it is: darkness(flat, solid) of places (n,2) on the page and
+    (n,3) in space.
 
     Of lines that are d mm apart, each has a rank between 0 and 1; it is drawn where its rank is less than the share of
     them that is needed for the ink. So where lines come closer on the page, there are fewer of them.
-    Edge cases: places of no region are as dark as the nearest one.
     """
     paths = chosen(lines.paths, lines.paths.item == lines.item)
-    some = regions.take(regions.item == lines.item)
-    if not len(paths) or not len(some):
+    if not len(paths):
         return Paths.empty()
     from scipy.spatial import cKDTree
 
@@ -291,7 +294,7 @@ def dark_parts(lines: FollowedLines, hatching: Hatching, regions: TonedRegions) 
     known = np.flatnonzero(np.isfinite(lines.samples).all(axis=1))
     near = known[cKDTree(lines.samples[known]).query(solid, workers=workers(len(solid)))[1]]
     rank = _ranks(lines, near, of, _lines(lines.line[near], of, paths.curve))
-    dark = np.ones(len(flat)) if hatching.by == "even" else _darkness_along(some, flat)
+    dark = np.ones(len(flat)) if hatching.by == "even" else darkness(flat, solid)
     cover = covers(hatching, dark)[lines.family]
     error_ratio = lines.apart[near] * cover / hatching.width_mm - rank
     return _long_enough(_cut(paths, of, share, error_ratio), lines.shortest_mm)
@@ -315,8 +318,8 @@ def _lines(line: Ints, of: Ints, curve: Ints) -> Ints:
     return np.asarray(middle[group])
 
 
-def _darkness_along(regions: TonedRegions, points: Floats) -> Floats:
-    """(n,) how dark regions are at points (n,2) of the page."""
+def darkness_along(regions: TonedRegions, points: Floats, _: Floats) -> Floats:
+    """(n,) how dark regions are at points (n,2) of the page; beside them as dark as the nearest one."""
     import shapely
 
     corners, ring = regions.points.T[:, :], regions.offsets
@@ -392,8 +395,12 @@ class PageFrame:
 
     def coordinates(self, regions: TonedRegions) -> tuple[Floats, Floats]:
         """Where the corners (c,) of regions are along the lines and across them."""
+        return self.places(regions.points)
+
+    def places(self, points: Floats) -> tuple[Floats, Floats]:
+        """(c,) where points (2,c) of the page are along the lines, and (c,) across them."""
         along, across = self._axes()
-        return matmul(along, regions.points), matmul(across, regions.points)
+        return matmul(along, points), matmul(across, points)
 
     def sheet(self, regions: TonedRegions) -> Ints:
         """(n,) what regions share where their lines run on from one to the other."""
@@ -418,20 +425,25 @@ class PageFrame:
 
 @dataclass(frozen=True, eq=False)
 class PlaneFrame:
-    """Lines in the planes of regions (n,): origin, along and across (n,3) in space, as long as a mm is on the page at
-    the middle of the regions of a plane; plane (n,) their numbers."""
+    """Lines in the planes of polygons (n,): origin, along and across (n,3) in space, as long as a mm is on the page at
+    the middle of the polygons of a plane; plane (n,) their numbers."""
 
     origin: Floats
     along: Floats
     across: Floats
     plane: Ints
     corners: Floats
+    of: Ints
 
     def coordinates(self, regions: TonedRegions) -> tuple[Floats, Floats]:
-        """Where the corners (c,) of regions are along the lines and across them."""
-        of = np.repeat(regions.of, np.diff(regions.offsets))
-        arm = self.corners - self.origin[of]
-        along, across = self.along[of], self.across[of]
+        """Where the corners (c,) of the polygons are along the lines and across them."""
+        return self.places
+
+    @property
+    def places(self) -> tuple[Floats, Floats]:
+        """(c,) where the corners of the polygons are along the lines, and (c,) across them."""
+        arm = self.corners - self.origin[self.of]
+        along, across = self.along[self.of], self.across[self.of]
         return dot(arm, along) / dot(along, along), dot(arm, across) / dot(across, across)
 
     def sheet(self, regions: TonedRegions) -> Ints:
@@ -446,19 +458,25 @@ class PlaneFrame:
         return _on_page(found, page_from_world), found
 
 
-def plane_frame(regions: TonedRegions, angle: float, page_from_world: Floats) -> PlaneFrame:
-    """Lines at an angle to what is level in the planes of regions, evenly spaced on the page at the middle of each.
-
-    In level planes the angle is from the x axis. Planes of one item with one normal are one where they coincide but for
-    SAME_PLANE_OF_EXTENT.
-    Edge cases: a plane seen edge-on has no regions.
-    """
+def _frame_of_regions(regions: TonedRegions, angle: float, page_from_world: Floats) -> PlaneFrame:
+    """Lines in the planes of regions. Edge cases: a plane seen edge-on has no regions."""
     of = np.repeat(regions.of, np.diff(regions.offsets))
     corners = in_space(regions.fills, regions.points.T, regions.source[of], page_from_world)
     normal, place = (column[regions.source] for column in planes_of_fills(regions.fills))
+    return plane_frame(corners, of, normal, place, regions.item, angle, page_from_world)
+
+
+def plane_frame(
+    corners: Floats, of: Ints, normal: Floats, place: Floats, item: Ints, angle: float, page_from_world: Floats
+) -> PlaneFrame:
+    """Lines at an angle to what is level in the planes of polygons (n,), evenly apart on the page in their middles.
+
+    corners (c,3) in space, of (c,): whose; normal, place (n,3): the planes; item (n,). In level planes the angle is
+    from the x axis. Planes of one item with one normal are one where they coincide but for SAME_PLANE_OF_EXTENT.
+    """
     low, high = corners.min(axis=0), corners.max(axis=0)
     middle = (low + high) / 2.0
-    plane = _plane_numbers(regions.item, normal, dot(normal, place - middle), float(norm(high - low)))
+    plane = _plane_numbers(item, normal, dot(normal, place - middle), float(norm(high - low)))
     _, first = np.unique(plane, return_index=True)
     normal = normal[first][plane]
     level = cross(np.array([0.0, 0.0, 1.0]), normal)
@@ -476,7 +494,7 @@ def plane_frame(regions: TonedRegions, angle: float, page_from_world: Floats) ->
     apart = np.abs(cross(image, image_across)) / mm
     # From a point that the planes' own numbers do not change.
     origin = middle - dot(normal, middle - place[first][plane])[:, None] * normal
-    return PlaneFrame(origin, along / mm[:, None], across / apart[:, None], plane, corners)
+    return PlaneFrame(origin, along / mm[:, None], across / apart[:, None], plane, corners, of)
 
 
 def _plane_numbers(item: Ints, normal: Floats, height: Floats, extent: float) -> Ints:
@@ -519,15 +537,27 @@ class Scanned:
         return len(self.region)
 
 
-def scanned(u: Floats, v: Floats, offsets: Ints, region: Ints, spacing: Floats) -> Scanned:
-    """The parts inside regions of lines along u: line k of a region is where v is k + 1/2 times its spacing.
+@dataclass(frozen=True, eq=False)
+class Crossings:
+    """Where lines cross the sides of polygons (n,): side, by the corner that it begins at, line, its number, share,
+    which part of the side lies before, and along, where on the line that is; polygon by polygon, line by line, in the
+    order along the lines: every line enters and leaves a polygon by turns."""
 
-    u, v (c,): corners of rings offsets (n+1,); region (n,): which each ring bounds, from outside or as a hole; spacing
-    (r,) of regions. So neighbours of one spacing share their lines, and lines meet corners seldom: a corner on a line
+    side: Ints
+    line: Ints
+    share: Floats
+    along: Floats
+
+
+def crossings(u: Floats, v: Floats, offsets: Ints, polygon: Ints, spacing: Floats) -> Crossings:
+    """Where lines along u cross polygons: line k of a polygon is where v is k + 1/2 times its spacing.
+
+    u, v (c,): corners of rings offsets (n+1,); polygon (n,): which each ring bounds, from outside or as a hole; spacing
+    (r,) of polygons. So neighbours of one spacing share their lines, and lines meet corners seldom: a corner on a line
     counts as above it.
-    Errors: InputError for more than MOST_STROKES parts. Edge cases: regions between two lines have none.
+    Errors: InputError for more than MOST_STROKES parts. Edge cases: polygons between two lines have none.
     """
-    of = np.repeat(region, np.diff(offsets))
+    of = np.repeat(polygon, np.diff(offsets))
     after = ragged.following(offsets)
     place = v / spacing[of] - 0.5
     here, there = place, place[after]
@@ -541,11 +571,16 @@ def scanned(u: Floats, v: Floats, offsets: Ints, region: Ints, spacing: Floats) 
     share = (line - here[side]) / (there - here)[side]
     along = u[side] + share * (u[after] - u)[side]
     order = np.lexsort((along, line, of[side]))
-    side, line, along = side[order], line[order], along[order]
-    # Every line enters and leaves a region by turns.
-    low, high = along[0::2], along[1::2]
+    return Crossings(side[order], line[order].astype(np.intp), share[order], along[order])
+
+
+def scanned(u: Floats, v: Floats, offsets: Ints, region: Ints, spacing: Floats) -> Scanned:
+    """The parts inside regions of lines along u; all else as of crossings."""
+    found = crossings(u, v, offsets, region, spacing)
+    low, high = found.along[0::2], found.along[1::2]
     full = np.flatnonzero(high > low)
-    return Scanned(of[side[2 * full]], line[2 * full].astype(np.intp), low[full], high[full])
+    of = np.repeat(region, np.diff(offsets))[found.side[2 * full]]
+    return Scanned(of, found.line[2 * full], low[full], high[full])
 
 
 # Regions stippled: dots that lie closer where it is darker, and nowhere else than they have to.
@@ -724,7 +759,9 @@ def hatched_regions(
     for lines in followed:
         along = given[lines.item]
         assert isinstance(along, Hatching)
-        found.append(dark_parts(lines, along, regions))
+        own = regions.take(regions.item == lines.item)
+        if len(own):
+            found.append(dark_parts(lines, along, partial(darkness_along, own)))
     for one in dict.fromkeys(given):
         if one.by == "none":
             continue
@@ -760,7 +797,7 @@ def _family(regions: TonedRegions, hatching: Hatching, family: int, page_from_wo
     spacing = even_spacings(hatching, np.ones(len(even)) if hatching.by == "even" else even.lowest)[family]
     even, spacing = even.take(np.isfinite(spacing)), spacing[np.isfinite(spacing)]
     if len(even):
-        frame = page if hatching.along != "surface" else plane_frame(even, angle, page_from_world)
+        frame = page if hatching.along != "surface" else _frame_of_regions(even, angle, page_from_world)
         parts = scanned(*frame.coordinates(even), even.offsets, even.of, spacing)
         tone = np.unique(spacing, return_inverse=True)[1].ravel()
         found.append(_strokes(even, frame, parts, spacing, tone, page_from_world))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from itertools import product
@@ -56,7 +57,7 @@ MOST_PLACES = 40_000
 @dataclass(frozen=True, eq=False)
 class StreamlineMesh:
     """A mesh (bent: and how it bends), a field, and the distance of curves; turned: the flow at right angles to that of
-    the field.
+    the field; longest: how long curves are to either side of where they begin at most, None: as of integral curves.
 
     Places are x, y, z and the number of the face (k,4); nodes (k,) count the points of curves that are led round, and
     what part of the way to the next one.
@@ -68,6 +69,7 @@ class StreamlineMesh:
     sides: MeshSides
     flow: FaceFieldFlow
     turned: FaceFieldFlow
+    longest: float | None = None
 
     @property
     def mesh(self) -> Mesh:
@@ -97,7 +99,7 @@ class StreamlineMesh:
 
     def along(self, places: Floats) -> MeshCurves:
         """Curves of the field through places."""
-        return self._led(self.flow, places, None)
+        return self._led(self.flow, places, self.longest)
 
     def across(self, places: Floats) -> MeshCurves:
         """Curves at right angles to the field."""
@@ -227,20 +229,24 @@ class PlacedCurves(SampledCurves):
     seeds: Ints
 
 
-def beside(tree: cKDTree, where: Floats, reach: float) -> Bools:
-    """(k,) which places (k,6) are within reach of what a tree has."""
-    away = tree.query(where, distance_upper_bound=reach, workers=workers(len(where)))[0]
-    return np.asarray(np.isfinite(away))
+def beside(trees: Sequence[cKDTree], where: Floats, reach: float) -> Bools:
+    """(k,) which places (k,6) are within reach of what trees have."""
+    found = np.zeros(len(where), dtype=np.bool_)
+    for tree in trees:
+        left = np.flatnonzero(~found)
+        away = tree.query(where[left], distance_upper_bound=reach, workers=workers(len(left)))[0]
+        found[left] = np.isfinite(away)
+    return found
 
 
-def free_around(found: PlacedCurves, tree: cKDTree | None, reach: float) -> Bools:
-    """(p,) the places of each curve that are reached from its seed over such as are not within reach of what a tree
-    has; only these, and a few more, are looked for there."""
+def free_around(found: PlacedCurves, trees: Sequence[cKDTree], reach: float) -> Bools:
+    """(p,) the places of each curve that are reached from its seed over such as are not within reach of what trees
+    have; only these, and a few more, are looked for there."""
     count = len(found.curve)
-    if tree is None or not count:
+    if not trees or not count:
         return np.ones(count, dtype=np.bool_)
     free = np.zeros(count, dtype=np.bool_)
-    free[found.seeds] = ~beside(tree, found.where[found.seeds], reach)
+    free[found.seeds] = ~beside(trees, found.where[found.seeds], reach)
     bounds = found.offsets
     for way in (-1, 1):
         left, look = np.flatnonzero(free[found.seeds]), FIRST_LOOK
@@ -249,7 +255,7 @@ def free_around(found: PlacedCurves, tree: cKDTree | None, reach: float) -> Bool
             room = place - bounds[left] if way < 0 else bounds[left + 1] - 1 - place
             sizes = np.minimum(room, look)
             at = np.repeat(place, sizes) + way * (1 + ragged.place(sizes))
-            free[at] = ~beside(tree, found.where[at], reach)
+            free[at] = ~beside(trees, found.where[at], reach)
             shut = np.bincount(ragged.owner(sizes)[~free[at]], minlength=len(left)) > 0
             onward = ~shut & (room > look)
             left, place = left[onward], place[onward] + way * look
@@ -291,6 +297,10 @@ FARTHER = 4.0
 CELL = 2.0
 """Times the distance of curves that the cells are large by which is told what is near what is taken."""
 
+PLACES_AT_ONCE = 1 << 20
+"""About so many places of curves of a known length are looked at in one go: where they would begin beside those of the
+last one, they are not led at all."""
+
 GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
 
@@ -308,6 +318,7 @@ def combed(shape: StreamlineMesh) -> MeshCurves:
         )
     from scipy.spatial import cKDTree
 
+    some = None if shape.longest is None else max(1, int(PLACES_AT_ONCE * apart / (2.0 * SAMPLES * shape.longest)))
     places = shape.over()
     where = shape.where(places)
     taken = np.zeros((0, 6))
@@ -315,17 +326,27 @@ def combed(shape: StreamlineMesh) -> MeshCurves:
     for _ in range(MOST_ROUNDS):
         tree = cKDTree(taken, balanced_tree=False) if len(taken) else None
         if tree is not None:
-            open_ = ~beside(tree, where, WIDEST * apart)
+            open_ = ~beside([tree], where, WIDEST * apart)
             places, where = places[open_], where[open_]
         gaps = _gaps(where, tree, apart)
         if not len(gaps):
             break
-        seeds, spots = _seeds(shape, places[gaps], tree)
-        new = _compared(shape, shape.along(seeds), spots)
-        kept, own = _without_dense_groups(shape, new, tree)
+        trees = [] if tree is None else [tree]
+        seeds, spots = _seeds(shape, places[gaps], trees)
         # A gap that nothing fits into is one no more.
-        taken = np.concatenate([taken, own, where[gaps]])
-        found += kept
+        every = [taken, where[gaps]]
+        while len(seeds):
+            new = _compared(shape, shape.along(seeds[:some]), spots[:some])
+            kept, own = _without_dense_groups(shape, new, trees)
+            found += kept
+            every.append(own)
+            trees.append(cKDTree(own, balanced_tree=False))
+            if some is None:
+                break
+            seeds, spots = seeds[some:], spots[some:]
+            open_ = ~beside(trees[-1:], spots, WIDEST * apart)
+            seeds, spots = seeds[open_], spots[open_]
+        taken = np.concatenate(every)
     return joined(found)
 
 
@@ -361,7 +382,7 @@ def _away(tree: cKDTree, where: Floats, near: float) -> Floats:
         near *= FARTHER
 
 
-def _seeds(shape: StreamlineMesh, gaps: Floats, tree: cKDTree | None) -> tuple[Floats, Floats]:
+def _seeds(shape: StreamlineMesh, gaps: Floats, trees: Sequence[cKDTree]) -> tuple[Floats, Floats]:
     """Places (k,d) in the gaps, the distance apart across the field, and where (k,6) they are."""
     apart = shape.apart
     lines = shape.across(gaps)
@@ -371,9 +392,8 @@ def _seeds(shape: StreamlineMesh, gaps: Floats, tree: cKDTree | None) -> tuple[F
     signed = found.from_seed
     rounds = np.abs(np.rint(signed / apart))
     near = np.abs(np.abs(signed) - rounds * apart) <= 0.5 * apart / SAMPLES
-    if tree is not None:
-        # Only in the gap itself: from its middle to the first place that is taken.
-        near &= free_around(found, tree, WIDEST * apart)
+    # Only in the gap itself: from its middle to the first place that is taken.
+    near &= free_around(found, trees, WIDEST * apart)
     keys = np.stack([found.curve, np.rint(signed / apart)], axis=1)[near]
     _, first = np.unique(keys, axis=0, return_index=True)
     at = np.flatnonzero(near)[np.sort(first)]
@@ -418,9 +438,9 @@ def _compared(shape: StreamlineMesh, curves: MeshCurves, spots: Floats) -> Place
 
 
 def _without_dense_groups(
-    shape: StreamlineMesh, lines: PlacedCurves, tree: cKDTree | None
+    shape: StreamlineMesh, lines: PlacedCurves, trees: Sequence[cKDTree]
 ) -> tuple[list[MeshCurves], Floats]:
-    """The curves, one after the other, as far as they are not too near what is taken, which the tree has, to those
+    """The curves, one after the other, as far as they are not too near what is taken, which trees have, to those
     before, and to themselves; and where (k,6) they are.
 
     Groups of curves are compared with each other, the later ones only as far as those before leave room: where many run
@@ -429,7 +449,7 @@ def _without_dense_groups(
     from scipy.spatial import cKDTree
 
     apart = shape.apart
-    free = free_around(lines, tree, NEAREST * apart)
+    free = free_around(lines, trees, NEAREST * apart)
     found, places = some_places(lines, free)
     free = free[places]
     own = [np.zeros((0, 6))]
@@ -447,13 +467,13 @@ def _without_dense_groups(
         spans.append(kept)
         own.append(found.where[ragged.ranges(kept[:, 1], kept[:, 2] - kept[:, 1] + 1)])
         last = cKDTree(own[-1], balanced_tree=False)
-        left = left[~beside(last, found.where[found.seeds[left]], WIDEST * apart)]
+        left = left[~beside([last], found.where[found.seeds[left]], WIDEST * apart)]
         about = _boxes(own[-1], ragged.starts(kept[:, 2] - kept[:, 1] + 1))
         reach = NEAREST * apart
         near = left[np.unique(overlapping_boxes(low[:, left], high[:, left], about[0] - reach, about[1] + reach)[0])]
         at = ragged.ranges(bounds[near], bounds[near + 1] - bounds[near])
         at = at[free[at] & cells.near(own[-1][:, :3], reach)[cell[at]]]
-        free[at] = ~beside(last, found.where[at], reach)
+        free[at] = ~beside([last], found.where[at], reach)
     line, first, end = np.concatenate(spans).T
     if not len(line):
         return [], np.zeros((0, 6))
@@ -497,13 +517,15 @@ def evenly_spaced_mesh_curves(
     return evenly_spaced_on_faces(BentFaces(mesh, crease_angle_deg), field, apart)
 
 
-def evenly_spaced_on_faces(bent: BentFaces, field: TangentField, apart: float) -> MeshCurves:
-    """The same on a mesh of which is known how it bends."""
+def evenly_spaced_on_faces(
+    bent: BentFaces, field: TangentField, apart: float, longest: float | None = None
+) -> MeshCurves:
+    """The same on a mesh of which is known how it bends; longest: as of StreamlineMesh."""
     positive("evenly spaced curves: distance", apart)
     sides, none = mesh_sides(bent.mesh), all_mesh_curves([])
     if not bent.mesh.face_count or sides.extent == 0.0:
         return none
     flow = face_field_flow(sides, bent, field)
     across = face_field_flow(sides, bent, TurnedField(field, 0.5 * np.pi))
-    result = combed(StreamlineMesh(bent, field, apart, sides, flow, across))
+    result = combed(StreamlineMesh(bent, field, apart, sides, flow, across, longest))
     return replace(result, levels=np.zeros(len(result)))

@@ -49,7 +49,7 @@ def hatched_in_place(
     budget: float,
 ) -> Paths:
     """The strokes in what is seen of a scene's faces, as they come. hatch and all else as of draw."""
-    from vectorplot.pictures.fills import hatched
+    from vectorplot.pictures.hatching import hatched
 
     pipeline = shapes.pipeline
     trace = partial(

@@ -19,6 +19,7 @@ from vectorplot.pictures.draw import draw
 from vectorplot.pictures.paint import paint
 from vectorplot.pictures.pipeline import StageReport
 from vectorplot.pictures.render import render
+from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
@@ -108,6 +109,8 @@ def _lump_of(triangles: int) -> Scene:
 
 _TRIANGLES = tuple(20 * 4**level for level in (5, 6, 7, 8))
 
+_HATCHED = {"lines": "contour", "hatch": Hatching("tone")}
+
 _FROM_AFAR = {"camera": Camera(eye=(30.0, -20.0, 18.0), target=(5.0, 5.0, 5.0))}
 
 SERIES = (
@@ -116,6 +119,7 @@ SERIES = (
     Series("bars", "draw", {}, bars, (300, 1000, 3000), "bar"),
     Series("weave", "draw", {}, weave, (2500, 14400, 90000), "crossing"),
     Series("one mesh", "draw", {"lines": "contour,crease"}, _lump_of, _TRIANGLES, "triangle"),
+    Series("hatched mesh", "draw", _HATCHED, _lump_of, _TRIANGLES[:3], "triangle"),
     Series("spheres", "draw", _FROM_AFAR, spheres, (500, 1500, 4500), "sphere"),
     Series("tori", "draw", {}, tori, (1, 2, 4), "torus"),
     Series("boxes in colour", "paint", {"shadows": "none"}, boxes, (200, 400, 800), "box"),

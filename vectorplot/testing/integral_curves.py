@@ -27,7 +27,7 @@ from vectorplot.geometry.elementary import arcsin, arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.vectors import cross, dot, norm
-from vectorplot.pictures.fills import on_page
+from vectorplot.pictures.followed_lines import on_page
 from vectorplot.surfaces.surface import Surface, is_parametrised
 from vectorplot.testing.curves import Curves, assert_chords, assert_on_surface, places_near, polylines_of
 from vectorplot.tolerances import LEAST_DIVISOR, ZERO_OF_EXTENT

@@ -17,7 +17,7 @@ from vectorplot.drawing.hatching import _farthest_first, place_ranks
 from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
 from vectorplot.geometry import box
 from vectorplot.io.scene_language import parse_scene
-from vectorplot.pictures.fills import field_of
+from vectorplot.pictures.followed_lines import field_of
 from vectorplot.scene import terrain_mesh
 from vectorplot.surfaces import Domain, Sphere, graph, terrain
 

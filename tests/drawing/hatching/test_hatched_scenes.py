@@ -10,8 +10,11 @@ from support.scene_rays import faces_of, lacking, page_rays
 
 import vectorplot as vp
 from vectorplot import surfaces
+from vectorplot.drawing.hatching import LEAST_MM
+from vectorplot.geometry.polylines import segments
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
+from vectorplot.pictures.hatching import BEHIND
 from vectorplot.scene import Page
 
 PAGE = Page(200.0, 140.0, 0.0)
@@ -46,11 +49,13 @@ def test_strokes_are_where_rays_meet_their_items_and_end_where_these_do(along: s
     wrong = sum((seen_items(town, places)[0] != item).sum() for places in inside)
     assert len(item) > 400 and wrong == 0
     if along == "page":
-        within = [((p > NEAR) & (p < (200.0 - NEAR, 140.0 - NEAR))).all(axis=1) for p in lines.transpose(1, 0, 2)]
-        beyond = [(lines[:, 0] - NEAR * way)[within[0]], (lines[:, 1] + NEAR * way)[within[1]]]
-        same = [seen_items(town, places)[0] == item[ok] for places, ok in zip(beyond, within, strict=True)]
-        # A corner that sticks out by less than NEAR may come back at once.
-        assert sum(some.sum() for some in same) <= 2
+        far = NEAR + BEHIND * even.width_mm
+        within = [((p > far) & (p < (200.0 - far, 140.0 - far))).all(axis=1) for p in lines.transpose(1, 0, 2)]
+        for end, sign, ok in ((lines[:, 0], -1.0, within[0]), (lines[:, 1], 1.0, within[1])):
+            same = [seen_items(town, (end + sign * step * way)[ok])[0] == item[ok] for step in (NEAR, far)]
+            # A corner that sticks out by less may come back at once, and so may what is behind a narrow thing.
+            assert (same[0] & same[1]).sum() <= 8
+            assert 20 < same[0].sum() < 0.5 * ok.sum(), "before what is in front of them strokes end"
 
 
 @pytest.mark.slow
@@ -64,12 +69,14 @@ def test_no_stroke_is_missing_where_rays_meet_an_item() -> None:
     places = np.stack([random.uniform(1.0, 199.0, 1500), (rows + 0.5) * spacing], axis=1)
     item = seen_items(town, places)[0]
     sure = item >= 0
-    for shift in ((NEAR, 0.0), (-NEAR, 0.0), (0.0, NEAR), (0.0, -NEAR)):
+    # Strokes end before what is in front, and none is as short as a speck.
+    along = BEHIND * even.width_mm + LEAST_MM
+    for shift in ((NEAR, 0.0), (-NEAR, 0.0), (0.0, NEAR), (0.0, -NEAR), (along, 0.0), (-along, 0.0)):
         sure &= seen_items(town, places + shift)[0] == item
     tree = shapely.STRtree(shapely.linestrings(strokes.points.reshape(-1, 2, 2)))
     point, stroke = tree.query(shapely.points(places[sure]), predicate="dwithin", distance=1e-6)
     found = strokes.item[stroke] == item[sure][point]
-    assert sure.sum() > 500 and np.unique(point[found]).size == sure.sum()
+    assert sure.sum() > 400 and np.unique(point[found]).size == sure.sum()
 
 
 @pytest.mark.slow
@@ -86,7 +93,8 @@ def test_strokes_lie_closer_in_shadows() -> None:
     for shift in np.array([(1, 0), (-1, 0), (0, 1), (0, -1)]) * 0.7:
         _, there, other = seen_items(town, places + shift)
         sure &= (there == face) & (lacking(faces, town, there, other, other - eye)[0] == dark)
-    tree = shapely.STRtree(shapely.linestrings(strokes.points.reshape(-1, 2, 2)))
+    parts = segments(strokes)
+    tree = shapely.STRtree(shapely.linestrings(strokes.points[parts]))
 
     def farthest(some: np.ndarray) -> float:
         spots = shapely.points(places[some])

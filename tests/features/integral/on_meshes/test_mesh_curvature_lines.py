@@ -169,12 +169,16 @@ def test_planes_balls_and_cubes_have_none_and_say_so(noise, offset):
 
 @pytest.mark.slow
 def test_a_plate_says_that_it_has_none_in_files_and_hatched():
-    for text in ("PLATE box 3 2 0.1 curvature_lines 1\n", "PLATE gray box 3 2 0.1 hatch even along curvature\n"):
-        with pytest.warns(InputWarning, match="PLATE: no lines of curvature: it is flat, or round as a ball") as told:
+    with pytest.warns(InputWarning, match="PLATE: no lines of curvature: it is flat, or round as a ball") as told:
+        vp.draw(parse_scene("PLATE box 3 2 0.1 curvature_lines 1\n"), "iso", lines="integral")
+    assert len(told) == 1
+    # Where there are none strokes follow what is level.
+    combed = vp.draw(parse_scene("PLATE gray box 3 2 0.1 hatch even along curvature spacing 4\n"), "iso", lines="none")
+    found = [paths.points3d for layer in combed.layers for paths in layer.strokes if len(paths)]
+    assert len(found) and all(len(points) > 20 for points in found)
+    for text in ("PLATE box 3 2 0.1 asymptotic_lines 1\n", "PLATE gray box 3 2 0.1 hatch even along asymptotic\n"):
+        with pytest.warns(InputWarning, match="PLATE: no asymptotic lines: it is flat, or nowhere saddle-shaped"):
             vp.draw(parse_scene(text), "iso", lines="integral")
-        assert len(told) == 1
-    with pytest.warns(InputWarning, match="PLATE: no asymptotic lines: it is flat, or nowhere saddle-shaped"):
-        vp.draw(parse_scene("PLATE box 3 2 0.1 asymptotic_lines 1\n"), "iso", lines="integral")
 
 
 @pytest.mark.slow
