@@ -287,3 +287,13 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages += _cue_stages(scene)
     stages += _label_stages(scene)
     return tuple(stages)
+
+
+def plan_bodies(stages: Sequence[Stage]) -> tuple[Stage, ...]:
+    """The stages of painting, before them those of a scene of bodies that are painted as wholes, in their place where
+    that can be."""
+    return (
+        Stage("bodies", "everything is a ball, a rod or another quadric body: back to front as wholes"),
+        Stage("bands", "their visible parts in bands of equal shade (--tolerance)"),
+        *stages,
+    )
