@@ -404,12 +404,16 @@ def _cut(mesh: ChartMesh, function: Callable[[Ints, Floats, Floats], Floats]) ->
 OVER = 2
 """So many bands each polygon covers: its own, and the next one, which covers that."""
 
-THINNED = 0.25
+THINNED, THINNED_UNDER = 0.3, 0.45
 """Corners of isophotes that are no farther off the line between their neighbours than this part of the width of the
-band are left out."""
+band are left out, where bands begin, and where they end under the next ones."""
+
+ROUNDED_MM = 0.01
+"""Corners are written in these units: less than half of it is not seen, and more would double the files."""
 
 SPECK = 0.5
-"""Polygons that are no larger than the square of such a part of the tolerance are left out."""
+"""Polygons that are no wider than such a part of the tolerance, as bands beside contours are, are left out: there one
+sees the band before."""
 
 UNSEEN_MM = 0.15
 """So far corners may be off that are covered."""
@@ -542,8 +546,8 @@ def _without_pinches(mesh: ChartMesh) -> tuple[ChartMesh, Ints]:
     node = node.copy()
     node[corner] = count + of.reshape(-1)
     source = np.concatenate([np.arange(count), triangles.ravel()[fans]])
-    rows = (row[source] for row in (mesh.chart, mesh.x, mesh.y, mesh.covered))
-    return ChartMesh(*rows, node.reshape(-1, 3)), source
+    own = replace(mesh, x=mesh.x[source], y=mesh.y[source], triangles=node.reshape(-1, 3))
+    return replace(own, chart=mesh.chart[source], covered=mesh.covered[source]), source
 
 
 @dataclass(frozen=True, eq=False)
@@ -570,7 +574,7 @@ class _Marching:
     def part(self) -> Ints:
         """(n,) the number of the part each node is of: of one chart, for want of the same lights."""
         key = self.lacking * (len(self.shaded.charts) + 1) + self.mesh.chart
-        return np.unique(key, return_inverse=True)[1].reshape(-1)
+        return np.asarray(np.unique(key, return_inverse=True)[1].reshape(-1))
 
     @cached_property
     def crossings(self) -> tuple[Ints, Ints, Ints, Ints]:
@@ -593,8 +597,10 @@ class _Marching:
         order, offsets, ring_key, upper = _gathered(*_rings(key, start, end, kind))
         position = start[order]
         points = self._points()
-        page = self.shaded.on_page(points)
-        keep = _thinned(page[:, position], offsets, self._allowed(page)[position])
+        page = np.rint(self.shaded.on_page(points) / ROUNDED_MM) * ROUNDED_MM
+        under = (kind[order] == 2) & (kind[order][ragged.preceding(offsets)] == 2)
+        strict, loose = self._allowed(page)
+        keep = _thinned(page[:, position], offsets, np.where(under, loose[position], strict[position]))
         position, offsets = position[keep], ragged.offsets(keep)[offsets]
         return self._polygons(points, page, position, offsets, ring_key, upper)
 
@@ -646,39 +652,40 @@ class _Marching:
         last = step == count[of] - 1
         start = np.where(step == 0, a[of], self.crossing(side[of], np.where(step == 0, 0, before)))
         end = np.where(last, b[of], self.crossing(side[of], np.where(last, 0, behind)))
-        kind = np.where(mesh.covered[a] & mesh.covered[b], 2, 0)[of]
+        kind = np.where(mesh.covered[a] & mesh.covered[b], 2, 0).astype(np.intp)[of]
         part = self.part[a][of]
-        rows = [(part * self._span + band - under, start, end, kind) for under in range(OVER)]
-        kept = [band - under > lowest[part] for under in range(OVER)]
-        rows.append((part * self._span + lowest[part], start, end, kind))
-        kept.append(np.ones(len(part), dtype=np.bool_))
-        every = [tuple(row[some] for row in each) for each, some in zip(rows, kept, strict=True)]
-        return tuple(np.concatenate([each[k] for each in every]) for k in range(4))  # type: ignore[return-value]
+        bands = np.stack([lowest[part], *(band - under for under in range(OVER))])
+        kept = bands > lowest[part]
+        kept[0] = True
+        row, piece = np.nonzero(kept)
+        return part[piece] * self._span + bands[row, piece], start[piece], end[piece], kind[piece]
 
-    def _allowed(self, page: Floats) -> Floats:
-        """(k,) how far corners (2,k) may be beside the lines that are drawn without them: less than what bands go on
-        under the next ones. On borders all bands have the same corners, and keep them."""
+    def _allowed(self, page: Floats) -> tuple[Floats, Floats]:
+        """(k,) how far corners (2,k) may be beside the lines that are drawn without them where bands begin, and where
+        they end under the next ones. On borders all bands have the same corners, and keep them."""
         one, other, number = self.sides
         side = self.crossings[0]
         inner = np.bincount(number.ravel(), minlength=len(one))[side] > 1
         loose = self.shaded.loose_mm[self.mesh.chart[one[side]]]
         covered = self.mesh.covered
         hidden = covered[one[side]] & covered[other[side]]
-        crossings = np.where(inner, np.minimum(loose, self._band_widths(page)[side]), 0.0)
-        return np.concatenate([np.where(covered, UNSEEN_MM, 0.0), np.where(hidden, UNSEEN_MM, crossings)])
+        wide = self._band_widths(page)[side]
+        nodes, ends = np.where(covered, UNSEEN_MM, 0.0), (np.minimum(loose, THINNED * wide), THINNED_UNDER * wide)
+        begin, end = (np.where(hidden, UNSEEN_MM, np.where(inner, one, 0.0)) for one in ends)
+        return np.concatenate([nodes, begin]), np.concatenate([nodes, end])
 
     def _band_widths(self, page: Floats) -> Floats:
-        """(s,) THINNED of how wide bands are on the page in the triangles at sides, where narrowest; page (2,k): the
-        places of nodes, and others."""
+        """(s,) how wide bands are on the page in the two triangles at sides, by their areas; page (2,k): the places of
+        nodes, and others."""
         triangles, (one, _, number) = self.mesh.triangles, self.sides
         a, b, c = page[:, triangles.T].transpose(1, 0, 2)
         rise = self.level[triangles]
         p, q = rise[:, 1] - rise[:, 0], rise[:, 2] - rise[:, 0]
         u, v = b - a, c - a
-        slope = np.hypot(*(p * v - q * u)) / np.maximum(np.abs(u[0] * v[1] - u[1] * v[0]), LEAST_DIVISOR)
-        steepest = np.zeros(len(one))
-        np.maximum.at(steepest, number, slope[:, None])
-        return np.asarray(THINNED / np.maximum(steepest, LEAST_DIVISOR))
+        # Slope times area, and area.
+        rows = np.hypot(*(p * v - q * u)), np.abs(u[0] * v[1] - u[1] * v[0])
+        slope, area = (np.bincount(number.ravel(), np.repeat(row, 3), minlength=len(one)) for row in rows)
+        return np.asarray(area / np.maximum(slope, LEAST_DIVISOR))
 
     def _points(self) -> Floats:
         """(3,k) the nodes, and the places where isophotes cross sides, in the view."""
@@ -709,7 +716,8 @@ class _Marching:
         kept = (np.diff(offsets) >= 3) & (area != 0.0)
         part = key // self._span
         kept &= ~(hole & upper) | np.isin(part, part[kept & hole & ~upper])
-        kept &= np.abs(area) > 2.0 * (SPECK * self.tolerance_mm) ** 2
+        length = np.add.reduceat(np.hypot(*(flat[:, after] - flat)), offsets[:-1]) if len(doubled) else area
+        kept &= np.abs(area) > SPECK * self.tolerance_mm * length
         pierced = kept & np.isin(key, key[kept & hole])
         alone = np.flatnonzero(kept & ~pierced)
         # Beside contours, where bands are narrower than chords are off, these cross.
@@ -722,7 +730,7 @@ class _Marching:
             return found
         some = np.flatnonzero(pierced)
         corner, ends = ragged.take(offsets, some)
-        opened, ends, own = _opened(flat[:, corner], ends, key[some], hole[some])
+        opened, ends, own = _opened(flat[:, corner], ends, key[some], hole[some], SPECK * self.tolerance_mm)
         near = nearest_of(flat[:, corner], opened)
         found = joined([found, self._bands(points[:, position[corner[near]]], opened, ends, own)])
         return take(found, _painting_order(found))
@@ -748,9 +756,9 @@ def _simple(page: Floats, offsets: Ints) -> Bools:
     return np.asarray(shapely.is_valid(shapely_polygons(page, offsets)) if len(offsets) > 1 else offsets[1:] > 0)
 
 
-def _opened(page: Floats, offsets: Ints, key: Ints, hole: Bools) -> tuple[Floats, Ints, Ints]:
+def _opened(page: Floats, offsets: Ints, key: Ints, hole: Bools, narrow: float) -> tuple[Floats, Ints, Ints]:
     """Rings (2,p) of regions with keys (n,), some of which are holes or cross themselves, as polygons without holes,
-    with their keys."""
+    with their keys; without those that are no wider than narrow."""
     import shapely
 
     rings = shapely_polygons(page, offsets)
@@ -763,6 +771,8 @@ def _opened(page: Floats, offsets: Ints, key: Ints, hole: Bools) -> tuple[Floats
     parts, of = shapely.get_parts(region, return_index=True)
     filled = shapely.get_type_id(parts) == POLYGON
     parts, of = without_holes(parts[filled], of[filled])
+    wide = 2.0 * shapely.area(parts) > narrow * shapely.length(parts)
+    parts, of = parts[wide], of[wide]
     corners, ends = corners_of(parts)
     return corners, ends, keys[of]
 
@@ -811,9 +821,9 @@ def _gathered(ring: Ints, place: Ints, key: Ints, upper: Bools) -> tuple[Ints, I
 
 def _thinned(page: Floats, offsets: Ints, allowed: Floats) -> Bools:
     """(p,) which corners of rings (2,p) are kept, of those that may be beside lines by what is allowed (p,): of every
-    two neighbours one may go, three times."""
+    two neighbours one may go, four times."""
     kept = np.ones(page.shape[1], dtype=np.bool_)
-    for parity in (1, 0, 1):
+    for parity in (1, 0, 1, 0):
         position = np.flatnonzero(kept)
         ends = ragged.offsets(kept)[offsets]
         sizes = np.diff(ends)
