@@ -165,6 +165,20 @@ def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, toleranc
     return _fills(whole, scene.items, item, shade_bands(shaded, tolerance_mm), placement)
 
 
+def _reaches(items: Sequence[Item], item: Ints) -> Floats:
+    """(n,) how far the palettes of items reach from dark to bright, as a part of all that there is."""
+    dark, bright = (item_colours(items, item, np.full(len(item), shade), COLOUR_MAP) for shade in (0.0, 1.0))
+    return np.asarray(np.abs(bright.astype(np.float64) - dark).max(axis=1) / 255.0)
+
+
+def band_error_steps(whole: WholeBodies, placement: Placement, tolerance_mm: float) -> float | None:
+    """By how many of 255 steps colours within bands are off those of the bands, at most."""
+    items = whole.scene.items
+    steps, _ = _widths(items, whole, placement, tolerance_mm)
+    reach = _reaches(items, whole.bodies.item[whole.charts.body])
+    return float((127.5 * reach / steps).max(initial=0.0))
+
+
 def _grain(whole: WholeBodies, casts: bool) -> Floats:
     """(n,) of bodies how small the circles of their cuts are, and of shadows, where there are any, the bodies."""
     cuts, solids = whole.ordered.cuts, whole.solids
@@ -189,9 +203,7 @@ def _widths(
     """(n,) how many bands a palette has on each chart: so many that shades are off by no more than half of the width of
     one, and fewer where a palette has fewer colours; and (n,) how far isophotes may be off on the page."""
     view, bodies, charts = whole.view, whole.bodies, whole.charts
-    item = bodies.item[charts.body]
-    ends = [item_colours(items, item, np.full(len(item), shade), COLOUR_MAP).astype(np.float64) for shade in (0.0, 1.0)]
-    colours = np.abs(ends[1] - ends[0]).max(axis=1) / 255.0
+    colours = _reaches(items, bodies.item[charts.body])
     near = 1.0 if view.eye is None else view.focus / view.depth_of(bodies.centre)
     radius = (bodies.sizes[0] * near * placement.scale)[charts.body]
     wide = np.clip(np.sqrt(MIDDLING_MM / np.maximum(radius, MIDDLING_MM / 16.0)), NARROWEST, WIDEST)

@@ -20,7 +20,7 @@ from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
-from vectorplot.pictures.banded_bodies import banded_fills, consists_of_bodies, whole_bodies
+from vectorplot.pictures.banded_bodies import band_error_steps, banded_fills, consists_of_bodies, whole_bodies
 from vectorplot.pictures.facet_errors import outline_error
 from vectorplot.pictures.fills import (
     VisiblePolygons,
@@ -276,6 +276,7 @@ def paint(
         ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget)
         casts = pipeline.calls_for("shadows")
         bodies = pipeline.run("bands", banded_fills, whole, placement, casts, tolerance_mm)
+        pipeline.measured("bands", "of 255", band_error_steps, whole, placement, tolerance_mm)
         polygons = Fills.joined(*background_of(scene, page), bodies)
     else:
         steps = palette if fills == "visible" else None
