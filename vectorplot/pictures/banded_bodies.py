@@ -9,7 +9,6 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
-from vectorplot.effects.shadows_on_bodies import shadow_margin
 from vectorplot.geometry import ragged
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
@@ -21,12 +20,12 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, view_of
-from vectorplot.shading.facet_resolution import shade_error, without_curved_mirror
+from vectorplot.shading.facet_resolution import SHADE_ERROR, shade_error, without_curved_mirror
 from vectorplot.shading.palettes import COLOUR_MAP
 from vectorplot.shading.shade_bands import Margin, ShadeBands, ShadedCharts, shade_bands
 from vectorplot.shading.shaded_faces import exposed_scene, item_colours, view_eye
-from vectorplot.surfaces.capped_bodies import ball_of, capped_quadric_of
 from vectorplot.visibility.painter.body_order import BodyCuts, BodyOrder, body_order
+from vectorplot.visibility.quadrics.clearances import clearance_of
 from vectorplot.visibility.quadrics.visible_parts import (
     Charts,
     QuadricBodies,
@@ -91,22 +90,6 @@ class WholeBodies:
         return fitted_picture(view, page, np.concatenate([corners, view.image_of(others)], axis=1))
 
 
-def is_whole(item: Item) -> bool:
-    """Whether an item is a body that bands of shade can show: opaque, of one colour and whole."""
-    plain = item.material.opacity >= 1.0 and item.material.refraction == 1.0 and item.hides
-    plain &= not (item.patterns or item.cut_by or item.is_cut_face or item.group or item.curves.slices)
-    plain &= item.fields is None and item.face_looks is None
-    capped = None if ball_of(item.shape) else capped_quadric_of(item.shape)
-    return plain and (ball_of(item.shape) is not None or (capped is not None and not capped.is_round))
-
-
-def consists_of_bodies(scene: Scene) -> bool:
-    """Whether bands of shade can show all of a scene, in white light that does not fade."""
-    drawn = [item for item in scene.items if not is_annotation(item)]
-    white = all(light.colour == "white" and not light.fading for light in scene.lights)
-    return bool(drawn) and white and scene.exposure != "fitted" and all(map(is_whole, drawn))
-
-
 def whole_bodies(shown: Scene, projection: Projection) -> WholeBodies | None:
     """The bodies of a scene, as of consists_of_bodies, in the painter's order; None where they cannot be painted as
     wholes: where they pierce each other but for balls and rods in these, where the eye is in one or near it, or sees a
@@ -147,7 +130,7 @@ def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, toleranc
     number = {material: k for k, material in enumerate(looks)}
     look = np.array([number[one.material] for one in scene.items], dtype=np.intp)[item]
     sight = view_eye(view)
-    hidden = shadow_margin(whole.solids, charts.body, Light(sight[:3], parallel=sight[3] == 0.0))
+    hidden = clearance_of(whole.solids, charts.body, Light(sight[:3], parallel=sight[3] == 0.0))
     near = 1.0 if view.eye is None else view.focus / view.depth_of(whole.solids.centre)
     deep = COVERED_MM / (near * placement.scale) + np.zeros(len(bodies))
 
@@ -157,7 +140,7 @@ def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, toleranc
     shadows = []
     if casts:
         shining = [number for number, light in enumerate(lights) if light.intensity != 0.0]
-        shadows = [(number, shadow_margin(whole.solids, charts.body, lights[number])) for number in shining]
+        shadows = [(number, clearance_of(whole.solids, charts.body, lights[number])) for number in shining]
     grain = _grain(whole, bool(shadows))[charts.body]
     shaded = ShadedCharts(
         charts, look, view, list(looks.values()), lights, placement, steps, loose, grain, cuts, shadows, cover
@@ -207,7 +190,9 @@ def _widths(
     near = 1.0 if view.eye is None else view.focus / view.depth_of(bodies.centre)
     radius = (bodies.sizes[0] * near * placement.scale)[charts.body]
     wide = np.clip(np.sqrt(MIDDLING_MM / np.maximum(radius, MIDDLING_MM / 16.0)), NARROWEST, WIDEST)
-    steps = np.minimum(colours / (2.0 * wide * shade_error(tolerance_mm)), MOST_PER_MM * radius)
+    # Wider ones are seen, whatever the tolerance is.
+    allowed = min(shade_error(tolerance_mm), SHADE_ERROR)
+    steps = np.minimum(colours / (2.0 * wide * allowed), MOST_PER_MM * radius)
     steps = np.maximum(np.ceil(steps), FEWEST)
     return steps, np.minimum(LOOSE * tolerance_mm, LOOSE_OF_BAND * radius / steps)
 

@@ -20,7 +20,6 @@ from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
-from vectorplot.pictures.banded_bodies import band_error_steps, banded_fills, consists_of_bodies, whole_bodies
 from vectorplot.pictures.facet_errors import outline_error
 from vectorplot.pictures.fills import (
     VisiblePolygons,
@@ -35,7 +34,7 @@ from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
 from vectorplot.pictures.options import SHADOWS, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport
-from vectorplot.pictures.plan import accuracy_of_paint, plan_bodies, plan_paint, with_accuracy
+from vectorplot.pictures.plan import accuracy_of_paint, consists_of_bodies, plan_bodies, plan_paint, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.light import Exposure, Light
@@ -267,7 +266,11 @@ def paint(
     shown = scene if kinds or fills == "erasing" else without_coincident(scene)
 
     drawn = kinds or line_kinds(LINE_WORDS if fills == "erasing" else ())
-    whole = pipeline.run("bodies", whole_bodies, shown, projection) if pipeline.calls_for("bodies") else None
+    whole = None
+    if pipeline.calls_for("bodies"):
+        from vectorplot.pictures.banded_bodies import band_error_steps, banded_fills, whole_bodies
+
+        whole = pipeline.run("bodies", whole_bodies, shown, projection)
     if whole is not None:
         view = whole.view
         beside = places_beside_faces(scene, view, None, sheet, fit, drawn, tolerance_mm, budget)

@@ -411,9 +411,8 @@ band are left out, where bands begin, and where they end under the next ones."""
 ROUNDED_MM = 0.01
 """Corners are written in these units: less than half of it is not seen, and more would double the files."""
 
-SPECK = 0.5
-"""Polygons that are no wider than such a part of the tolerance, as bands beside contours are, are left out: there one
-sees the band before."""
+SPECK_MM = 0.04
+"""Polygons that are no larger than the square of this are left out: there one sees the band before."""
 
 UNSEEN_MM = 0.15
 """So far corners may be off that are covered."""
@@ -716,8 +715,7 @@ class _Marching:
         kept = (np.diff(offsets) >= 3) & (area != 0.0)
         part = key // self._span
         kept &= ~(hole & upper) | np.isin(part, part[kept & hole & ~upper])
-        length = np.add.reduceat(np.hypot(*(flat[:, after] - flat)), offsets[:-1]) if len(doubled) else area
-        kept &= np.abs(area) > SPECK * self.tolerance_mm * length
+        kept &= np.abs(area) > 2.0 * SPECK_MM**2
         pierced = kept & np.isin(key, key[kept & hole])
         alone = np.flatnonzero(kept & ~pierced)
         # Beside contours, where bands are narrower than chords are off, these cross.
@@ -730,7 +728,7 @@ class _Marching:
             return found
         some = np.flatnonzero(pierced)
         corner, ends = ragged.take(offsets, some)
-        opened, ends, own = _opened(flat[:, corner], ends, key[some], hole[some], SPECK * self.tolerance_mm)
+        opened, ends, own = _opened(flat[:, corner], ends, key[some], hole[some])
         near = nearest_of(flat[:, corner], opened)
         found = joined([found, self._bands(points[:, position[corner[near]]], opened, ends, own)])
         return take(found, _painting_order(found))
@@ -756,9 +754,9 @@ def _simple(page: Floats, offsets: Ints) -> Bools:
     return np.asarray(shapely.is_valid(shapely_polygons(page, offsets)) if len(offsets) > 1 else offsets[1:] > 0)
 
 
-def _opened(page: Floats, offsets: Ints, key: Ints, hole: Bools, narrow: float) -> tuple[Floats, Ints, Ints]:
+def _opened(page: Floats, offsets: Ints, key: Ints, hole: Bools) -> tuple[Floats, Ints, Ints]:
     """Rings (2,p) of regions with keys (n,), some of which are holes or cross themselves, as polygons without holes,
-    with their keys; without those that are no wider than narrow."""
+    with their keys."""
     import shapely
 
     rings = shapely_polygons(page, offsets)
@@ -771,8 +769,8 @@ def _opened(page: Floats, offsets: Ints, key: Ints, hole: Bools, narrow: float) 
     parts, of = shapely.get_parts(region, return_index=True)
     filled = shapely.get_type_id(parts) == POLYGON
     parts, of = without_holes(parts[filled], of[filled])
-    wide = 2.0 * shapely.area(parts) > narrow * shapely.length(parts)
-    parts, of = parts[wide], of[wide]
+    large = shapely.area(parts) > SPECK_MM**2
+    parts, of = parts[large], of[large]
     corners, ends = corners_of(parts)
     return corners, ends, keys[of]
 

@@ -1,4 +1,4 @@
-"""How far places are from the shadows that quadric bodies throw: the way to the light beside the bodies on it."""
+"""How far the ways from places to a light, or to the eye, run beside quadric bodies: where these are in the way."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ from vectorplot.visibility.quadrics.visible_parts import QuadricBodies
 
 
 @dataclass(frozen=True, eq=False)
-class ShadowMargin:
+class Clearance:
     """A light, and for receivers one after the other the bodies that may keep it from them: caster (k,), offsets
     (n+1,). Called with receivers and points of theirs it tells how far the way to the light runs beside all casters,
     less than zero in shadow: no farther than points are from the border of a shadow."""
@@ -127,7 +127,7 @@ def _local(vectors: Floats, inverse: Floats, body: Ints) -> Floats:
     return found
 
 
-def shadow_margin(bodies: QuadricBodies, receiver: Ints, light: Light) -> ShadowMargin:
+def clearance_of(bodies: QuadricBodies, receiver: Ints, light: Light) -> Clearance:
     """The margin of a light, in the coordinates of bodies, on receivers: the bodies (n,) that places are on.
 
     Casters are those whose balls around them the light sees before, or in, the ball around a receiver.
@@ -162,7 +162,7 @@ def shadow_margin(bodies: QuadricBodies, receiver: Ints, light: Light) -> Shadow
     caster = np.concatenate(casters or [own[:0]])
     offsets = ragged.offsets(np.concatenate(counts or [own[:0]]))
     position, ends = ragged.take(offsets, which.reshape(-1))
-    return ShadowMargin(bodies, light, caster[position], ends)
+    return Clearance(bodies, light, caster[position], ends)
 
 
 def _balls_around(bodies: QuadricBodies) -> tuple[Floats, Floats]:
