@@ -496,6 +496,7 @@ def _marched(shaded: ShadedCharts, mesh: ChartMesh, lacking: Ints, tolerance_mm:
     combinations = np.unique(np.append(lacking, 0))
     combinations = combinations[np.argsort(np.bitwise_count(combinations), kind="stable")]
     jobs, nodes, lacks, covered = [], [], [], []
+    within = (np.abs(mesh.x) < 1.0) & (np.abs(mesh.y) < 1.0)
     count = 0
     for some in combinations.tolist():
         # Those in more shadows lie on these: of them only what is next is needed.
@@ -505,7 +506,7 @@ def _marched(shaded: ShadedCharts, mesh: ChartMesh, lacking: Ints, tolerance_mm:
         own, place = np.unique(triangles, return_inverse=True)
         jobs.append(place.reshape(-1, 3) + count)
         nodes.append(own)
-        covered.append(mesh.covered[own] | ~beside[own])
+        covered.append(mesh.covered[own] | (within & ~beside)[own])
         lacks.append(np.full(len(own), some, dtype=np.intp))
         count += len(own)
     node, lack = np.concatenate(nodes), np.concatenate(lacks)
