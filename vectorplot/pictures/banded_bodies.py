@@ -55,15 +55,16 @@ OVERLAP = 2.0
 COVERED_MM = 0.4
 """What is hidden by one body, so far within its outline, is not painted: more than a pixel of a screen."""
 
-GRAIN = 0.7
-"""Circles and shadows of a radius cannot be missed by triangles of such a part of it."""
+GRAIN, LEAST_GRAIN_MM = 0.7, 0.35
+"""Circles and shadows of a radius cannot be missed by triangles of such a part of it; those of a radius of less than
+half a millimetre may be."""
 
 
 @dataclass(frozen=True, eq=False)
 class WholeBodies:
-    """The bodies of a scene in the painter's order: scene: what is painted of them; solids: all of
-    them as they are; view: of the scene, whose points are the
-    nearest and the farthest of the bodies; boxes (4,n) in the image; charts of what the eye sees."""
+    """The bodies of a scene in the painter's order: scene: what is painted of them; solids: all of them as they are;
+    view: of the scene, whose points are the nearest and the farthest of the bodies; boxes (4,n) in the image; charts of
+    what the eye sees."""
 
     scene: Scene
     view: View
@@ -120,7 +121,8 @@ def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, toleranc
     """The bodies in bands of equal shade, back to front, as far as the picture shows them; casts: whether lights cast
     shadows."""
     view, bodies = whole.view, whole.bodies
-    charts = with_overlaps(whole.charts, OVERLAP * _unit_tolerances(whole, placement, tolerance_mm))
+    mm = _millimetres(whole, placement)
+    charts = with_overlaps(whole.charts, (OVERLAP * tolerance_mm * mm / bodies.sizes[2])[whole.charts.body])
     scene, lights = exposed_scene(view, whole.scene)
     item = bodies.item[charts.body]
     steps, loose = _widths(scene.items, whole, placement, tolerance_mm)
@@ -131,8 +133,7 @@ def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, toleranc
     look = np.array([number[one.material] for one in scene.items], dtype=np.intp)[item]
     sight = view_eye(view)
     hidden = clearance_of(whole.solids, charts.body, Light(sight[:3], parallel=sight[3] == 0.0))
-    near = 1.0 if view.eye is None else view.focus / view.depth_of(whole.solids.centre)
-    deep = COVERED_MM / (near * placement.scale) + np.zeros(len(bodies))
+    deep = COVERED_MM * mm
 
     def cover(chart: Ints, points: Floats) -> Ints:
         return hidden.stopping(chart, points, deep)
@@ -141,7 +142,7 @@ def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, toleranc
     if casts:
         shining = [number for number, light in enumerate(lights) if light.intensity != 0.0]
         shadows = [(number, clearance_of(whole.solids, charts.body, lights[number])) for number in shining]
-    grain = _grain(whole, bool(shadows))[charts.body]
+    grain = np.maximum(_grain(whole, bool(shadows)), LEAST_GRAIN_MM * mm)[charts.body]
     shaded = ShadedCharts(
         charts, look, view, list(looks.values()), lights, placement, steps, loose, grain, cuts, shadows, cover
     )
@@ -173,11 +174,11 @@ def _grain(whole: WholeBodies, casts: bool) -> Floats:
     return found
 
 
-def _unit_tolerances(whole: WholeBodies, placement: Placement, tolerance_mm: float) -> Floats:
-    """(n,) the tolerance along the axes of the bodies of charts, as a part of these."""
-    view, bodies = whole.view, whole.bodies
-    near = 1.0 if view.eye is None else view.focus / view.depth_of(bodies.centre)
-    return np.asarray(tolerance_mm / (near * placement.scale * bodies.sizes[2]))[whole.charts.body]
+def _millimetres(whole: WholeBodies, placement: Placement) -> Floats:
+    """(n,) how long a millimetre of the page is, in the view, at the depth of each body."""
+    view, centre = whole.view, whole.bodies.centre
+    near = np.ones(centre.shape[1]) if view.eye is None else view.focus / view.depth_of(centre)
+    return np.asarray(1.0 / (near * placement.scale))
 
 
 def _widths(
@@ -185,10 +186,9 @@ def _widths(
 ) -> tuple[Floats, Floats]:
     """(n,) how many bands a palette has on each chart: so many that shades are off by no more than half of the width of
     one, and fewer where a palette has fewer colours; and (n,) how far isophotes may be off on the page."""
-    view, bodies, charts = whole.view, whole.bodies, whole.charts
+    bodies, charts = whole.bodies, whole.charts
     colours = _reaches(items, bodies.item[charts.body])
-    near = 1.0 if view.eye is None else view.focus / view.depth_of(bodies.centre)
-    radius = (bodies.sizes[0] * near * placement.scale)[charts.body]
+    radius = (bodies.sizes[0] / _millimetres(whole, placement))[charts.body]
     wide = np.clip(np.sqrt(MIDDLING_MM / np.maximum(radius, MIDDLING_MM / 16.0)), NARROWEST, WIDEST)
     # Wider ones are seen, whatever the tolerance is.
     allowed = min(shade_error(tolerance_mm), SHADE_ERROR)
@@ -204,7 +204,7 @@ def _margins(cuts: BodyCuts, charts: Charts) -> list[Margin]:
     found: list[Margin] = []
     for number in range(int(turn.max(initial=-1)) + 1):
         own = cuts.take(order[turn == number])
-        place = np.full(int(charts.body.max(initial=-1)) + 1, -1, dtype=np.intp)
+        place = np.full(int(max(charts.body.max(initial=-1), own.body.max())) + 1, -1, dtype=np.intp)
         place[own.body] = np.arange(len(own))
         found.append(_Cut(own, place[charts.body]))
     return found
