@@ -14,7 +14,7 @@ import shapely
 from diagrams import GREY, INK, RED, SKY, layer, polygons, strokes
 
 import vectorplot as vp
-from vectorplot.drawing import Fills
+from vectorplot.drawing import Fills, visible_fills
 from vectorplot.geometry import polygons_of
 from vectorplot.shading import FINISHES, lambert
 from vectorplot.surfaces import PlacedSurface, Sphere
@@ -62,9 +62,10 @@ def main(folder: Path) -> None:
     cosine = np.linspace(0.05, 0.95, 19)
     falling = [lambert(cosine, FINISHES[word].exponent) for word in ("mat", "wood", "normal", "metallic")]
     assert (np.diff(falling, axis=0) < 0).all(), "the higher the exponent, the darker what is not lit from the front"
-    middle = np.add.reduceat(fills.colours.mean(axis=1), fills.offsets[:-1]) / np.diff(fills.offsets)
-    area = shapely.area(polygons_of(fills.points.T, fills.offsets))
-    brightness = [np.average(middle[fills.item == k], weights=area[fills.item == k]) for k in range(3)]
+    seen = visible_fills(fills, painted.page_from_world)
+    middle = seen.colours[seen.offsets[:-1]].mean(axis=1)
+    area = shapely.area(polygons_of(seen.points.T, seen.offsets))
+    brightness = [np.average(middle[seen.item == k], weights=area[seen.item == k]) for k in range(3)]
     assert brightness[0] > brightness[1] > brightness[2], "so it is in the picture: mat, wood, normal"
 
 

@@ -414,12 +414,12 @@ class Areas:
     """Filled polygons, each painted over those before it.
 
     microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,), more than 0; bare (m,):
-    those without a line around them: transparent ones, and blank ones that are there to hide things; group (m,): the
-    transparency groups, ascending, -1 for none: those of a group are opaque, and their opacity is that of all; part
-    (m,): of those of several items in a group, ascending, the runs that are clipped to their own outlines, -1 for the
-    first one and outside of groups; fringe (m,): what is painted first in a group, under others, and is no part of its
-    outline; item (m,): of the drawing. A polygon of two corners is a line. All others are counter-clockwise, have an
-    area, and no two neighbouring corners that are equal; they are flat, or triangles that are shaded linearly.
+    those without a line around them: transparent ones, bands, and blank ones that are there to hide things; group
+    (m,): the transparency groups, ascending, -1 for none: those of a group are opaque, and their opacity is that of
+    all; part (m,): of those of several items in a group, ascending, the runs that are clipped to their own outlines, -1
+    for the first one and outside of groups; fringe (m,): what is painted first in a group, under others, and is no part
+    of its outline; item (m,): of the drawing. A polygon of two corners is a line. All others are counter-clockwise,
+    have an area, and no two neighbouring corners that are equal; they are flat, or triangles that are shaded linearly.
     """
 
     microns: Ints
@@ -514,7 +514,7 @@ def areas(fills: Fills, width_mm: float, height_mm: float) -> Areas:
     drawn = _fanned(_clipped(drawn, width_mm, height_mm))
     microns, offsets, colours, kept = rounded(drawn)
     source = drawn.source[kept]
-    opacity, blank = solid.opacity[source], solid.kind[source] == FillKind.BACKGROUND
+    opacity, blank = solid.opacity[source], np.isin(solid.kind[source], (FillKind.BACKGROUND, FillKind.BAND))
     item = solid.item[source]
     run, part = _alike(solid, source, np.diff(offsets))
     group = groups_of(microns, offsets, run, part)

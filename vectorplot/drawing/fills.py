@@ -53,6 +53,8 @@ class FillKind(IntEnum):
     """A line between two points."""
     BACKGROUND = 9
     """The paper, or a blank polygon that hides what is behind it."""
+    BAND = 10
+    """A band of equal shade on a round body, which reaches under the next brighter one."""
 
     @property
     def word(self) -> str:

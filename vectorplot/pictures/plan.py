@@ -287,3 +287,29 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages += _cue_stages(scene)
     stages += _label_stages(scene)
     return tuple(stages)
+
+
+def is_whole(item: Item) -> bool:
+    """Whether an item is a body that bands of shade can show: opaque, of one colour and whole."""
+    plain = item.material.opacity >= 1.0 and item.material.refraction == 1.0 and item.hides
+    plain &= not (item.patterns or item.cut_by or item.is_cut_face or item.group or item.curves.slices)
+    plain &= item.fields is None and item.face_looks is None
+    capped = None if ball_of(item.shape) else capped_quadric_of(item.shape)
+    return plain and (ball_of(item.shape) is not None or (capped is not None and not capped.is_round))
+
+
+def consists_of_bodies(scene: Scene) -> bool:
+    """Whether bands of shade can show all of a scene, in white light that does not fade."""
+    drawn = [item for item in scene.items if not is_annotation(item)]
+    white = all(light.colour == "white" and not light.fading for light in scene.lights)
+    return bool(drawn) and white and scene.exposure != "fitted" and all(map(is_whole, drawn))
+
+
+def plan_bodies(stages: Sequence[Stage]) -> tuple[Stage, ...]:
+    """The stages of painting, before them those of a scene of bodies that are painted as wholes, in their place where
+    that can be."""
+    return (
+        Stage("bodies", "everything is a ball, a rod or another quadric body: back to front as wholes"),
+        Stage("bands", "their visible parts in bands of equal shade (--tolerance)"),
+        *stages,
+    )

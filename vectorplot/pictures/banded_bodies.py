@@ -1,0 +1,274 @@
+"""Balls, rods and other quadric bodies painted as wholes: in bands of equal shade within their outlines."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.geometry import ragged
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polygon_cuts import clipped_by_convex
+from vectorplot.geometry.projections import Projection
+from vectorplot.scene.annotations import is_annotation
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.page import Page
+from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
+from vectorplot.scene.scene import Scene
+from vectorplot.scene.view import View, view_of
+from vectorplot.shading.facet_resolution import SHADE_ERROR, shade_error, without_curved_mirror
+from vectorplot.shading.palettes import COLOUR_MAP
+from vectorplot.shading.shade_bands import Margin, ShadeBands, ShadedCharts, shade_bands
+from vectorplot.shading.shaded_faces import exposed_scene, item_colours, view_eye
+from vectorplot.visibility.painter.body_order import BodyCuts, BodyOrder, body_order
+from vectorplot.visibility.quadrics.clearances import clearance_of
+from vectorplot.visibility.quadrics.visible_parts import (
+    Charts,
+    QuadricBodies,
+    image_boxes,
+    quadric_bodies,
+    visible_parts,
+    with_overlaps,
+)
+
+MIDDLING_MM = 10.0
+"""Bodies of this radius on the page have bands that are off by as much as shades of triangles; the width of the bands
+of larger and smaller ones goes with the root of the radius."""
+
+WIDEST, NARROWEST = 2.0, 0.5
+"""Times the width of the bands of middling bodies that bands of small and of large ones have."""
+
+FEWEST, MOST_PER_MM = 6, 20.0
+"""Bands of a palette; no more than so many for each mm of a radius, since narrower ones are not seen."""
+
+LOOSE, LOOSE_OF_BAND = 2.5, 0.5
+"""Isophotes may be off by so many tolerances, and by such a part of the radius less the number of bands: where a band
+ends is seen far less than where a body does."""
+
+OVERLAP = 2.0
+"""So many tolerances mantles go on under flat ends, which are painted on them, so that nothing is seen between them."""
+
+COVERED_MM = 0.4
+"""What is hidden by one body, so far within its outline, is not painted: more than a pixel of a screen."""
+
+GRAIN, LEAST_GRAIN_MM = 0.7, 0.35
+"""Circles and shadows of a radius cannot be missed by triangles of such a part of it; those of a radius of less than
+half a millimetre may be."""
+
+
+@dataclass(frozen=True, eq=False)
+class WholeBodies:
+    """The bodies of a scene in the painter's order: scene: what is painted of them; solids: all of them as they are;
+    view: of the scene, whose points are the nearest and the farthest of the bodies; boxes (4,n) in the image; charts of
+    what the eye sees."""
+
+    scene: Scene
+    view: View
+    solids: QuadricBodies
+    ordered: BodyOrder
+    boxes: Floats
+    charts: Charts
+
+    @property
+    def bodies(self) -> QuadricBodies:
+        """Those that are in order, rods without their parts in balls."""
+        return self.ordered.bodies
+
+    def placement(self, page: Page, fit: bool, beside: Floats) -> Placement:
+        """The place of a picture of the bodies, and of places beside them (n,3) in the world."""
+        view, others = self.view, self.view.points_of(beside)
+        corners = np.stack([self.boxes[:2].ravel(), self.boxes[2:].ravel()])
+        # Places in the image plane, the images of which they are.
+        flat = view.target[:2] if view.eye is None else view.eye[:2]
+        level = 0.0 if view.eye is None else view.eye[2] - view.focus
+        there = np.concatenate([corners + flat[:, None], np.full((1, corners.shape[1]), level)])
+        if not fit or view.reaches_too_far(view.points, there, others):
+            return field_of_vision(view, page, fit)
+        return fitted_picture(view, page, np.concatenate([corners, view.image_of(others)], axis=1))
+
+
+def whole_bodies(shown: Scene, projection: Projection) -> WholeBodies | None:
+    """The bodies of a scene, as of consists_of_bodies, in the painter's order; None where they cannot be painted as
+    wholes: where they pierce each other but for balls and rods in these, where the eye is in one or near it, or sees a
+    mantle all around."""
+    scene = replace(shown, items=tuple(without_curved_mirror(item) for item in shown.items))
+    some = [number for number, item in enumerate(scene.items) if not isinstance(item.shape, Mesh)]
+    some = [number for number in some if not is_annotation(scene.items[number])]
+    bodies = quadric_bodies(projection, [scene.items[number].shape for number in some], some)
+    if bodies is None or not len(bodies):
+        return None
+    every = np.arange(len(bodies))
+    along = np.repeat([[0.0], [0.0], [1.0]], len(bodies), axis=1)
+    extremes = np.concatenate([bodies.support(along, every), bodies.support(-along, every)], axis=1)
+    if projection.eye is not None and not (projection.depth_of(extremes) > projection.near).all():
+        return None
+    boxes = image_boxes(bodies, projection)
+    ordered = body_order(bodies, boxes, projection.tolerance)
+    charts = None if ordered is None else visible_parts(ordered.bodies)
+    if ordered is None or charts is None:
+        return None
+    shown_bodies = np.zeros(len(bodies), dtype=np.bool_)
+    shown_bodies[ordered.order] = True
+    view = replace(view_of(scene, projection), points=np.ascontiguousarray(extremes))
+    return WholeBodies(scene, view, bodies, ordered, boxes, charts.take(shown_bodies[charts.body]))
+
+
+def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, tolerance_mm: float) -> Fills:
+    """The bodies in bands of equal shade, back to front, as far as the picture shows them; casts: whether lights cast
+    shadows."""
+    view, bodies = whole.view, whole.bodies
+    mm = _millimetres(whole, placement)
+    charts = with_overlaps(whole.charts, (OVERLAP * tolerance_mm * mm / bodies.sizes[2])[whole.charts.body])
+    scene, lights = exposed_scene(view, whole.scene)
+    item = bodies.item[charts.body]
+    steps, loose = _widths(scene.items, whole, placement, tolerance_mm)
+    cuts = _margins(whole.ordered.cuts, charts)
+    # Of one item for each material shades are asked.
+    looks = {item.material: item for item in scene.items}
+    number = {material: k for k, material in enumerate(looks)}
+    look = np.array([number[one.material] for one in scene.items], dtype=np.intp)[item]
+    sight = view_eye(view)
+    hidden = clearance_of(whole.solids, charts.body, Light(sight[:3], parallel=sight[3] == 0.0))
+    deep = COVERED_MM * mm
+
+    def cover(chart: Ints, points: Floats) -> Ints:
+        return hidden.stopping(chart, points, deep)
+
+    shadows = []
+    if casts:
+        shining = [number for number, light in enumerate(lights) if light.intensity != 0.0]
+        shadows = [(number, clearance_of(whole.solids, charts.body, lights[number])) for number in shining]
+    grain = np.maximum(_grain(whole, bool(shadows)), LEAST_GRAIN_MM * mm)[charts.body]
+    shaded = ShadedCharts(
+        charts, look, view, list(looks.values()), lights, placement, steps, loose, grain, cuts, shadows, cover
+    )
+    return _fills(whole, scene.items, item, shade_bands(shaded, tolerance_mm), placement)
+
+
+def _reaches(items: Sequence[Item], item: Ints) -> Floats:
+    """(n,) how far the palettes of items reach from dark to bright, as a part of all that there is."""
+    dark, bright = (item_colours(items, item, np.full(len(item), shade), COLOUR_MAP) for shade in (0.0, 1.0))
+    return np.asarray(np.abs(bright.astype(np.float64) - dark).max(axis=1) / 255.0)
+
+
+def band_error_steps(whole: WholeBodies, placement: Placement, tolerance_mm: float) -> float | None:
+    """By how many of 255 steps colours within bands are off those of the bands, at most."""
+    items = whole.scene.items
+    steps, _ = _widths(items, whole, placement, tolerance_mm)
+    reach = _reaches(items, whole.bodies.item[whole.charts.body])
+    return float((127.5 * reach / steps).max(initial=0.0))
+
+
+def _grain(whole: WholeBodies, casts: bool) -> Floats:
+    """(n,) of bodies how small the circles of their cuts are, and of shadows, where there are any, the bodies."""
+    cuts, solids = whole.ordered.cuts, whole.solids
+    found = np.full(len(solids), np.inf)
+    np.minimum.at(found, cuts.body, GRAIN * cuts.radius)
+    if casts:
+        least = np.where(solids.is_ball, solids.sizes.min(axis=0), solids.sizes[:2].min(axis=0))
+        found = np.minimum(found, GRAIN * float(least.min()))
+    return found
+
+
+def _millimetres(whole: WholeBodies, placement: Placement) -> Floats:
+    """(n,) how long a millimetre of the page is, in the view, at the depth of each body."""
+    view, centre = whole.view, whole.bodies.centre
+    near = np.ones(centre.shape[1]) if view.eye is None else view.focus / view.depth_of(centre)
+    return np.asarray(1.0 / (near * placement.scale))
+
+
+def _widths(
+    items: Sequence[Item], whole: WholeBodies, placement: Placement, tolerance_mm: float
+) -> tuple[Floats, Floats]:
+    """(n,) how many bands a palette has on each chart: so many that shades are off by no more than half of the width of
+    one, and fewer where a palette has fewer colours; and (n,) how far isophotes may be off on the page."""
+    bodies, charts = whole.bodies, whole.charts
+    colours = _reaches(items, bodies.item[charts.body])
+    radius = (bodies.sizes[0] / _millimetres(whole, placement))[charts.body]
+    wide = np.clip(np.sqrt(MIDDLING_MM / np.maximum(radius, MIDDLING_MM / 16.0)), NARROWEST, WIDEST)
+    # Wider ones are seen, whatever the tolerance is.
+    allowed = min(shade_error(tolerance_mm), SHADE_ERROR)
+    steps = np.minimum(colours / (2.0 * wide * allowed), MOST_PER_MM * radius)
+    steps = np.maximum(np.ceil(steps), FEWEST)
+    return steps, np.minimum(LOOSE * tolerance_mm, LOOSE_OF_BAND * radius / steps)
+
+
+def _margins(cuts: BodyCuts, charts: Charts) -> list[Margin]:
+    """The cuts of bodies as margins: of each body one after the other."""
+    order = np.argsort(cuts.body, kind="stable")
+    turn = ragged.place(np.unique(cuts.body[order], return_counts=True)[1])
+    found: list[Margin] = []
+    for number in range(int(turn.max(initial=-1)) + 1):
+        own = cuts.take(order[turn == number])
+        place = np.full(int(max(charts.body.max(initial=-1), own.body.max())) + 1, -1, dtype=np.intp)
+        place[own.body] = np.arange(len(own))
+        found.append(_Cut(own, place[charts.body]))
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class _Cut:
+    """One cut of each of some bodies; of_chart (n,): its number, -1 for charts without."""
+
+    cuts: BodyCuts
+    of_chart: Ints
+
+    def __call__(self, chart: Ints, points: Floats) -> Floats:
+        """As of Margin; without a cut everything is inside."""
+        number = self.of_chart[chart]
+        some = np.flatnonzero(number >= 0)
+        found = np.ones(len(chart))
+        cut = number[some]
+        normal = self.cuts.normal[:, cut]
+        x, y, z = points[:, some]
+        found[some] = self.cuts.height[cut] - (normal[0] * x + normal[1] * y + normal[2] * z)
+        return found
+
+
+def _fills(whole: WholeBodies, items: Sequence[Item], item: Ints, bands: ShadeBands, placement: Placement) -> Fills:
+    rank = np.zeros(len(whole.bodies), dtype=np.intp)
+    rank[whole.ordered.order] = np.arange(len(whole.ordered.order))
+    order = np.argsort(rank[whole.charts.body[bands.chart]], kind="stable")
+    found = Fills.flat(
+        np.ascontiguousarray(bands.page.T),
+        bands.offsets,
+        item_colours(items, item[bands.chart], bands.shade, COLOUR_MAP),
+        points3d=whole.view.world_of(bands.points),
+        item=item[bands.chart],
+        kind=FillKind.BAND,
+    ).take(order)
+    return found if placement.whole else _inside(found, placement)
+
+
+def _inside(fills: Fills, placement: Placement) -> Fills:
+    """The parts of flat polygons inside the margin of the page."""
+    page = placement.page
+    low = np.array([page.margin_mm, page.margin_mm])
+    high = np.array([page.width_mm, page.height_mm]) - page.margin_mm
+    first = fills.offsets[:-1]
+    least, most = (extreme.reduceat(fills.points, first) for extreme in (np.minimum, np.maximum))
+    inside = ((least >= low) & (most <= high)).all(axis=1)
+    cut = np.flatnonzero(~inside & ((least < high) & (most > low)).all(axis=1))
+    some = fills.take(cut)
+    frame = np.array([[low[0], high[0], high[0], low[0]], [low[1], low[1], high[1], high[1]]])
+    points, offsets, of = clipped_by_convex(
+        np.concatenate([some.points.T, some.points3d.T]),
+        some.offsets,
+        np.tile(frame, (1, len(cut))),
+        np.arange(0, 4 * len(cut) + 1, 4),
+    )
+    parts = Fills.flat(
+        np.ascontiguousarray(points[:2].T),
+        offsets,
+        some.colours[some.offsets[of]],
+        points3d=np.ascontiguousarray(points[2:].T),
+        item=some.item[of],
+        kind=some.kind[of],
+    )
+    whole = np.flatnonzero(inside)
+    order = np.argsort(np.concatenate([whole, cut[of]]), kind="stable")
+    return Fills.joined(fills.take(whole), parts).take(order)

@@ -1,0 +1,256 @@
+"""The painter's order of quadric bodies as wholes, and the planes at which those that pierce each other are cut."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry.component_arrays import dot
+from vectorplot.geometry.records import APART, IN_COLUMNS, Elements, joined
+from vectorplot.tolerances import LEAST_DIVISOR
+from vectorplot.visibility.painter.priority_tests import box_pairs
+from vectorplot.visibility.painter.topological_order import topological_order
+from vectorplot.visibility.quadrics.visible_parts import QuadricBodies
+
+ROUNDS = 48
+"""Steps of the search for a plane between two bodies: those that nearly touch take many."""
+
+TOUCHING = 4.0
+"""Axes of rods that pass the middles of balls within so many tolerances run through them."""
+
+
+@dataclass(frozen=True, eq=False)
+class BodyCuts(Elements):
+    """What is seen of bodies (k,): the part with normal.p <= height, normals (3,k) of unit length, for points p of the
+    view; radius (k,): of the circle in which the body that is painted before it pierces the plane."""
+
+    body: Ints
+    normal: Floats = field(metadata=IN_COLUMNS)
+    height: Floats
+    radius: Floats
+
+    def __len__(self) -> int:
+        return len(self.body)
+
+
+@dataclass(frozen=True, eq=False)
+class BodyOrder:
+    """Bodies without the parts of rods in balls, but for what these cover, their order (m,) back to front, without
+    those that are hidden in others, and the cuts of those that pierce others behind them."""
+
+    bodies: QuadricBodies = field(metadata=APART)
+    order: Ints
+    cuts: BodyCuts
+
+
+def body_order(bodies: QuadricBodies, box: Floats, tolerance: float) -> BodyOrder | None:
+    """The painter's order of bodies with boxes (4,n) in the image: smallest and largest x, and y.
+
+    Of two balls the one with the smaller power of the eye is in front, and is cut by their radical plane where they
+    meet; rods whose axis runs through the middle of a ball end where they leave it; of all others a plane lies between
+    two, and that one is in front which is on the eye's side of it.
+    Edge cases: None where bodies pierce each other in another way, or lie on one another in circles.
+    Source: Aurenhammer (1987) for balls; Gilbert (1966) for planes between convex bodies.
+    """
+    batches = [np.stack(pair) for pair in box_pairs(box, tolerance)]
+    first, second = np.concatenate([np.zeros((2, 0), dtype=np.intp), *batches], axis=1)
+    sphere = bodies.is_ball & bodies.is_right
+    balls = sphere[first] & sphere[second]
+    of_balls, cuts, hidden = _balls(bodies, first[balls], second[balls])
+    sticking = _rods(bodies, sphere, first[~balls], second[~balls], tolerance)
+    if sticking is None:
+        return None
+    bodies, done = sticking.outside, sticking.done
+    hidden |= sticking.inside
+    one, two = first[~balls][~done], second[~balls][~done]
+    apart, _ = _directions(_between_images(bodies, one, two), len(one))
+    one, two = one[~apart], two[~apart]
+    gone = hidden[one] | hidden[two]
+    one, two = one[~gone], two[~gone]
+    others = _planes(bodies, one, two)
+    if others is None:
+        return None
+    before, after = np.concatenate([of_balls, sticking.demands, others], axis=1)
+    shown = ~(hidden[before] | hidden[after])
+    found = topological_order(len(bodies), before[shown], after[shown])
+    if len(found.cycle):
+        return None
+    return BodyOrder(sticking.painted, found.order[~hidden[found.order]], joined([cuts, sticking.cuts]))
+
+
+def _eye_side(bodies: QuadricBodies, normal: Floats, height: Floats) -> Floats:
+    """(m,) how far the eye is beyond planes normal.p = height; of a parallel projection the sign alone counts."""
+    return normal[2] if bodies.eye is None else dot(bodies.eye, normal) - height
+
+
+# Balls: by power, cut along their radical planes.
+
+
+def _balls(bodies: QuadricBodies, one: Ints, other: Ints) -> tuple[Ints, BodyCuts, Bools]:
+    """What of pairs of balls is painted before what (2,k), their cuts, and (n,) balls inside of others."""
+    a, b = bodies.centre[:, one], bodies.centre[:, other]
+    r, s = bodies.sizes[0, one], bodies.sizes[0, other]
+    way = b - a
+    distance = np.sqrt(dot(way, way))
+    nested = distance <= np.abs(r - s)
+    hidden = np.zeros(len(bodies), dtype=np.bool_)
+    # Of two equal ones the later is seen, as of all that is in one place.
+    hidden[np.where(r > s, other, one)[nested]] = True
+    unit = way / np.maximum(distance, LEAST_DIVISOR)
+    # Of the points a + t unit of the radical plane.
+    along = 0.5 * (distance + (r - s) * (r + s) / np.maximum(distance, LEAST_DIVISOR))
+    height = dot(unit, a) + along
+    eye = bodies.eye
+    beyond = unit[2] if eye is None else dot(eye[:, None] - a, unit) - along
+    front = np.where(beyond > 0.0, other, one)
+    back = np.where(beyond > 0.0, one, other)
+    meet = ~nested & (distance < r + s)
+    sign = np.where(beyond > 0.0, -1.0, 1.0)
+    radius = np.sqrt(np.maximum((r - along) * (r + along), 0.0))
+    cuts = BodyCuts(front, sign * unit, sign * height, radius).take(meet)
+    if eye is None:
+        overlap = np.hypot(way[0], way[1]) < r + s
+    else:
+        to_a, to_b = a - eye[:, None], b - eye[:, None]
+        far, near = np.sqrt(dot(to_a, to_a)), np.sqrt(dot(to_b, to_b))
+        sines = np.clip(np.stack([r / far, s / near]), 0.0, 1.0)
+        p, q = sines
+        cosine = np.sqrt((1.0 - p) * (1.0 + p)) * np.sqrt((1.0 - q) * (1.0 + q)) - p * q
+        overlap = dot(to_a, to_b) > cosine * far * near
+    seen = ~nested & overlap
+    return np.stack([back, front])[:, seen], cuts, hidden
+
+
+# Rods that stick in balls: they end where they leave them.
+
+
+UNDER = 0.25
+"""Such a part of the way from the rim to the middle of a ball the mantle of a rod goes on under the ball, if that is
+painted later."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Sticking:
+    """Rods in balls: demands (2,k), what is painted before what; cuts of balls; outside: the bodies without the parts
+    in balls, painted: with what goes on under balls; done (m,): the pairs that are settled; inside (n,): rods that are
+    hidden."""
+
+    demands: Ints
+    cuts: BodyCuts
+    outside: QuadricBodies
+    painted: QuadricBodies
+    done: Bools
+    inside: Bools
+
+
+def _rods(bodies: QuadricBodies, sphere: Bools, one: Ints, other: Ints, tolerance: float) -> _Sticking | None:
+    """Those among pairs of bodies (m,); None where a rod runs through a ball."""
+    rod = ~bodies.is_ball & bodies.is_right & (bodies.growth == 0.0)
+    swap = sphere[one]
+    stick, ball = np.where(swap, other, one), np.where(swap, one, other)
+    pair = np.flatnonzero(rod[stick] & sphere[ball])
+    stick, ball = stick[pair], ball[pair]
+    arm = bodies.centre[:, ball] - bodies.centre[:, stick]
+    x, y, z = (sum(arm[k] * bodies.inverse[k, j, stick] for k in range(3)) for j in range(3))
+    r, length, ball_radius = bodies.sizes[0, stick], bodies.sizes[2, stick], bodies.sizes[0, ball]
+    half = np.sqrt(np.maximum((ball_radius - r) * (ball_radius + r), 0.0)) / length
+    near = (np.hypot(x, y) * r <= TOUCHING * tolerance) & (ball_radius > r) & (z + half > 0.0) & (z - half < 1.0)
+    pair, stick, ball, z, half, r = (row[near] for row in (pair, stick, ball, z, half, r))
+    low, high = z - half <= 0.0, z + half >= 1.0
+    if not (low | high).all():
+        return None
+    done, inside = np.zeros(len(one), dtype=np.bool_), np.zeros(len(bodies), dtype=np.bool_)
+    done[pair] = True
+    inside[stick[low & high]] = True
+    # The way along the axis out of the ball, and where it ends.
+    sign = np.where(high, -1.0, 1.0)
+    rim = z + sign * half
+    axis = sign * bodies.frame[2][:, stick] / bodies.sizes[2, stick]
+    height = dot(axis, bodies.centre[:, stick] + rim * bodies.frame[2][:, stick])
+    in_front = _eye_side(bodies, axis, height) > 0.0
+    outside, painted = bodies.ends.copy(), bodies.ends.copy()
+    under = np.where(in_front, rim, rim - UNDER * sign * half)
+    for ends, place in ((outside, rim), (painted, under)):
+        np.maximum.at(ends[0], stick[low], place[low])
+        np.minimum.at(ends[1], stick[high], place[high])
+    inside |= outside[0] >= outside[1]
+    capped = bodies.capped & (outside == bodies.ends)
+    cuts = BodyCuts(ball, axis, height, r).take(~in_front & ~inside[stick])
+    demands = np.stack([np.where(in_front, ball, stick), np.where(in_front, stick, ball)])
+    outer, shown = (replace(bodies, ends=ends, capped=capped) for ends in (outside, painted))
+    return _Sticking(demands, cuts, outer, shown, done, inside)
+
+
+# Bodies with a plane between them.
+
+Support = Callable[[Floats, Ints], Floats]
+"""(3,m) the points of convex sets which (m,) that reach least far in directions (3,m)."""
+
+
+def _directions(support: tuple[Support, Floats], count: int) -> tuple[Bools, Floats]:
+    """(n,) which of some convex sets do not hold the origin, and directions (3,n) in which all of their points lie
+    then; support, and points of the sets (3,n) to begin with.
+
+    Source: Gilbert (1966): the point of a convex set next to the origin.
+    """
+    least, point = support
+    apart, found = np.zeros(count, dtype=np.bool_), np.zeros((3, count))
+    left = np.arange(count)
+    for _ in range(ROUNDS):
+        if not len(left):
+            break
+        length = np.sqrt(dot(point, point))
+        direction = point / np.maximum(length, LEAST_DIVISOR)
+        new = least(direction, left)
+        beyond = dot(direction, new) > 0.0
+        apart[left[beyond]] = True
+        found[:, left[beyond]] = direction[:, beyond]
+        going = ~beyond & (length > 0.0)
+        left, point, new = left[going], point[:, going], new[:, going]
+        step = new - point
+        share = np.clip(-dot(point, step) / np.maximum(dot(step, step), LEAST_DIVISOR), 0.0, 1.0)
+        point = point + share * step
+    return apart, found
+
+
+def _between_images(bodies: QuadricBodies, one: Ints, other: Ints) -> tuple[Support, Floats]:
+    """For planes through the eye between bodies: the hulls of the one and of the other mirrored in the eye, or of the
+    differences of their points along the image."""
+    eye = bodies.eye
+    if eye is None:
+        flat = np.array([[1.0], [1.0], [0.0]])
+
+        def difference(direction: Floats, which: Ints) -> Floats:
+            return flat * (bodies.support(-direction, one[which]) - bodies.support(direction, other[which]))
+
+        return difference, flat * (bodies.centre[:, one] - bodies.centre[:, other])
+    place = eye[:, None]
+
+    def hull(direction: Floats, which: Ints) -> Floats:
+        a = bodies.support(-direction, one[which]) - place
+        b = place - bodies.support(direction, other[which])
+        return np.where(dot(direction, a) < dot(direction, b), a, b)
+
+    to_one, to_other = bodies.centre[:, one] - place, bodies.centre[:, other] - place
+    size = np.sqrt(dot(to_one, to_one)), np.sqrt(dot(to_other, to_other))
+    return hull, 0.5 * (to_one / size[0] - to_other / size[1]) * np.minimum(*size)
+
+
+def _planes(bodies: QuadricBodies, one: Ints, other: Ints) -> Ints | None:
+    """What of pairs of bodies is painted before what (2,k); None where there is no plane between two of them."""
+
+    def difference(direction: Floats, which: Ints) -> Floats:
+        return bodies.support(-direction, one[which]) - bodies.support(direction, other[which])
+
+    start = bodies.centre[:, one] - bodies.centre[:, other]
+    apart, normal = _directions((difference, start), len(one))
+    if not apart.all():
+        return None
+    low = dot(normal, bodies.support(-normal, one))
+    high = dot(normal, bodies.support(normal, other))
+    side = _eye_side(bodies, normal, 0.5 * (low + high))
+    front = side > 0.0
+    return np.stack([np.where(front, other, one), np.where(front, one, other)])

@@ -1,0 +1,175 @@
+"""How far the ways from places to a light, or to the eye, run beside quadric bodies: where these are in the way."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.geometry import ragged
+from vectorplot.geometry.boxes import PAIRS_AT_ONCE
+from vectorplot.geometry.component_arrays import dot
+from vectorplot.geometry.elementary import arccos, arcsin
+from vectorplot.scene.light import Light
+from vectorplot.tolerances import LEAST_DIVISOR
+from vectorplot.visibility.quadrics.visible_parts import QuadricBodies
+
+
+@dataclass(frozen=True, eq=False)
+class Clearance:
+    """A light, and for receivers one after the other the bodies that may keep it from them: caster (k,), offsets
+    (n+1,). Called with receivers and points of theirs it tells how far the way to the light runs beside all casters,
+    less than zero in shadow: no farther than points are from the border of a shadow."""
+
+    bodies: QuadricBodies
+    light: Light
+    caster: Ints
+    offsets: Ints
+
+    def __call__(self, receiver: Ints, points: Floats) -> Floats:
+        """(m,) in the view."""
+        least = np.ones(len(receiver))
+        for own, starts, _, beside in self._pairs(receiver, points):
+            least[own] = np.minimum(least[own], np.minimum.reduceat(beside, starts))
+        return least
+
+    def stopping(self, receiver: Ints, points: Floats, deep: Floats) -> Ints:
+        """(m,) the body on the way to the light that covers this best, -1 where none does by so much (n,) of bodies."""
+        found = np.full(len(receiver), -1, dtype=np.intp)
+        for own, starts, body, beside in self._pairs(receiver, points):
+            best = np.minimum.reduceat(beside, starts)
+            count = np.diff(np.append(starts, len(beside)))
+            first = np.minimum.reduceat(
+                np.where(beside == np.repeat(best, count), np.arange(len(beside)), len(beside)), starts
+            )
+            found[own] = np.where(best < -deep[body[first]], body[first], -1)
+        return found
+
+    def _pairs(self, receiver: Ints, points: Floats) -> Iterator[tuple[Ints, Ints, Ints, Floats]]:
+        """Blocks of places with casters: their numbers, and of pairs of them and casters where those of each place
+        begin, the casters, and how far the ways to the light run beside these."""
+        sizes = np.diff(self.offsets)[receiver]
+        some = np.flatnonzero(sizes)
+        step = max(1, PAIRS_AT_ONCE // max(int(sizes.max(initial=1)), 1))
+        for begin in range(0, len(some), step):
+            own = some[begin : begin + step]
+            count = sizes[own]
+            body = self.caster[ragged.ranges(self.offsets[receiver[own]], count)]
+            yield own, ragged.starts(count), body, self._beside(body, points[:, np.repeat(own, count)])
+
+    def _beside(self, body: Ints, points: Floats) -> Floats:
+        """(k,) how far the ways from points (3,k) to the light run beside bodies (k,)."""
+        inverse = self.bodies.inverse
+        place = np.array(self.light.position)
+        arm = points - self.bodies.centre[:, body]
+        start = _local(arm, inverse, body)
+        way = np.broadcast_to(place[:, None], points.shape) if self.light.parallel else place[:, None] - points
+        way = _local(way, inverse, body)
+        found = np.empty(len(body))
+        is_ball = self.bodies.is_ball[body]
+        for kind, function in ((True, self._beside_balls), (False, self._beside_frusta)):
+            own = np.flatnonzero(is_ball == kind)
+            if len(own):
+                found[own] = function(body[own], start[:, own], way[:, own])
+        return found
+
+    def _beside_balls(self, body: Ints, start: Floats, way: Floats) -> Floats:
+        share = np.maximum(-dot(start, way) / np.maximum(dot(way, way), LEAST_DIVISOR), 0.0)
+        if not self.light.parallel:
+            share = np.minimum(share, 1.0)
+        nearest = start + share * way
+        return np.asarray((np.sqrt(dot(nearest, nearest)) - 1.0) * self.bodies.sizes.min(axis=0)[body])
+
+    def _beside_frusta(self, body: Ints, start: Floats, way: Floats) -> Floats:
+        """Beside both ends, and the section with the polar plane of the light."""
+        bodies = self.bodies
+        size = bodies.sizes[:2].min(axis=0)[body]
+        growth, low_radius = bodies.growth[body], bodies.radii[0, body]
+        least = np.full(len(body), np.inf)
+        for end in (0, 1):
+            part = self._part(float(end) - start[2], way[2])
+            there = np.hypot(*(start[:2] + part * way[:2])) - bodies.radii[end, body]
+            least = np.minimum(least, np.where(np.isfinite(part), there * size, np.inf))
+        # The light in the coordinates of the unit body, homogeneous.
+        source, one = (way, 0.0) if self.light.parallel else (start + way, 1.0)
+        across = np.maximum(np.hypot(source[0], source[1]), LEAST_DIVISOR)
+        ratio = (growth * source[2] + low_radius * one) / across
+        turn = arccos(np.clip(ratio, -1.0, 1.0))
+        cosine, sine = source[0] / across, source[1] / across
+        # On the polar plane: c x + s y - ratio (radius at z) = 0.
+        value = cosine * start[0] + sine * start[1] - ratio * (low_radius + growth * start[2])
+        slope = cosine * way[0] + sine * way[1] - ratio * growth * way[2]
+        part = self._part(-value, slope)
+        there = start + np.where(np.isfinite(part), part, 0.0) * way
+        aside = np.abs(cosine * there[1] - sine * there[0]) - np.sin(turn) * (low_radius + growth * there[2])
+        beyond = np.maximum(-there[2], there[2] - 1.0) * bodies.sizes[2, body]
+        quad = np.maximum(aside * size, beyond)
+        seen = np.isfinite(part) & (np.abs(ratio) < 1.0)
+        return np.asarray(np.minimum(least, np.where(seen, quad, np.inf)))
+
+    def _part(self, height: Floats, slope: Floats) -> Floats:
+        """Where on the ways planes are met; infinite where they are not."""
+        with np.errstate(divide="ignore", invalid="ignore"):
+            part = height / slope
+        on_way = (part > 0.0) & (self.light.parallel | (part < 1.0))
+        return np.where(on_way, part, np.inf)
+
+
+def _local(vectors: Floats, inverse: Floats, body: Ints) -> Floats:
+    """(3,k) vectors (3,k) in the coordinates of unit bodies (k,)."""
+    found = np.empty((3, len(body)))
+    for k, row in enumerate(found):
+        np.multiply(vectors[0], inverse[0, k].take(body), out=row)
+        row += vectors[1] * inverse[1, k].take(body)
+        row += vectors[2] * inverse[2, k].take(body)
+    return found
+
+
+def clearance_of(bodies: QuadricBodies, receiver: Ints, light: Light) -> Clearance:
+    """The margin of a light, in the coordinates of bodies, on receivers: the bodies (n,) that places are on.
+
+    Casters are those whose balls around them the light sees before, or in, the ball around a receiver.
+    """
+    middle, radius = _balls_around(bodies)
+    place = np.array(light.position)
+    casters, counts = [], []
+    rows = max(1, PAIRS_AT_ONCE // max(len(bodies), 1))
+    own, which = np.unique(receiver, return_inverse=True)
+    for begin in range(0, len(own), rows):
+        some = own[begin : begin + rows]
+        a, b = middle[:, some, None], middle[:, None, :]
+        r, s = radius[some, None], radius[None]
+        if light.parallel:
+            unit = place / np.sqrt(dot(place, place))
+            way = b - a
+            along = dot(unit[:, None, None], way)
+            off = np.sqrt(np.maximum(dot(way, way) - along * along, 0.0))
+            near = (off < r + s) & (along > -(r + s))
+        else:
+            to_a, to_b = a - place[:, None, None], b - place[:, None, None]
+            far, close = np.sqrt(dot(to_a, to_a)), np.sqrt(dot(to_b, to_b))
+            angle = arccos(np.clip(dot(to_a, to_b) / np.maximum(far * close, LEAST_DIVISOR), -1.0, 1.0))
+            wide, narrow = (
+                arcsin(np.minimum(t / np.maximum(d, LEAST_DIVISOR), 1.0)) for t, d in ((r, far), (s, close))
+            )
+            near = ((angle < wide + narrow) | (far <= r) | (close <= s)) & (close - s < far + r)
+        near[np.arange(len(some)), some] = False
+        line, caster = np.nonzero(near)
+        casters.append(caster)
+        counts.append(np.bincount(line, minlength=len(some)))
+    caster = np.concatenate(casters or [own[:0]])
+    offsets = ragged.offsets(np.concatenate(counts or [own[:0]]))
+    position, ends = ragged.take(offsets, which.reshape(-1))
+    return Clearance(bodies, light, caster[position], ends)
+
+
+def _balls_around(bodies: QuadricBodies) -> tuple[Floats, Floats]:
+    """Middles (3,n) and radii (n,) of balls around bodies."""
+    half = 0.5 * (bodies.ends[0] + bodies.ends[1])
+    middle = bodies.centre + np.where(bodies.is_ball, 0.0, half) * bodies.frame[2]
+    wide = np.sqrt((bodies.sizes[:2] ** 2).sum(axis=0))
+    around = np.sqrt((bodies.sizes**2).sum(axis=0))
+    around = np.where(bodies.is_ball & bodies.is_right, bodies.sizes[0], around)
+    return middle, np.where(bodies.is_ball, around, np.hypot(wide, 0.5 * bodies.sizes[2]))
