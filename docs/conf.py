@@ -14,7 +14,7 @@ from sphinx.pycode.parser import Parser
 
 ROOMS = (
     "geometry curves surfaces features scene io visibility shading drawing effects animation textbook backends "
-    "batch testing accuracy exact"
+    "batch testing accuracy"
 ).split()
 """The rooms whose names the reference lists."""
 

@@ -20,7 +20,7 @@ PACKAGE = Path(vectorplot.__file__).parent
 
 ORDER = [
     *("errors", "words", "arrays", "tolerances"),
-    *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
+    *("geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
     *("drawing", "effects", "animation", "textbook", "backends", "pictures"),
     *("testing", "accuracy", "speed", "viewer", "cli"),
 ]

@@ -39,7 +39,7 @@ class Sample:
 
     Examples
     --------
-    >>> from vectorplot.accuracy import Sample
+    >>> from vectorplot.accuracy.results import Sample
     >>> Sample(knob=64.0, seconds=0.02, error=0.004, count=512).error
     0.004
     """
@@ -65,7 +65,7 @@ class ErrorCurve:
 
     Examples
     --------
-    >>> from vectorplot.accuracy import ErrorCurve, Sample
+    >>> from vectorplot.accuracy.results import ErrorCurve, Sample
     >>> curve = ErrorCurve("linear", -2.0, tuple(Sample(n, 1e-3 * n, 5.0 / n**2, n) for n in (8, 16, 32)))
     >>> round(curve.slope, 9), curve.falls
     (-2.0, True)

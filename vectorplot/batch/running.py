@@ -120,7 +120,7 @@ class Tally:
 
     Examples
     --------
-    >>> from vectorplot.batch import Tally
+    >>> from vectorplot.batch.running import Tally
     >>> Tally(3, 4, 1).count
     8
     """
@@ -355,7 +355,7 @@ def frame_tasks(film: Film, folder: str | os.PathLike[str], *, format: str | Non
     Examples
     --------
     >>> import vectorplot as vp
-    >>> from vectorplot.batch import frame_tasks
+    >>> from vectorplot.batch.running import frame_tasks
     >>> from vectorplot.geometry import box
     >>> die = vp.Item("die", box((1, 1, 1)))
     >>> film = vp.animate(vp.Animation(lambda time: die.turned("z", 90 * time), frames=3), page="100x80")

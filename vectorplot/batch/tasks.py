@@ -321,7 +321,7 @@ def cluster(address: str) -> Iterator[Executor]:
 
     Examples
     --------
-    >>> from vectorplot.batch import cluster
+    >>> from vectorplot.batch.tasks import cluster
     >>> with cluster("tcp://127.0.0.1:8786") as executor:  # doctest: +SKIP
     ...     executor.submit(divmod, 7, 2).result()
     (3, 1)

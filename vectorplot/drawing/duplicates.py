@@ -11,12 +11,11 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes import NO_END, chains, chosen, companions, linked_ends, overlapping_cells, sections
-from vectorplot.exact import intervals
-from vectorplot.exact.intervals import NUMBER_BITS
-from vectorplot.exact.radix import radix_order
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.budget import mapped, threads, workers
 from vectorplot.geometry.elementary import arctan2, tan
+from vectorplot.geometry.intervals import NUMBER_BITS
+from vectorplot.geometry.radix import radix_order
 from vectorplot.scene.view import View
 from vectorplot.tolerances import COLLINEAR_OF_LENGTH, ONE_LINE_OF_EXTENT, TOUCHING_AT_MM
 from vectorplot.visibility.polyhedra import grid as grids

@@ -12,11 +12,11 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes import chosen, directed, swapped
 from vectorplot.errors import InputError
-from vectorplot.exact.radix import ShortKeys, radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices, threads, workers
 from vectorplot.geometry.elementary import modulus
 from vectorplot.geometry.polylines import with_points
+from vectorplot.geometry.radix import ShortKeys, radix_order
 from vectorplot.tolerances import DRAWN_TOGETHER_OF_EXTENT, LEAST_GAIN_OF_TRAVEL, SPREAD_OF_EXTENT, ZERO_OF_EXTENT
 
 # Places of the ends of strokes, curves through them, and which of them are each other's nearest.
@@ -838,7 +838,8 @@ def travel_mm(paths: Paths) -> float:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.drawing import Paths, travel_mm
+    >>> from vectorplot.drawing import travel_mm
+    >>> from vectorplot.drawing.drawing import Paths
     >>> points = np.array([(0.0, 0.0), (50.0, 0.0), (50.0, 10.0), (0.0, 10.0)])
     >>> none, open_ = np.zeros(2, dtype=int), np.zeros(2, dtype=bool)
     >>> travel_mm(Paths(points, np.array([0, 2, 4]), open_, none, none, none, np.zeros((4, 3))))

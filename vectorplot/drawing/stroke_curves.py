@@ -229,7 +229,8 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
     --------
     >>> from dataclasses import replace
     >>> import numpy as np
-    >>> from vectorplot.drawing import Paths, curved_strokes
+    >>> from vectorplot.drawing import curved_strokes
+    >>> from vectorplot.drawing.drawing import Paths
     >>> t = np.linspace(0.0, np.pi, 60)
     >>> arch = np.column_stack([50.0 + 30.0 * np.cos(t), 20.0 + 30.0 * np.sin(t)])
     >>> one, solid = np.zeros(1, dtype=int), np.column_stack([arch, 0.0 * t])

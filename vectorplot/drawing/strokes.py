@@ -9,12 +9,12 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, Paths
 from vectorplot.errors import InputError
-from vectorplot.exact.radix import Keys, radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import joined as joined_of_polylines
 from vectorplot.geometry.polylines import take, with_points
+from vectorplot.geometry.radix import Keys, radix_order
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import SUM_OF_LENGTHS
 
@@ -620,7 +620,8 @@ def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = Non
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.drawing import Paths, split_long
+    >>> from vectorplot.drawing import split_long
+    >>> from vectorplot.drawing.drawing import Paths
     >>> points, none = np.array([(0.0, 0.0), (100.0, 0.0)]), np.zeros(1, dtype=int)
     >>> line = Paths(points, np.array([0, 2]), np.array([False]), none, none, none, np.zeros((2, 3)))
     >>> split_long(line, max_mm=60.0).points.tolist()

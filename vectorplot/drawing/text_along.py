@@ -32,8 +32,7 @@ from vectorplot.drawing.letters import (
 from vectorplot.drawing.strokes import chosen, concatenated, sections, unrolled
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.tolerances import UNION_OF_SEGMENT
 

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances import HALO_MARGIN, UNION_OF_SEGMENT
@@ -51,7 +50,9 @@ def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility
     >>> import vectorplot as vp
     >>> from vectorplot import effects
     >>> from vectorplot.scene import look
-    >>> from vectorplot.visibility import edge_lines, project_faces, visible_parts
+    >>> from vectorplot.visibility.polyhedra.hidden_lines import visible_parts
+    >>> from vectorplot.visibility.polyhedra.lines import edge_lines
+    >>> from vectorplot.visibility.projected_faces import project_faces
     >>> needle = vp.Mesh.from_triangles([(-4, 0, 0), (4, -1, 0), (4, 1, 0)], [(0, 1, 2)])
     >>> bar = vp.Mesh.from_polygons([(-1, -4, 1), (1, -4, 1), (1, 4, 1), (-1, 4, 1)], [(0, 1, 2, 3)])
     >>> scene = vp.Scene((vp.Item("needle", needle), vp.Item("bar", bar)))

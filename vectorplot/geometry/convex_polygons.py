@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.exact.predicates import orient2d
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.predicates import orient2d
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import FOLDED_ANGLE_SQUARED, LEAST_DIVISOR, ROUNDING, ZERO_OF_EXTENT
 

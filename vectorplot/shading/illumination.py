@@ -221,7 +221,8 @@ def brightness(cos_alpha: ArrayLike, cos_beta: ArrayLike, finish: Finish) -> Flo
 
     Examples
     --------
-    >>> from vectorplot.shading import FINISHES, brightness
+    >>> from vectorplot.shading import FINISHES
+    >>> from vectorplot.shading.illumination import brightness
     >>> brightness([1.0, 0.5], [1.0, 0.5], FINISHES["shiny"]).round(6).tolist()
     [1.3, 0.25]
     >>> brightness([1.0, 0.5], [1.0, 0.5], FINISHES["normal"]).tolist()
@@ -331,7 +332,7 @@ def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
 
     Examples
     --------
-    >>> from vectorplot.shading import depth_cue
+    >>> from vectorplot.shading.illumination import depth_cue
     >>> depth_cue([0.0, 5.0, 10.0], minimum=0.0, total=10.0).round(6).tolist()
     [0.0, 0.1, 0.2]
     """
@@ -365,7 +366,7 @@ def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Flo
 
     Examples
     --------
-    >>> from vectorplot.shading import shades
+    >>> from vectorplot.shading.illumination import shades
     >>> shades([[0.5, 1.0], [0.2, 0.3]], [1.0, 0.5]).round(6).tolist()
     [0.48, 0.8]
     >>> shades([[0.5, 1.0]], [1.0], cue=[0.2, 0.1]).round(6).tolist()

@@ -50,7 +50,7 @@ class ScreenTriangles:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.shading import ScreenTriangles
+    >>> from vectorplot.shading.screen import ScreenTriangles
     >>> points = np.array([(0.0, 0.0, 0.5), (9.0, 0.0, 0.5), (0.0, 9.0, 0.5)])
     >>> len(ScreenTriangles(points, corners=np.array([(0, 1, 2)]), source=np.array([0])))
     1

@@ -196,7 +196,7 @@ def recipe_matrix(corners: ArrayLike) -> Floats:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.shading import recipe_matrix
+    >>> from vectorplot.shading.shadow_maps import recipe_matrix
     >>> corners = np.array([(-3, 0), (3, 0), (1, 4), (-1, 4)])
     >>> images = np.column_stack([corners, np.zeros(4), np.ones(4)]) @ recipe_matrix(corners).T
     >>> (images[:, :2] / images[:, 3:]).round(6).tolist()

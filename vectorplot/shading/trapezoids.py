@@ -176,7 +176,8 @@ def trapezoid(points: ArrayLike, axis: Axis, eta: float) -> Floats:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.shading import line_of_sight, trapezoid
+    >>> from vectorplot.shading import line_of_sight
+    >>> from vectorplot.shading.trapezoids import trapezoid
     >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
     >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
     >>> bool(np.allclose(trapezoid(frustum, axis, eta=2.0), frustum))

@@ -42,7 +42,7 @@ class AlgebraicSurface(MovableImplicit):
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.surfaces import AlgebraicSurface
+    >>> from vectorplot.surfaces.algebraic import AlgebraicSurface
     >>> box = np.array([(-2.0, -2.0, -2.0), (2.0, 2.0, 2.0)])
     >>> ball = AlgebraicSurface(np.array([(2, 0, 0), (0, 2, 0), (0, 0, 2), (0, 0, 0)]), np.array([1, 1, 1, -1.0]), box)
     >>> ball.degree, ball.gradients(np.array([1.0, 0.0, 0.0])).tolist()

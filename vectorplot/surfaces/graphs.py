@@ -100,7 +100,7 @@ class PolygonRegion:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.surfaces import PolygonRegion
+    >>> from vectorplot.surfaces.graphs import PolygonRegion
     >>> corner = PolygonRegion([(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)])
     >>> corner.contains(np.array([0.5, 3.0, 3.0]), np.array([0.5, 0.5, 3.0])).tolist()
     [True, True, False]

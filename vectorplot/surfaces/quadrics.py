@@ -771,7 +771,7 @@ class HyperboloidSheet(OnSemiAxes):
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.surfaces import HyperboloidSheet
+    >>> from vectorplot.surfaces.quadrics import HyperboloidSheet
     >>> bowl = HyperboloidSheet((1, 1, 2), top=5)
     >>> bowl.points(np.array(0.0), np.array(0.0)).tolist()
     [0.0, 0.0, 2.0]

@@ -129,7 +129,7 @@ class Screw:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.surfaces import Screw
+    >>> from vectorplot.surfaces.swept import Screw
     >>> Screw(rise=2.0).repeats(0.0, 2.0 * np.pi), Screw().repeats(0.0, 2.0 * np.pi)
     (False, True)
     """

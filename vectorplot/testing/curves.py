@@ -495,7 +495,8 @@ def assert_on_both(points: Curves, a: AnySurface, b: AnySurface, tolerance: floa
 
     Examples
     --------
-    >>> from vectorplot.surfaces import implicit_plane, implicit_sphere
+    >>> from vectorplot.surfaces import implicit_sphere
+    >>> from vectorplot.surfaces.quadrics import implicit_plane
     >>> from vectorplot.testing import assert_on_both
     >>> equator = [(1, 0, 0), (0.6, 0.8, 0), (0, 1, 0)]
     >>> plane = implicit_plane((0, 0, 0), (0, 0, 1), box=[(-1, -1, -1), (1, 1, 1)])

@@ -61,7 +61,8 @@ class Framebuffer:
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, swapped_buffers, with_pixels
+    >>> from vectorplot.textbook import Framebuffer, swapped_buffers
+    >>> from vectorplot.textbook.framebuffer import with_pixels
     >>> frame = with_pixels(Framebuffer.of_rgb(4, 2), [(1, 0)], (255, 0, 0))
     >>> frame.picture()[0, 1].tolist(), swapped_buffers(frame).picture()[0, 1].tolist()
     ([0, 0, 0], [255, 0, 0])
@@ -176,7 +177,8 @@ def with_colour(frame: Framebuffer, number: int, red: int, green: int, blue: int
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, with_colour
+    >>> from vectorplot.textbook import Framebuffer
+    >>> from vectorplot.textbook.framebuffer import with_colour
     >>> with_colour(Framebuffer.of_numbers(4, 2), 0, 255, 0, 0).picture()[0, 0].tolist()
     [255, 0, 0]
     """
@@ -202,7 +204,8 @@ def swapped_buffers(frame: Framebuffer) -> Framebuffer:
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, cleared, swapped_buffers
+    >>> from vectorplot.textbook import Framebuffer, swapped_buffers
+    >>> from vectorplot.textbook.framebuffer import cleared
     >>> frame = cleared(Framebuffer.of_numbers(4, 2), 9)
     >>> frame.picture().max().item(), swapped_buffers(frame).picture().min().item()
     (0, 9)
@@ -232,7 +235,8 @@ def cleared(frame: Framebuffer, colour: Colour) -> Framebuffer:
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, cleared, pixel_colours
+    >>> from vectorplot.textbook import Framebuffer
+    >>> from vectorplot.textbook.framebuffer import cleared, pixel_colours
     >>> pixel_colours(cleared(Framebuffer.of_rgb(4, 2), (0, 0, 255)), [(3, 1)]).tolist()
     [[0, 0, 255]]
     """
@@ -263,7 +267,8 @@ def pixel_colours(frame: Framebuffer, points: ArrayLike) -> Bytes:
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, pixel_colours, with_pixels
+    >>> from vectorplot.textbook import Framebuffer
+    >>> from vectorplot.textbook.framebuffer import pixel_colours, with_pixels
     >>> frame = with_pixels(Framebuffer.of_numbers(4, 2), [(0, 0), (3, 1)], [5, 6])
     >>> pixel_colours(frame, [(0, 0), (2.7, 1.2)]).tolist()
     [[5], [6]]
@@ -298,7 +303,8 @@ def with_pixels(frame: Framebuffer, points: ArrayLike, colours: ArrayLike) -> Fr
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, with_pixels
+    >>> from vectorplot.textbook import Framebuffer
+    >>> from vectorplot.textbook.framebuffer import with_pixels
     >>> frame = with_pixels(Framebuffer.of_numbers(4, 2), [(0, 0), (3, 1), (9, 9)], 7)
     >>> frame.pages[frame.drawn, ..., 0].tolist()
     [[7, 0, 0, 0], [0, 0, 0, 7]]
@@ -363,7 +369,8 @@ def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: Ar
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, with_lines
+    >>> from vectorplot.textbook import Framebuffer
+    >>> from vectorplot.textbook.framebuffer import with_lines
     >>> frame = with_lines(Framebuffer.of_numbers(6, 3), [(0, 0)], [(5, 2)], 1)
     >>> frame.pages[frame.drawn, ..., 0].tolist()
     [[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0], [0, 0, 0, 0, 1, 1]]
@@ -520,8 +527,9 @@ def points_visible(buffer: DepthBuffer, points: ArrayLike) -> Bools:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.shading import ScreenTriangles, depth_buffer
-    >>> from vectorplot.textbook import points_visible
+    >>> from vectorplot.shading import depth_buffer
+    >>> from vectorplot.shading.screen import ScreenTriangles
+    >>> from vectorplot.textbook.framebuffer import points_visible
     >>> corners = np.array([(-1.0, -1.0, 0.5), (9.0, -1.0, 0.5), (-1.0, 9.0, 0.5)])
     >>> buffer = depth_buffer(ScreenTriangles(corners, np.array([(0, 1, 2)]), np.array([0])), 8, 8)
     >>> points_visible(buffer, [(1, 1, 0.4), (1, 1, 0.6), (7, 7, 0.4), (9, 1, 0.6)]).tolist()
@@ -595,8 +603,9 @@ def visible_line_pixels(buffer: DepthBuffer, start: ArrayLike, end: ArrayLike) -
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.shading import ScreenTriangles, depth_buffer
-    >>> from vectorplot.textbook import visible_line_pixels
+    >>> from vectorplot.shading import depth_buffer
+    >>> from vectorplot.shading.screen import ScreenTriangles
+    >>> from vectorplot.textbook.framebuffer import visible_line_pixels
     >>> corners = np.array([(-1.0, -1.0, 0.5), (5.0, -1.0, 0.5), (-1.0, 5.0, 0.5)])
     >>> buffer = depth_buffer(ScreenTriangles(corners, np.array([(0, 1, 2)]), np.array([0])), 8, 2)
     >>> columns, rows, lines = visible_line_pixels(buffer, [(0, 0, 0.2)], [(7, 0, 0.2)])
@@ -641,7 +650,7 @@ def depth_planes(polygons: Polygons) -> Floats:
     --------
     >>> import numpy as np
     >>> from vectorplot.geometry import Polygons
-    >>> from vectorplot.textbook import depth_planes
+    >>> from vectorplot.textbook.framebuffer import depth_planes
     >>> depth_planes(Polygons.of(np.array([(0.0, 0.0, 5.0), (4.0, 0.0, 9.0), (0.0, 4.0, 13.0)]))).tolist()
     [[1.0, 2.0, 5.0]]
     """

@@ -191,7 +191,8 @@ def line_and_plane(start: ArrayLike, direction: ArrayLike, plane: Plane) -> Line
 
     Examples
     --------
-    >>> from vectorplot.textbook import Plane, line_and_plane
+    >>> from vectorplot.textbook import Plane
+    >>> from vectorplot.textbook.intersections import line_and_plane
     >>> plane = Plane.through((0, 0, 2), (1, 0, 2), (0, 1, 2))
     >>> cut = line_and_plane((1, 1, 0), (0, 0, 1), plane)
     >>> cut.point.tolist(), cut.parameter.item()
@@ -232,7 +233,7 @@ def line_and_line(a: ArrayLike, d: ArrayLike, b: ArrayLike, e: ArrayLike) -> Lin
 
     Examples
     --------
-    >>> from vectorplot.textbook import line_and_line
+    >>> from vectorplot.textbook.intersections import line_and_line
     >>> cut = line_and_line((0, 0), (1, 1), (4, 0), (0, 1))
     >>> cut.point.tolist(), cut.parameter.item(), cut.parallel.item()
     ([4.0, 4.0], 4.0, False)
@@ -291,7 +292,7 @@ def segments(p1: ArrayLike, q1: ArrayLike, p2: ArrayLike, q2: ArrayLike) -> tupl
 
     Examples
     --------
-    >>> from vectorplot.textbook import segments
+    >>> from vectorplot.textbook.intersections import segments
     >>> t1, t2, meet = segments((0, 0), (4, 4), (0, 2), (2, 0))
     >>> t1.item(), t2.item(), meet.item()
     (0.25, 0.5, True)

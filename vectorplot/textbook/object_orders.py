@@ -224,7 +224,8 @@ def demands(table: Codes) -> tuple[Ints, Ints]:
     --------
     >>> import numpy as np
     >>> from vectorplot import textbook
-    >>> from vectorplot.visibility import APART, BEHIND, IN_FRONT
+    >>> from vectorplot.visibility import APART
+    >>> from vectorplot.visibility.painter.priority_tests import BEHIND, IN_FRONT
     >>> before, after = textbook.demands(np.array([[APART, IN_FRONT], [BEHIND, APART]]))
     >>> before.tolist(), after.tolist()
     ([1], [0])

@@ -462,8 +462,9 @@ def sphere_order(view: View, faces: ImageFaces, bodies: Bodies) -> Ints | None:
     >>> import vectorplot as vp
     >>> from vectorplot.geometry import box
     >>> from vectorplot.scene import look
-    >>> from vectorplot.textbook import sphere_order
-    >>> from vectorplot.visibility import convex_bodies, painters_order
+    >>> from vectorplot.textbook.orders import sphere_order
+    >>> from vectorplot.visibility import painters_order
+    >>> from vectorplot.visibility.painter.priority_tests import convex_bodies
     >>> near = box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, -5, 0, 0, 1, 0))
     >>> view = look(vp.Scene((vp.Item("near", near), vp.Item("far", box((1, 1, 1))))), vp.Camera((2, -20, 3)))
     >>> faces = painters_order(view).faces

@@ -9,9 +9,9 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
-from vectorplot.exact.predicates import polygon_orientation
 from vectorplot.geometry.connectivity import Branches, concat
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.predicates import polygon_orientation
 from vectorplot.geometry.winding import NO_FACE, edge_uses, face_barycentres, mesh_edges, signed_volumes
 from vectorplot.tolerances import ROUNDING
 

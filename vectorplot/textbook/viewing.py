@@ -61,7 +61,7 @@ def basis_of_gaze(gaze: ArrayLike, up: ArrayLike) -> Floats:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.textbook import basis_of_gaze
+    >>> from vectorplot.textbook.viewing import basis_of_gaze
     >>> np.allclose(basis_of_gaze(gaze=(0, 5, 0), up=(0, 0, 1)), [(1, 0, 0), (0, 0, 1), (0, -1, 0)])
     True
     """
@@ -254,7 +254,7 @@ def homogeneous(points: ArrayLike) -> Floats:
 
     Examples
     --------
-    >>> from vectorplot.textbook import homogeneous
+    >>> from vectorplot.textbook.viewing import homogeneous
     >>> homogeneous([(3, 4)]).tolist()
     [[3.0, 4.0, 1.0]]
     """
@@ -295,7 +295,7 @@ def transformed(matrix: ArrayLike, points: ArrayLike) -> Floats:
 
     Examples
     --------
-    >>> from vectorplot.textbook import transformed, viewport
+    >>> from vectorplot.textbook.viewing import transformed, viewport
     >>> transformed(viewport(100, 80), [(-1, -1, 0), (1, 1, 0)]).tolist()
     [[-0.5, -0.5, 0.0], [99.5, 79.5, 0.0]]
     """
@@ -329,7 +329,7 @@ def window_transform(source: ArrayLike, target: ArrayLike) -> Floats:
 
     Examples
     --------
-    >>> from vectorplot.textbook import transformed, window_transform
+    >>> from vectorplot.textbook.viewing import transformed, window_transform
     >>> matrix = window_transform([(0, 0), (2, 2)], [(0, 100), (100, 0)])
     >>> transformed(matrix, [(0, 0), (1, 2)]).tolist()
     [[0.0, 100.0], [50.0, 0.0]]
@@ -364,7 +364,7 @@ def viewport(columns: int, rows: int) -> Floats:
 
     Examples
     --------
-    >>> from vectorplot.textbook import transformed, viewport
+    >>> from vectorplot.textbook.viewing import transformed, viewport
     >>> transformed(viewport(4, 2), [(0, 0, 0.5)]).tolist()
     [[1.5, 0.5, 0.5]]
     """
@@ -400,7 +400,7 @@ class ViewVolume:
 
     Examples
     --------
-    >>> from vectorplot.textbook import ViewVolume, transformed
+    >>> from vectorplot.textbook.viewing import ViewVolume, transformed
     >>> volume = ViewVolume(-1, 1, -1, 1, near=-1, far=-9)
     >>> transformed(volume.orthographic_perspective, [(1, 1, -1), (9, -9, -9)]).tolist()
     [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0]]
@@ -487,7 +487,7 @@ def camera_matrix(eye: ArrayLike, gaze: ArrayLike, up: ArrayLike) -> Floats:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.textbook import camera_matrix, transformed
+    >>> from vectorplot.textbook.viewing import camera_matrix, transformed
     >>> camera = camera_matrix(eye=(0, -5, 0), gaze=(0, 1, 0), up=(0, 0, 1))
     >>> np.allclose(transformed(camera, [(0, 0, 0), (1, 0, 2)]), [(0, 0, -5), (1, 2, -5)])
     True
@@ -519,7 +519,7 @@ def pixel_matrix(camera: ArrayLike, volume: ViewVolume, columns: int, rows: int)
 
     Examples
     --------
-    >>> from vectorplot.textbook import ViewVolume, camera_matrix, pixel_matrix, transformed
+    >>> from vectorplot.textbook.viewing import ViewVolume, camera_matrix, pixel_matrix, transformed
     >>> camera = camera_matrix(eye=(0, 0, 5), gaze=(0, 0, -1), up=(0, 1, 0))
     >>> matrix = pixel_matrix(camera, ViewVolume(-1, 1, -1, 1, -1, -9), 100, 80)
     >>> transformed(matrix, [(0, 0, 4), (1, 1, 4)])[:, :2].round(6).tolist()
@@ -572,7 +572,7 @@ def segments_to_pixels(
 
     Examples
     --------
-    >>> from vectorplot.textbook import ViewVolume, camera_matrix, segments_to_pixels
+    >>> from vectorplot.textbook.viewing import ViewVolume, camera_matrix, segments_to_pixels
     >>> camera = camera_matrix(eye=(0, 0, 5), gaze=(0, 0, -1), up=(0, 1, 0))
     >>> volume = ViewVolume(-1, 1, -1, 1, -1, -9)
     >>> starts, ends, seen = segments_to_pixels([(0, 0, 0), (0, 0, 6)], [(1, 0, 6), (0, 0, 9)], camera, volume, 100, 80)

@@ -159,7 +159,8 @@ def pressed(state: ViewerState, key: str) -> ViewerState:
 
     Examples
     --------
-    >>> from vectorplot.viewer import ViewerState, pressed
+    >>> from vectorplot.viewer import pressed
+    >>> from vectorplot.viewer.state import ViewerState
     >>> top = pressed(ViewerState(azimuth=1.0), "1")
     >>> top.parallel, pressed(top, "u").azimuth, pressed(top, "?") == top
     (True, 1.0, True)

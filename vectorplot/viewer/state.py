@@ -89,7 +89,8 @@ class ViewerState:
 
     Examples
     --------
-    >>> from vectorplot.viewer import ViewerState, pressed
+    >>> from vectorplot.viewer import pressed
+    >>> from vectorplot.viewer.state import ViewerState
     >>> state = ViewerState(azimuth=0.5, distance=10.0)
     >>> round(pressed(state, "a").azimuth, 9), round(pressed(state, "d").distance, 9)
     (0.55, 10.3)

@@ -12,7 +12,7 @@ import vectorplot as vp
 from vectorplot import surfaces
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
-from vectorplot.scene import Page
+from vectorplot.scene.page import Page
 
 PAGE = Page(200.0, 140.0, 0.0)
 NEAR = 0.03

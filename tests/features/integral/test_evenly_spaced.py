@@ -10,9 +10,17 @@ from scipy.spatial import cKDTree
 import vectorplot as vp
 from vectorplot import features, scene, surfaces
 from vectorplot.errors import InputError
-from vectorplot.features import Tracing, evenly_spaced_curves
 from vectorplot.features import streamlines as uncrowded_lines
-from vectorplot.features.streamlines import Ground, PlacesAlong, SeparationTest, is_near_itself, thinned, widest_first
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.streamlines import (
+    Ground,
+    PlacesAlong,
+    SeparationTest,
+    evenly_spaced_curves,
+    is_near_itself,
+    thinned,
+    widest_first,
+)
 from vectorplot.features.surface_integration import Accuracy, FieldFlow, Until, traces_from
 from vectorplot.features.surface_points import charts
 from vectorplot.surfaces import Cylinder, Domain, Sphere, Torus

@@ -13,6 +13,7 @@ from vectorplot.visibility.polyhedra import hidden_lines
 from vectorplot.visibility.polyhedra.hidden_lines import Segments, clip_pairs, entered, sieve
 from vectorplot.visibility.polyhedra.lines import edge_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
+from vectorplot.visibility.projected_faces import project_faces
 
 KINDS = frozenset({vp.LineKind.CONTOUR, vp.LineKind.CREASE})
 TUBE = box((0.7, 5.0, 0.5), caps=())
@@ -30,7 +31,7 @@ def _tubes():
 
 def _prepared(scene, camera):
     view = vp.scene.look(scene, camera)
-    faces = vp.visibility.project_faces(view)
+    faces = project_faces(view)
     solid = solid_items(view, faces)
     lines = edge_lines(scene, view, faces, KINDS, 25.0, ~solid)
     segments = Segments(lines.start, lines.end)

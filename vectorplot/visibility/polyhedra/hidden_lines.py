@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.polylines import joined

@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged, records
+from vectorplot.geometry import intervals, ragged, records
 from vectorplot.geometry.elementary import arccos, arctan, arctan2, tan
 from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.geometry.vectors import dot

@@ -9,8 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged, records
+from vectorplot.geometry import intervals, ragged, records
 from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances import ROUNDING, ULP
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Progress, Visibility
