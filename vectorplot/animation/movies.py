@@ -36,32 +36,11 @@ BLOCK = 8
 def packed(numbers: ArrayLike) -> bytes:
     """Numbers of twelve bits as bytes, the first bit of each first.
 
-    Parameters
-    ----------
-    numbers : (n,) array_like of int
-        From 0 to 4095.
-
-    Returns
-    -------
-    bytes
-        Blocks of twelve bytes for eight numbers each, the last one filled up with zeros.
-
-    Raises
-    ------
-    InputError
-        For numbers out of range.
-
-    Notes
-    -----
+    numbers (n,): from 0 to 4095; result: blocks of twelve bytes for eight numbers each, the last one filled up with
+    zeros.
     The order of the bytes does not depend on the machine. No numbers are no bytes.
-
     Source: Glaeser, section 10.1, figure 1; errata G10-01 to G10-03, G10-11; decision D-8.
-
-    Examples
-    --------
-    >>> from vectorplot import animation
-    >>> animation.packed([0xABC, 0xDEF, 0x123, 0x456, 0x789, 0xFED, 0xCBA, 0x987]).hex()
-    'abcdef123456789fedcba987'
+    Errors: for numbers out of range.
     """
     values = np.asarray(numbers, dtype=np.int64)
     if len(values) and not (values.min() >= 0 and values.max() <= LARGEST_12_BIT):

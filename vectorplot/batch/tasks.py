@@ -299,32 +299,11 @@ def _begin(theirs: Connection) -> None:
 def cluster(address: str) -> Iterator[Executor]:
     """The workers of a Dask cluster that runs already.
 
-    Parameters
-    ----------
-    address : str
-        Of its scheduler, as ``tcp://host:8786``.
-
-    Returns
-    -------
-    context manager
-        Gives an executor; tasks that are under way when it is left with an error are cancelled.
-
-    Raises
-    ------
-    InputError
-        Where the extra ``cluster`` is not installed, or nobody answers at the address.
-
-    Notes
-    -----
+    address: of its scheduler, as ``tcp://host:8786``; result: gives an executor; tasks that are under way when it is
+    left with an error are cancelled.
     Whoever reaches a scheduler may run programs on its workers: it belongs into a network of one's own, or behind TLS.
     Workers have the same versions of Python and of this package, and see input files by the same names.
-
-    Examples
-    --------
-    >>> from vectorplot.batch.tasks import cluster
-    >>> with cluster("tcp://127.0.0.1:8786") as executor:  # doctest: +SKIP
-    ...     executor.submit(divmod, 7, 2).result()
-    (3, 1)
+    Errors: where the extra ``cluster`` is not installed, or nobody answers at the address.
     """
     try:
         distributed: Any = import_module("distributed")

@@ -370,43 +370,13 @@ def in_planes(lines: N, normal: Floats, levels: Floats, off: Floats | float) -> 
 def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The curves of a surface at given heights: `plane_sections` with z up.
 
-    Parameters
-    ----------
-    surface : Surface
-        On which they are traced.
-    heights : (k,) array_like of float
-        In world units; or one of them.
-    tracing : Tracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines with the height as level.
-
-    Raises
-    ------
-    InputError
-        For heights that are not finite numbers in a row, a grid that is too coarse, a resolution that is not positive.
-
-    Warns
-    -----
-    InputWarning
-        Where a plane touches the surface in a point.
-
-    Notes
-    -----
+    surface: on which they are traced; heights (k,): in world units; or one of them; tracing: how finely they are looked
+    for and followed; result: polylines with the height as level.
     Edge cases: as for `section_by_implicit`.
-
     Source: Glaeser, section 8.4, equation 29.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> hill = surfaces.graph(lambda x, y: 4.0 - x**2 - y**2, surfaces.Domain(-1, 1, -1, 1))
-    >>> curves = features.level_lines(hill, [3.5, 5.0])
-    >>> curves.levels.tolist(), curves.closed.tolist()
-    ([3.5], [True])
+    Errors: for heights that are not finite numbers in a row, a grid that is too coarse, a resolution that is not
+    positive.
+    Warns InputWarning where a plane touches the surface in a point.
     """
     return plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
 

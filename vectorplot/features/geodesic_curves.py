@@ -92,48 +92,17 @@ def geodesics_between(
 ) -> SurfaceCurves:
     """The geodesics of a surface from one place to another, the shortest first.
 
-    Parameters
-    ----------
-    surface : Surface
-        With points, partials and second partials.
-    start, end : (2,) array_like of float
-        Parameters u, v.
-    most : int, optional
-        How many; all that are found where None.
-    longest : float, optional
-        How long they are at most, in world units; three times the extent of the surface where None.
-    accuracy : Accuracy
-        How well they are integrated.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines from start to end, with their exact lengths as levels.
-
-    Raises
-    ------
-    InputError
-        For places that are not finite pairs within the domain, or one place; for a start without a tangent plane; for a
-        length or a number that is not positive, and more than a hundred times the extent of the surface.
-
-    Notes
-    -----
+    surface: with points, partials and second partials; start, end (2,): parameters u, v; most: how many; all that are
+    found where None; longest: how long they are at most, in world units; three times the extent of the surface where
+    None; accuracy: how well they are integrated; tracing: its tolerance, picture and budget count; result: polylines
+    from start to end, with their exact lengths as levels.
     Geodesics that leave in 240 directions all round are asked where they pass the end; those that come by are led there
     by Newton's method, with the distance by which neighbours run apart (Jacobi's field). Of many that wind far round a
     surface, or run apart quickly, some may be missed. Edge cases: none where a border or a hole is in the way; between
     conjugate points, such as opposite ones of a sphere, one of infinitely many, with a doubt that says so.
-
     Source: do Carmo, Differential geometry of curves and surfaces, sections 4-6 and 5-5.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> found = features.geodesics_between(surfaces.Cylinder(1.0, 0.0, 3.0), (0.0, 0.5), (np.pi / 2, 2.0), most=2)
-    >>> [round(float(length), 6) for length in found.levels]  # unrolled: straight, to the left and to the right
-    [2.171958, 4.945362]
+    Errors: for places that are not finite pairs within the domain, or one place; for a start without a tangent plane;
+    for a length or a number that is not positive, and more than a hundred times the extent of the surface.
     """
     if most is not None and most < 1:
         raise InputError(f"geodesics between two places: {most} of them, expected 1 or more")

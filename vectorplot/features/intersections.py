@@ -556,42 +556,16 @@ GridPair = tuple[SurfaceGrids, SurfaceGrids]
 def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
     """The curves in which two surfaces meet.
 
-    Parameters
-    ----------
-    one, two : Surface
-        The surfaces.
-    tracing : Tracing
-        columns and rows of the grids that both are polygonised by; tolerance (a thousandth of the smaller extent where
-        None) and picture.
-
-    Returns
-    -------
-    DoubleCurves
-        Polylines, each point known by its parameters on both surfaces, and in space.
-
-    Raises
-    ------
-    InputError
-        For a grid that is too coarse.
-
-    Notes
-    -----
+    one, two: the surfaces; tracing: columns and rows of the grids that both are polygonised by; tolerance (a thousandth
+    of the smaller extent where None) and picture; result: polylines, each point known by its parameters on both
+    surfaces, and in space.
     Closed curves smaller than a cell are found by the place inside them where the tangent planes are parallel: to any
     size, but one of them for each pair of triangles. Where triangles cannot tell curves from one another the grids are
     refined (up to 2^17 cells); what is left then is a doubt. Edge cases: where surfaces touch in a point it is
     isolated, or a node if curves cross there; where they touch along a line its points are touching, with a doubt;
     where they coincide in an area there is a doubt and no curve. Curves end at the last whole cell before a hole.
-
     Source: Glaeser, section 8.4 (face-face sections); Patrikalakis and Maekawa, Shape interrogation, chapter 5.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> ball, pipe = surfaces.Sphere(1.0), surfaces.Cylinder(radius=0.6, bottom=-2, top=2)
-    >>> curves = features.surface_intersection(ball, pipe, tracing=features.Tracing(columns=15, rows=15))
-    >>> len(curves), bool(np.allclose(np.abs(curves.points[:, 2]), 0.8))
-    (2, True)
+    Errors: for a grid that is too coarse.
     """
     (found,) = intersections_of_grids([(SurfaceGrids(one), SurfaceGrids(two))], tracing)
     return found
@@ -652,39 +626,13 @@ has thousands of them, a few chords each; beside an isolated double point there 
 def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
     """The curves in which a surface meets itself: its double curves.
 
-    Parameters
-    ----------
-    surface : Surface
-        Seams and poles are no double curves.
-    tracing : Tracing
-        As of `surface_intersection`.
-
-    Returns
-    -------
-    DoubleCurves
-        Polylines, each point known by its two places on the surface, and in space.
-
-    Raises
-    ------
-    InputError
-        For a grid that is too coarse.
-
-    Notes
-    -----
+    surface: seams and poles are no double curves; tracing: as of `surface_intersection`; result: polylines, each point
+    known by its two places on the surface, and in space.
     Edge cases: of more curves than the budget allows there is none, with a doubt. A double curve ends exactly in a
     pinch point, or in a swallowtail; where the surface passes through a point in all directions (the axis of a spindle
     torus, the apex of a double cone) that point is isolated. Loops that are smaller than three cells are not found.
-
     Source: Glaeser, section 8.4 (self-intersections by face-face sections of the polygonised surface).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> loop = surfaces.surface_of_function(lambda u, v: (u**2, u**3 - u, v), surfaces.Domain(-1.5, 1.5, 0, 1))
-    >>> curves = features.self_intersections(loop, tracing=features.Tracing(columns=20, rows=5))
-    >>> len(curves), bool(np.allclose(curves.points[:, :2], (1.0, 0.0)))
-    (1, True)
+    Errors: for a grid that is too coarse.
     """
     patch = SurfacePatch(surface, tracing.columns, tracing.rows)
     own = patch.tessellation

@@ -566,45 +566,15 @@ def mesh_geodesics(
 ) -> MeshCurves:
     """The straightest lines of a mesh from given points in given directions.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        On which they run; open or closed.
-    faces : (k,) array_like of int
-        In which faces they begin; or one of them.
-    points : (k, 3) array_like of float, optional
-        Where in these faces; at the barycentres where None.
-    directions : (k, 3) array_like of float
-        Of any length; what is at right angles to the face does not count. Or one for all.
-    length : float, optional
-        How long they are at most, in world units; ten times the extent of the mesh where None.
-    both_ways : bool
-        Whether they run backwards from the start as well.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines with the number of the start as level: straight lines where the faces they run across are unfolded
-        into a plane.
-
-    Raises
-    ------
-    InputError
-        As of `mesh_integral_curves`; for directions that are not finite, or without length in their face.
-
-    Notes
-    -----
+    mesh: on which they run; open or closed; faces (k,): in which faces they begin; or one of them; points (k,3): where
+    in these faces; at the barycentres where None; directions (k,3): of any length; what is at right angles to the face
+    does not count. Or one for all; length: how long they are at most, in world units; ten times the extent of the mesh
+    where None; both_ways: whether they run backwards from the start as well; result: polylines with the number of the
+    start as level: straight lines where the faces they run across are unfolded into a plane.
     At a vertex there is as much angle between the faces to their left as to their right. They are shortest near by,
     unless they run through a vertex. Ends and closed lines as of `mesh_integral_curves`.
-
     Source: Polthier and Schmies, Straightest geodesics on polyhedral surfaces, 1998.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> hexagon = features.mesh_geodesics(geometry.box((2, 2, 2)), 0, (1.5, 0.0, 0.5), (1.0, 0.0, 1.0))
-    >>> hexagon.closed.tolist(), sorted(hexagon.faces.tolist())
-    ([True], [0, 1, 2, 3, 4, 5])
+    Errors: as of `mesh_integral_curves`; for directions that are not finite, or without length in their face.
     """
     sides = mesh_sides(mesh)
     face, own = starts_in_faces("geodesics", mesh, sides, faces, points)

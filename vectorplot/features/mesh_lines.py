@@ -251,39 +251,13 @@ def _faces_between(start: Ints, end: Ints, pairs: Ints, face: Ints, count: int) 
 def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> MeshCurves:
     """The sections of a mesh with the parallel planes n.x = d, n the unit normal.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Whose faces are cut.
-    normal : (3,) array_like of float
-        Of any length.
-    offsets : (k,) array_like of float
-        d, in world units; or one of them.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines with d as level; they close where the mesh does. Every point lies on an edge (or the fold of a polygon
-        that is not plane) and in the plane.
-
-    Raises
-    ------
-    InputError
-        For a normal without length, offsets that are not finite.
-
-    Notes
-    -----
+    mesh: whose faces are cut; normal (3,): of any length; offsets (k,): d, in world units; or one of them; result:
+    polylines with d as level; they close where the mesh does. Every point lies on an edge (or the fold of a polygon
+    that is not plane) and in the plane.
     Edge cases: a vertex in the plane counts as above it, but on a border that lies in the plane with the mesh above:
     such borders are sections as well. A face in the plane gives its outline where the mesh goes on below.
-
     Source: Glaeser, section 9.3, example 3, figure 7.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> curves = features.mesh_plane_sections(geometry.box((2, 2, 2)), (1, 0, 0), [0.5, 1.5])
-    >>> curves.levels.tolist(), curves.closed.tolist(), set(curves[0][:, 0].tolist())
-    ([0.5, 1.5], [True, True], {0.5})
+    Errors: for a normal without length, offsets that are not finite.
     """
     n = normalize(vector("plane sections: normal", normal))
     levels = _finite("plane sections: offsets", offsets)

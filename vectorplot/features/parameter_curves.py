@@ -59,38 +59,12 @@ MOST_LOOKS, FEW_LINES = 32, 8
 def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines u = const. that divide the domain into columns, and v = const. into rows, evenly; without borders.
 
-    Parameters
-    ----------
-    surface : Surface
-        On which they run.
-    columns, rows : int
-        Parts of the ranges of u and v; for 0 there are no lines. A closed direction has as many lines as parts, an open
-        one one less.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines with the constant parameter as level; first those of u.
-
-    Raises
-    ------
-    InputError
-        For fewer than 0 columns or rows.
-
-    Notes
-    -----
+    surface: on which they run; columns, rows: parts of the ranges of u and v; for 0 there are no lines. A closed
+    direction has as many lines as parts, an open one one less; tracing: its tolerance, picture and budget count;
+    result: polylines with the constant parameter as level; first those of u.
     Edge cases: as for `u_lines`.
-
     Source: Glaeser, section 8.2.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> curves = features.parameter_lines(surfaces.Cylinder(bottom=0, top=3), columns=8, rows=3)
-    >>> len(curves), curves.levels[8:].tolist(), curves.closed[8:].tolist()
-    (10, [1.0, 2.0], [True, True])
+    Errors: for fewer than 0 columns or rows.
     """
     return parameter_lines_of_each([surface], [(columns, rows)], tracing=tracing)[0]
 
@@ -138,28 +112,9 @@ def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) 
 def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines at which a surface ends: ends of its domain, but not where it closes nor poles, and rims of its holes.
 
-    Parameters
-    ----------
-    surface : Surface
-        On which they run.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        As of `u_lines` and `v_lines`.
-
-    Notes
-    -----
+    surface: on which they run; tracing: its tolerance, picture and budget count; result: as of `u_lines` and `v_lines`.
     Rims are where the points of the surface are not finite any more, and where it is cut off because it runs to
     infinity; their level is 0. Edge cases: holes smaller than half a cell of the tracing's grid may be missed.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> len(features.borders(surfaces.Cylinder())), len(features.borders(surfaces.Paraboloid()))
-    (2, 1)
     """
     return together([domain_borders(surface, tracing), hole_rims(surface, tracing)])
 

@@ -477,37 +477,12 @@ def mesh_distances(
 ) -> Floats:
     """How far the vertices of a mesh are from the nearest of some places, on the mesh.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        With v vertices.
-    points : (k, 3) array_like of float
-        Points in the world, of which the nearest ones on the mesh count; or one of them.
-    budget : Budget
-        Its windows count.
-    done : callable
-        As of `mesh_shortest_paths`.
-
-    Returns
-    -------
-    (v,) array of float
-        The lengths of the shortest ways; inf where there is none. For `mesh_level_lines`, whose lines then are circles
-        about the places, as far as what is between vertices is linear.
-
-    Raises
-    ------
-    InputError
-        As of `mesh_shortest_paths`.
-
-    Notes
-    -----
+    mesh: with v vertices; points (k,3): points in the world, of which the nearest ones on the mesh count; or one of
+    them; budget: its windows count; done: as of `mesh_shortest_paths`; result: (v,) the lengths of the shortest ways;
+    inf where there is none. For `mesh_level_lines`, whose lines then are circles about the places, as far as what is
+    between vertices is linear.
     Exact but for rounding, as `mesh_shortest_paths`.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> (features.mesh_distances(geometry.box((2, 2, 2)), (0, 0, 0)).max() ** 2).round(9).item()
-    20.0
+    Errors: as of `mesh_shortest_paths`.
     """
     at = np.atleast_2d(np.asarray(points, dtype=np.float64))
     faces = face_triangles(mesh)

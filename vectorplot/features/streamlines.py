@@ -579,47 +579,18 @@ def evenly_spaced_curves(
 ) -> SurfaceCurves:
     """Integral curves of a field that cover a surface evenly.
 
-    Parameters
-    ----------
-    surface : Surface
-        With points, partials and second partials.
-    field : TangentField
-        What they follow.
-    apart : float
-        About how far neighbours are from each other, in world units: half of it at least, where they run together; and
-        mostly less than twice, where they run apart, as gaps are filled a few times only.
-    accuracy : Accuracy
-        How well they are integrated.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines. A curve ends where it comes too near to another one, or to itself.
-
-    Raises
-    ------
-    InputError
-        For a shape without parameters, a distance that is not positive, or less than a five-hundredth of the extent of
-        the surface.
-
-    Notes
-    -----
+    surface: with points, partials and second partials; field: what they follow; apart: about how far neighbours are
+    from each other, in world units: half of it at least, where they run together; and mostly less than twice, where
+    they run apart, as gaps are filled a few times only; accuracy: how well they are integrated; tracing: its tolerance,
+    picture and budget count; result: polylines. A curve ends where it comes too near to another one, or to itself.
     The first curves begin along one at right angles to them, so that they are evenly apart there; then gaps are filled
     in the same way, the widest ones first. Distances are measured in space, between places of one sheet: the two sides
     of a thin shape, and the turns of a spiral one, do not keep each other's curves away. Which curves there are does
     not depend on tolerances and pictures.
-
     Source: Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density (1997), for what even means;
     Mebarki, Alliez and Devillers, Farthest point seeding for efficient placement of streamlines (2005), for gaps.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> curves = features.evenly_spaced_curves(surfaces.Cylinder(bottom=0, top=3), features.loxodromes(0.5), 0.5)
-    >>> len(curves) > 5
-    True
+    Errors: for a shape without parameters, a distance that is not positive, or less than a five-hundredth of the extent
+    of the surface.
     """
     check_parametrised(surface)
     positive("evenly spaced curves: distance", apart)

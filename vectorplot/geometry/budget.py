@@ -29,35 +29,12 @@ HOW = "a larger budget may do (--budget)"
 class Budget:
     """Limits of the work on the smooth surfaces of a picture, and on shortest ways: with them every picture ends.
 
-    Parameters
-    ----------
-    cells : int
-        Of one size that the domain of a surface is cut into around one family of curves.
-    triangles : int
-        That an implicit surface is cut into around one.
-    points : int
-        That the curves of one are refined to.
-    pairs : int
-        Of two chords, of a chord and a triangle, or of a sight line and a triangle, that come near each other in the
-        image and are looked at closely.
-    facets : int
-        Triangles that a surface is painted or rendered by.
-    pieces : int
-        That faces which pierce one another are cut into to be painted in order.
-    windows : int
-        That the shortest ways on a mesh from one place are looked for through.
-
-    Notes
-    -----
+    cells: of one size that the domain of a surface is cut into around one family of curves; triangles: that an implicit
+    surface is cut into around one; points: that the curves of one are refined to; pairs: of two chords, of a chord and
+    a triangle, or of a sight line and a triangle, that come near each other in the image and are looked at closely;
+    facets: triangles that a surface is painted or rendered by; pieces: that faces which pierce one another are cut into
+    to be painted in order; windows: that the shortest ways on a mesh from one place are looked for through.
     What a budget does not do for is left out, and a doubt or an InputWarning says so.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry, surfaces
-    >>> tracing = features.Tracing(tolerance=1e-9, budget=geometry.Budget(points=100))
-    >>> curves = features.contour(surfaces.Sphere(), (4, 0, 0), tracing=tracing)
-    >>> len(curves), len(curves.doubts)
-    (1, 1)
     """
 
     cells: int = 1 << 13

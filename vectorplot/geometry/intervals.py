@@ -17,37 +17,12 @@ NUMBER_BITS = 61
 def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Floats, Floats]:
     """Disjoint intervals that cover what the given ones cover, for each owner, ascending.
 
-    Parameters
-    ----------
-    owner : (n,) array of int
-        To which owner each interval belongs, from 0.
-    low, high : (n,) array of float
-        Where intervals begin and end: parameters within 0 to 1.
-    gap : (owners,) array of float
-        Intervals of one owner that are no further apart are joined.
-
-    Returns
-    -------
-    owner : (k,) array of int
-        Those of the joined intervals, ascending.
-    low, high : (k,) array of float
-        Their ends; for each owner ascending.
-
-    Notes
-    -----
+    owner (n,): to which owner each interval belongs, from 0; low, high (n,): where intervals begin and end: parameters
+    within 0 to 1; gap (owners,): intervals of one owner that are no further apart are joined; result: those of the
+    joined intervals, ascending; their ends; for each owner ascending.
     Parameters are compared in steps of 2^-40, in coarser ones where there are more than two million owners. Edge cases:
     nothing in, nothing out.
-
     Source: Glaeser, section 7.2, equation 2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import exact
-    >>> owner, low, high = np.array([0, 0, 1]), np.array([0.25, 0.0, 0.5]), np.array([0.75, 0.5, 1.0])
-    >>> owner, low, high = exact.union(owner, low, high, np.zeros(2))
-    >>> [(int(i), float(a), float(b)) for i, a, b in zip(owner, low, high)]
-    [(0, 0.0, 0.75), (1, 0.5, 1.0)]
     """
     if not len(owner):
         return owner, low, high
@@ -74,37 +49,11 @@ def _ascending(owner: Ints, low: Floats) -> Ints:
 def complement(count: int, owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Floats, Floats]:
     """What disjoint intervals leave of 0 to 1, for each owner.
 
-    Parameters
-    ----------
-    count : int
-        How many owners there are: 0 to count - 1.
-    owner : (n,) array of int
-        To which owner each interval belongs.
-    low, high : (n,) array of float
-        Where intervals begin and end, such as union gives them: those of one owner do not overlap.
-    gap : (count,) array of float
-        What is no longer is left out.
-
-    Returns
-    -------
-    owner : (k,) array of int
-        Those of the free intervals, ascending.
-    low, high : (k,) array of float
-        Their ends; for each owner ascending.
-
-    Notes
-    -----
+    count: how many owners there are: 0 to count - 1; owner (n,): to which owner each interval belongs; low, high (n,):
+    where intervals begin and end, such as union gives them: those of one owner do not overlap; gap (count,): what is no
+    longer is left out; result: those of the free intervals, ascending; their ends; for each owner ascending.
     Edge cases: an owner without intervals is free from 0 to 1.
-
     Source: Glaeser, section 7.2, equation 3, as erratum G7-03 corrects it.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import exact
-    >>> owner, low, high = exact.complement(2, np.array([0]), np.array([0.25]), np.array([0.75]), np.zeros(2))
-    >>> [(int(i), float(a), float(b)) for i, a, b in zip(owner, low, high)]
-    [(0, 0.0, 0.25), (0, 0.75, 1.0), (1, 0.0, 1.0)]
     """
     rising = (owner[1:] > owner[:-1]) | (owner[1:] == owner[:-1]) & (low[1:] >= low[:-1])
     if not rising.all():
@@ -122,36 +71,11 @@ def complement(count: int, owner: Ints, low: Floats, high: Floats, gap: Floats) 
 def coverage(owner: Ints, low: Floats, high: Floats, side: Ints) -> tuple[Ints, Floats, Floats, Ints]:
     """How many intervals cover each part of 0 to 1, where any does.
 
-    Parameters
-    ----------
-    owner : (n,) array of int
-        To which owner each interval belongs.
-    low, high : (n,) array of float
-        Where intervals begin and end; they may overlap.
-    side : (n,) array of int
-        1 for an interval that covers the left side of its owner only, -1 the right side only, 0 both.
-
-    Returns
-    -------
-    owner : (k,) array of int
-        Those of the parts, ascending.
-    low, high : (k,) array of float
-        Their ends; for each owner ascending.
-    count : (k,) array of int
-        How many intervals cover the part, 1 or more: the smaller of the counts of its two sides.
-
-    Notes
-    -----
+    owner (n,): to which owner each interval belongs; low, high (n,): where intervals begin and end; they may overlap;
+    side (n,): 1 for an interval that covers the left side of its owner only, -1 the right side only, 0 both; result:
+    those of the parts, ascending; their ends; for each owner ascending; how many intervals cover the part, 1 or more:
+    the smaller of the counts of its two sides.
     Edge cases: nothing in, nothing out.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import exact
-    >>> owner, side = np.zeros(2, dtype=int), np.zeros(2, dtype=int)
-    >>> _, low, high, count = exact.coverage(owner, np.array([0.0, 0.5]), np.array([0.75, 1.0]), side)
-    >>> [(float(a), float(b), int(n)) for a, b, n in zip(low, high, count)]
-    [(0.0, 0.5, 1), (0.5, 0.75, 2), (0.75, 1.0, 1)]
     """
     if not len(owner):
         return owner, low, high, np.zeros(0, dtype=np.intp)

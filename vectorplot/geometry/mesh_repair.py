@@ -228,28 +228,8 @@ class MeshReport:
 def mesh_report(mesh: Mesh) -> MeshReport:
     """The report on a mesh, in one sort of its edges.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Any.
-
-    Returns
-    -------
-    MeshReport
-        Counts of faces and edges, and whether it bounds a body.
-
-    Notes
-    -----
+    mesh: any; result: counts of faces and edges, and whether it bounds a body.
     Edge cases: a mesh without faces is closed and not convex.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> report = geometry.mesh_report(triangle)
-    >>> report.boundary_edges, report.closed, report.components
-    (3, False, 1)
     """
     uses = edge_uses(mesh)
     number, _ = components(mesh, uses) if mesh.face_count else (0, None)
@@ -360,26 +340,7 @@ def repaired(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
 def welded(mesh: Mesh) -> tuple[Mesh, int]:
     """The mesh with equal vertices made one, and how many were lost.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        With vertices that may stand several times.
-
-    Returns
-    -------
-    Mesh
-        With the same faces.
-    int
-        How many vertices it has less.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
-    >>> mesh, lost = geometry.welded(vp.Mesh.from_triangles(corners, [(0, 1, 2), (3, 4, 5)]))
-    >>> len(mesh.vertices), lost
-    (4, 2)
+    mesh: with vertices that may stand several times; result: with the same faces; how many vertices it has less.
     """
     first, number = distinct_points(mesh.vertices)
     return Mesh(mesh.vertices[first] + 0.0, number[mesh.corners], mesh.offsets, mesh.present), len(number) - len(first)

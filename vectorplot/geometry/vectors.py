@@ -115,21 +115,7 @@ def largest_component(vectors: ArrayLike) -> Floats:
 def length(vectors: ArrayLike) -> Floats:
     """The lengths of vectors, without overflow or underflow on the way.
 
-    Parameters
-    ----------
-    vectors : (..., k) array_like of float
-        In the plane, in space, or of any dimension.
-
-    Returns
-    -------
-    (...) array of float
-        Not negative.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.length([(3, 4), (0, 0)]).tolist()
-    [5.0, 0.0]
+    vectors (...,k): in the plane, in space, or of any dimension; result: (...) not negative.
     """
     v = np.asarray(vectors, dtype=np.float64)
     largest = largest_component(v)
@@ -140,33 +126,10 @@ def length(vectors: ArrayLike) -> Floats:
 def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
     """Unit vectors of the same directions.
 
-    Parameters
-    ----------
-    vectors : (..., k) array_like of float
-        Of any length but zero.
-    magnitude : (...) array_like of float
-        The largest coordinate the vectors were made of; a difference of points that is no longer than their rounding
-        has no direction.
-
-    Returns
-    -------
-    (..., k) array of float
-        Of length 1.
-
-    Raises
-    ------
-    InputError
-        For a vector without length, or of a length that is not finite.
-
-    Notes
-    -----
+    vectors (...,k): of any length but zero; magnitude (...): the largest coordinate the vectors were made of; a
+    difference of points that is no longer than their rounding has no direction; result: (...,k) of length 1.
     Source: Glaeser, section 1.2, equations 11 and 12; errata G1-03, G1-06.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.normalize((3, 4)).round(9).tolist()
-    [0.6, 0.8]
+    Errors: for a vector without length, or of a length that is not finite.
     """
     v = np.asarray(vectors, dtype=np.float64)
     long = length(v)
@@ -220,33 +183,10 @@ def translated(points: ArrayLike, vector: ArrayLike) -> Floats:
 def angle(a: ArrayLike, b: ArrayLike) -> Floats:
     """The angles between directions, in radians.
 
-    Parameters
-    ----------
-    a, b : (..., 2 or 3) array_like of float
-        Of any length but zero.
-
-    Returns
-    -------
-    (...) array of float
-        0 to pi.
-
-    Raises
-    ------
-    InputError
-        For a vector without length.
-
-    Notes
-    -----
+    a, b (...,2 or 3): of any length but zero; result: (...) 0 to pi.
     Accurate for tiny and for straight angles, where the cosine alone has lost its digits.
-
     Source: Glaeser, section 1.2, equations 14 and 15.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> np.degrees(geometry.angle((1, 0), [(5, 5), (0, 1), (-2, 0)])).round(9).tolist()
-    [45.0, 90.0, 180.0]
+    Errors: for a vector without length.
     """
     a, b = normalize(a), normalize(b)
     sine = np.abs(cross(a, b)) if a.shape[-1] == 2 else length(cross(a, b))

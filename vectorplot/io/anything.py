@@ -111,43 +111,16 @@ CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the cur
 def scene_of(shown: object) -> Scene:
     """The scene that something with a shape is, or makes up.
 
-    Parameters
-    ----------
-    shown : Scene, path, Item, Mesh, surface, curve, mesh of another library, arrays, or several of these
-        A path is read as by `vp.read`. Shapes become gray items named after what they are. A mesh of another library is
-        known by what it has: vertices and faces, as those of trimesh, or points and cells, as those of meshio, whose
-        volumes show their outer faces. Arrays of vertices (n, 3) and of faces (f, k) are a pair. A Terrain, or an array
-        of heights (m, n), is drawn with its level lines; heights of an array that would be a plain, or needles, over
-        steps of 1 are drawn higher or lower, as those of files. A list or a tuple is all of what is in it, a mapping
-        names it.
-
-    Returns
-    -------
-    Scene
-        Of several scenes all items and lights; camera, page, background and title are those of the first one that has
-        any.
-
-    Raises
-    ------
-    TypeError
-        For anything else, in one sentence.
-    InputError
-        As `vp.read`, for meshes that make no sense, and for a drawing.
-
-    Warns
-    -----
-    InputWarning
-        What was mended of a mesh of another library, or of arrays, as of files; how heights were scaled.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import io, surfaces
-    >>> corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
-    >>> triangles = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
-    >>> scene = io.scene_of([surfaces.Torus(3, 1), (corners, triangles)])
-    >>> [item.name for item in scene.items]
-    ['torus', 'mesh']
+    shown: a path is read as by `vp.read`. Shapes become gray items named after what they are. A mesh of another library
+    is known by what it has: vertices and faces, as those of trimesh, or points and cells, as those of meshio, whose
+    volumes show their outer faces. Arrays of vertices (n, 3) and of faces (f, k) are a pair. A Terrain, or an array of
+    heights (m, n), is drawn with its level lines; heights of an array that would be a plain, or needles, over steps of
+    1 are drawn higher or lower, as those of files. A list or a tuple is all of what is in it, a mapping names it;
+    result: of several scenes all items and lights; camera, page, background and title are those of the first one that
+    has any.
+    Errors: TypeError for anything else, in one sentence; as `vp.read`, for meshes that make no sense, and for a
+    drawing.
+    Warns InputWarning what was mended of a mesh of another library, or of arrays, as of files; how heights were scaled.
     """
     return _scene_of(shown, ())
 

@@ -131,26 +131,8 @@ class DepthCue:
     def read(cls, text: str) -> DepthCue:
         """The depth cue that a text says: width, shade or both, and a number of steps, with commas between them.
 
-        Parameters
-        ----------
-        text : str
-            Such as "width" or "width,shade,8".
-
-        Returns
-        -------
-        DepthCue
-            Of five steps where the text names no number.
-
-        Raises
-        ------
-        InputError
-            For other texts.
-
-        Examples
-        --------
-        >>> from vectorplot.scene import DepthCue
-        >>> DepthCue.read("shade").steps
-        5
+        text: such as "width" or "width,shade,8"; result: of five steps where the text names no number.
+        Errors: for other texts.
         """
         words = [word.strip() for word in text.split(",")]
         try:

@@ -67,30 +67,8 @@ class Placement:
 def field_of_vision(projection: Projection, page: Page, fit: bool) -> Placement:
     """The place of the camera's field of vision, the target in the middle.
 
-    Parameters
-    ----------
-    projection : Projection
-        That of the picture.
-    page : Page
-        The sheet of paper.
-    fit : bool
-        The camera's picture height becomes that of the page inside its margin; otherwise that of the whole page.
-
-    Returns
-    -------
-    Placement
-        Of a picture that ends at the margins.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene
-    >>> camera = vp.Camera((0, -10, 0), parallel=True, height=4.0)
-    >>> front = geometry.projection_of(camera, bounds=np.array([(-1, -1, -1), (1, 1, 1)]))
-    >>> placement = scene.field_of_vision(front, vp.Page(100, 80), fit=True)
-    >>> placement.scale, placement.whole, placement.on_page(np.zeros((2, 1))).tolist()
-    (15.0, False, [[50.0, 40.0]])
+    projection: that of the picture; page: the sheet of paper; fit: the camera's picture height becomes that of the page
+    inside its margin; otherwise that of the whole page; result: of a picture that ends at the margins.
     """
     height_mm = page.height_mm - 2.0 * page.margin_mm if fit else page.height_mm
     return Placement(projection, page, centred(page, projection.picture_height, height_mm), whole=False)

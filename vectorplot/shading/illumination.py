@@ -199,34 +199,10 @@ def reflected(normals: ArrayLike, to_light: ArrayLike) -> Floats:
 def brightness(cos_alpha: ArrayLike, cos_beta: ArrayLike, finish: Finish) -> Floats:
     """What a surface sends to the eye of one light of intensity 1.
 
-    Parameters
-    ----------
-    cos_alpha : (...) array_like of float
-        Of the angle between normal and light.
-    cos_beta : (...) array_like of float
-        Of the angle between reflected ray and eye.
-    finish : Finish
-        What the material makes of light.
-
-    Returns
-    -------
-    (...) array of float
-        1 and more is as bright as can be.
-
-    Notes
-    -----
+    cos_alpha (...): of the angle between normal and light; cos_beta (...): of the angle between reflected ray and eye;
+    finish: what the material makes of light; result: (...) 1 and more is as bright as can be.
     Highlights are only where the light falls on the outer side and the reflected ray runs towards the eye.
-
     Source: Glaeser, section 8.5, equation 31; erratum G8-16.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import FINISHES
-    >>> from vectorplot.shading.illumination import brightness
-    >>> brightness([1.0, 0.5], [1.0, 0.5], FINISHES["shiny"]).round(6).tolist()
-    [1.3, 0.25]
-    >>> brightness([1.0, 0.5], [1.0, 0.5], FINISHES["normal"]).tolist()
-    [1.0, 0.5]
     """
     alpha = np.clip(np.asarray(cos_alpha, dtype=np.float64), -1.0, 1.0)
     beta = np.clip(np.asarray(cos_beta, dtype=np.float64), -1.0, 1.0)
@@ -310,31 +286,10 @@ def distance_factor(light_distance: float, depth: ArrayLike, nearest: float) -> 
 def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
     """What ambient light adds to shades: from 0 at the smallest depth of the screen to 0.2 at the largest.
 
-    Parameters
-    ----------
-    depth : (...) array_like of float
-        Larger = closer to the eye.
-    minimum : float
-        The smallest depth.
-    total : float
-        The depth of the scene.
-
-    Returns
-    -------
-    (...) array of float
-        0 to 0.2.
-
-    Notes
-    -----
+    depth (...): larger = closer to the eye; minimum: the smallest depth; total: the depth of the scene; result: (...) 0
+    to 0.2.
     Edge cases: a scene without depth gets all of it.
-
     Source: Glaeser, section 4.5, equation 5, figure 6.
-
-    Examples
-    --------
-    >>> from vectorplot.shading.illumination import depth_cue
-    >>> depth_cue([0.0, 5.0, 10.0], minimum=0.0, total=10.0).round(6).tolist()
-    [0.0, 0.1, 0.2]
     """
     z = np.asarray(depth, dtype=np.float64)
     share = (z - minimum) / total if total > 0.0 else np.ones(z.shape)
@@ -344,33 +299,11 @@ def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
 def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Floats:
     """How bright points are in the light of all lights together.
 
-    Parameters
-    ----------
-    shares : (l, n) array_like of float
-        What each light gives to each point, as of brightness.
-    intensity : (l,) or (l, 3) array_like of float
-        Of the lights; of their red, green and blue in coloured light.
-    cue : (n,) array_like of float or float
-        What ambient light adds, as of depth_cue.
-
-    Returns
-    -------
-    (n,) or (3, n) array of float
-        0 to 1; of red, green and blue in coloured light.
-
-    Notes
-    -----
+    shares (l,n): what each light gives to each point, as of brightness; intensity (l,) or (l,3): of the lights; of
+    their red, green and blue in coloured light; cue (n,): what ambient light adds, as of depth_cue; result: (n,) or
+    (3,n) 0 to 1; of red, green and blue in coloured light.
     The sum of the shares takes four fifths of the palette, and is cut off there; then comes the cue.
-
     Source: Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08.
-
-    Examples
-    --------
-    >>> from vectorplot.shading.illumination import shades
-    >>> shades([[0.5, 1.0], [0.2, 0.3]], [1.0, 0.5]).round(6).tolist()
-    [0.48, 0.8]
-    >>> shades([[0.5, 1.0]], [1.0], cue=[0.2, 0.1]).round(6).tolist()
-    [0.6, 0.9]
     """
     total = matmul(np.asarray(intensity, dtype=np.float64).T, np.asarray(shares, dtype=np.float64))
     return np.asarray(np.clip(DIRECT_SHARE * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))

@@ -174,33 +174,10 @@ def recipe_factors(corners: ArrayLike) -> tuple[Floats, ...]:
 def recipe_matrix(corners: ArrayLike) -> Floats:
     """The map of a trapezoid onto the square from -1 to 1 as the product of eight simple matrices.
 
-    Parameters
-    ----------
-    corners : (4, 2) array_like of float
-        First the ends of its base, then those of its top line.
-
-    Returns
-    -------
-    (4, 4) array of float
-        Brings the corners to (-1, -1), (1, -1), (1, 1) and (-1, 1) in x and y; z is what z / w is.
-
-    Raises
-    ------
-    InputError
-        For corners that are not finite, or without area, and for parallel sides.
-
-    Notes
-    -----
+    corners (4,2): first the ends of its base, then those of its top line; result: (4,4) brings the corners to (-1, -1),
+    (1, -1), (1, 1) and (-1, 1) in x and y; z is what z / w is.
     Source: Martin and Tan, recipe, steps 1 to 8; errata R-01, R-02, R-03.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading.shadow_maps import recipe_matrix
-    >>> corners = np.array([(-3, 0), (3, 0), (1, 4), (-1, 4)])
-    >>> images = np.column_stack([corners, np.zeros(4), np.ones(4)]) @ recipe_matrix(corners).T
-    >>> (images[:, :2] / images[:, 3:]).round(6).tolist()
-    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
+    Errors: for corners that are not finite, or without area, and for parallel sides.
     """
     total = np.eye(4)
     for factor in recipe_factors(corners):

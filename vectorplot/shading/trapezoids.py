@@ -150,38 +150,11 @@ def side_directions(points: ArrayLike, axis: Axis, eta: float) -> tuple[Floats, 
 def trapezoid(points: ArrayLike, axis: Axis, eta: float) -> Floats:
     """The trapezoid around points in the lamp's image plane whose sides meet so far before its top line.
 
-    Parameters
-    ----------
-    points : (n, 2) array_like of float
-        Images of what the eye sees.
-    axis : Axis
-        The line of sight, with the top and the base line.
-    eta : float
-        How far before the top line the sides meet, along the axis.
-
-    Returns
-    -------
-    (4, 2) array of float
-        The corners: top left, top right, base right, base left, counter-clockwise.
-
-    Raises
-    ------
-    InputError
-        For an eta that is not positive and finite.
-
-    Notes
-    -----
+    points (n,2): images of what the eye sees; axis: the line of sight, with the top and the base line; eta: how far
+    before the top line the sides meet, along the axis; result: (4,2) the corners: top left, top right, base right, base
+    left, counter-clockwise.
     Source: Ressler, equations 11 to 14.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import line_of_sight
-    >>> from vectorplot.shading.trapezoids import trapezoid
-    >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
-    >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
-    >>> bool(np.allclose(trapezoid(frustum, axis, eta=2.0), frustum))
-    True
+    Errors: for an eta that is not positive and finite.
     """
     if not 0.0 < eta < np.inf:
         raise InputError(f"the sides of a trapezoid cannot meet {eta:g} before its top line")
@@ -352,38 +325,11 @@ def searched_line(points: ArrayLike, axis: Axis, focus: float, focus_points: Arr
 def adapted_size(size: int, share: float, wanted: float, largest: int) -> int:
     """The side of a map that is larger where what is in focus has too small a part of it.
 
-    Parameters
-    ----------
-    size : int
-        The side of the map in texels, 1 or more.
-    share : float
-        The part of the map that is in focus, not negative.
-    wanted : float
-        The part of a map of side ``size`` whose texels it should get, more than 0, up to 1.
-    largest : int
-        The largest side.
-
-    Returns
-    -------
-    int
-        Never smaller than size nor larger than largest, and without jumps.
-
-    Raises
-    ------
-    InputError
-        For numbers out of range.
-
-    Notes
-    -----
+    size: the side of the map in texels, 1 or more; share: the part of the map that is in focus, not negative; wanted:
+    the part of a map of side ``size`` whose texels it should get, more than 0, up to 1; largest: the largest side;
+    result: never smaller than size nor larger than largest, and without jumps.
     Source: Martin and Tan, recipe, tips (texture size that follows the focus area).
-
-    Examples
-    --------
-    >>> from vectorplot import shading
-    >>> shading.adapted_size(1000, share=0.2, wanted=0.8, largest=4000)
-    2000
-    >>> shading.adapted_size(1000, share=0.9, wanted=0.8, largest=4000)
-    1000
+    Errors: for numbers out of range.
     """
     if not (0.0 <= share and 0.0 < wanted <= 1.0 and 1 <= size <= largest):
         raise InputError(f"a map of {size} texels for a share of {share:g} of {wanted:g} is out of range")

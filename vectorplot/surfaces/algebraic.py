@@ -26,27 +26,8 @@ MOST_DEGREE = 8
 class AlgebraicSurface(MovableImplicit):
     """F = the sum of c x^i y^j z^k within a box, x, y, z counted from an origin in units of a size.
 
-    Parameters
-    ----------
-    exponents : (m, 3) array of int
-        i, j and k of every term.
-    coefficients : (m,) array of float
-        The factors c.
-    box : (2, 3) array of float
-        The smallest and the largest coordinates, in world units.
-    origin : (3,) array of float
-        From where x, y, z are counted.
-    size : float
-        The unit of x, y, z.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.surfaces.algebraic import AlgebraicSurface
-    >>> box = np.array([(-2.0, -2.0, -2.0), (2.0, 2.0, 2.0)])
-    >>> ball = AlgebraicSurface(np.array([(2, 0, 0), (0, 2, 0), (0, 0, 2), (0, 0, 0)]), np.array([1, 1, 1, -1.0]), box)
-    >>> ball.degree, ball.gradients(np.array([1.0, 0.0, 0.0])).tolist()
-    (2, [2.0, 0.0, 0.0])
+    exponents (m,3): i, j and k of every term; coefficients (m,): the factors c; box (2,3): the smallest and the largest
+    coordinates, in world units; origin (3,): from where x, y, z are counted; size: the unit of x, y, z.
     """
 
     exponents: Ints

@@ -87,23 +87,8 @@ class Disc:
 class PolygonRegion:
     """The inside of a simple polygon.
 
-    Parameters
-    ----------
-    corners : (n, 2) array_like of float
-        In either sense, convex or not, in world units.
-
-    Raises
-    ------
-    InputError
-        For fewer than three corners, or coordinates that are not finite.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.surfaces.graphs import PolygonRegion
-    >>> corner = PolygonRegion([(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)])
-    >>> corner.contains(np.array([0.5, 3.0, 3.0]), np.array([0.5, 0.5, 3.0])).tolist()
-    [True, True, False]
+    corners (n,2): in either sense, convex or not, in world units.
+    Errors: for fewer than three corners, or coordinates that are not finite.
     """
 
     corners: ArrayLike
@@ -150,28 +135,10 @@ class PolygonRegion:
 class Graph(MovableSurface):
     """The points (u, v, f(u, v)) above a rectangle or a region, normals upwards.
 
-    Parameters
-    ----------
-    domain : Domain
-        The rectangle, or the one around the region.
-    heights : NumericFunction
-        f; NaN outside the region.
-    slopes : tuple of NumericFunction
-        The derivatives by u and by v, or empty: they are found from the heights.
-    jets : tuple of NumericFunction
-        f, f_u, f_v at once, and these with f_uu, f_uv, f_vv, each with its own holes; or empty.
-
-    Notes
-    -----
+    domain: the rectangle, or the one around the region; heights: f; NaN outside the region; slopes: the derivatives by
+    u and by v, or empty: they are found from the heights; jets: f, f_u, f_v at once, and these with f_uu, f_uv, f_vv,
+    each with its own holes; or empty.
     Made by `graph`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> hill = surfaces.graph(lambda x, y: 4.0 - x * x - y * y, surfaces.Domain(-1, 1, -1, 1))
-    >>> isinstance(hill, surfaces.Graph), hill.points(np.array(1.0), np.array(0.0)).tolist()
-    (True, [1.0, 0.0, 3.0])
     """
 
     domain: Domain

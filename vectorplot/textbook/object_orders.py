@@ -356,38 +356,11 @@ def cyclic_overlap_report(cycles: Sequence[Ints], names: Sequence[str]) -> tuple
 def object_order(view: View, names: Sequence[str]) -> ObjectOrder:
     """The items of a view as whole objects, back to front.
 
-    Parameters
-    ----------
-    view : View
-        As of scene.look.
-    names : sequence of str
-        Of the items, for the warning.
-
-    Returns
-    -------
-    ObjectOrder
-        By quick decisions; if these make a cycle, by the outlines of all pairs; a cycle that stays is left as it is.
-
-    Warns
-    -----
-    InputWarning
-        Where a cycle stays: it names its objects.
-
-    Notes
-    -----
+    view: as of scene.look; names: of the items, for the warning; result: by quick decisions; if these make a cycle, by
+    the outlines of all pairs; a cycle that stays is left as it is.
     painters_order cuts such cycles instead.
-
     Source: Glaeser, section 5.6 (mikado, two passes); erratum G5-04.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, textbook
-    >>> above = geometry.box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2))
-    >>> boxes = (vp.Item("high", above), vp.Item("low", geometry.box((1, 1, 1))))
-    >>> view = scene.look(vp.Scene(boxes), vp.Camera((2, 3, 9)))
-    >>> textbook.object_order(view, ["high", "low"]).order.tolist()
-    [1, 0]
+    Warns InputWarning where a cycle stays: it names its objects.
     """
     objects = view_objects(view)
     for critical in (False, True):

@@ -126,17 +126,7 @@ FULL = 0.75
 class Segments:
     """Straight segments in the view's coordinates, all of them beyond the near plane.
 
-    Parameters
-    ----------
-    start, end : (3, n) array of float
-        Their ends, such as points_of of a view gives them.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import visibility
-    >>> len(visibility.Segments(start=np.zeros((3, 4)), end=np.ones((3, 4))))
-    4
+    start, end (3,n): their ends, such as points_of of a view gives them.
     """
 
     start: Floats
@@ -454,43 +444,12 @@ def visible_parts(
 ) -> Visibility:
     """The visible parts of straight segments.
 
-    Parameters
-    ----------
-    view : View
-        As of scene.look.
-    faces : ProjectedFaces
-        As of project_faces.
-    solid : (i,) array of bool
-        As of solid_items: the items that hide as convex solids.
-    segments : Segments
-        In the view's coordinates.
-    progress : callable
-        progress(share) is called while it works.
-
-    Returns
-    -------
-    Visibility
-        The visible parts only.
-
-    Notes
-    -----
+    view: as of scene.look; faces: as of project_faces; solid (i,): as of solid_items: the items that hide as convex
+    solids; segments: in the view's coordinates; progress: progress(share) is called while it works; result: the visible
+    parts only.
     What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its
     sides are. Parts below ten tolerances of the view are left out.
-
     Source: Glaeser, section 7.2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> camera = vp.Camera((9, 1, 1), target=(0, 1, 1), parallel=True)
-    >>> view = scene.look(vp.Scene((vp.Item("wall", geometry.box((1, 2, 2))),)), camera)
-    >>> faces = visibility.project_faces(view)
-    >>> line = visibility.Segments(*(view.points_of(np.array([(-3.0, y, 1.0)])) for y in (-1.0, 3.0)))
-    >>> parts = visibility.visible_parts(view, faces, visibility.solid_items(view, faces), line, lambda share: None)
-    >>> parts.low.round(9).tolist(), parts.high.round(9).tolist()
-    ([0.0, 0.75], [0.25, 1.0])
     """
     gap = _gaps(view, segments)
     if not len(segments):

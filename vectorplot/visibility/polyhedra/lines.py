@@ -142,47 +142,12 @@ def edge_lines(
 ) -> Lines:
     """Contours, boundaries, creases and other edges of all items.
 
-    Parameters
-    ----------
-    scene : Scene
-        With its polyhedra.
-    view : View
-        Of the scene.
-    faces : ProjectedFaces
-        Of the view.
-    kinds : frozenset of LineKind
-        Those asked for; an item's own come first.
-    crease_angle_deg : float
-        Sharper edges are creases.
-    backs : (i,) array of bool
-        Items whose edges between faces that all turn away are wanted too; of a closed solid they are hidden.
-
-    Returns
-    -------
-    Lines
-        With their kinds, items and sides.
-
-    Notes
-    -----
+    scene: with its polyhedra; view: of the scene; faces: of the view; kinds: those asked for; an item's own come first;
+    crease_angle_deg: sharper edges are creases; backs (i,): items whose edges between faces that all turn away are
+    wanted too; of a closed solid they are hidden; result: with their kinds, items and sides.
     Of items that list the edges to be drawn (drawn_edges) these are drawn, flat ones as creases, and no others;
     segments that are no edges (added_edges) are creases too, less what is cut away.
-
     Source: Glaeser, sections 3.3, 4.4 and 7.2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import visibility
-    >>> from vectorplot.geometry import box
-    >>> from vectorplot.scene import look
-    >>> scene = vp.Scene((vp.Item("cube", box((2, 2, 2))),))
-    >>> view = look(scene, vp.Camera((6, 5, 4)))
-    >>> wanted = frozenset({vp.LineKind.CONTOUR, vp.LineKind.CREASE})
-    >>> faces = visibility.project_faces(view)
-    >>> lines = visibility.edge_lines(scene, view, faces, wanted, 25.0, np.zeros(1, dtype=bool))
-    >>> [int((lines.kind == kind).sum()) for kind in (vp.LineKind.CONTOUR, vp.LineKind.CREASE)]
-    [6, 3]
     """
     parts = []
     smooth, listed = _smoothly_outlined(scene), _listing_edges(scene)
