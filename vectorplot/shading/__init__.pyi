@@ -4,8 +4,8 @@ from .palettes import PALETTE_LIMITS, PALETTE_SIZE, colour_map, palette, shaded_
 from .screen import raster_system, screen_triangles
 from .seen_region import region_in_picture
 from .shaded_faces import face_colours, face_middles, face_shades, view_lights
-from .shadow_maps import shadow_buffer, square_map, texels_per_unit
-from .trapezoids import bounding_trapezoid, line_of_sight
+from .shadow_maps import shadow_buffer
+from .trapezoids import line_of_sight
 
 __all__ = [
     "DIRECT_SHARE",
@@ -13,7 +13,6 @@ __all__ = [
     "PALETTE_LIMITS",
     "PALETTE_SIZE",
     "DepthCode",
-    "bounding_trapezoid",
     "colour_map",
     "depth_buffer",
     "face_colours",
@@ -28,7 +27,5 @@ __all__ = [
     "screen_triangles",
     "shaded_colours",
     "shadow_buffer",
-    "square_map",
-    "texels_per_unit",
     "view_lights",
 ]

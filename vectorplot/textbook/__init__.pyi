@@ -14,6 +14,7 @@ from .orders import (
 )
 from .polyhedra import body_record, spatial_hull
 from .separating_planes import Surroundings, own_box, separations, spheres_power
+from .trapezoid_maps import bounding_trapezoid, square_map, texels_per_unit
 from .viewing import Frustum, changed_coordinates
 
 __all__ = [
@@ -25,6 +26,7 @@ __all__ = [
     "Position",
     "Surroundings",
     "body_record",
+    "bounding_trapezoid",
     "changed_coordinates",
     "cyclic_overlap_report",
     "cyclic_overlaps",
@@ -46,7 +48,9 @@ __all__ = [
     "sliced_meridian",
     "spatial_hull",
     "spheres_power",
+    "square_map",
     "swapped_buffers",
+    "texels_per_unit",
     "view_objects",
     "with_polygons",
     "with_smooth_polygons",
