@@ -21,7 +21,6 @@ from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
-from vectorplot.shading.screen import every_nth
 from vectorplot.tolerances import LEAST_DIVISOR
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 from vectorplot.visibility.projected_faces import Floats32
@@ -78,16 +77,6 @@ def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, a
     height = across[:, None] * ((parts.line + 0.5) * spacing[parts.region])
     start, end = (along[:, None] * place + height for place in (parts.low, parts.high))
     return ScreenDoor(start, end, parts.region)
-
-
-def screen_door_pixels(rows: int, columns: int, every: int) -> Bools:
-    """(rows, columns) every n-th pixel: a checkerboard for 2, diagonals for 3, and knight's moves for 4.
-
-    Errors: InputError for every below 1, or sizes that are negative. Source: Glaeser, section 6.6.
-    """
-    if every < 1 or rows < 0 or columns < 0:
-        raise InputError(f"every {every}-th of {rows} x {columns} pixels: expected positive numbers")
-    return every_nth(np.arange(rows)[:, None], np.arange(columns), every)
 
 
 # Transparent polygons for pens: sparse parallel lines in their colour.

@@ -367,20 +367,6 @@ def in_planes(lines: N, normal: Floats, levels: Floats, off: Floats | float) -> 
     return replace(take(lines, lies), **changes)
 
 
-def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The curves of a surface at given heights: `plane_sections` with z up.
-
-    surface: on which they are traced; heights (k,): in world units; or one of them; tracing: how finely they are looked
-    for and followed; result: polylines with the height as level.
-    Edge cases: as for `section_by_implicit`.
-    Source: Glaeser, section 8.4, equation 29.
-    Errors: for heights that are not finite numbers in a row, a grid that is too coarse, a resolution that is not
-    positive.
-    Warns InputWarning where a plane touches the surface in a point.
-    """
-    return plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
-
-
 def _warned(curves: SurfaceCurves) -> SurfaceCurves:
     if len(curves.isolated):
         count = len(curves.isolated)

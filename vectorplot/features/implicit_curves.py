@@ -128,18 +128,6 @@ def implicit_plane_sections(
     return _family(surface, lambda d: (MeetsPlane(n, d), size), levels, tracing)
 
 
-def implicit_level_lines(
-    surface: ImplicitSurface, heights: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
-) -> ImplicitCurves:
-    """The curves of an implicit surface at given heights: `implicit_plane_sections` with z up.
-
-    heights: (k,) in world units.
-    Edge cases: as for `implicit_intersection`.
-    Source: as of `implicit_plane_sections`.
-    """
-    return implicit_plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
-
-
 def _family(
     surface: ImplicitSurface,
     condition: Callable[[float], tuple[SpatialCondition, float]],

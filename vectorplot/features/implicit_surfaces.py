@@ -607,21 +607,6 @@ def implicit_unit_normals(surface: ImplicitSurface, points: Floats) -> Floats:
         return np.asarray(slopes / norm(slopes)[..., None])
 
 
-def sight_line_bending(surface: ImplicitSurface, points: Floats, way: Floats) -> Floats:
-    """(...,) w.H.w / |gradient of F| with H the second derivatives of F and w the part of way (..., 3) in the tangent
-    plane: how fast the surface curves along the line of sight. Zero where that is an asymptotic direction; positive
-    where the surface bends away from the side its gradient points to.
-
-    A contour has a cusp in the image where this vanishes. Source: Glaeser, section 8.4.
-    """
-    slopes, bends = surface.gradients(points), hessians(surface, points)
-    length = np.linalg.norm(slopes, axis=-1, keepdims=True)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        unit = slopes / length
-        tangential = way - dot(unit, way)[..., None] * unit
-        return np.asarray(np.einsum("...i,...ij,...j->...", tangential, bends, tangential) / length[..., 0])
-
-
 def _turning(surface: ImplicitSurface, points: Floats, way: Floats) -> tuple[Floats, Floats]:
     """(..., 3) the unit gradients N of F, and the gradients of N.way with way (..., 3) held fast."""
     slopes, bends = surface.gradients(points), hessians(surface, points)

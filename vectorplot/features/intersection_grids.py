@@ -62,17 +62,6 @@ def finer_grids(columns: int, rows: int) -> list[tuple[int, int]]:
     return [(columns, rows), *finer]
 
 
-def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellation:
-    """A surface as the triangles of an uneven grid of columns times rows cells.
-
-    Source: Glaeser, section 8.4 (polygonised surfaces).
-    """
-    nodes = grid_nodes(surface, columns, rows)
-    domain = surface.domain
-    ends = np.array([domain.u_start, domain.u_end, domain.v_start, domain.v_end])[:, None]
-    return nodes.tessellation(cell_corners(columns, rows), np.arange(columns * rows), ends)
-
-
 @dataclass(frozen=True, eq=False)
 class GridNodes:
     """The points (n,) of an uneven grid on a surface, or of one grid after the other: places (n,d) and points (n,3);

@@ -363,16 +363,6 @@ def mesh_contour_across_faces(mesh: Mesh, eye: ArrayLike) -> MeshCurves:
     return _across_faces(mesh, lambda points, normals: _towards(points, place, normals), np.zeros(1))
 
 
-def mesh_parallel_contour_across_faces(mesh: Mesh, direction: ArrayLike) -> MeshCurves:
-    """The curves across the faces of a mesh on which N.d = 0, for an eye at infinity.
-
-    direction: (3,) d, of any length, towards the eye.
-    Source: Glaeser, section 9.3, example 1.
-    """
-    d = normalize(vector("contour: direction", direction))
-    return _across_faces(mesh, lambda points, normals: np.asarray(matmul(normals, d)), np.zeros(1))
-
-
 def vertex_normals(mesh: Mesh) -> Floats:
     """(v,3) average normals at the vertices, of length one: of the faces there, each weighted with its angle.
 

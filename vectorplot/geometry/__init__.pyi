@@ -1,6 +1,6 @@
 from . import ragged
 from .clipping import Box, Polygons, Window, clip_lines_2d, clip_polygons_2d, cut_polygons, region_codes
-from .convex_bodies import convex_revolution_parts, polyhedron_intersection
+from .convex_bodies import polyhedron_intersection
 from .convex_polygons import convex_hull, hull_mesh
 from .mesh_repair import repaired
 from .polygon_cuts import clipped_by_convex, inside_convex
@@ -22,7 +22,6 @@ __all__ = [
     "clipped_by_convex",
     "collineate",
     "convex_hull",
-    "convex_revolution_parts",
     "cut_polygons",
     "has_convex_outline",
     "hull_mesh",

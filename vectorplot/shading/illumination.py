@@ -240,20 +240,6 @@ def intensities(lights: Sequence[Light]) -> Floats:
     return given
 
 
-def light_shares(
-    points: ArrayLike, normals: ArrayLike, eye: ArrayLike, lights: Sequence[Light], finish: Finish
-) -> Floats:
-    """(l, n) the brightness that each light of intensity 1 gives to points (n, 3) with unit normals (n, 3).
-
-    eye: (x, y, z, 1), or (x, y, z, 0) for parallel rays to that direction. For hollow bodies turn the normals by
-    facing.
-    Source: Glaeser, sections 4.5 and 8.5.
-    """
-    p, n = np.asarray(points, dtype=np.float64), np.asarray(normals, dtype=np.float64)
-    alpha, beta = light_cosines(p, n, eye if finish.highlight else None, lights)
-    return np.array([brightness(*cosines, finish) for cosines in zip(alpha, beta, strict=True)]).reshape(alpha.shape)
-
-
 def light_cosines(
     points: Floats, normals: Floats, eye: ArrayLike | None, lights: Sequence[Light]
 ) -> tuple[Floats, Floats]:

@@ -181,18 +181,6 @@ def face_shades(view: View, items: Sequence[Item], lights: Sequence[Light]) -> S
     return decal_shades(view, items, lights, face_middles(view), np.arange(view.face_count))
 
 
-def corner_shades(view: View, items: Sequence[Item], lights: Sequence[Light], normals: Floats) -> Shades:
-    """The shades at the corners (c,) of all faces of a view, for smooth shading; arguments as of face_shades.
-
-    normals (3,c): of the surface at every corner, in the view's coordinates, outwards; those of a face that shows its
-    inside are turned round with it, so that no corner beside a contour is lit from the wrong side.
-    """
-    points = view.points[:, view.corners]
-    face = ragged.owner(view.face_sizes)
-    inside = shows_inside(view)[face]
-    return point_shades(view, items, lights, points.T, np.where(inside, -normals, normals).T, view.shown_item[face])
-
-
 def decal_shades(view: View, items: Sequence[Item], lights: Sequence[Light], points: Floats, face: Ints) -> Shades:
     """The shades of points (3,n) that lie on some faces (n,) of a view; arguments as of face_shades."""
     normals = face_normals(view)[:, face]

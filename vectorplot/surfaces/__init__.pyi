@@ -1,7 +1,7 @@
 from .algebraic import first_form, gaussian_curvature, implicitized, mean_curvature
 from .capped_bodies import Capped, Frustum, rod
 from .function_surface import surface_of_function
-from .graphs import Disc, graph, graph_over_disc
+from .graphs import Disc, PolygonRegion, graph, graph_over_disc
 from .implicit import implicit_of_function
 from .inversion import inverted
 from .minimal import helicoid_to_catenoid, minimal_spiral_surface
@@ -42,6 +42,7 @@ __all__ = [
     "ImplicitTorusByDistance",
     "Paraboloid",
     "PlacedSurface",
+    "PolygonRegion",
     "Quadric",
     "Sphere",
     "SplineSurface",

@@ -87,8 +87,23 @@ class Disc:
 class PolygonRegion:
     """The inside of a simple polygon.
 
-    corners (n,2): in either sense, convex or not, in world units.
-    Errors: for fewer than three corners, or coordinates that are not finite.
+    Parameters
+    ----------
+    corners : (n, 2) array_like of float
+        In either sense, convex or not, in world units.
+
+    Raises
+    ------
+    InputError
+        For fewer than three corners, or coordinates that are not finite.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from vectorplot.surfaces import PolygonRegion
+    >>> corner = PolygonRegion([(0, 0), (4, 0), (4, 1), (1, 1), (1, 4), (0, 4)])
+    >>> corner.contains(np.array([0.5, 3.0, 3.0]), np.array([0.5, 0.5, 3.0])).tolist()
+    [True, True, False]
     """
 
     corners: ArrayLike

@@ -12,7 +12,7 @@ from .orders import (
     ring_order,
     sliced_meridian,
 )
-from .polyhedra import body_record, spatial_hull
+from .polyhedra import body_record, convex_revolution_parts, spatial_hull
 from .separating_planes import Surroundings, own_box, separations, spheres_power
 from .trapezoid_maps import bounding_trapezoid, square_map, texels_per_unit
 from .viewing import Frustum, changed_coordinates
@@ -28,6 +28,7 @@ __all__ = [
     "body_record",
     "bounding_trapezoid",
     "changed_coordinates",
+    "convex_revolution_parts",
     "cyclic_overlap_report",
     "cyclic_overlaps",
     "demands",
