@@ -34,13 +34,10 @@ BLOCK = 8
 
 
 def packed(numbers: ArrayLike) -> bytes:
-    """Numbers of twelve bits as bytes, the first bit of each first.
-
-    numbers (n,): from 0 to 4095; result: blocks of twelve bytes for eight numbers each, the last one filled up with
-    zeros.
-    The order of the bytes does not depend on the machine. No numbers are no bytes.
-    Source: Glaeser, section 10.1, figure 1; errata G10-01 to G10-03, G10-11; decision D-8.
-    Errors: for numbers out of range.
+    """Numbers (n,) from 0 to 4095 as twelve bits each, most significant bit first: twelve bytes for eight numbers, the
+    last block padded with zeros; the same on every machine.
+    Source: Glaeser, section 10.1, figure 1; errata G10-01 to G10-03, G10-11; decision D-8. Errors: InputError for
+    numbers out of range.
     """
     values = np.asarray(numbers, dtype=np.int64)
     if len(values) and not (values.min() >= 0 and values.max() <= LARGEST_12_BIT):

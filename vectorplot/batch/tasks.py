@@ -297,13 +297,11 @@ def _begin(theirs: Connection) -> None:
 
 @contextmanager
 def cluster(address: str) -> Iterator[Executor]:
-    """The workers of a Dask cluster that runs already.
-
-    address: of its scheduler, as ``tcp://host:8786``; result: gives an executor; tasks that are under way when it is
-    left with an error are cancelled.
-    Whoever reaches a scheduler may run programs on its workers: it belongs into a network of one's own, or behind TLS.
-    Workers have the same versions of Python and of this package, and see input files by the same names.
-    Errors: where the extra ``cluster`` is not installed, or nobody answers at the address.
+    """The workers of a running Dask cluster as an executor; address: of its scheduler, such as ``tcp://host:8786``.
+    Tasks under way are cancelled when it is left with an error.
+    Whoever reaches a scheduler may run programs on its workers, so it belongs in a private network or behind TLS.
+    Workers need the same versions of Python and of this package, and the same names for input files. Errors: without
+    the extra ``cluster``, or where nobody answers.
     """
     try:
         distributed: Any = import_module("distributed")

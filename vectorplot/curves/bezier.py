@@ -199,13 +199,10 @@ _HALVINGS = 55
 
 
 def clipped_paths(paths: BezierPaths, low: Floats, high: Floats) -> tuple[BezierPaths, Ints]:
-    """The parts of plane paths inside the box from low (2,) to high (2,), its border included, and the path that each
-    comes from.
-
-    Segments are divided where they cross the border, which is exact but for rounding.
-    Paths keep their order; a closed path that is cut becomes open ones.
-    Edge cases: what only touches the border leaves nothing; a path without segments is left out.
-    Source: de Casteljau's scheme at the roots of the coordinates' polynomials.
+    """The parts of plane paths within the box low (2,) to high (2,), border included, in order, and the path each comes
+    from. Segments are divided at the border, exact but for rounding; a closed path that is cut becomes open ones.
+    Edge cases: what only touches the border, and paths without segments, leave nothing. Source: de Casteljau's scheme
+    at the roots of the coordinate polynomials.
     """
     size = np.diff(paths.offsets)
     owner = ragged.owner(size)

@@ -44,15 +44,12 @@ def without_duplicates(
     page_from_world: Floats | None = None,
     line: Ints | None = None,
 ) -> Paths:
-    """The same picture without the parts of strokes that lie on more important ones.
-
-    paths: straight strokes of two points; rank (m,): the smaller of two wins, or (k,m), where the last row counts most;
-    of equal ones the longer, then the one further left, so that the picture does not depend on the order of the
-    strokes. Two strokes lie on each other where they overlap and the shorter one's ends are within tolerance_mm (and a
-    thousandth of its length) of the other's line: lines that only run close together both stay. page_from_world (4,4)
-    as in Drawing, by default a parallel projection: points3d is divided where the page is. line (m,): equal for parts
-    of one straight line, which do not lie on each other; by default each is one of its own. Strokes keep their order;
-    what is no longer than tolerance_mm is left out.
+    """The same picture without the parts of strokes that lie on more important ones. paths: strokes of two points,
+    whose order is kept; rank (m,) or (k,m), the last row counting most: the smaller wins, of equals the longer, then
+    the one further left. Two strokes coincide where they overlap and the shorter one's ends are within tolerance_mm
+    (and a thousandth of its length) of the other's line. page_from_world (4,4) as in Drawing, by default parallel;
+    line (m,): parts of one straight line, which never coincide.
+    Edge cases: what is no longer than tolerance_mm is left out.
     """
     long = np.flatnonzero(_lengths(paths.points[::2], paths.points[1::2]) > tolerance_mm)
     kept = np.zeros(len(paths), dtype=np.bool_)
@@ -402,15 +399,12 @@ _STEEPEST = 1.0
 
 
 def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> Paths:
-    """The same picture without the chords of smooth curves that lie on more important smooth curves.
-
-    paths: strokes of two points; those that are smooth are chords between points of a curve; rank (m,): equal for all
-    chords of a curve, which gives way to curves of smaller rank only. A chord goes if its ends and the middle of its
-    own arc lie on arcs of smaller rank, within tolerance_mm and a little of the arcs' height, and so does all
-    of its curve, or TOUCHING_MM of it in a row; chords without length go too. Strokes keep their order.
-    Edge cases: curves that overlap in part may go on doing so over less than a chord at the ends of the common part.
-    Source: cubic Hermite arcs over the chords, with the tangents of the curves, or where these are not known of circles
-    through three neighbouring points.
+    """The same picture without the chords of smooth curves that lie on more important ones. paths: strokes of two
+    points, chords where they are smooth; rank (m,): of the curve, which gives way to smaller ranks only. A chord
+    goes if its ends and the middle of its arc lie on arcs of smaller rank within tolerance_mm (and a little of the
+    arc's height), together with all of its curve or TOUCHING_MM of it; chords without length go too.
+    Edge cases: partly overlapping curves may still overlap by less than a chord. Source: cubic Hermite arcs with known
+    tangents, or those of circles through three neighbours.
     """
     along = paths.points[paths.offsets[1:] - 1] - paths.points[paths.offsets[:-1]]
     long = ~paths.smooth | along.any(axis=1)

@@ -206,14 +206,12 @@ def places(
     page: Floats,
     taken: Floats,
 ) -> Places:
-    """Where labels stand: one after the other each is put where the least counts against it.
-
-    anchors (l,2): what they name; sizes (l,2): width and height of their boxes; height (l,): of their capitals; gap
-    (l,): from a point to the letters beside it; asked: the words of DIRECTIONS, or auto; start, end (s,2): the strokes
-    of the picture; page (2,2): its corners; taken (b,2,2): boxes, smallest and largest coordinates, where no label is.
+    """Where labels stand: greedily, each at the least cost. anchors (l,2): what they name; sizes (l,2): of their boxes;
+    height (l,): of capitals; gap (l,): from the point to the letters; asked: words of DIRECTIONS, or auto; start,
+    end (s,2): strokes; page (2,2): corners; taken (b,2,2): boxes without labels, smallest and largest coordinates.
     All in mm.
     Source: Christensen, Marks and Shieber, An empirical study of algorithms for point-feature label placement, ACM
-    Trans. Graphics 14 (1995): the greedy algorithm.
+    Trans. Graphics 14 (1995).
     """
     middle = (
         0.5 * (np.minimum(start, end).min(axis=0) + np.maximum(start, end).max(axis=0))

@@ -396,14 +396,11 @@ _TURN = 1 << 30
 
 
 def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
-    """The same lines in as few and as long strokes as their ends allow.
-
-    group (m,): only strokes of equal group, and smooth ones with smooth ones, are joined; a joined stroke has the kind,
-    item and hidden_by of its first part. Ends within tolerance_mm are one node, unless they lie one behind the other in
-    the world. Two ends at a node are joined; of more, those that go on most nearly straight are joined first. Strokes
-    that come back to their start are closed, their first point not repeated.
-    Edge cases: closed strokes stay as they are and come last; a straight stroke with both ends at one node is left out;
-    two straight strokes between the same nodes and no others become one.
+    """The same lines in as few and long strokes as their ends allow. group (m,): only strokes of one group, smooth with
+    smooth, are joined; the result has the kind, item and hidden_by of its first part. Ends within tolerance_mm are
+    one node unless they differ in depth; at a node the straightest pairs are joined first.
+    Edge cases: closed strokes stay, last; a straight stroke with both ends at one node is left out; two straight
+    strokes between the same two nodes become one.
     """
     sizes = np.diff(paths.offsets)
     open_ = np.flatnonzero(~paths.closed & (sizes > 1))
@@ -685,14 +682,11 @@ def clipped(paths: Paths, rectangle: Rectangle, page_from_world: Floats | None =
 
 
 def clipped_parts(paths: Paths, rectangle: Rectangle, page_from_world: Floats | None = None) -> tuple[Paths, Ints]:
-    """The parts of the strokes inside the rectangle, its border included, and the stroke that each comes from.
-
-    rectangle: left, bottom, right, top in mm; page_from_world (4,4) as in Drawing, by default a parallel projection:
-    with it points3d is cut where the page is. Strokes keep their order; a closed stroke that is cut becomes open ones
-    that begin where it enters.
-    Edge cases: a stroke that only touches the border leaves nothing. Of a segment more than 1e15 times as long as the
-    rectangle nothing may be left: doubles do not say where it crosses.
-    Source: Liang and Barsky, A new concept and method for line clipping, ACM Trans. Graphics 3 (1984).
+    """The parts of strokes within the rectangle (left, bottom, right, top in mm), border included, in order, and the
+    stroke each comes from. page_from_world (4,4) as in Drawing, by default parallel: points3d is cut where the page
+    is. A closed stroke that is cut becomes open ones.
+    Edge cases: what only touches the border leaves nothing; of a segment 1e15 times as long as the rectangle nothing
+    may be left. Source: Liang and Barsky, ACM Trans. Graphics 3 (1984).
     """
     low, high = np.array(rectangle[:2]), np.array(rectangle[2:])
     outside: Bools = np.any((paths.points < low) | (paths.points > high), axis=1)

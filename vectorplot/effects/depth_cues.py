@@ -25,14 +25,11 @@ from vectorplot.tolerances import ZERO_OF_EXTENT
 def depth_cued(
     layers: Sequence[Layer], view: View, cue: DepthCue, paper: Sequence[int], page_from_world: Floats
 ) -> tuple[Layer, ...]:
-    """The layers, one for each step of depth that their strokes are in, the farthest first; strokes that go on into the
-    next step are divided there.
-
-    view: in whose axes strokes are near and far, within the limits of depth; paper: its colour, three numbers of 0 to
-    255. The nearest part of a layer keeps its name and its pen, the others are numbered from there: contour, contour
-    depth 2, contour depth 3. Empty ones are left out.
-    Edge cases: where all strokes are as far away, they are near.
-    Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
+    """The layers, one for each step of depth, the farthest first; strokes are divided between steps. view: in whose
+    axes depth is measured, within its limits; paper: colour, three numbers of 0 to 255. The nearest part keeps its
+    layer's name and pen, the others are numbered: contour, contour depth 2, ...
+    Edge cases: empty layers are left out; strokes all at one depth are near. Source: Glaeser, section 4.4, figure 2;
+    errata G4-03, G4-04.
     """
     strokes = [paths for layer in layers for paths in layer.strokes]
     depths = view.points_of(np.concatenate([np.zeros((0, 3)), *(paths.points3d for paths in strokes)]))[2]

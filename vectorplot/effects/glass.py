@@ -463,17 +463,13 @@ def seen_in_glass(
     tolerance: float,
     decals: Decals | None = None,
 ) -> SeenThrough:
-    """What is seen in and behind transparent solids, refracted, to be painted after what is painted of the solids'
-    front faces has been filled with the colour of the paper; then comes the tint of these faces.
-
-    painted: the polygons of the picture, back to front. tolerance: how far, in units of the image, straight sides of
-    polygons may be off the curves that refraction makes of them in a perspective; their corners are exact. decals:
-    convex ones on faces, in the order in which they are painted, seen as their faces are.
-    Other transparent solids are seen without refraction. A face that reflects all light that gets there from within, by
-    a front face, shows what is seen by way of it; further reflections, and those at parts of faces, show nothing.
-    Edge cases: of material thinner than its surroundings (constants below 1), which a perspective can see through up to
-    the angle of total reflection only, parts near that angle may be missing.
-    Source: Glaeser, section 6.6 (transparent solid polyhedra; the swimming pool, figure 12).
+    """What is seen in and behind transparent solids, refracted: painted after their front faces are filled with the
+    paper's colour, before these faces' tint. painted: polygons of the picture, back to front; tolerance: in units of
+    the image, how far straight sides may be off the curves that refraction makes of them (corners are exact);
+    decals: convex ones on faces, in painting order.
+    Other transparent solids are seen without refraction. A face of total reflection, seen through a front face, shows
+    what it reflects; further reflections show nothing. Edge cases: of material thinner than its surroundings (constants
+    below 1) parts near the angle of total reflection may be missing. Source: Glaeser, section 6.6, figure 12.
     """
     parts = []
     for item in np.flatnonzero(refracting_items(scene, view, projected)).tolist():

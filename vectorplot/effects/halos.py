@@ -18,14 +18,10 @@ OWN_DEPTH = 2.0
 
 
 def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility:
-    """The same parts, without what is visible within some width of an outline in front of it, on the outer side.
-
-    view: what the lines are lines of; lines: segments in the view's coordinates, with the sides on which they are
-    outlines; seen: the parts of the lines; width: in units of the image, not negative; result: parts of the same lines.
-    Hidden parts stay.
-    Outlines are the visible contours and boundaries among the lines.
-    Edge cases: a visible part that lies within a halo as a whole is left out.
-    Source: Glaeser, section 7.2, figure 4; the outlines are enlarged (decision D-7).
+    """The same parts without what is visible within some width of an outline in front of it, on its outer side; hidden
+    parts stay. lines: segments with the sides on which they are outlines; seen: their parts; width: in units of the
+    image. Outlines are the visible contours and boundaries among the lines.
+    Edge cases: a visible part wholly within a halo is left out. Source: Glaeser, section 7.2, figure 4; decision D-7.
     """
     shown = np.flatnonzero(seen.hidden_by == 0)
     side = lines.sides(view)[seen.segment]

@@ -477,13 +477,11 @@ class ColourBar:
 
 
 def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
-    """The scene with a band of every body for each colour, and the bar that explains them.
-
-    Smooth surfaces become triangles within COLOURED_OF_EXTENT of the extent of the scene; their parameter lines, paths
-    and integral curves are left out. Triangles are divided until formulas and functions are linear in each within
-    PART_OF_STEP of a colour, or there are too many. Cut faces keep their colour and their hatches.
-    Errors: InputError for an unknown map or word, a formula that is none, a scene without bodies, numbers that are not
-    finite anywhere.
+    """The scene with a band of every body for each colour, and the colour bar. Smooth surfaces become triangles within
+    COLOURED_OF_EXTENT of the scene's extent, without their parameter lines, paths and integral curves; triangles are
+    divided until formulas are linear in them within PART_OF_STEP of a colour, or there are too many. Cut faces keep
+    colour and hatches.
+    Errors: InputError for an unknown map, word or formula, a scene without bodies, numbers finite nowhere.
     """
     colours = map_colours(colouring.colour_map, colouring.steps)
     size = float(norm(np.ptp(scene.bounds, axis=0)))

@@ -56,14 +56,12 @@ def sparseness(opacity: ArrayLike) -> Ints:
 
 
 def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, angle_deg: float = 45.0) -> ScreenDoor:
-    """Polygons filled with every n-th of parallel lines, as a plotter can draw transparent faces.
-
-    points (2 or more, c), offsets (m+1,): simple polygons, convex or not; pitch: distance of the lines that would fill
-    a polygon densely, the width of the pen, in the units of the points; every (m,) or a number: which of these lines
-    are drawn, 0 for none; angle_deg: from the x-axis. All polygons share one set of lines, so that neighbours fit.
-    Errors: InputError for a pitch that is not positive, or as of `hatching.scanned`.
-    Edge cases: polygons between two lines get no stroke.
-    Source: Glaeser, section 6.6 (every second, third or fourth pixel), for pens.
+    """Polygons filled with every n-th of parallel lines, as plotters draw transparent faces. points (2 or more, c),
+    offsets (m+1,): simple polygons; pitch: distance of lines that fill densely, in the units of the points; every
+    (m,) or number: which lines are drawn, 0 for none; angle_deg: from the x-axis. All share one set of lines, so
+    neighbours fit.
+    Edge cases: a polygon between two lines gets no stroke. Errors: InputError for a pitch not positive; see
+    `hatching.scanned`. Source: Glaeser, section 6.6.
     """
     if not 0.0 < pitch < np.inf:
         raise InputError(f"lines {pitch:g} apart fill nothing: expected a positive distance")

@@ -35,12 +35,9 @@ def all_lines(lines: Lines) -> Visibility:
 def wire_layers(
     scene: Scene, view: View, strokes: Paths, page: Page, style: Literal["wireframe", "depth-cue"]
 ) -> tuple[Layer, ...]:
-    """The sheet, and a layer for every shade of every colour, the darkest first; strokes of two points each.
-
-    wireframe: all strokes have the middle shade of the palettes of their items, or of faces with
-    colours of their own; depth-cue: the mean of the shades of their
-    ends, from a fifth of the palette for what is farthest to its brightest for what is nearest, within the limits of
-    depth. Shades are those of palettes of 32.
+    """The background, and a layer for every shade of every colour, the darkest first; strokes of two points. wireframe:
+    the middle shade of the item's palette, or its face's; depth-cue: the mean of the shades at its ends, from a
+    fifth of the palette for the farthest to its brightest for the nearest. Palettes have 32 shades.
     Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
     """
     shade = np.full(len(strokes), MIDDLE) if style == "wireframe" else _cued(view, strokes.points3d)

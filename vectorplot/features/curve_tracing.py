@@ -190,13 +190,10 @@ def _joined(
 
 @dataclass(frozen=True, eq=False)
 class SurfaceCurves(NumberedLines):
-    """Polylines on a surface, each point known by its parameters and in space.
-
-    u, v: (n,) parameters: along a curve they run on over seams, beyond the domain; points: (n, 3) in world coordinates;
-    offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,) the last point joins the first,
-    which is not repeated; turns: (m, 2) the periods that a closed curve has run through when it is back at its start;
-    isolated: (i, 2) parameters of single points that satisfy the condition; nodes: (k, 2) parameters of points where
-    curves cross; touching: (t, 2) parameters of places where the condition is just touched along a line.
+    """Polylines on a surface, each point known by its parameters and in space. u, v (n,): along a curve they run on
+    over seams; points (n,3): in the world; offsets (m+1,); closed (m,): the last point joins the first, which is not
+    repeated; turns (m,2): periods that a closed curve has run through; isolated (i,2): single points of the
+    condition; nodes (k,2): where curves cross; touching (t,2): where the condition is only touched along a line.
     """
 
     u: Floats = field(metadata=EACH_POINT)

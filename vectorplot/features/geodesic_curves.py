@@ -90,19 +90,14 @@ def geodesics_between(
     accuracy: Accuracy = EIGHT_DIGITS,
     tracing: Tracing = DEFAULT,
 ) -> SurfaceCurves:
-    """The geodesics of a surface from one place to another, the shortest first.
-
-    surface: with points, partials and second partials; start, end (2,): parameters u, v; most: how many; all that are
-    found where None; longest: how long they are at most, in world units; three times the extent of the surface where
-    None; accuracy: how well they are integrated; tracing: its tolerance, picture and budget count; result: polylines
-    from start to end, with their exact lengths as levels.
-    Geodesics that leave in 240 directions all round are asked where they pass the end; those that come by are led there
-    by Newton's method, with the distance by which neighbours run apart (Jacobi's field). Of many that wind far round a
-    surface, or run apart quickly, some may be missed. Edge cases: none where a border or a hole is in the way; between
-    conjugate points, such as opposite ones of a sphere, one of infinitely many, with a doubt that says so.
-    Source: do Carmo, Differential geometry of curves and surfaces, sections 4-6 and 5-5.
-    Errors: for places that are not finite pairs within the domain, or one place; for a start without a tangent plane;
-    for a length or a number that is not positive, and more than a hundred times the extent of the surface.
+    """The geodesics of a surface from one place to another, shortest first, with exact lengths as levels. start, end
+    (2,): u, v; most: how many, None for all found; longest: in world units, three times the extent where None;
+    tracing: its tolerance, picture and budget count. Geodesics in 240 directions are shot; those that pass the end
+    are corrected by Newton's method with Jacobi's field. Of many that wind round far, or diverge fast, some may be
+    missed.
+    Edge cases: none past borders and holes; between conjugate points one of infinitely many, reported in doubts.
+    Errors: InputError for places outside the domain, equal, or without a tangent plane; most or longest not positive,
+    or over a hundred extents. Source: do Carmo, Differential geometry of curves and surfaces, sections 4-6 and 5-5.
     """
     if most is not None and most < 1:
         raise InputError(f"geodesics between two places: {most} of them, expected 1 or more")

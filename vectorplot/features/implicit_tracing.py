@@ -390,13 +390,10 @@ THINNED = 0.3
 
 @dataclass(frozen=True, eq=False)
 class ImplicitTracing:
-    """How curves on an implicit surface are traced.
-
-    cells: along the longest side of the box, of the lattice on which the surface is polygonised; mesh: the surface
-    polygonised already (see `implicit_mesh`), for several families of curves; resolution: the part of the box down to
-    which triangles are cut where the curve is not clear; tolerance: points are put in until chords stay within this
-    distance of the true curve; picture: takes points (k, 3) to where the tolerance is measured, (k, 2) or (k, 3), for
-    example millimetres on a page; budget: how much work it may be.
+    """How curves on an implicit surface are traced. cells: along the longest side of the box, of the polygonising
+    lattice; mesh: the surface polygonised already (see `implicit_mesh`); resolution: part of the box down to which
+    unclear triangles are cut; tolerance: of chords; picture: maps points (k,3) to where the tolerance is measured,
+    (k,2) or (k,3), such as mm on a page; budget: limits of work.
     """
 
     cells: int = 48

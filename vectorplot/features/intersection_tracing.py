@@ -160,13 +160,11 @@ STRAYED = 0.75
 
 @dataclass(frozen=True, eq=False)
 class DoubleCurves(NumberedLines):
-    """Polylines on two surfaces, or on two patches of one: each point known by its parameters on both, and in space.
-
-    points: (n, 3) in world coordinates; one, two: (n, 2) parameters u, v on both: along a curve they run on over seams,
-    beyond the domain; offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,) the last point
-    joins the first, which is not repeated; nodes: (k, 3) points where curves cross because the surfaces touch there;
-    isolated: (i, 3) points where they touch and no curve passes; touching: (t, 3) points of lines along which they
-    touch; doubts: A sentence for each thing that could not be decided.
+    """Polylines on two surfaces, or on two patches of one, known by their parameters on both and in space. points
+    (n,3): in the world; one, two (n,2): u, v, running on over seams; offsets (m+1,); closed (m,): the last point
+    joins the first, which is not repeated; nodes (k,3): where curves cross because the surfaces touch; isolated
+    (i,3): where they only touch; touching (t,3): points of lines along which they touch; doubts: a sentence for each
+    undecided thing.
     """
 
     points: Floats = field(metadata=EACH_POINT)

@@ -554,18 +554,13 @@ GridPair = tuple[SurfaceGrids, SurfaceGrids]
 
 
 def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
-    """The curves in which two surfaces meet.
-
-    one, two: the surfaces; tracing: columns and rows of the grids that both are polygonised by; tolerance (a thousandth
-    of the smaller extent where None) and picture; result: polylines, each point known by its parameters on both
-    surfaces, and in space.
-    Closed curves smaller than a cell are found by the place inside them where the tangent planes are parallel: to any
-    size, but one of them for each pair of triangles. Where triangles cannot tell curves from one another the grids are
-    refined (up to 2^17 cells); what is left then is a doubt. Edge cases: where surfaces touch in a point it is
-    isolated, or a node if curves cross there; where they touch along a line its points are touching, with a doubt;
-    where they coincide in an area there is a doubt and no curve. Curves end at the last whole cell before a hole.
-    Source: Glaeser, section 8.4 (face-face sections); Patrikalakis and Maekawa, Shape interrogation, chapter 5.
-    Errors: for a grid that is too coarse.
+    """The curves in which two surfaces meet, with parameters on both. tracing: columns and rows of both grids;
+    tolerance, a thousandth of the smaller extent where None; picture. Loops smaller than a cell are found at places
+    of parallel tangent planes, one for each pair of triangles. Grids are refined (to 2^17 cells) where triangles
+    cannot separate curves; what is left is a doubt. Curves end at the last whole cell before a hole.
+    Edge cases: a touching point is isolated, or a node where curves cross; along a line it is touching, with a doubt;
+    coincident areas give a doubt and no curve. Source: Glaeser, section 8.4; Patrikalakis and Maekawa, Shape
+    interrogation, chapter 5. Errors: InputError for a grid that is too coarse.
     """
     (found,) = intersections_of_grids([(SurfaceGrids(one), SurfaceGrids(two))], tracing)
     return found
@@ -624,15 +619,12 @@ has thousands of them, a few chords each; beside an isolated double point there 
 
 
 def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
-    """The curves in which a surface meets itself: its double curves.
-
-    surface: seams and poles are no double curves; tracing: as of `surface_intersection`; result: polylines, each point
-    known by its two places on the surface, and in space.
-    Edge cases: of more curves than the budget allows there is none, with a doubt. A double curve ends exactly in a
-    pinch point, or in a swallowtail; where the surface passes through a point in all directions (the axis of a spindle
-    torus, the apex of a double cone) that point is isolated. Loops that are smaller than three cells are not found.
-    Source: Glaeser, section 8.4 (self-intersections by face-face sections of the polygonised surface).
-    Errors: for a grid that is too coarse.
+    """The curves in which a surface meets itself, with both places of each point; seams and poles are none; tracing:
+    see `surface_intersection`. A double curve ends exactly in a pinch point or swallowtail; points that the surface
+    passes in all directions (the axis of a spindle torus, an apex) are isolated. Loops below three cells are not
+    found.
+    Edge cases: beyond the budget there is no curve and a doubt. Source: Glaeser, section 8.4. Errors: InputError for a
+    grid that is too coarse.
     """
     patch = SurfacePatch(surface, tracing.columns, tracing.rows)
     own = patch.tessellation

@@ -39,14 +39,11 @@ NO_SIDE = -1
 
 @dataclass(frozen=True, eq=False)
 class MeshSides:
-    """Plane convex faces, and their sides: side c (one of all) runs from corner c of its face to the next one.
-
-    mesh: of convex faces alone, those that are present; source (f,): the face of the given mesh that each is (a part
-    of); along, inwards (c,3): unit vectors of the sides, and at right angles to them in the faces, into these; lengths
-    (c,); before, after (c,): the sides next to each in its face; across (c,): the same side seen from the other face,
-    NO_SIDE at borders, where more than two faces meet, and where two do not agree which side is outside; at_vertex
-    (c,), vertex_offsets (v+1,): the sides that begin at each vertex; slack (c,): what cosines with a side may be wrong
-    by; extent; rounding: what points may be wrong by.
+    """Plane convex faces and their sides: side c runs from corner c of its face to the next. source (f,): the given
+    face; along, inwards (c,3): unit vectors along the side and into the face; lengths (c,); before, after (c,):
+    neighbouring sides; across (c,): the same side in the other face, NO_SIDE at borders, where more than two faces
+    meet or orientations differ; at_vertex (c,), vertex_offsets (v+1,): sides that begin at a vertex; slack (c,):
+    error of cosines with a side; extent; rounding: error of points.
     """
 
     mesh: Mesh
@@ -564,17 +561,13 @@ def mesh_geodesics(
     length: float | None = None,
     both_ways: bool = False,
 ) -> MeshCurves:
-    """The straightest lines of a mesh from given points in given directions.
-
-    mesh: on which they run; open or closed; faces (k,): in which faces they begin; or one of them; points (k,3): where
-    in these faces; at the barycentres where None; directions (k,3): of any length; what is at right angles to the face
-    does not count. Or one for all; length: how long they are at most, in world units; ten times the extent of the mesh
-    where None; both_ways: whether they run backwards from the start as well; result: polylines with the number of the
-    start as level: straight lines where the faces they run across are unfolded into a plane.
-    At a vertex there is as much angle between the faces to their left as to their right. They are shortest near by,
-    unless they run through a vertex. Ends and closed lines as of `mesh_integral_curves`.
-    Source: Polthier and Schmies, Straightest geodesics on polyhedral surfaces, 1998.
-    Errors: as of `mesh_integral_curves`; for directions that are not finite, or without length in their face.
+    """The straightest lines of a mesh, with the number of the start as level: straight where their faces are unfolded
+    into a plane, with equal angles on both sides at a vertex; shortest near by unless they pass a vertex. faces (k,)
+    or one; points (k,3): starts, barycentres where None; directions (k,3) or one: of any length, the part across the
+    face ignored; length: at most, ten times the extent where None; both_ways: backwards too. Ends and closed lines:
+    see `mesh_integral_curves`.
+    Source: Polthier and Schmies, Straightest geodesics on polyhedral surfaces, 1998. Errors: see
+    `mesh_integral_curves`; directions not finite, or without length in their face.
     """
     sides = mesh_sides(mesh)
     face, own = starts_in_faces("geodesics", mesh, sides, faces, points)

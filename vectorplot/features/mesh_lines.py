@@ -249,15 +249,12 @@ def _faces_between(start: Ints, end: Ints, pairs: Ints, face: Ints, count: int) 
 
 
 def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> MeshCurves:
-    """The sections of a mesh with the parallel planes n.x = d, n the unit normal.
-
-    mesh: whose faces are cut; normal (3,): of any length; offsets (k,): d, in world units; or one of them; result:
-    polylines with d as level; they close where the mesh does. Every point lies on an edge (or the fold of a polygon
-    that is not plane) and in the plane.
-    Edge cases: a vertex in the plane counts as above it, but on a border that lies in the plane with the mesh above:
-    such borders are sections as well. A face in the plane gives its outline where the mesh goes on below.
-    Source: Glaeser, section 9.3, example 3, figure 7.
-    Errors: for a normal without length, offsets that are not finite.
+    """The sections of a mesh with the parallel planes n.x = d: polylines with d as level, closed where the mesh is;
+    every point lies on an edge (or the fold of a polygon not plane) and in the plane. normal (3,): of any length;
+    offsets (k,) or one: d.
+    Edge cases: a vertex in the plane counts as above, except on a border in the plane with the mesh above it, which is
+    a section too; a face in the plane gives its outline where the mesh goes on below. Source: Glaeser, section 9.3,
+    example 3, figure 7. Errors: InputError for a normal without length, offsets not finite.
     """
     n = normalize(vector("plane sections: normal", normal))
     levels = _finite("plane sections: offsets", offsets)

@@ -57,14 +57,10 @@ MOST_LOOKS, FEW_LINES = 32, 8
 
 
 def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The lines u = const. that divide the domain into columns, and v = const. into rows, evenly; without borders.
-
-    surface: on which they run; columns, rows: parts of the ranges of u and v; for 0 there are no lines. A closed
-    direction has as many lines as parts, an open one one less; tracing: its tolerance, picture and budget count;
-    result: polylines with the constant parameter as level; first those of u.
-    Edge cases: as for `u_lines`.
-    Source: Glaeser, section 8.2.
-    Errors: for fewer than 0 columns or rows.
+    """The lines u = const. that divide the domain into columns, and v = const. into rows, evenly, without borders; the
+    constant parameter as level, first those of u. For 0 there are none; a closed direction has as many lines as
+    parts, an open one one less. Edge cases: see `u_lines`.
+    Source: Glaeser, section 8.2. Errors: InputError for fewer than 0 columns or rows.
     """
     return parameter_lines_of_each([surface], [(columns, rows)], tracing=tracing)[0]
 

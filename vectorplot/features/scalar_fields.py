@@ -312,13 +312,10 @@ def zero_by_newton(
 def zero_by_bisection(
     f: Callable[[Floats], Floats], low: ArrayLike, high: ArrayLike, *, tolerance: float = NEWTON_SETTLED
 ) -> Floats:
-    """Where f changes its sign between low and high (...), to tolerance times the length of the bracket.
-
-    Not done by `chord_refinement.bisected`, which asks for some of the brackets at a time.
-
-    f works entry by entry on arrays of that shape. Edge cases: NaN where f has the same sign at both ends; a zero at
-    an end is that end.
-    Source: Glaeser, section 8.4; erratum G8-13.
+    """Where f, entry by entry on (...), changes its sign between low and high, to tolerance times the bracket. Unlike
+    `chord_refinement.bisected` it evaluates all brackets at once.
+    Edge cases: NaN where both ends have one sign; a zero at an end is that end. Source: Glaeser, section 8.4; erratum
+    G8-13.
     """
     a, b = (np.array(x, dtype=np.float64) for x in np.broadcast_arrays(low, high))
     f_low, f_high = f(a), f(b)
@@ -334,13 +331,10 @@ def zero_by_bisection(
 def bracketed_zeros(
     f: Callable[[Floats, Ints], Floats], w0: Floats, w1: Floats, guess: Floats, small: Floats
 ) -> tuple[Floats, Floats]:
-    """Zeros t (k,) within 0 <= t <= 1 and the values there, from values w0, w1 (k,) of different signs at 0 and 1.
-
-    f(t, which) are the values of the functions with the indices which at t. The first try is guess, then the zero of
-    the parabola t(w) through the last three points, the middle of the bracket where that leaves it or where neither
-    the bracket nor f at its ends shrinks, until |f| <= small (k,) or the bracket is used up.
-    Edge cases: zero counts as positive. At a pole or a jump the values stay large; it is for the caller to look.
-    Where f is not defined inside a bracket the value is NaN.
+    """Zeros t (k,) in 0 <= t <= 1 and the values there, from values w0, w1 (k,) of different signs at the ends. f(t,
+    which): values of functions which at t. First guess, then the zero of the parabola t(w) through the last three
+    points, or the middle where that leaves the bracket or stalls, until |f| <= small (k,) or the bracket is used up.
+    Edge cases: zero counts as positive; at a pole or jump the values stay large; NaN where f is undefined inside.
     """
     t, w = np.array(guess, dtype=np.float64), np.full(len(guess), np.nan)
     which: Ints = np.arange(len(t))

@@ -577,20 +577,14 @@ def evenly_spaced_curves(
     accuracy: Accuracy = DRAWN,
     tracing: Tracing = DEFAULT,
 ) -> SurfaceCurves:
-    """Integral curves of a field that cover a surface evenly.
-
-    surface: with points, partials and second partials; field: what they follow; apart: about how far neighbours are
-    from each other, in world units: half of it at least, where they run together; and mostly less than twice, where
-    they run apart, as gaps are filled a few times only; accuracy: how well they are integrated; tracing: its tolerance,
-    picture and budget count; result: polylines. A curve ends where it comes too near to another one, or to itself.
-    The first curves begin along one at right angles to them, so that they are evenly apart there; then gaps are filled
-    in the same way, the widest ones first. Distances are measured in space, between places of one sheet: the two sides
-    of a thin shape, and the turns of a spiral one, do not keep each other's curves away. Which curves there are does
-    not depend on tolerances and pictures.
-    Source: Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density (1997), for what even means;
-    Mebarki, Alliez and Devillers, Farthest point seeding for efficient placement of streamlines (2005), for gaps.
-    Errors: for a shape without parameters, a distance that is not positive, or less than a five-hundredth of the extent
-    of the surface.
+    """Integral curves of a field that cover a surface evenly. apart: target distance in world units, at least half of
+    it where curves run together and mostly below twice where they diverge. The first curves begin along one at right
+    angles to them, then gaps are filled, widest first; a curve ends too near to another or itself. Distances are in
+    space, but two sides of a thin shape do not keep each other's curves away; the choice of curves does not depend
+    on tolerances and pictures.
+    Source: Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density (1997); Mebarki, Alliez and
+    Devillers, Farthest point seeding (2005), for gaps. Errors: InputError for a shape without parameters, a distance
+    not positive, or below a five-hundredth of the extent.
     """
     check_parametrised(surface)
     positive("evenly spaced curves: distance", apart)

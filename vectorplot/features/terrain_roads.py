@@ -124,19 +124,13 @@ SIDES = (1.0, -1.0)
 
 
 def roads(mesh: Mesh, start: ArrayLike, end: ArrayLike, *, longest: float | None = None) -> MeshCurves:
-    """The roads of constant slope between two places of a terrain.
-
-    mesh: of triangles, none above another; start, end (2,): x and y of both; longest: how long roads are at most, in
-    world units; six times the distance of the ends where None; result: two roads or one, from the start to the end: the
-    shortest one that bears to the left of the steepest way up all along, and the shortest one to its right. Their
-    levels are their slopes, the angles with the horizontal plane, negative downwards.
-    In each triangle a road of a given slope has two directions; a road keeps to one of them, as a generalised helix
-    does. Which slope leads to the end is found by trying slopes, and then finer ones between those that pass the end on
-    different sides. In narrow ridges and valleys, where that direction leads back over an edge, a road ends.
-    Source: Glaeser, sections 9.4, equations 20 to 23, and 9.5, example 1.
-    Errors: for places beside the terrain, both in one or of one height (the road would be a level line), and where
-    there is no such road: one would have to be steeper than the ground somewhere, to leave the terrain, to turn, or to
-    be longer.
+    """The roads of constant slope between two places of a terrain: the shortest that keeps to the left of the steepest
+    way up, and the shortest to its right, with slopes (angles, negative downwards) as levels. start, end (2,): x and
+    y; longest: in world units, six times the distance where None. In each triangle a road of given slope has two
+    directions and keeps to one, as a generalised helix; the slope is found by sampling, then by refining where the
+    end is passed on different sides. A road ends in a narrow ridge or valley that leads back over an edge.
+    Source: Glaeser, sections 9.4, equations 20 to 23, and 9.5, example 1. Errors: InputError for places beside the
+    terrain, equal or of one height, and without such a road.
     """
     faces, points = places_on_terrain(mesh, np.array([start, end], dtype=np.float64), "road")
     extent = float(np.ptp(mesh.bounds, axis=0).max())

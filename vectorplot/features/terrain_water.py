@@ -168,16 +168,12 @@ def water_courses(mesh: Mesh, places: ArrayLike, *, length: float | None = None)
 
 
 def watersheds(mesh: Mesh) -> MeshCurves:
-    """The lines on a terrain that part waters: from the saddles up to the summits.
-
-    mesh: of triangles, none above another; result: from each saddle one line for each of the rising ground beside it,
-    two mostly, with the number of the vertex as level. They end on summits, on plains, and at borders.
-    A saddle is a vertex around which the ground rises and falls more than once each; of vertices of one height the
-    earlier counts as lower, but no line leaves along level ground. A line leaves it along the steepest edge of the
-    rising ground and, from the middle of that on, goes up where it is steepest.
+    """The lines on a terrain that part waters: from each saddle one for each rising sector (mostly two), up to summits,
+    plains and borders, with the vertex as level. A saddle has ground that rises and falls more than once around it;
+    of equal heights the earlier vertex counts as lower, but no line leaves along level ground. A line leaves along
+    the steepest edge of the sector and then climbs where it is steepest.
     Source: Cayley, On contour and slope lines (1859); Maxwell, On hills and dales (1870); Banchoff, Critical points and
-    curvature for embedded polyhedra (1967), for vertices.
-    Errors: for a mesh of other faces.
+    curvature for embedded polyhedra (1967). Errors: InputError for faces that are no triangles or lie above others.
     """
     return _from_saddles(mesh, 1.0)
 

@@ -587,12 +587,10 @@ def ends_meet(field: ScalarFields, first: Floats, last: Floats) -> Bools:
 
 @dataclass(frozen=True, eq=False)
 class ZeroManifold:
-    """The curve f(u, v) = 0 over a domain, with all its branches.
-
-    points: (p, 2) parameters u, v; offsets: (b+1,) branch i has the points offsets[i] to offsets[i+1]; closed: (b,) the
-    last point of the branch joins the first, which is not repeated; turns: (b, 2) the periods that a closed branch has
-    run through when it is back at its start; nodes: (n, 2) where branches meet; isolated: (i, 2) single points where f
-    is zero but does not change its sign; grid: (columns+1, rows+1, 3) u, v and f.
+    """The curve f(u, v) = 0 over a domain, with all branches. points (p,2): u, v; offsets (b+1,); closed (b,): the last
+    point joins the first, which is not repeated; turns (b,2): periods that a closed branch has run through; nodes
+    (n,2): where branches meet; isolated (i,2): zeros without a change of sign; grid (columns+1, rows+1, 3): u, v and
+    f.
     Source: Glaeser, section 8.4, figures 11 and 12; errata G8-08 to G8-14.
     """
 

@@ -347,13 +347,11 @@ class ConvexFaces:
 
 
 def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float) -> ConvexFaces:
-    """Faces with every polygon that is not planar and convex cut into triangles.
-
-    points (3,v); a polygon is planar where no corner is further than tolerance from its mean plane. Quadrilaterals are
-    cut along a diagonal that folds neither triangle over (the shorter one if both do), larger polygons by a constrained
-    Delaunay triangulation in their mean plane.
-    Edge cases: a hole that a bridge of no width joins to the border stays a hole; a polygon that crosses itself is cut
-    as a fan and reported by an InputWarning.
+    """Faces with every polygon that is not planar and convex cut into triangles. points (3,v); planar: no corner
+    further than tolerance from the mean plane. Quadrilaterals are cut along a diagonal that folds neither triangle
+    (the shorter if both do), others by a constrained Delaunay triangulation in the mean plane.
+    Edge cases: a hole joined to the border by a bridge without width stays a hole; a polygon that crosses itself is cut
+    as a fan, with an InputWarning.
     """
     sizes = np.diff(offsets)
     faces = np.arange(len(sizes))

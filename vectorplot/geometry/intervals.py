@@ -15,13 +15,9 @@ NUMBER_BITS = 61
 
 
 def union(owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Floats, Floats]:
-    """Disjoint intervals that cover what the given ones cover, for each owner, ascending.
-
-    owner (n,): to which owner each interval belongs, from 0; low, high (n,): where intervals begin and end: parameters
-    within 0 to 1; gap (owners,): intervals of one owner that are no further apart are joined; result: those of the
-    joined intervals, ascending; their ends; for each owner ascending.
-    Parameters are compared in steps of 2^-40, in coarser ones where there are more than two million owners. Edge cases:
-    nothing in, nothing out.
+    """Disjoint intervals that cover the same as given ones, for each owner, ascending: owners, low and high ends. owner
+    (n,): from 0; low, high (n,): within 0 to 1; gap (owners,): intervals no further apart are joined. Compared in
+    steps of 2^-40, coarser above two million owners.
     Source: Glaeser, section 7.2, equation 2.
     """
     if not len(owner):
@@ -47,12 +43,9 @@ def _ascending(owner: Ints, low: Floats) -> Ints:
 
 
 def complement(count: int, owner: Ints, low: Floats, high: Floats, gap: Floats) -> tuple[Ints, Floats, Floats]:
-    """What disjoint intervals leave of 0 to 1, for each owner.
-
-    count: how many owners there are: 0 to count - 1; owner (n,): to which owner each interval belongs; low, high (n,):
-    where intervals begin and end, such as union gives them: those of one owner do not overlap; gap (count,): what is no
-    longer is left out; result: those of the free intervals, ascending; their ends; for each owner ascending.
-    Edge cases: an owner without intervals is free from 0 to 1.
+    """What disjoint intervals leave of 0 to 1, for each of count owners, ascending: owners, low and high ends. owner,
+    low, high (n,): see union; gap (count,): what is no longer is left out. Edge cases: an owner without intervals is
+    free from 0 to 1.
     Source: Glaeser, section 7.2, equation 3, as erratum G7-03 corrects it.
     """
     rising = (owner[1:] > owner[:-1]) | (owner[1:] == owner[:-1]) & (low[1:] >= low[:-1])
@@ -69,13 +62,9 @@ def complement(count: int, owner: Ints, low: Floats, high: Floats, gap: Floats) 
 
 
 def coverage(owner: Ints, low: Floats, high: Floats, side: Ints) -> tuple[Ints, Floats, Floats, Ints]:
-    """How many intervals cover each part of 0 to 1, where any does.
-
-    owner (n,): to which owner each interval belongs; low, high (n,): where intervals begin and end; they may overlap;
-    side (n,): 1 for an interval that covers the left side of its owner only, -1 the right side only, 0 both; result:
-    those of the parts, ascending; their ends; for each owner ascending; how many intervals cover the part, 1 or more:
-    the smaller of the counts of its two sides.
-    Edge cases: nothing in, nothing out.
+    """How many intervals cover each part of 0 to 1 that any does, for each owner, ascending: owners, ends, and counts
+    of 1 or more, the smaller of those on both sides. owner, low, high (n,): may overlap; side (n,): 1 for an
+    interval of the left side only, -1 right, 0 both.
     """
     if not len(owner):
         return owner, low, high, np.zeros(0, dtype=np.intp)

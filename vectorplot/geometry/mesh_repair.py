@@ -552,13 +552,10 @@ def _without_stutter(mesh: Mesh) -> Mesh:
 
 
 def sound_parts(mesh: Mesh, part: Ints, count: int, precision: float) -> tuple[Bools, Ints]:
-    """(p,) which parts of a mesh mesh_repair.mended would leave as they are, each by itself, and (p,) how many boundary
-    edges each part has.
-
-    part (f,): the part of each face, of count ones, which have no vertices in common. All are looked at together, so
-    that the price is that of one mesh. Parts may touch. A few that only may need mending count as unsound too: those
-    with points that are close together by the largest coordinate of all parts, and closed pieces without a volume.
-    precision: as of mended.
+    """(p,) which of count parts of a mesh mesh_repair.mended would leave unchanged, and (p,) their boundary edges. part
+    (f,): of each face; parts have no vertices in common but may touch, and are tested together at the cost of one
+    mesh. precision: see mended. A few that need no repair count as unsound too: those with points close by the
+    largest coordinate of all parts, and closed ones without volume.
     """
     unsound = np.zeros(count, dtype=np.bool_)
     of_corner = part[mesh.corner_face]

@@ -24,15 +24,10 @@ _BOUND_3D = (7.0 + 56.0 * HALF_ULP) * HALF_ULP
 
 
 def orient2d(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Signs:
-    """On which side of the line from a to b the point c lies: exact.
-
-    a, b, c (...,2): points in the plane; they are broadcast; result: (...) 1 where c is left of the line, -1 right of
-    it, 0 on it.
-    A float filter over whole arrays decides what is clear; the rest is decided in integers, so that every sign is right
-    for the doubles given. Edge cases: where a is b all points are on the line.
-    Source: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, section 4
-    (error bounds).
-    Errors: for points that have not two coordinates, and coordinates that are not finite.
+    """1 where c is left of the line from a to b, -1 right, 0 on it: exact, by a float filter and integers for what it
+    leaves open. a, b, c (...,2). Edge cases: where a is b all points are on the line.
+    Source: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, section 4.
+    Errors: InputError for other shapes and coordinates not finite.
     """
     points = _broadcast(2, a, b, c)
     with np.errstate(all="ignore"):
@@ -46,15 +41,9 @@ def orient2d(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Signs:
 
 
 def orient3d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Signs:
-    """On which side of the plane of a, b, c the point d lies: exact.
-
-    a, b, c, d (...,3): points in space; they are broadcast; result: (...) 1 where a, b, c run counter-clockwise as seen
-    from d, -1 where clockwise, 0 where the four are coplanar.
-    It is the sign of det(b-a, c-a, d-a): for a face a, b, c of a solid 1 means that d is outside. As in orient2d, every
-    sign is right for the doubles given.
-    Source: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, section 4
-    (error bounds).
-    Errors: for points that have not three coordinates, and coordinates that are not finite.
+    """1 where a, b, c run counter-clockwise seen from d (for a face of a solid: d is outside), -1 clockwise, 0
+    coplanar: the exact sign of det(b-a, c-a, d-a), as in orient2d. a, b, c, d (...,3).
+    Source: Shewchuk, as of orient2d. Errors: InputError for other shapes and coordinates not finite.
     """
     points = _broadcast(3, a, b, c, d)
     with np.errstate(all="ignore"):

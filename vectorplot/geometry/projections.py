@@ -335,12 +335,10 @@ FARTHEST_OFF_AXIS_DEG = 60.0
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """How a camera sees a scene: axes x right, y up, z towards the eye, the scene in the unit box.
-
-    eye: (3,) for a parallel projection None: then every ray runs along +z; target: (3,) where the camera looks; near:
-    the smallest depth that is drawn; picture_height: of the camera's picture in the image plane; tolerance: what counts
-    as distance zero; centre: (3,) the middle of the scene, in the world: the origin of the projection's coordinates;
-    axes: (3, 3) unit rows right, up and back, in the world.
+    """How a camera sees a scene: axes x right, y up, z towards the eye, the scene in the unit box. eye (3,), None for a
+    parallel projection along z; target (3,); near: the smallest depth drawn; picture_height: in the image plane;
+    tolerance: what counts as distance zero; centre (3,): the origin, in the world; axes (3,3): unit rows right, up
+    and back, in the world.
     Source: Glaeser, sections 2.1 and 2.4.
     """
 
@@ -431,13 +429,10 @@ class Projection:
 
 
 def projection_of(camera: Camera, bounds: Floats) -> Projection:
-    """A camera's projection of a box, normalised so that no later decision depends on its size or place.
-
-    camera: where the eye is, and how it looks; bounds (2,3): smallest and largest coordinates of the scene; result:
-    with its origin in the middle of the box.
-    Edge cases: a box without extent takes the camera's distance, or height, for its size.
-    Errors: where this is so small, or the eye so far away, that its coordinates have no digits left; or so large beside
-    the distance from the eye to its target that these are one.
+    """A camera's projection of the box bounds (2,3), normalised about its middle so that no later decision depends on
+    size or place.
+    Edge cases: a box without extent takes the camera's distance, or height, for its size. Errors: InputError where that
+    is so small, or the eye so far, that coordinates have no digits left; or so large that eye and target are one.
     """
     low, high = bounds
     # What is out of range by overflow is told below.

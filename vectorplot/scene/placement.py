@@ -297,13 +297,11 @@ def camera_of(camera: Camera | str | None, scene: Scene) -> Camera:
 
 
 def page_of(page: Page | str | None, scene: Scene, width: float | str | None = None, fit: bool = True) -> Page:
-    """The page of a picture: the one given, the sheet of that name or size, landscape where that word follows, or that
-    of the scene, else A4; of "fit" one of the two latter, cut to the picture. With a width, in mm or as a text with its
-    unit, a page as wide, as high as the picture, and with that one's margin.
-
-    fit: the picture is to fill the page.
-    Errors: InputError for another word, for what is no width, and for a page cut to a picture that is not to fill it;
-    TypeError for what is no page.
+    """The page of a picture: the given one, the named sheet or size (landscape on that word), the scene's, or A4;
+    "fit": one of the last two, cut to the picture. width: in mm or with a unit: a page so wide, as high as the
+    picture, with that one's margin. fit: whether the picture fills the page.
+    Errors: InputError for unknown words and widths, and for "fit" where the picture does not fill the page; TypeError
+    for no page.
     """
     sheet = _sheet_of(page, scene)
     if width is not None:

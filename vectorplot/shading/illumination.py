@@ -44,12 +44,10 @@ SHADOW_SHARE = 0.5
 
 @dataclass(frozen=True)
 class Finish:
-    """What a material makes of light: diffuse * cos^exponent(alpha) + highlight * weight(alpha) * cos^sharpness(beta).
-
-    exponent: of the cosine of the angle alpha between normal and light, positive; diffuse: how much a matt surface
-    sends back, not negative; highlight: 0: no highlight at all; sharpness: of the cosine of the angle beta between
-    reflected ray and eye, positive; weight: A constant, or measured pairs of an angle in radians and a value, joined by
-    a cubic spline.
+    """What a material makes of light: diffuse * cos^exponent(alpha) + highlight * weight(alpha) * cos^sharpness(beta);
+    alpha between normal and light, beta between reflected ray and eye. exponent, sharpness: positive; diffuse: not
+    negative; highlight: 0 for none; weight: a constant, or measured pairs of an angle in radians and a value, joined
+    by a cubic spline.
     Source: Glaeser, sections 4.5 (equation 2), 8.5 (equations 31 and 32).
     """
 
@@ -283,12 +281,9 @@ def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
 
 
 def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Floats:
-    """How bright points are in the light of all lights together.
-
-    shares (l,n): what each light gives to each point, as of brightness; intensity (l,) or (l,3): of the lights; of
-    their red, green and blue in coloured light; cue (n,): what ambient light adds, as of depth_cue; result: (n,) or
-    (3,n) 0 to 1; of red, green and blue in coloured light.
-    The sum of the shares takes four fifths of the palette, and is cut off there; then comes the cue.
+    """(n,) or, in coloured light, (3,n) how bright points are in all lights together, 0 to 1. shares (l,n): of each
+    light, see brightness; intensity (l,) or (l,3); cue (n,): of ambient light, see depth_cue. The sum of shares
+    fills four fifths of the palette, and is cut off there; then comes the cue.
     Source: Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08.
     """
     total = matmul(np.asarray(intensity, dtype=np.float64).T, np.asarray(shares, dtype=np.float64))
@@ -413,14 +408,11 @@ def shadow_shades(
     dimmed: ArrayLike = -1,
     step: ArrayLike = 1,
 ) -> Floats:
-    """(n,) shades 0 to 1 of points in shadows: those of points in the light, less half of what each light that does
-    not get there would give. Where no light gets, half of the face's shade is left, and the cue.
-
-    shares (l,n), intensity (l,) or (l,3), which makes (3,n) shades, and cue as of shades, with the cue at
-    the depth of each point, so that large shadows vary with it; lacking (n,): bit k for light k, as of Decals; dimmed
-    (n,): a light that gets there in part, as in a border, or -1; step (n,): how far into the border, 1 to LEVELS - 1.
-    Edge cases: points that no light reaches anyway keep their shade.
-    Source: Glaeser, section 6.3; decision D-5.
+    """(n,) or (3,n) shades of points in shadows: half of what each absent light would give is taken away; without any
+    light half of the face's shade is left, and the cue. shares, intensity, cue: see shades; lacking (n,): bit k for
+    light k, see Decals; dimmed (n,): a light that is partly there, or -1; step (n,): how far into the border, 1 to
+    LEVELS - 1.
+    Edge cases: points that no light would reach keep their shade. Source: Glaeser, section 6.3; decision D-5.
     """
     strength = np.asarray(intensity, dtype=np.float64)
     if strength.ndim == 2:

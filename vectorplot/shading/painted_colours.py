@@ -187,12 +187,10 @@ def painted_normals(
     plane: Ints,
     crease_angle_deg: float,
 ) -> Floats:
-    """(3,c) unit normals at the corners of the faces of a view, outwards; NaN at those of faces that have one shade.
-
-    lights: in the view's coordinates, none where every plane shall have one shade; given and crease angle as of
-    view_normals: the same normals as in pictures of pixels; plane (f,) as of plane_numbers: the faces of a region are
-    shaded alike. Regions of one normal have one shade unless the light on them varies by more than VARIED, as on a
-    floor below a lamp, or they are LARGE, as a floor under all of a scene, whatever the light.
+    """(3,c) unit normals at the corners of faces, outwards; NaN where a face has one shade. lights: in the view's
+    coordinates, none where every plane has one shade; given, crease angle: see view_normals; plane (f,): see
+    plane_numbers, faces of a region are shaded alike. A region of one normal has one shade unless its light varies
+    by more than VARIED, or it is LARGE.
     Source: Glaeser, section 4.6.
     """
     found = at_corners(view, view_normals(view, given, crease_angle_deg))

@@ -343,13 +343,11 @@ class PolygonPixels:
 
 
 def polygon_pixels(polygons: Polygons, columns: int, rows: int) -> Iterator[PolygonPixels]:
-    """The pixels whose centres lie in polygons (x, y and further columns), in portions.
-
-    The further columns, shades or colours, are interpolated linearly along the edges and along the scan lines. Polygons
-    need not be convex: a centre is inside when the scan line has crossed an odd number of edges.
-    Errors: InputError for corners that are not finite or beyond the guard band.
-    Edge cases: a polygon without area has no pixels, see with_specks_grown.
-    Source: Glaeser, section 4.6, figure 7 (filling, Gouraud shading); errata G4-10 to G4-13.
+    """The pixels whose centres lie in polygons (x, y and further columns), in portions. Further columns, shades or
+    colours, are interpolated linearly along edges and scan lines. Polygons need not be convex: inside is an odd
+    number of crossings.
+    Edge cases: none without area, see with_specks_grown. Errors: InputError for corners not finite or beyond the guard
+    band. Source: Glaeser, section 4.6, figure 7; errata G4-10 to G4-13.
     """
     for spans in _spans(polygons, columns, rows):
         length = spans.last - spans.first

@@ -440,13 +440,11 @@ def corner_normals(
     on_edge: Bools | None = None,
     own: Floats | None = None,
 ) -> CornerNormals:
-    """The normals at the corners of triangles (t, 3) of points (n, 3).
-
-    Each is the mean, by area, of the normals of those triangles around the vertex that differ from its own by no more
-    than the crease angle. given (n, 3), known (n,): vertices of true surfaces have their true normals; on_edge (n,):
-    those of them on sharp edges that of one side, for the triangles there. own (t, 3): the unit normals of the plane
-    faces that triangles are parts of, where they are not faces themselves.
-    Edge cases: triangles without area have no say; alone they get the normals of their faces, or zeros.
+    """The normals at the corners of triangles (t,3) of points (n,3): the area-weighted mean of those around the vertex
+    within the crease angle of its own. given (n,3), known (n,): true normals of true surfaces; on_edge (n,): on a
+    sharp edge, where the true normal is for one side; own (t,3): unit normals of the faces that triangles are parts
+    of.
+    Edge cases: triangles without area do not count; alone they get their faces' normals, or zeros.
     """
     faces = mesh_face_normals(points, triangles)
     if own is None:

@@ -140,13 +140,9 @@ def trapezoid_frame(system: CoordinateSystem, region: SeenRegion, line: float) -
 
 
 def perspective_frame(system: CoordinateSystem, region: SeenRegion) -> Floats | None:
-    """(3, 3) the map of a lamp's image plane to that in which the lamp sees the space after the camera's perspective,
-    and from there onto the square from -1 to 1; None where that sees no side of what the camera sees.
-
-    After the perspective the region is a cube, and all that the camera shows of equal size is so. The lamp, moved by
-    the perspective too, looks at the middle of the cube. Its rays stay rays: so from image plane to image plane it is a
-    projective map, whatever stands outside of the picture, and depths may be the lamp's own.
-    Edge cases: None for a lamp amid the cube, or with a taper that leaves no digits.
+    """(3,3) the map of a lamp's image plane to the square from -1 to 1 in which the lamp sees the space after the
+    camera's perspective; None where it sees no side of what the camera sees, stands amid that cube, or the taper
+    leaves no digits. Rays stay rays under the perspective, so it is projective, and depths may be the lamp's own.
     Source: Stamminger and Drettakis, Perspective shadow maps, 2002, sections 3 and 4.
     """
     picture, images = region.picture, light_plane(system, region.points)

@@ -197,13 +197,10 @@ def searched_line(points: ArrayLike, axis: Axis, focus: float, focus_points: Arr
 
 
 def adapted_size(size: int, share: float, wanted: float, largest: int) -> int:
-    """The side of a map that is larger where what is in focus has too small a part of it.
-
-    size: the side of the map in texels, 1 or more; share: the part of the map that is in focus, not negative; wanted:
-    the part of a map of side ``size`` whose texels it should get, more than 0, up to 1; largest: the largest side;
-    result: never smaller than size nor larger than largest, and without jumps.
-    Source: Martin and Tan, recipe, tips (texture size that follows the focus area).
-    Errors: for numbers out of range.
+    """The side of a map, between size and largest, without jumps, larger where the focus has too small a part of it.
+    size: in texels; share: part of the map in focus; wanted: the part of a map of side size whose texels it should
+    get, over 0 up to 1.
+    Source: Martin and Tan, recipe, tips. Errors: InputError for numbers out of range.
     """
     if not (0.0 <= share and 0.0 < wanted <= 1.0 and 1 <= size <= largest):
         raise InputError(f"a map of {size} texels for a share of {share:g} of {wanted:g} is out of range")

@@ -491,15 +491,12 @@ SMOOTH = 6
 
 
 def tube(curve: Curve | ArrayLike, radius: float) -> Swept:
-    """The tube about a curve: circles of one radius, across it and about its points.
-
-    curve: in the middle; a smooth loop gives a ring. Of points the cubic spline through them, a loop where the last is
-    the first one; radius: in world units; where the curve bends more than that, the tube pierces itself; result: u is
-    the angle in the circle in radians, v the parameter of the curve; normals outwards, ends open. Derivatives are exact
-    where the curve's are, but that by v twice, which is to about 1e-12.
-    Source: Wang, Juettler, Zheng and Liu, Computation of rotation minimizing frames, 2008, section 4 (double
-    reflection).
-    Errors: for a radius that is not positive and finite, and a curve that stands still or has gaps.
+    """The tube of a radius about a curve, or about points (by a cubic spline, closed where the last point is the
+    first): u the angle in radians, v the curve's parameter; normals outwards, ends open, a closed curve gives a
+    ring. It pierces itself where the curve bends more. Derivatives are exact where the curve's are, the second by v
+    to 1e-12.
+    Source: Wang, Juettler, Zheng and Liu, Computation of rotation minimizing frames, 2008, section 4. Errors:
+    InputError for a radius not positive and finite, a curve that stands still or has gaps.
     """
     if not 0.0 < radius < np.inf:
         raise InputError(f"a tube with a radius of {radius:g}: expected a positive, finite number")

@@ -871,13 +871,11 @@ class _Ends(NamedTuple):
 
 
 def assert_chords(lines: list[Floats], surface: Surface, field: TangentField, tolerance: float) -> None:
-    """Nothing, where every chord of polylines (n,3) on a surface runs as the field does: off it by no more than the
-    field turns along it, and an angle.
-
-    A chord is a mean of the directions in which its curve runs: where these turn one way it is nearer to those at both
-    ends than they are to each other; where they turn there and back, nearer than the one in the middle. Points may be
-    off the surface by the tolerance times its extent, and chords by as much of their length. Ends without a direction
-    are not looked at.
+    """That every chord of polylines (n,3) on a surface follows the field: off it by no more than the field turns along
+    the chord, and an angle. A chord is a mean of the directions of its curve: where they turn one way it is nearer
+    to both ends' than these are to each other; where they turn back, nearer than the middle's. Points may be off the
+    surface by tolerance times its extent, chords by as much of their length.
+    Edge cases: ends without a direction are ignored.
     """
     begin = np.concatenate([line[:-1] for line in lines])
     chords = np.concatenate([np.diff(line, axis=0) for line in lines])

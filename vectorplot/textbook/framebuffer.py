@@ -219,14 +219,10 @@ def values_of(frame: Framebuffer, colours: ArrayLike, count: int) -> Bytes:
 
 
 def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: ArrayLike) -> Framebuffer:
-    """The framebuffer with lines in one colour or in n; later lines lie over earlier ones.
-
-    start, end (n,2 or more): column and row; lines are cut off at the raster; colours (k,) or (n,k): as the pages hold
-    them; a number alone where k = 1; result: with a new drawn page.
-    Edge cases: a line without length is one pixel.
-    Source: Glaeser, section 4.6 (Bresenham); erratum G4-09.
-    Errors: for what is no colour of the pages, for points that are not finite or too far away, and for other numbers of
-    ends than of starts.
+    """The framebuffer with lines start to end (n,2 or more: column, row) in one colour (k,) or in n (n,k), later over
+    earlier, cut off at the raster. Edge cases: a line without length is one pixel.
+    Source: Glaeser, section 4.6 (Bresenham); erratum G4-09. Errors: InputError for other colours, points not finite or
+    too far, and different numbers of ends.
     """
     values = values_of(frame, colours, len(np.atleast_2d(np.asarray(start))))
     pages = frame.pages.copy()
@@ -351,14 +347,10 @@ STEPS = 2.0
 
 
 def points_visible(buffer: DepthBuffer, points: ArrayLike) -> Bools:
-    """Which points nothing in a depth buffer hides.
-
-    buffer: of all that may hide them; points (n,3): column, row and depth after T2; result: (n,) points outside the
-    raster are not visible.
-    A point is compared with the plane of the triangle in its pixel, at its own place; the tolerance is what snapping
-    moves that plane, and a step of the code.
-    Source: Glaeser, section 7.3.
-    Errors: for points that are not finite.
+    """(n,) which points (n,3: column, row, depth after T2) nothing in a depth buffer hides; none outside the raster.
+    Compared with the plane of the triangle in the pixel, within what snapping moves that plane and a step of the
+    code.
+    Source: Glaeser, section 7.3. Errors: InputError for points not finite.
     """
     p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     if not np.isfinite(p).all():
@@ -396,13 +388,10 @@ def _plane_depth(corners: Floats, at: Floats) -> tuple[Floats, Floats]:
 
 
 def visible_line_pixels(buffer: DepthBuffer, start: ArrayLike, end: ArrayLike) -> tuple[Ints, Ints, Ints]:
-    """The pixels of lines that are not hidden.
-
-    buffer: of all that may hide them; start, end (n,3): column, row and depth after T2. Clip the lines at the near
-    plane first; result: (p,) columns; (p,) rows; (p,) lines.
-    Depths run linearly between the ends, as T2 keeps lines straight.
-    Source: Glaeser, section 7.3 (hidden lines on the screen); erratum G7-07.
-    Errors: for points that are not finite, or too far away.
+    """Columns, rows and lines (p,) of the visible pixels of lines start to end (n,3: column, row, depth after T2),
+    clipped at the near plane before; depths run linearly between the ends, as T2 keeps lines straight.
+    Source: Glaeser, section 7.3 (hidden lines on the screen); erratum G7-07. Errors: InputError for points not finite
+    or too far.
     """
     p, q = (np.asarray(x, dtype=np.float64).reshape(-1, 3) for x in (start, end))
     rows, columns = buffer.code.shape

@@ -144,14 +144,10 @@ def line_and_plane(start: ArrayLike, direction: ArrayLike, plane: Plane) -> Line
 
 
 def line_and_line(a: ArrayLike, d: ArrayLike, b: ArrayLike, e: ArrayLike) -> LineCut:
-    """The points where lines a + t * d meet the coplanar lines b + s * e, in the plane or in space.
-
-    a, d (...,2 or 3): a point and a direction of each line that is cut; b, e (...,2 or 3): a point and a direction of
-    the other line; result: the points, and their parameters t.
-    In space the equation is read along d x e, so lines in any plane will do, upright ones too. Of two skew lines it is
-    the point of the first that is nearest to the second.
-    Edge cases: for parallel lines see LineCut.
-    Source: Glaeser, section 1.3, equations 17 to 20; erratum G1-01.
+    """The points where lines a + t d meet the coplanar lines b + s e, in the plane or in space (..., 2 or 3), with t.
+    In space the equation is read along d x e, so upright planes will do; of skew lines it is the point of the first
+    nearest to the second.
+    Edge cases: parallel lines, see LineCut. Source: Glaeser, section 1.3, equations 17 to 20; erratum G1-01.
     """
     a, d, b, e = (np.asarray(x, dtype=np.float64) for x in (a, d, b, e))
     arm = b - a
@@ -179,14 +175,9 @@ def _cut(a: Floats, d: Floats, above: Floats, below: Floats, parallel: Bools, wi
 
 
 def segments(p1: ArrayLike, q1: ArrayLike, p2: ArrayLike, q2: ArrayLike) -> tuple[Floats, Floats, Bools]:
-    """The parameters of the points where the lines of two segments meet, and whether they do.
-
-    p1, q1 (...,2 or 3): the ends of the first segment; p2, q2 (...,2 or 3): the ends of the second segment; result:
-    (...) the parameter on the first segment, 0 at p1 and 1 at q1; (...) that on the second; (...) whether there is one
-    such point.
-    The segments themselves cross where both parameters lie in [0, 1].
-    Edge cases: where the lines are parallel, or identical, the flag is False and both parameters are infinite.
-    Source: Glaeser, section 1.3 (segments).
+    """Parameters (...) on the lines of segments p1 q1 and p2 q2 (..., 2 or 3) where they meet, 0 at p and 1 at q, and
+    whether they do; the segments cross where both lie in [0, 1].
+    Edge cases: parallel or identical lines give False and infinite parameters. Source: Glaeser, section 1.3.
     """
     p1, q1, p2, q2 = (np.asarray(x, dtype=np.float64) for x in (p1, q1, p2, q2))
     first = line_and_line(p1, q1 - p1, p2, q2 - p2)

@@ -106,12 +106,10 @@ def _mesh(view: View, items: Ints) -> Mesh:
 
 
 def which_first(objects: Objects, first: Ints, second: Ints, *, critical: bool = False) -> Codes:
-    """(p,) codes of pairs of objects, as of face_relations: APART where neither hides anything of the other, IN_FRONT
-    where the first has to be drawn later, BEHIND where the second has, STRADDLING where both would have to.
-
-    Boxes in the image that do not overlap decide nothing; then depths that do not, spheres and planes that keep apart;
-    what is left open the outlines of the faces decide. critical: always the outlines, so that no priority is given
-    where nothing overlaps.
+    """(p,) codes of pairs of objects, see face_relations: APART where neither hides the other, IN_FRONT where the first
+    is drawn later, BEHIND where the second is, STRADDLING where both would have to. Decided by boxes in the image,
+    depths, spheres and separating planes, then by outlines of faces; critical: by outlines only, so that nothing
+    without overlap has a priority.
     Source: Glaeser, section 5.5; errata G5-02, G5-03, G5-05.
     """
     box = objects.box
@@ -354,13 +352,10 @@ def cyclic_overlap_report(cycles: Sequence[Ints], names: Sequence[str]) -> tuple
 
 
 def object_order(view: View, names: Sequence[str]) -> ObjectOrder:
-    """The items of a view as whole objects, back to front.
-
-    view: as of scene.look; names: of the items, for the warning; result: by quick decisions; if these make a cycle, by
-    the outlines of all pairs; a cycle that stays is left as it is.
+    """The items of a view as whole objects, back to front: by quick decisions, by outlines of all pairs where these
+    make a cycle; a cycle that stays is left, and an InputWarning names its objects (names: of the items).
     painters_order cuts such cycles instead.
-    Source: Glaeser, section 5.6 (mikado, two passes); erratum G5-04.
-    Warns InputWarning where a cycle stays: it names its objects.
+    Source: Glaeser, section 5.6 (two passes); erratum G5-04.
     """
     objects = view_objects(view)
     for critical in (False, True):

@@ -433,12 +433,9 @@ def _entered(line: Floats, order: int, eye: Floats) -> Bools:
 
 
 def sphere_order(view: View, faces: ImageFaces, bodies: Bodies) -> Ints | None:
-    """Convex bodies back to front, by falling power of the eye with respect to the spheres around them.
-
-    view: what the bodies are seen in; faces: what can be seen, in the image; bodies: as of convex_bodies, b of them;
-    result: (b,) numbers of bodies; None where that order is wrong.
-    It is right for bodies whose spheres are disjoint; pairs whose spheres are not, and whose boxes overlap in the
-    image, are compared as they are.
+    """(b,) numbers of convex bodies (see convex_bodies) back to front, by falling power of the eye to their spheres;
+    None where that is wrong. Right for disjoint spheres; other pairs whose image boxes overlap are compared
+    directly.
     Source: Glaeser, section 5.5, figure 9; erratum G5-03.
     """
     eye = np.array([0.0, 0.0, 1.0, 0.0]) if view.eye is None else view.eye

@@ -360,15 +360,10 @@ def pixel_matrix(camera: ArrayLike, volume: ViewVolume, columns: int, rows: int)
 def segments_to_pixels(
     starts: ArrayLike, ends: ArrayLike, camera: ArrayLike, volume: ViewVolume, columns: int, rows: int
 ) -> tuple[Floats, Floats, Bools]:
-    """The images of segments, and which segments have one.
-
-    starts, ends (n,3): in the world; camera (4,4): as of camera_matrix; volume: what is seen; columns, rows: the size
-    of the image in pixels; result: (n,3) the images of the starts, in pixels and depth; zeros where there is none;
-    (n,3) those of the ends; (n,) which segments have an image.
-    Segments are cut at the near plane before the division, so one that reaches behind the eye shows its part in front.
-    Nothing else is cut.
-    Source: lecture, final algorithm; erratum V-04.
-    Errors: for an image without pixels.
+    """The images (n,3) of starts and ends in pixels and depth, zeros where there is none, and (n,) which segments have
+    one. starts, ends (n,3): in the world; camera (4,4): see camera_matrix. Segments are cut at the near plane before
+    the division, so one that reaches behind the eye shows its front part; nothing else is cut.
+    Source: lecture, final algorithm; erratum V-04. Errors: InputError for an image without pixels.
     """
     camera = np.asarray(camera, dtype=np.float64)
     p, q = (matmul(homogeneous(x), camera.T) for x in (starts, ends))

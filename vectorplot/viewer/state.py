@@ -40,22 +40,14 @@ _LAMP = (0.6, 0.9)
 
 @dataclass(frozen=True)
 class ViewerState:
-    """The camera by its spherical coordinates, the mode, and what is shown with it.
-
-    azimuth, elevation, twist: of the eye seen from the target, and of the camera about its principal ray, in radians;
-    distance: from the eye to the target, in world units; target (float,float,float): in world coordinates; fov_deg: the
-    full angle over the page's height, in degrees; parallel: parallel rays; the height of the picture is that of the
-    central one in the plane through the target; former: azimuth, elevation, twist and parallel before a main view was
-    chosen; mode: a word of `animation.MODES`; crease_angle_deg: sharper edges are creases; 0 to 180 degrees; hatch: how
-    faces of line drawings are hatched; spacing_mm: from stroke to stroke of the hatching where it is darkest;
-    light_azimuth, light_elevation: how far all lights are turned about the middle of the scene, in radians;
-    lights_go_along_from: where the lights go along with the eye (heliocentric): its azimuth when they began to; None:
-    they stand still; rotating: the azimuth changes by itself; depth_buffer: shaded pictures are pixels with a depth
-    buffer, not painted polygons; outlines: outlines on shaded pictures; line drawings show nothing else; colour_map,
-    boxes, axes, lights: what is shown over the picture, and is not in files: colours, boxes round items, axes, and the
-    lights, which arrow keys move then; landscape: the page lies on its longer side; wish: what a key asked for beside
-    another picture.
-    Errors: for numbers that are not finite or out of range, and for unknown words.
+    """The camera by spherical coordinates, the mode, and what is shown. azimuth, elevation, twist: radians; distance,
+    target: world units; fov_deg: over the page's height; parallel: the picture's height is that of the central one
+    through the target; former: azimuth, elevation, twist, parallel before a main view; mode: a word of
+    `animation.MODES`; light_azimuth, light_elevation: turn of all lights about the scene, radians;
+    lights_go_along_from: the eye's azimuth when lights began to follow it, None where they stand; rotating: azimuth
+    changes by itself; depth_buffer: pixels, not painted polygons; outlines: on shaded pictures; colour_map, boxes,
+    axes, lights: shown but not saved; landscape; wish: what a key asked for besides a picture.
+    Errors: InputError for numbers not finite or out of range, and unknown words.
     """
 
     azimuth: float = -math.pi / 3.0
