@@ -6,7 +6,7 @@ _HEAD, _TAIL = 300, 700
 """A longer message keeps so many of its first and of its last letters: what it is about, and the cause."""
 
 _LONGEST_WORD, _BEGIN, _END = 200, 80, 20
-"""A longer word of a message, as of a file without blanks, keeps so many of its first and of its last letters."""
+"""A longer word of a message, such as a file name, keeps so many of its first and of its last letters."""
 
 
 class InputError(ValueError):

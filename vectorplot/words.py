@@ -227,7 +227,7 @@ def line_words(words: str | Iterable[str] | None, known: tuple[str, ...] = LINE_
 
 
 def line_kinds(words: str | Iterable[str] | None) -> frozenset[LineKind]:
-    """The kinds of lines that are named, as of line_words."""
+    """The kinds of lines that are named, see line_words."""
     return frozenset(map(LineKind.from_word, line_words(words)))
 
 

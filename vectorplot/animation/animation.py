@@ -63,7 +63,7 @@ class Animation:
     Parameters
     ----------
     motion : callable
-        motion(time) is the scene at a time from 0 to 1, or anything that has a shape, as of `io.scene_of`. Camera and
+        motion(time) is the scene at a time from 0 to 1, or anything that has a shape, see `io.scene_of`. Camera and
         lights are those of the scene. The same time gives the same scene, in whatever order frames are made; to be made
         in other processes, it can be pickled, as that of `read_animation` can.
     frames : int
@@ -166,7 +166,7 @@ class Animation:
         Raises
         ------
         InputError
-            For a frame that there is not, and as of `io.scene_of`.
+            For a frame that there is not, and as in `io.scene_of`.
 
         Examples
         --------

@@ -232,9 +232,9 @@ def results(
     calls : sequence of callables
         Without arguments; for workers in other processes they can be pickled.
     executor : Executor, optional
-        As of `run`.
+        See `run`.
     window : int
-        As of `run`.
+        See `run`.
     tell : callable, optional
         Is called after each that is done.
 
@@ -246,9 +246,9 @@ def results(
     Raises
     ------
     InputError
-        As of `run`, and what a call raises of InputError, OSError and MemoryError.
+        See `run`, and what a call raises of InputError, OSError and MemoryError.
     RuntimeError
-        As of `run`.
+        See `run`.
 
     Examples
     --------
@@ -323,7 +323,7 @@ _PICKLE = 5
 def frame_tasks(film: Film, folder: str | os.PathLike[str], *, format: str | None = None) -> Iterator[Task]:
     """The files that `vp.save_frames` would write into a folder, as tasks, one by one.
 
-    film: as of `vp.animate`; folder: where they go; format: svg for drawings and png for pixels where None; result:
+    film: see `vp.animate`; folder: where they go; format: svg for drawings and png for pixels where None; result:
     0001.svg and so on, with fingerprints where the film can be pickled, as those of animation files can. Others are
     always made, and in this process.
     Errors: for an unknown format.

@@ -362,7 +362,7 @@ class LineOptions:
         return with_numbers(scene)
 
     def of_scene(self, scene: Scene) -> SurfaceLines:
-        """The lines that these are in a scene. Errors: InputError as of even_sections and round_sections."""
+        """The lines that these are in a scene. Errors: InputError as in even_sections and round_sections."""
         from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
 
         cosines = even_cosines(self.isophotes) if self.isophotes else ()
@@ -870,7 +870,7 @@ def hatching_from(options: Mapping[str, Any]) -> tuple[Hatching | Stippling | No
     """The hatching or stippling that the options of a command ask for, None where they ask for none, and the other
     options.
 
-    Errors: bad usage for options of a hatching without one, or beside dots; InputError as of Hatching and Stippling.
+    Errors: bad usage for options of a hatching without one, or beside dots; InputError as in Hatching and Stippling.
     """
     from vectorplot.scene.hatching import Hatching, Stippling
 

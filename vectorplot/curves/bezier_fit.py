@@ -489,7 +489,7 @@ def fitted_paths(
 def fitted_curve(curve: Curve, *, tolerance: float) -> BezierPath:
     """A smooth Bézier path within a tolerance of a curve, from its start to its end.
 
-    Source: as of fitted_paths.
+    Source: see fitted_paths.
     """
     count = _CURVE_SAMPLES
     while count <= _MOST_SAMPLES:

@@ -350,7 +350,7 @@ class CubicSpline(_Through):
         The derivatives at both ends, of an open one: the clamped spline. Where None the natural one, with second
         derivatives 0 there.
     parameters : (n,) array_like of float, optional
-        As of `AkimaSpline`.
+        See `AkimaSpline`.
 
     Raises
     ------
@@ -429,7 +429,7 @@ class InterpolatingSpline(_Through):
     closed : bool
         Whether it comes back to its first point.
     parameters : (n,) array_like of float, optional
-        As of `AkimaSpline`.
+        See `AkimaSpline`.
 
     Raises
     ------
@@ -494,7 +494,7 @@ class ApproximatingSpline(_Through):
     closed : bool
         Whether it comes back to its first point.
     parameters : (n,) array_like of float, optional
-        As of `AkimaSpline`: where along the spline the points are compared with it.
+        See `AkimaSpline`: where along the spline the points are compared with it.
 
     Raises
     ------
@@ -985,7 +985,7 @@ def nurbs_curve(
     Raises
     ------
     InputError
-        As of `SplineCurve`.
+        See `SplineCurve`.
 
     Notes
     -----

@@ -43,7 +43,7 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
     fills : Fills
         Each painted over those before it.
     page_from_world : (4, 4) array of float
-        As of Drawing: points3d of new corners lie on the planes of their polygons.
+        See Drawing: points3d of new corners lie on the planes of their polygons.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
 
 
 def cut_out(fills: Fills, over: Fills, page_from_world: Floats) -> Fills:
-    """The parts of polygons, as of visible_fills, that do not lie under others; these are not among them."""
+    """The parts of polygons, see visible_fills, that do not lie under others; these are not among them."""
     mark = int(fills.item.max(initial=0)) + 1
     found = visible_fills(Fills.joined(fills, replace(over, item=np.full(len(over), mark))), page_from_world)
     return found.take(np.flatnonzero(found.item != mark))
@@ -87,7 +87,7 @@ def visible_regions(fills: Fills) -> tuple[Any, Ints]:
     """What is seen of polygons of three corners or more: polygons of shapely (n,), which may have holes, and the number
     (n,) of the one each is a part of, ascending.
 
-    Errors as of visible_fills.
+    Errors as in visible_fills.
     """
     return _seen(_regions(fills) if len(fills) else np.zeros(0, object), fills.opacity >= 1.0)
 
@@ -106,7 +106,7 @@ def visible_parts(fills: Fills, whole: Ints) -> PartsOfWholes:
     """What is seen of polygons of three corners or more, those of one number (m,) convex parts of a convex one, that
     have whole sides in common, and that are painted one after the other but for what lies on them.
 
-    What covers a whole one covers its parts, and it is looked at once for all of them. Errors as of visible_fills.
+    What covers a whole one covers its parts, and it is looked at once for all of them. Errors as in visible_fills.
     """
     import shapely
 
@@ -652,11 +652,11 @@ def united(overlay: Overlay, sheet: Ints) -> Overlay:
 
 
 def visible_shades(painted: Overlay, smooth: Bools, page_from_world: Floats) -> Fills:
-    """What is seen of polygons, as of visible_fills, with one region, cut open to its holes, in place of those of one
+    """What is seen of polygons, see visible_fills, with one region, cut open to its holes, in place of those of one
     colour of an item, among the items that are smooth (i,). What one can see through stays in its parts.
 
-    painted: the polygons; those that come after one number are parts of one, as of visible_parts, those of -1 of none.
-    Corners in space, errors as of united; borders of regions are off by less than STEP_BORDER_MM, on both sides alike.
+    painted: the polygons; those that come after one number are parts of one, see visible_parts, those of -1 of none.
+    Corners in space, errors as in united; borders of regions are off by less than STEP_BORDER_MM, on both sides alike.
     """
     import shapely
 

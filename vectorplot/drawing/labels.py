@@ -520,7 +520,7 @@ def labels_with_room(seen: SeenLabels, some: Sequence[int], mm: float) -> list[i
 
 def ticks_with_room(seen: SeenLabels, placement: Placement, mm: float) -> SeenLabels:
     """The labels without numbers at ticks that would stand in those before them on the same curve, and without ticks
-    that are hardly apart: of a curve that is seen end-on there are none. mm: as of labels_with_room."""
+    that are hardly apart: of a curve that is seen end-on there are none. mm: see labels_with_room."""
     curves: dict[str, list[tuple[float, int]]] = {}
     for number, label in enumerate(seen.anchors.labels):
         if isinstance(label.at, OnCurve) and label.mark == "tick":
@@ -607,7 +607,7 @@ def measures_tried(
 ) -> list[Measure]:
     """Where the text of a dimension may stand along its line (n,2), the best first; usual: the text above it.
 
-    heads: as of arrowheads; set_at: the text above or below, at a part of the length of the line, outside of 0 to 1
+    heads: see arrowheads; set_at: the text above or below, at a part of the length of the line, outside of 0 to 1
     beyond its ends; gap: from the end of the line to a text beyond it.
     """
     whole = float(np.hypot(*np.diff(path, axis=0).T).sum())
@@ -668,7 +668,7 @@ def measures_on_page(
 ) -> dict[int, Measure]:
     """The texts above lines with arrowheads, each where it interrupts least of the strokes, without hatches.
 
-    paths: the courses of lines by the numbers of labels along them; usual: these labels above them; heads: as of
+    paths: the courses of lines by the numbers of labels along them; usual: these labels above them; heads: see
     arrowheads; page (2,2): its corners.
     """
     tried = {}
@@ -973,7 +973,7 @@ ROOM_MM = 1.2
 def level_numbers(scene: Scene, strokes: Paths, text: str, mm: float) -> list[Lettering]:
     """The heights of numbered sections, upright on their lines where these are straight enough for them.
 
-    strokes: of the picture; text, mm: as of labels_on_page. A line that is nowhere visible and straight over the length
+    strokes: of the picture; text, mm: see labels_on_page. A line that is nowhere visible and straight over the length
     of the longest number has none.
     """
 

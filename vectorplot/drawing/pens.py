@@ -221,9 +221,9 @@ class Style:
     hidden : {"none", "dashed", "solid"}
         How hidden lines look.
     pens : mapping of str to str
-        As of `vp.draw`: kinds of lines, items, or item.kind, and WIDTH, COLOUR or WIDTH:COLOUR.
+        See `vp.draw`: kinds of lines, items, or item.kind, and WIDTH, COLOUR or WIDTH:COLOUR.
     dashes : mapping of str to str
-        As of `vp.draw`: the same, and DASH,GAP.
+        See `vp.draw`: the same, and DASH,GAP.
     background : str, optional
         The colour of the paper; none is drawn where None.
     layers : str

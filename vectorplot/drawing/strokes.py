@@ -352,9 +352,9 @@ def companions(key: Keys, owner: Ints) -> tuple[Ints, Ints]:
 
 
 def clusters(x: Floats, y: Floats, label: Ints, reach: float) -> Ints:
-    """(n,) for every point the smallest index of a point it hangs together with.
+    """(n,) for every point the smallest index of a point it is connected to.
 
-    Points of equal label hang together by steps no longer than reach. Within a crowd of several reaches' width not
+    Points of equal label are connected by steps no longer than reach. Within a crowd of several reaches' width not
     every step is found, but equal points always get equal clusters.
     """
     owner, starts = companions(*overlapping_cells(x, y, label, (reach, reach)))
@@ -598,7 +598,7 @@ def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = Non
     max_mm : float
         The longest that a stroke may be.
     page_from_world : (4, 4) array of float, optional
-        As of Drawing, by default a parallel projection: points3d is divided where the page is.
+        See Drawing, by default a parallel projection: points3d is divided where the page is.
 
     Returns
     -------

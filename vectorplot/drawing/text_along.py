@@ -66,11 +66,11 @@ def lettered_along(
     Parameters
     ----------
     text : str
-        In one line, as of lettered.
+        In one line, see lettered.
     path : (n, 2) array_like of float
         Points of the curve in mm, n >= 2.
     size_mm, align : float and str
-        As of lettered.
+        See lettered.
     level : {"base", "middle", "top"}
         Whether the curve runs under the letters, through their middle, or above them.
     at : float
@@ -86,7 +86,7 @@ def lettered_along(
     Raises
     ------
     InputError
-        As of lettered; for a path without length.
+        See lettered; for a path without length.
 
     Notes
     -----
@@ -122,9 +122,9 @@ def typeset_along(
     Parameters
     ----------
     text : str
-        As of typeset, in one line.
+        See typeset, in one line.
     path, size_mm, align, level, at, off_mm : array_like, float, str, str, float and float
-        As of lettered_along.
+        See lettered_along.
 
     Returns
     -------
@@ -134,7 +134,7 @@ def typeset_along(
     Raises
     ------
     InputError
-        As of typeset; for a path without length.
+        See typeset; for a path without length.
 
     Examples
     --------
@@ -277,7 +277,7 @@ def grown(boxes: Floats, margin_mm: float) -> Floats:
 def outside_boxes(paths: Paths, boxes: Floats, page_from_world: Floats) -> Paths:
     """The parts of strokes that lie outside of rectangles, in the order of the strokes.
 
-    boxes (b,4,2): corners, counter-clockwise; page_from_world (4,4) as of Drawing: with it points in the world are cut
+    boxes (b,4,2): corners, counter-clockwise; page_from_world (4,4) as in Drawing: with it points in the world are cut
     where the page is. A closed stroke that is cut becomes open ones.
     Edge cases: what only touches a rectangle stays.
     Source: Cyrus and Beck, Generalized two- and three-dimensional clipping, Computers & Graphics 3 (1978).

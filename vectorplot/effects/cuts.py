@@ -473,15 +473,15 @@ def cut(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, or several of these
-        What is cut, as of `io.scene_of`; cuts that a scene has stay.
+        What is cut, see `io.scene_of`; cuts that a scene has stay.
     cuts : Cut or str, or several
-        Texts as of `Cut.of`: y = 0, x + 2y > 3, or several conditions with commas between them.
+        Texts as in `Cut.of`: y = 0, x + 2y > 3, or several conditions with commas between them.
     away : {"gone", "ghost", "moved"}
         What becomes of what texts take away.
     colour : str, optional
         Of the faces at cuts that are texts.
     spacing_mm, angle_deg : float
-        Of the hatches of these faces, as of `Cut`.
+        Of the hatches of these faces, see `Cut`.
     items : names, optional
         Of the items that texts cut; all where None.
 

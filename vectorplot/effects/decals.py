@@ -176,7 +176,7 @@ def _bent(flat: Floats, offsets: Ints, tolerance: float) -> Bools:
 
 @dataclass(frozen=True, eq=False)
 class Laid:
-    """Parts of decals in the image: points (3,c), as of ImageFaces; offsets (n+1,); decal (n,) which decal each part is
+    """Parts of decals in the image: points (3,c), see ImageFaces; offsets (n+1,); decal (n,) which decal each part is
     of; piece (n,) the painted polygon that it lies on, ascending, and for each the decals in the order of painting."""
 
     points: Floats

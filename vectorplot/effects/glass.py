@@ -378,7 +378,7 @@ def refracted_order(view: View, parts: ImageFaces, face: Ints, tolerance: float)
     """Parts of bent faces (n,), numbers from 0, back to front; parts of one face stand together, and are not compared.
 
     tolerance: how far, in units of the image, the sides of parts are off the curves they stand for: those that overlap
-    by no more may stand in any order. Where whole faces pierce one another or lie on one another in circles their parts
+    by no more may stand in any order. Where whole faces pierce one another or overlap cyclically their parts
     are put in order, and cut where there is no other way.
     """
     count = int(face.max(initial=-1)) + 1
@@ -521,7 +521,7 @@ def _cover(glass: _Glass, inside: SeenThrough, scene: Scene) -> _Cover:
 @dataclass(frozen=True, eq=False)
 class _Glass:
     """A solid in a view: front (w,) those of its faces that one looks through, by panes whose ways are the numbers of
-    these faces; tolerance and decals as of seen_in_glass; rest: all things but the solid, and inside what of them is in
+    these faces; tolerance and decals as in seen_in_glass; rest: all things but the solid, and inside what of them is in
     it, and lying what of decals is; cover: what of the panes is hidden by opaque things in it."""
 
     view: View

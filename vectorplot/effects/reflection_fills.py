@@ -129,10 +129,10 @@ def double_decals(
     budget: Budget = USUAL,
 ) -> tuple[Decals, ...]:
     """The decals on the doubles of faces shown (f,), in the double of the view: those of a mirrored scene in mirrored
-    light, of which the same holds as of the scene.
+    light, of which the same holds as in the scene.
 
     lighting: as it is in the mirror; aura: the width of soft borders in the image, None where lights cast no shadows;
-    off (i,) as of scene_shadows; budget: of the work on these.
+    off (i,) as in scene_shadows; budget: of the work on these.
     Source: Glaeser, section 6.4.
     """
     mirrored = doubled(view, mirrors, number)

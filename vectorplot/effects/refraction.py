@@ -89,7 +89,7 @@ def plate_shift(alpha: ArrayLike, thickness: ArrayLike, c: ArrayLike) -> Floats:
     thickness : (...) array_like of float
         Of the plate, in world units: the a of the equation.
     c : (...) array_like of float
-        As of angle_of_refraction, for rays into the plate.
+        See angle_of_refraction, for rays into the plate.
 
     Returns
     -------
@@ -129,7 +129,7 @@ def refracted(directions: ArrayLike, normals: ArrayLike, c: ArrayLike) -> tuple[
     normals : (..., 3) array_like of float
         Of the surfaces, of any length, to either side.
     c : (...) array_like of float
-        As of angle_of_refraction, for rays in these directions.
+        See angle_of_refraction, for rays in these directions.
 
     Returns
     -------
@@ -213,7 +213,7 @@ def inverse_refraction(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike)
     a : (...) array_like of float
         How deep the point is below the surface, so that the eye is p2 - a above it.
     c : (...) array_like of float
-        As of angle_of_refraction, for rays from the eye into the water.
+        See angle_of_refraction, for rays from the eye into the water.
 
     Returns
     -------
@@ -262,7 +262,7 @@ def seen_in_surface(eye: ArrayLike, points: ArrayLike, normal: ArrayLike, on_sur
     on_surface : (3,) or (n, 3) array_like of float
         A point of the plane, or one for each point.
     c : float
-        As of angle_of_refraction, for rays from the eye into the material.
+        See angle_of_refraction, for rays from the eye into the material.
 
     Returns
     -------
@@ -628,7 +628,7 @@ def bent(view: View, sight_ways: SightWays, soup: Soup, windows: Floats, toleran
 @dataclass(frozen=True, eq=False)
 class _Triangles:
     """Triangles: corners (3,3,t): coordinate, corner, triangle; outer (3,t): whether the side that begins at each
-    corner is part of the outline of a polygon; source, way (t,) as of Soup."""
+    corner is part of the outline of a polygon; source, way (t,) as in Soup."""
 
     corners: Floats = field(metadata=IN_COLUMNS)
     outer: Bools = field(metadata=IN_COLUMNS)

@@ -772,7 +772,7 @@ class Scaled:
 
 
 def scaled(scene: Scene, camera: Camera | str | None, page: Callable[[Scene], InSpace] = default_page) -> Scaled:
-    """The scene as a chart, after its cuts; page: as of cut_scene. Errors: InputError as of coloured."""
+    """The scene as a chart, after its cuts; page: see cut_scene. Errors: InputError as in coloured."""
     seen_from, bar = camera_of(camera, scene), None
     if scene.colouring is not None or scene.box is not None:
         # Bands of closed bodies are open, and no cut goes through a box with ticks.

@@ -253,7 +253,7 @@ def shadow_casters(
 
 
 def turned_to_light(view: View, planes: FacePlanes, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
-    """(i,) closed items, as of body_sides, that the light is outside of, and (f,) the faces that they turn to it."""
+    """(i,) closed items, see body_sides, that the light is outside of, and (f,) the faces that they turn to it."""
     side = np.where(_near_light(view, system), 0, body_sides(view))
     return side != 0, np.asarray(facing * side[view.face_item] > 0)
 

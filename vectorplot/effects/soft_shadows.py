@@ -1,4 +1,4 @@
-"""Soft borders of shadows, as of lamps that are no points, and shadows that overlap, united."""
+"""Soft borders of shadows, see lamps that are no points, and shadows that overlap, united."""
 
 from __future__ import annotations
 

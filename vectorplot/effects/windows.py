@@ -84,7 +84,7 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
     """The polygons, those that one can see through as every second, third or fourth of lines so far apart.
 
     The lines come after all polygons. page_from_world (4,4) as in Drawing.
-    Errors and degenerate cases as of screen_door.
+    Errors and degenerate cases as in screen_door.
     Source: Glaeser, section 6.6 (every second, third or fourth pixel), for pens.
     """
     clear = (fills.opacity < 1.0) & (np.diff(fills.offsets) > 2)
@@ -112,7 +112,7 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
 class SeenThrough(LineElements):
     """Polygons to be painted right after the windows they are seen through, in this order.
 
-    points (3,c) in the image, as of ImageFaces: heights are those of the doubles; offsets (m+1,); source (m,): the face
+    points (3,c) in the image, see ImageFaces: heights are those of the doubles; offsets (m+1,); source (m,): the face
     of the view that is seen; window (m,), ascending: the painted polygon each one is painted after; pane (m,): the face
     of the view that this window is, or is a part of: the mirror; decal (m,): the decal on that face that is seen, -1
     for the face itself.

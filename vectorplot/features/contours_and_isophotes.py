@@ -100,7 +100,7 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
 
 
 def contours(surfaces: Sequence[Surface], eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> list[SurfaceCurves]:
-    """The contours of many surfaces for one eye, as of `contour`: those of placed surfaces traced at once."""
+    """The contours of many surfaces for one eye, see `contour`: those of placed surfaces traced at once."""
     centre = vector("contour: eye", eye)
 
     def found(conditions: StackedConditions[Any]) -> list[SurfaceCurves]:
@@ -145,7 +145,7 @@ def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing
 def parallel_contours(
     surfaces: Sequence[Surface], direction: ArrayLike, *, tracing: Tracing = DEFAULT
 ) -> list[SurfaceCurves]:
-    """The contours of many surfaces for one direction, as of `parallel_contour`: those of placed surfaces traced at
+    """The contours of many surfaces for one direction, see `parallel_contour`: those of placed surfaces traced at
     once."""
 
     def found(conditions: StackedConditions[Any]) -> list[SurfaceCurves]:

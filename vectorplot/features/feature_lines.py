@@ -484,7 +484,7 @@ def surface_bending(surface: Surface, u: Floats, v: Floats) -> Bending:
 def implicit_bending(surface: ImplicitSurface, points: Floats, extent: float) -> Bending:
     """How an implicit surface bends at points (k,3) on it.
 
-    extent: of the surface. Error: as of surface_bending; where the surface has second derivatives by differences only,
+    extent: of the surface. Error: see surface_bending; where the surface has second derivatives by differences only,
     about 1e-4.
     Edge cases: not a number at singular points.
     """

@@ -60,14 +60,14 @@ def triangulate_surface(grid: ArrayLike, *, closed_u: bool = False, closed_v: bo
     grid : (m, n, 3) array_like of float
         Points, two or more each way.
     closed_u, closed_v : bool
-        As of `average_normals`.
+        See `average_normals`.
 
     Returns
     -------
     triangles : (2 (m-1) (n-1), 3) array of int
         They index the points row by row, i n + j, and turn as u to v does.
     normals : (m, n, 3) array of float
-        As of `average_normals`.
+        See `average_normals`.
 
     Raises
     ------
@@ -139,7 +139,7 @@ def mesh_of_grid(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = Fa
     grid : (m, n, 3) array_like of float
         Points, two or more each way.
     closed_u, closed_v : bool
-        As of `average_normals`: seams are closed.
+        See `average_normals`: seams are closed.
 
     Returns
     -------

@@ -155,7 +155,7 @@ def implicit_tangent_sections(
     surface: ImplicitSurface, normal: Floats, levels: Floats, *, tracing: ImplicitTracing
 ) -> ImplicitCurves:
     """The curves along which one of the planes n.x = d, n a unit normal, d of levels (k,), touches an implicit surface,
-    with d as level: as of tangent_sections."""
+    with d as level: see tangent_sections."""
     found = implicit_parallel_contour(surface, direction_across(normal), tracing=tracing)
     alone = replace(found, isolated=found.isolated[:0], nodes=found.nodes[:0], doubts=())
     return in_planes(alone, normal, levels, ZERO_OF_EXTENT * float(np.ptp(np.asarray(surface.box), axis=0).max()))

@@ -33,7 +33,7 @@ class ImplicitMesh:
     """An implicit surface as triangles that end on its singular lines.
 
     mesh: the triangles; on_line: (v,) which vertices are on a singular line; lines: where sheets of the surface cross
-    or end; doubts: A sentence where it could not be settled how the surface hangs together.
+    or end; doubts: A sentence where it could not be settled how the surface is connected.
     """
 
     mesh: Mesh
@@ -60,7 +60,7 @@ def implicit_mesh(surface: ImplicitSurface, cells: int) -> ImplicitMesh:
 
 def mesh_with_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines, cells: int) -> ImplicitMesh:
     """The surface polygonised as a mesh, of so many cells, up to its singular lines. Where it has none the mesh is made
-    finer until it is settled how it hangs together: with lines it never is, for sheets that cross are joined by chance.
+    finer until it is settled how it is connected: with lines it never is, for sheets that cross are joined by chance.
     """
     doubts: tuple[str, ...] = ()
     if not len(lines):

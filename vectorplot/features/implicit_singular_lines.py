@@ -438,7 +438,7 @@ def _polylines(equations: SingularEquations, beads: _SpuriousLoops, step: float)
 
 
 def _string_of(pairs: Ints, count: int) -> Ints:
-    """(count,) the smallest number of the points that each point hangs together with by pairs."""
+    """(count,) the smallest number of the points that each point is connected to by pairs."""
     return chained(count, pairs[:, 0], pairs[:, 1])
 
 

@@ -149,7 +149,7 @@ ROUNDS = 12
 """Steps of Newton's method for the vertices inside cells."""
 
 FINEST = 192
-"""Cells along the longest side to which a lattice is refined to settle how a surface hangs together."""
+"""Cells along the longest side to which a lattice is refined to settle how a surface is connected."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,7 +236,7 @@ def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
 
 
 def settled_mesh(surface: ImplicitSurface, cells: int = 64) -> tuple[Mesh, tuple[str, ...]]:
-    """The surface polygonised so finely that halving the cells last did not change how it hangs together: the number
+    """The surface polygonised so finely that halving the cells last did not change how it is connected: the number
     of its parts and their holes; and a sentence where that could not be reached.
 
     Errors: as for `polygonized`.
@@ -250,7 +250,7 @@ def settled_from(surface: ImplicitSurface, fine: Mesh, cells: int) -> tuple[Mesh
     while _connection(coarse) != _connection(fine):
         cells *= 2
         if cells > FINEST:
-            return fine, ("implicit surface: finer cells still change how it hangs together (a singular point?)",)
+            return fine, ("implicit surface: finer cells still change how it is connected (a singular point?)",)
         coarse, fine = fine, polygonized(surface, cells)
     return fine, ()
 

@@ -51,7 +51,7 @@ UNKNOWN = 7
 
 
 def mesh_bending(faces: FaceTriangles) -> Bending:
-    """How a mesh bends at its vertices, as of noisy_bending."""
+    """How a mesh bends at its vertices, see noisy_bending."""
     return noisy_bending(faces, np.ones(len(faces.mesh.vertices)))[0]
 
 

@@ -261,7 +261,7 @@ class FaceFieldFlow:
 def face_field_flow(sides: MeshSides, given: BentFaces, field: TangentField) -> FaceFieldFlow:
     """The flow of a field with one direction a face, that at its barycentre.
 
-    Errors: InputError for fields that need parameters, and as of FaceFieldFlow.
+    Errors: InputError for fields that need parameters, and as in FaceFieldFlow.
     """
     # Parts of a face that is not plane have planes of their own.
     centres = face_barycentres(given.mesh)[sides.source]
@@ -628,7 +628,7 @@ def led_curves(
     both_ways: bool,
     beside: float = 0.0,
 ) -> MeshCurves:
-    """The lines of a flow as curves, both ways joined; beside: as of mesh_traces."""
+    """The lines of a flow as curves, both ways joined; beside: see mesh_traces."""
     longest = USUAL_LENGTH * sides.extent if length is None else positive("integral curves: length", length)
     count = len(face)
     if not count:

@@ -117,7 +117,7 @@ def self_intersections_of_parts(faces: Faces, part: Ints, tolerance: float) -> I
 def _over_planes(
     faces: Faces, normals: Floats, which: Ints, planes: Ints, tolerance: float
 ) -> tuple[Floats, Floats, NDArray[np.int8]]:
-    """As of _reach, over the planes of other faces."""
+    """See _reach, over the planes of other faces."""
     origin = faces.points.take(faces.corners[faces.offsets[planes]], axis=1)
     return _reach(faces, which, normals.take(planes, axis=1), origin, tolerance)
 
@@ -220,7 +220,7 @@ def _pairs_in_groups(low: Floats, high: Floats, group: Ints, face: Ints) -> tupl
 
 
 def _patches(faces: Faces, part: Ints, low: Floats, high: Floats, face: Ints) -> Ints:
-    """(f,) a patch of every one of some faces, -1 of the others: those of a part in a cell of a grid that hang together
+    """(f,) a patch of every one of some faces, -1 of the others: those of a part in a cell of a grid that are connected
     by vertices."""
     middle = (low.take(face, axis=1) + high.take(face, axis=1)) / 2.0
     size = (high - low).take(face, axis=1)

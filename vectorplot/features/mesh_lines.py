@@ -484,6 +484,6 @@ def face_frames(mesh: Mesh, faces: Ints) -> tuple[Floats, Floats, Floats]:
 
 
 def pattern_outline(mesh: Mesh, face: int, points: Floats) -> Floats:
-    """(k,3) the points (k,2) given in a face's own coordinates, in space. Errors: as of face_frames."""
+    """(k,3) the points (k,2) given in a face's own coordinates, in space. Errors: see face_frames."""
     origin, along, left = face_frames(mesh, np.array([face]))
     return np.asarray(origin + points[:, :1] * along + points[:, 1:] * left, dtype=np.float64)

@@ -68,7 +68,7 @@ def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Traci
 def parameter_lines_of_each(
     surfaces: Sequence[Surface], counts: Sequence[tuple[int, int]], *, tracing: Tracing = DEFAULT
 ) -> list[SurfaceCurves]:
-    """As of `parameter_lines` for many surfaces, each with its own columns and rows: those of placed surfaces are
+    """See `parameter_lines` for many surfaces, each with its own columns and rows: those of placed surfaces are
     traced at once."""
     values: list[tuple[Floats, Floats]] = []
     for surface, (columns, rows) in zip(surfaces, counts, strict=True):
@@ -108,7 +108,7 @@ def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) 
 def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines at which a surface ends: ends of its domain, but not where it closes nor poles, and rims of its holes.
 
-    surface: on which they run; tracing: its tolerance, picture and budget count; result: as of `u_lines` and `v_lines`.
+    surface: on which they run; tracing: its tolerance, picture and budget count; result: see `u_lines` and `v_lines`.
     Rims are where the points of the surface are not finite any more, and where it is cut off because it runs to
     infinity; their level is 0. Edge cases: holes smaller than half a cell of the tracing's grid may be missed.
     """

@@ -1,4 +1,4 @@
-"""Integral curves of one field that cover a surface evenly, as if it were combed."""
+"""Integral curves of one field that cover a surface evenly."""
 
 from __future__ import annotations
 
@@ -502,7 +502,7 @@ def taken_in_turn(lines: SampledCurves, group: Ints, free: Bools, pairs: Ints, s
     """(s,3) which curves of a group to keep, one after the other, and their first and last places. free (p,): places
     that are not beside what is taken; those beside curves that are kept, and beside their own, are free no more.
 
-    pairs, seeds: as of beside_each_other.
+    pairs, seeds: see beside_each_other.
     """
     one, two = pairs
     # Of two places of one curve the one that is reached later is beside the other.
@@ -545,7 +545,7 @@ def _span(free: Bools, seed: int, begin: int, end: int) -> tuple[int, int]:
     return low, (seed + int(after[0]) if len(after) else end) - 1
 
 
-# Integral curves of one field that cover a surface evenly, as if it were combed.
+# Integral curves of one field that cover a surface evenly.
 
 DRAWN = Accuracy(INTEGRATED_AS_DRAWN)
 """How well curves are integrated that are only to be drawn."""

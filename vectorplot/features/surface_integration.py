@@ -802,7 +802,7 @@ def geodesics(
     Raises
     ------
     InputError
-        As of `integral_curves`; for angles that are not finite.
+        See `integral_curves`; for angles that are not finite.
 
     Notes
     -----
@@ -836,7 +836,7 @@ def curves_from(
     accuracy: Accuracy,
     tracing: Tracing,
 ) -> SurfaceCurves:
-    """The curves of a flow from u and v (k,2) along tangents (k,3); what else is said as of integral_curves."""
+    """The curves of a flow from u and v (k,2) along tangents (k,3); what else is said as in integral_curves."""
     size, large = extent(flow.surface)
     if size == 0.0 or not len(starts):
         return no_curves()
@@ -856,7 +856,7 @@ def traces_from(
     until: Until = NOTHING_NEAR,
 ) -> Courses:
     """The traces of a flow from u and v (k,2) along tangents (k,3), and, where there are two sides, as many more the
-    other way. extent_: as of the surface; until: as of traces."""
+    other way. extent_: of the surface; until: see traces."""
     way = np.repeat([1.0, -1.0][:sides], len(starts))
     return traces(
         flow,
@@ -871,7 +871,7 @@ def traces_from(
 
 
 def starts_of(surface: Surface, starts: ArrayLike, what: str = "integral curves: start") -> Floats:
-    """(k,2) the parameters that curves are to begin with. Errors: InputError as of `integral_curves`."""
+    """(k,2) the parameters that curves are to begin with. Errors: InputError as in `integral_curves`."""
     check_parametrised(surface)
     at = np.atleast_2d(np.asarray(starts, dtype=np.float64))
     d = surface.domain

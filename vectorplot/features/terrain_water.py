@@ -181,8 +181,8 @@ def watersheds(mesh: Mesh) -> MeshCurves:
 def valley_lines(mesh: Mesh) -> MeshCurves:
     """The lines of a terrain along which waters gather: from the saddles down to the pits.
 
-    mesh: of triangles, none above another; result: as of `watersheds`, for the falling ground.
-    Source: as of `watersheds`.
+    mesh: of triangles, none above another; result: see `watersheds`, for the falling ground.
+    Source: see `watersheds`.
     Errors: for a mesh of other faces.
     """
     return _from_saddles(mesh, -1.0)
@@ -277,7 +277,7 @@ def _branches(mesh: Mesh, sign: float) -> tuple[Ints, Ints, Ints]:
     row = np.flatnonzero((inner & (changes > 2.0))[here] & (above_one | above_two))
     if not len(row):
         return (np.zeros(0, dtype=np.intp),) * 3
-    # Nodes: the rising ends of the edges at saddles; those of one triangle hang together.
+    # Nodes: the rising ends of the edges at saddles; those of one triangle are connected.
     ends = np.stack([here[row] * count + one[row], here[row] * count + two[row]], axis=1)
     rising = np.stack([above_one[row], above_two[row]], axis=1)
     key, node = np.unique(ends[rising], return_inverse=True)

@@ -676,7 +676,7 @@ def facets_of_all(shapes: Sequence[Any], criterion: Callable[[int], Criterion], 
 
     criterion: how fine those of a shape have to be, by its number; most: triangles of each. What is no surface of a
     family, such as a user's own function, is divided alone.
-    Errors: as of facets.
+    Errors: see facets.
     """
     made: dict[int, Facets] = {}
     families: dict[Hashable, list[int]] = {}

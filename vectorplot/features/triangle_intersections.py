@@ -461,7 +461,7 @@ class _Pass:
         return _Pass(one.points(a), two.points(b), frames, slopes, bends)
 
     def steps(self) -> tuple[Floats, Floats]:
-        """(2,k,3) the way of both points to where the height is stationary, as of parabolas; its length (k,)."""
+        """(2,k,3) the way of both points to where the height is stationary, see parabolas; its length (k,)."""
         axes = self.frames[:, :2]
         half = 0.5 * np.einsum("kij,kj->ki", axes, self.q - self.p)
         # Both patches seen from the point between: the first lies at -half, the second at +half.

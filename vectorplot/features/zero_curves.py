@@ -717,7 +717,7 @@ def zero_manifolds(
     """The curves f(u, v) = 0 of many functions, each over a domain of its own, all traced at once.
 
     values: (s, columns+1, rows+1) those of f on the grids, where they are known already.
-    Source: as of `zero_manifold_of_f_uv`.
+    Source: see `zero_manifold_of_f_uv`.
     """
     for domain in domains:
         check_grid(domain, columns, rows, resolution)

@@ -246,7 +246,7 @@ class Camera:
         target : (float, float, float)
             In world coordinates.
         fov_deg, parallel, height : optional
-            As of Camera.
+            See Camera.
 
         Returns
         -------
@@ -292,7 +292,7 @@ class Camera:
         eye, target : (float, float, float)
             In world coordinates.
         twist_deg : float
-            As of Camera.
+            See Camera.
 
         Returns
         -------

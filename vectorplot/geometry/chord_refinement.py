@@ -160,7 +160,7 @@ def _probed(
     between: Between, image: Image, points: Floats, images: Floats, first: Ints
 ) -> tuple[Floats, Bools, Floats, Floats, Floats]:
     """Of the chords from points first (k,) to the next ones: the probes (j,k,c) of their curves, whether (k,) all of
-    them are found, their images (j,k,d), and as of `deviation` how far these are from the chord, and its length."""
+    them are found, their images (j,k,d), and as in `deviation` how far these are from the chord, and its length."""
     a, b = points[first], points[first + 1]
     starts, ends = (np.concatenate([x] * len(PROBES)) for x in (a, b))
     places, on = between(starts, ends, np.repeat(PROBES, len(first)))

@@ -92,7 +92,7 @@ def scrambled(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return mixed ^ (mixed >> np.uint64(31))
 
 
-# The pieces that faces make: what hangs together.
+# The pieces that faces make: what is connected.
 
 
 def pieces_of_faces(vertices: int, corners: Ints, offsets: Ints) -> tuple[int, Ints]:

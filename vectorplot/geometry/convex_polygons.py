@@ -170,7 +170,7 @@ def convex_hull(points: ArrayLike) -> Ints:
 
 def convex_hulls(points: Floats, offsets: Ints) -> tuple[Ints, Ints]:
     """The convex hulls of many sets of points: set i has the points offsets[i] to offsets[i+1] of points (n, 2 or more
-    columns). Returns the corners of all hulls (h,), as indices into points, and their offsets; each as of convex_hull.
+    columns). Returns the corners of all hulls (h,), as indices into points, and their offsets; each as in convex_hull.
 
     All sets are worked on at once: round by round the point that is farthest outside each side becomes a corner. On
     which side a point lies is decided exactly.

@@ -208,7 +208,7 @@ class MeshReport:
     """What a mesh is like.
 
     vertices, faces, edges: how many there are; boundary_edges: edges of one face only; nonmanifold_edges: edges of more
-    than two faces; components: pieces that hang together; closed: no boundary edge; oriented: neighbours agree about
+    than two faces; components: pieces that are connected; closed: no boundary edge; oriented: neighbours agree about
     the outside; convex: closed, oriented and convex within 1e-9 of its extent; bounds: ((float, float, float), (float,
     float, float)) smallest and largest coordinates.
     """
@@ -404,7 +404,7 @@ def _with_own_vertices(mesh: Mesh, piece: Ints, shared: Ints) -> Mesh:
     """The mesh in which different pieces (f,) have no vertices in common but those that are shared (edges of several
     pieces end there).
 
-    Pieces that touch in a point do not hang together: where else they pierce each other an intersection is drawn.
+    Pieces that touch in a point are not connected: where else they pierce each other an intersection is drawn.
     """
     of = piece[mesh.corner_face]
     owner = np.zeros(len(mesh.vertices), dtype=np.intp)

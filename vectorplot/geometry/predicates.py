@@ -43,7 +43,7 @@ def orient2d(a: ArrayLike, b: ArrayLike, c: ArrayLike) -> Signs:
 def orient3d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Signs:
     """1 where a, b, c run counter-clockwise seen from d (for a face of a solid: d is outside), -1 clockwise, 0
     coplanar: the exact sign of det(b-a, c-a, d-a), as in orient2d. a, b, c, d (...,3).
-    Source: Shewchuk, as of orient2d. Errors: InputError for other shapes and coordinates not finite.
+    Source: Shewchuk, see orient2d. Errors: InputError for other shapes and coordinates not finite.
     """
     points = _broadcast(3, a, b, c, d)
     with np.errstate(all="ignore"):

@@ -394,7 +394,7 @@ class Projection:
 
     @cached_property
     def image_from_world(self) -> Floats:
-        """(3,4) homogeneous image coordinates, as of image but in world units, from world points (x,y,z,1)."""
+        """(3,4) homogeneous image coordinates, see image but in world units, from world points (x,y,z,1)."""
         rotation = np.zeros((4, 4))
         rotation[:3, :3] = self.axes / self.scale
         rotation[:3, 3] = matmul(-self.axes, self.centre / self.scale)

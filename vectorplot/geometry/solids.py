@@ -574,7 +574,7 @@ def is_planar(points: ArrayLike) -> bool:
 def swept_polygon(
     base_points: ArrayLike, vector: ArrayLike, *, caps: Collection[str] = BOTH_CAPS, holes: Sequence[ArrayLike] = ()
 ) -> Mesh:
-    """The body that prism makes, whether its base is planar or not, without a word about it. Errors: as of prism."""
+    """The body that prism makes, whether its base is planar or not, without a word about it. Errors: see prism."""
     base = checked_points(base_points, "base_points")
     if len(base) < 3:
         raise InputError(f"a base needs at least three points, not {len(base)}")

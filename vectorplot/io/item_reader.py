@@ -215,7 +215,7 @@ def _read_named_material(reader: ItemCursor, draft: Draft) -> None:
 
 
 def read_face_look(reader: ItemCursor, draft: Draft) -> FaceLook | None:
-    """The look of a face, in words as of items: a colour, a material and its numbers, opacity; None where none stands
+    """The look of a face, in words as in items: a colour, a material and its numbers, opacity; None where none stands
     here."""
     own = Draft(draft.name, draft.index)
     own.owner = f"{draft.owner}a face: "

@@ -169,7 +169,7 @@ def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
     in data/, as it is and with the suffix .scene; of the name ``-`` the one in the scene language on
     standard input, in which names of files are relative to the folder that one is in.
 
-    Errors: InputError as of read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
+    Errors: InputError as in read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
     """
     if name != STANDARD_INPUT:
         with suppress(InputError):

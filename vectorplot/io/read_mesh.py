@@ -42,7 +42,7 @@ def mesh_scene(path: Path) -> Scene:
 
 
 def whole_mesh(path: Path) -> tuple[Mesh, Fields | None, FaceLooks | None]:
-    """All parts of a mesh file in one mesh, its fields, and looks of its faces. Errors, warnings: as of mesh_scene."""
+    """All parts of a mesh file in one mesh, its fields, and looks of its faces. Errors, warnings: see mesh_scene."""
     items = mesh_scene(path).items
     meshes = [item.mesh for item in items]
     if len(meshes) == 1:

@@ -48,7 +48,7 @@ def hatched_in_place(
     tolerance_mm: float,
     budget: float,
 ) -> Paths:
-    """The strokes in what is seen of a scene's faces, as they come. hatch and all else as of draw."""
+    """The strokes in what is seen of a scene's faces, as they come. hatch and all else as in draw."""
     from vectorplot.pictures.fills import hatched
 
     pipeline = shapes.pipeline
@@ -112,7 +112,7 @@ def draw(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is drawn, as of `io.scene_of`.
+        What is drawn, see `io.scene_of`.
     camera : Camera or str, optional
         Or the name of a main view, such as "front" or "iso"; where None that of the scene, else default_camera.
     page : Page or str, optional
@@ -190,7 +190,7 @@ def draw(
     Raises
     ------
     InputError
-        As of `io.scene_of`.
+        See `io.scene_of`.
         For unknown words and layers, impossible cameras, and widths and angles out of range; for a tolerance or a
         budget that is not finite and positive; for hidden lines, a halo, a hatching, a depth cue or layers other than
         by kind in a wireframe, which has colours of its own.

@@ -61,16 +61,16 @@ def panorama(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        As of `draw`.
+        See `draw`.
     place : Panorama or sequence of float
         From where, and which part of the round; or only the eye, or x and y on a terrain.
-    page, width, lines, crease_angle_deg : as of draw
+    page, width, lines, crease_angle_deg : see draw
         Items' own lines come first, as there.
-    style, pens, dashes, background, layers, unplotted : as of draw
+    style, pens, dashes, background, layers, unplotted : see draw
         Of a style that shows hidden lines none of them are here.
-    curves, tolerance_mm, title, frame, longest_mm : as of draw
+    curves, tolerance_mm, title, frame, longest_mm : see draw
         Lines of smooth surfaces leave as curves, straight ones, which are none here, as polylines.
-    budget, jobs, progress, explain : as of draw
+    budget, jobs, progress, explain : see draw
         Progress is told for each quarter of the round.
 
     Returns
@@ -82,7 +82,7 @@ def panorama(
     Raises
     ------
     InputError
-        As of `draw` and `Panorama`; for a place of x and y where there is no terrain, and a wireframe.
+        See `draw` and `Panorama`; for a place of x and y where there is no terrain, and a wireframe.
 
     Notes
     -----

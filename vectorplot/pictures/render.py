@@ -110,9 +110,9 @@ def render(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is shown, as of `io.scene_of`.
+        What is shown, see `io.scene_of`.
     camera : Camera or str, optional
-        As of draw.
+        See draw.
     size : (int, int)
         Columns and rows, in pixels.
     margin_pixels : float, optional
@@ -123,7 +123,7 @@ def render(
     lights : sequence of Light, optional
         In place of those of the scene.
     exposure : float or {"fitted"}, optional
-        As of paint.
+        See paint.
     shadows : {"auto", "none", "buffer", "trapezoid", "perspective", "exact"}
         Of these lights, found with shadow buffers, plain ones or two kinds that show most of what is near the eye, or
         exactly; auto: as the view calls for.
@@ -149,19 +149,19 @@ def render(
     lines : str or iterable of str
         Words of LineKind, or one text with commas between them, drawn over the picture with exact hidden lines.
     style : Style or str, optional
-        As of draw, without wireframes: its pens, dashes and paper.
+        See draw, without wireframes: its pens, dashes and paper.
     pens : str, Pen, mapping or iterable of str, optional
-        As of draw, for lines over the picture, 96 pixels an inch; without them lines are a pixel wide.
+        See draw, for lines over the picture, 96 pixels an inch; without them lines are a pixel wide.
     dashes : str, mapping or iterable of str, optional
-        As of draw, for the same lines.
+        See draw, for the same lines.
     depth_cue : DepthCue or str, optional
-        As of draw, for lines over the picture.
+        See draw, for lines over the picture.
     background : str, optional
         A palette, a plain colour or #rrggbb.
     budget : float
-        As of draw, for lines and triangles.
+        See draw, for lines and triangles.
     jobs : int, optional
-        As of draw.
+        See draw.
     progress : callable, optional
         progress(stage, fraction) is called while it works.
     explain : callable, optional
@@ -177,7 +177,7 @@ def render(
     TypeError
         For what is nothing of that kind.
     InputError
-        As of `io.scene_of`.
+        See `io.scene_of`.
         For unknown words and colours, impossible cameras, and sizes and margins out of range; for a budget that is not
         finite and positive, and for lights without a direction or too far away.
 

@@ -63,7 +63,7 @@ def with_lines(
     Raises
     ------
     InputError
-        For more than 10000 planes in all, and as of SurfaceLines.
+        For more than 10000 planes in all, and as in SurfaceLines.
 
     Notes
     -----
@@ -211,7 +211,7 @@ def round_sections(
     Raises
     ------
     InputError
-        As of `round_heights` and `level_sections`, and for a scene without extent along the normal.
+        See `round_heights` and `level_sections`, and for a scene without extent along the normal.
 
     Examples
     --------

@@ -125,7 +125,7 @@ class Cut:
 
         text: conditions with commas between them, such as y = 0, x + 2y - z > 3 or 0 < x < 2: what all of them hold for
         is taken away; of a plane with = what is on the side of the eye; away, colour, spacing_mm, angle_deg: what
-        becomes of what is taken away, and how the faces of the cut are coloured and hatched: as of Cut; result: with a
+        becomes of what is taken away, and how the faces of the cut are coloured and hatched: see Cut; result: with a
         plane for each sign.
         Errors: for what is no condition, for one on which x, y and z have no effect, and for numbers out of range.
         """
@@ -245,7 +245,7 @@ AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 class Explosion:
     """The parts of a scene are moved apart along an axis, as `vp.exploded` does it, when the scene is shown.
 
-    axis: the first part stays, the others move along it; factor: as of `vp.exploded`.
+    axis: the first part stays, the others move along it; factor: see `vp.exploded`.
     """
 
     axis: str | tuple[float, float, float] = "z"

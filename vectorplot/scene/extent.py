@@ -98,7 +98,7 @@ def _check_spread(points: Floats, what: str) -> None:
 def bounds_of_surfaces(surfaces: Sequence[Surface]) -> Floats:
     """(s,2,3) smallest and largest coordinates of parametrised surfaces, of many at once.
 
-    Errors, error, degenerate behaviour: as of `smooth_bounds`; it does not say which surface an error is about.
+    Errors, error, degenerate behaviour: see `smooth_bounds`; it does not say which surface an error is about.
     """
     result = np.empty((len(surfaces), 2, 3))
     # Those with one domain stand together: their parameters are then the same.

@@ -95,7 +95,7 @@ def fitted_with_room(projection: Projection, page: Page, image: Floats, low_mm: 
     """The place of a picture that fills the page with points (2,n) of the image and with room beside them: rectangles
     from low_mm (2,n) to high_mm (2,n), counted from the points on the page.
 
-    Edge cases: as of fitted_picture; so it is, without the room, where a page has no place for that at all.
+    Edge cases: see fitted_picture; so it is, without the room, where a page has no place for that at all.
     """
     plain = fitted_picture(projection, page, image)
     most = np.array(page.room)
@@ -128,7 +128,7 @@ def _reach(scale: float, image: Floats, low_mm: Floats, high_mm: Floats) -> tupl
 def fitted(page: Page, low: Floats, high: Floats) -> Floats:
     """(3,3) matrix from image to page: the box from low to high (2,) fills the page but for its margin, in the middle.
 
-    Edge cases: as of fitting_scale; the box goes to the middle.
+    Edge cases: see fitting_scale; the box goes to the middle.
     """
     scale = fitting_scale(page, high - low)
     middle = np.array([page.width_mm, page.height_mm]) / 2.0

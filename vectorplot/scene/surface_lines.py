@@ -834,7 +834,7 @@ def round_heights(low: float, high: float, count: int = USUAL_COUNT) -> tuple[fl
 
 
 def with_index_lines(section: Section, every: int) -> tuple[Section, ...]:
-    """The planes of a section, every k-th of them a section of index lines, as of `level_sections`; these alone are
+    """The planes of a section, every k-th of them a section of index lines, see `level_sections`; these alone are
     numbered, where the section is."""
     if every < 0:
         raise InputError(f"index lines: every {every}, expected 0 or more")

@@ -52,7 +52,7 @@ def level_sections(heights: Sequence[float], every: int = USUAL_EVERY) -> tuple[
     Raises
     ------
     InputError
-        For a number below 0, and as of Section.
+        For a number below 0, and as in Section.
 
     Notes
     -----
@@ -148,7 +148,7 @@ def terrain_scene(
     Raises
     ------
     InputError
-        As of `terrain_mesh`; for an exaggeration that is not positive and finite.
+        See `terrain_mesh`; for an exaggeration that is not positive and finite.
 
     Examples
     --------

@@ -395,7 +395,7 @@ def first_coincident(view: View) -> Ints:
 
 
 def _alike(items: Ints, said: list[NDArray[Any]]) -> tuple[Ints, list[NDArray[Any]], Ints]:
-    """Those items (k,) of which the same is said as of another one, with what is said, and the first one of each."""
+    """Those items (k,) of which the same is said as in another one, with what is said, and the first one of each."""
     order = np.lexsort((items, *said))
     new = np.ones(len(items), dtype=np.bool_)
     new[1:] = np.logical_or.reduce([column[order[1:]] != column[order[:-1]] for column in said])

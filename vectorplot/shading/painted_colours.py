@@ -43,8 +43,8 @@ POINTS_AT_ONCE = 1 << 16
 
 @dataclass(frozen=True, eq=False)
 class Lighting:
-    """What colours are made of: items and lights of the view, the latter as of view_lights; normals (3,c) at the
-    corners of the faces of the view, as of painted_normals; plane (f,) as of plane_numbers; size: shades of each
+    """What colours are made of: items and lights of the view, the latter as in view_lights; normals (3,c) at the
+    corners of the faces of the view, see painted_normals; plane (f,) as in plane_numbers; size: shades of each
     palette; doubles: of lights in mirrors, where such light falls; ambient: what ambient light adds everywhere, where
     None more to what is nearer to the eye; smooth_size: shades on smooth surfaces, where None without steps."""
 

@@ -294,7 +294,7 @@ class SceneTriangles:
 
 
 def scene_triangles(view: View, normals: Sequence[TrueNormals | None], crease_angle_deg: float) -> SceneTriangles:
-    """The faces of a view; normals and crease angle as of view_normals."""
+    """The faces of a view; normals and crease angle as in view_normals."""
     fans, face = ragged.fans(view.offsets)
     points = np.ascontiguousarray(view.points.T)
     corner_normals = view_normals(view, normals, crease_angle_deg)

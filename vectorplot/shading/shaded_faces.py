@@ -45,7 +45,7 @@ from vectorplot.visibility.projected_faces import newell
 # Shades of the faces of a view, and of their corners: what each light gives, and all of them together.
 
 HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
-"""The light of a view of a scene without lights, in the view's coordinates; it throws no shadows."""
+"""The light of a view of a scene without lights, in the view's coordinates; it casts no shadows."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -148,7 +148,7 @@ def face_shades(view: View, items: Sequence[Item], lights: Sequence[Light]) -> S
     items : sequence of Item
         Of the view's scene.
     lights : sequence of Light
-        In the view's coordinates, as of view_lights.
+        In the view's coordinates, see view_lights.
 
     Returns
     -------
@@ -182,7 +182,7 @@ def face_shades(view: View, items: Sequence[Item], lights: Sequence[Light]) -> S
 
 
 def decal_shades(view: View, items: Sequence[Item], lights: Sequence[Light], points: Floats, face: Ints) -> Shades:
-    """The shades of points (3,n) that lie on some faces (n,) of a view; arguments as of face_shades."""
+    """The shades of points (3,n) that lie on some faces (n,) of a view; arguments as in face_shades."""
     normals = face_normals(view)[:, face]
     outer = facing(normals.T, towards(points.T, view_eye(view)))
     return point_shades(view, items, lights, points.T, outer, view.shown_item[face])
@@ -191,7 +191,7 @@ def decal_shades(view: View, items: Sequence[Item], lights: Sequence[Light], poi
 def point_shades(
     view: View, items: Sequence[Item], lights: Sequence[Light], points: Floats, normals: Floats, item: Ints
 ) -> Shades:
-    """The shades of points (n,3) with unit normals (n,3), of surfaces of items (n,); the others as of face_shades."""
+    """The shades of points (n,3) with unit normals (n,3), of surfaces of items (n,); the others as in face_shades."""
     eye = view_eye(view)
     own_finish = [finish_of(some.material) for some in items]
     finishes = list(dict.fromkeys(own_finish))
@@ -380,7 +380,7 @@ class CornerNormals:
 
 
 def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle_deg: float) -> CornerNormals:
-    """The normals at the corners of the triangles (t, 3) that the faces of a view make, as of ragged.fans.
+    """The normals at the corners of the triangles (t, 3) that the faces of a view make, see ragged.fans.
 
     normals: for every item those of its true surface, None where its faces are flat or, where they meet at less than
     the crease angle, look round.
@@ -402,7 +402,7 @@ def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle
 
 
 def at_corners(view: View, normals: CornerNormals) -> Floats:
-    """(3, c) the normals, as of view_normals, at the corners of the faces of a view."""
+    """(3, c) the normals, see view_normals, at the corners of the faces of a view."""
     place, _ = ragged.fans(view.offsets)
     found = np.zeros((3, len(view.corners)))
     found[:, place.ravel()] = normals.normals[normals.index.ravel()].T
@@ -509,7 +509,7 @@ def _with_creases(
 
 def plane_numbers(view: View) -> Ints:
     """(f,) the number of the region that each face of a view is a part of: of the faces of one item that lie in one
-    plane, and hang together by edges of two faces.
+    plane, and are connected by edges of two faces.
 
     A corner may be off the plane by FLAT_OF_EXTENT; where a region would be bent more than that, as on surfaces of very
     small faces, only what is flat within the tolerance of the view is taken together.
@@ -620,7 +620,7 @@ class ExposedLight(Light):
 
 
 def exposed_scene(view: View, scene: Scene) -> tuple[Scene, tuple[Light, ...]]:
-    """A scene with lights as its exposure has them, and these in the view: at least one, as of view_lights.
+    """A scene with lights as its exposure has them, and these in the view: at least one, see view_lights.
 
     view: of the scene, surfaces as triangles. A fitted exposure is such that the brightest of the faces that are seen,
     wherever shadows fall, just reaches the end of the lights' part of the palette. Edge cases: in the dark it is 1.

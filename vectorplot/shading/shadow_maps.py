@@ -473,7 +473,7 @@ def _focus_share(system: CoordinateSystem, frame: Floats, region: SeenRegion) ->
 def shape_of(frame: Floats, size: int) -> tuple[int, int]:
     """Columns and rows of a map of about size x size texels that are square in the middle of what it shows.
 
-    frame (3, 3): as of shadow_map. No side is longer than four times the other.
+    frame (3, 3): see shadow_map. No side is longer than four times the other.
     Source: Martin and Tan, recipe, tips (textures that are no squares).
     """
     ends = np.array([[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0], np.ones(4)])

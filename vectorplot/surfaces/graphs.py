@@ -335,13 +335,13 @@ def graph_over_disc(
     Parameters
     ----------
     function : callable
-        As of `graph`.
+        See `graph`.
     disc : Disc
         Its border is the circle itself; u = 0 is a pole.
     hole : float
         The radius of a concentric hole, less than that of the disc.
     slopes : sequence of callables
-        As of `graph`: the derivatives by x and by y.
+        See `graph`: the derivatives by x and by y.
 
     Returns
     -------
@@ -351,7 +351,7 @@ def graph_over_disc(
     Raises
     ------
     InputError
-        As of `graph`, and unless the hole is smaller than the disc.
+        See `graph`, and unless the hole is smaller than the disc.
 
     Warns
     -----
@@ -360,7 +360,7 @@ def graph_over_disc(
 
     Notes
     -----
-    Edge cases: as of `graph`.
+    Edge cases: see `graph`.
 
     Examples
     --------

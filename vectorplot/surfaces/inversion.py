@@ -64,7 +64,7 @@ class InvertedSurface(MovableSurface):
     """A parametrised surface inverted in a sphere.
 
     surface: what is inverted; centre: (3,) of the sphere, in world units; radius: of the sphere, positive.
-    Source: as of inverted.
+    Source: see inverted.
     """
 
     surface: Surface

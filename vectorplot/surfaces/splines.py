@@ -51,7 +51,7 @@ class SplineSurface(MovableSurface):
         The control points, in world units: u runs along the first index, v along the second. Those of a closed
         direction come again.
     knots_u, knots_v : (m + order_u,), (n + order_v,) array_like of float
-        As of a SplineCurve of that order.
+        That of a SplineCurve of that order.
     order_u, order_v : int
         One more than the degrees of its polynomials, 2 to 32.
     weights : (m, n) array_like of float, optional
@@ -261,7 +261,7 @@ def spline_surface(grid: ArrayLike, u: SplineKind | None = None, v: SplineKind |
         In world units: u runs along the first index, v along the second. Without the first line again at the end where
         a kind is closed.
     u, v : SplineKind, optional
-        As of `spline_curve`: AkimaSpline, CubicSpline, InterpolatingSpline, ApproximatingSpline or BSpline; where u is
+        See `spline_curve`: AkimaSpline, CubicSpline, InterpolatingSpline, ApproximatingSpline or BSpline; where u is
         None the cubic B-spline, where v is None the kind of u.
 
     Returns
@@ -323,7 +323,7 @@ def nurbs_surface(
     knots : pair of array_like of float, optional
         Along u and along v; where None those of `BSpline`.
     closed : (bool, bool)
-        As of `nurbs_curve`, along u and along v.
+        See `nurbs_curve`, along u and along v.
 
     Returns
     -------
@@ -333,7 +333,7 @@ def nurbs_surface(
     Raises
     ------
     InputError
-        As of `SplineSurface`.
+        See `SplineSurface`.
 
     Notes
     -----

@@ -319,14 +319,14 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
 
 
 def tangent_planes(surface: Surface, u: Floats, v: Floats) -> tuple[FirstJets, Floats]:
-    """Points and derivatives by u and by v, and unit normals as of `unit_normals`, each (..., 3), at parameters u, v
+    """Points and derivatives by u and by v, and unit normals as in `unit_normals`, each (..., 3), at parameters u, v
     (...)."""
     points, along_u, along_v = first_jets(surface, u, v)
     return (points, along_u, along_v), unit_normals_of(surface, u, v, (along_u, along_v))
 
 
 def points_and_normals(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-    """Points, and unit normals as of `unit_normals`, each (..., 3)."""
+    """Points, and unit normals as in `unit_normals`, each (..., 3)."""
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
     (points, _, _), normals = tangent_planes(surface, u, v)
     return points, normals

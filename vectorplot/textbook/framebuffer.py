@@ -452,7 +452,7 @@ def _first(wanted: Bools, starts: Ints) -> Ints:
 class Erased:
     """A sequence of fills in the colour of the paper and of edges, which leaves the lines that one sees.
 
-    start, end: (3, e) the edges in the image, as of ImageFaces; first: (n+1,) after the polygon k of the painted faces
+    start, end: (3, e) the edges in the image, see ImageFaces; first: (n+1,) after the polygon k of the painted faces
     is filled, the edges first[k] to first[k+1] are drawn.
     """
 
@@ -555,7 +555,7 @@ def interleaved(painted: ImageFaces, erased: Erased) -> list[tuple[Floats, Float
     painted : ImageFaces
         The polygons, back to front.
     erased : Erased
-        As of erasing_edges.
+        See erasing_edges.
 
     Returns
     -------

@@ -37,7 +37,7 @@ from vectorplot.visibility.projected_faces import project_faces
 class Objects:
     """Items, or groups of them, as an eye or a lamp sees them.
 
-    view: as of scene.look; faces: those drawn; owner: (n,) the object of each face, -1 for none; box: (6, k) smallest
+    view: see scene.look; faces: those drawn; owner: (n,) the object of each face, -1 for none; box: (6, k) smallest
     and largest x, y and height of each object in the image; around: boxes and spheres in the view.
     """
 
@@ -57,7 +57,7 @@ def view_objects(view: View, object_of: ArrayLike | None = None) -> Objects:
     Parameters
     ----------
     view : View
-        As of scene.look; the view of a lamp makes the system of a lamp: there in front means nearer to the lamp.
+        See scene.look; the view of a lamp makes the system of a lamp: there in front means nearer to the lamp.
     object_of : (i,) array_like of int, optional
         The object that each item belongs to, from 0 on, or -1 for none; every item is an object where None.
 
@@ -165,7 +165,7 @@ def priorities(objects: Objects, subset: ArrayLike | None = None, *, critical: b
     Parameters
     ----------
     objects : Objects
-        As of view_objects.
+        See view_objects.
     subset : (k,) array_like of int, optional
         Some of the objects; all of them where None.
     critical : bool
@@ -211,7 +211,7 @@ def demands(table: Codes) -> tuple[Ints, Ints]:
     Parameters
     ----------
     table : (k, k) array of int8
-        As of priorities.
+        See priorities.
 
     Returns
     -------
@@ -279,7 +279,7 @@ def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
 class ObjectOrder:
     """An order of whole objects, and the cycles that have none.
 
-    order: (n,) objects back to front; cycles: the objects that lie on one another in circles, circle by circle;
+    order: (n,) objects back to front; cycles: the objects that overlap cyclically, cycle by cycle;
     critical: whether the second, slower pass was needed; undone: groups that had to be taken apart.
     """
 
@@ -290,7 +290,7 @@ class ObjectOrder:
 
 
 def cyclic_overlaps(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
-    """The sets of objects, of two or more, that lie on one another in circles.
+    """The sets of objects, of two or more, that overlap cyclically.
 
     Parameters
     ----------
@@ -328,7 +328,7 @@ def cyclic_overlap_report(cycles: Sequence[Ints], names: Sequence[str]) -> tuple
     Parameters
     ----------
     cycles : sequence of arrays of int
-        As of cyclic_overlaps.
+        See cyclic_overlaps.
     names : sequence of str
         Of all objects.
 
@@ -384,7 +384,7 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
     Returns
     -------
     ObjectOrder
-        Groups are ordered as wholes, then the objects in each. What is in circles is reported as cycles.
+        Groups are ordered as wholes, then the objects in each. What overlaps cyclically is reported as cycles.
 
     Raises
     ------

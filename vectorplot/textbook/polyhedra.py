@@ -88,7 +88,7 @@ def spatial_hull(mesh: Mesh, centre: ArrayLike) -> Ints:
     mesh : Mesh
         A convex body, or what looks like one.
     centre : (3,) or (4,) array_like of float
-        As of contour_edges.
+        See contour_edges.
 
     Returns
     -------
@@ -122,7 +122,7 @@ def spatial_hull(mesh: Mesh, centre: ArrayLike) -> Ints:
 def contour_branches(mesh: Mesh, centre: ArrayLike) -> Branches:
     """The contour of any polyhedron, joined to closed branches: a faceted torus has two.
 
-    centre: (3,) as of contour_edges.
+    centre: (3,) as in contour_edges.
     Source: Glaeser, section 6.1.
     """
     return concat(contour_edges(mesh, centre))
@@ -280,9 +280,9 @@ def convex_revolution_parts(meridian: ArrayLike, order: int, *, angle_deg: float
     meridian : (s, 3) array_like of float
         In a half-plane through the z-axis.
     order : int
-        As of revolution.
+        See revolution.
     angle_deg : float
-        As of revolution.
+        See revolution.
 
     Returns
     -------

@@ -80,7 +80,7 @@ class Surroundings:
     Parameters
     ----------
     boxes : (n, 8, 3) array of float
-        As of own_box, turned or not.
+        See own_box, turned or not.
     spheres : (n, 4) array of float
         Centre and radius.
     points : (v, 3) array of float

@@ -305,7 +305,7 @@ class ViewVolume:
     def of_field(cls, fov_deg: float, aspect: float, near: float, far: float) -> ViewVolume:
         """The symmetric volume with a field of vision over its height.
 
-        fov_deg: in degrees; aspect: width / height; near, far: as of ViewVolume; result: with the eye's ray in its
+        fov_deg: in degrees; aspect: width / height; near, far: see ViewVolume; result: with the eye's ray in its
         middle.
         Errors: for what ViewVolume refuses.
         """
@@ -336,7 +336,7 @@ class ViewVolume:
 def camera_matrix(eye: ArrayLike, gaze: ArrayLike, up: ArrayLike) -> Floats:
     """M_cam, from the world to camera coordinates: the eye goes to the origin, the gaze to -z.
 
-    eye (3,): in the world; gaze, up (3,): as of basis_of_gaze; result: (4,4) acts on homogeneous columns.
+    eye (3,): in the world; gaze, up (3,): see basis_of_gaze; result: (4,4) acts on homogeneous columns.
     Errors: for vectors without length, or collinear ones.
     """
     return frame_from_world(eye, basis_of_gaze(gaze, up))
@@ -345,7 +345,7 @@ def camera_matrix(eye: ArrayLike, gaze: ArrayLike, up: ArrayLike) -> Floats:
 def pixel_matrix(camera: ArrayLike, volume: ViewVolume, columns: int, rows: int) -> Floats:
     """Viewport, orthographic, perspective and camera matrix in one: from the world to pixels and depth.
 
-    camera (4,4): as of camera_matrix; volume: what is seen; columns, rows: the size of the image in pixels; result:
+    camera (4,4): see camera_matrix; volume: what is seen; columns, rows: the size of the image in pixels; result:
     (4,4) acts on homogeneous columns.
     Errors: for an image without pixels.
     """

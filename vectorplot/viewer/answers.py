@@ -440,7 +440,7 @@ def recorded_pictures(states: tuple[ViewerState, ...], scene: Scene, job: Job) -
     """The drawings of states, on the page of the first one; the same state is drawn once.
 
     Pixels become painted polygons: a movie has frames of one kind.
-    Errors: as of picture; SupersededError where the job is stopped.
+    Errors: see picture; SupersededError where the job is stopped.
     """
     before: tuple[ViewerState, Drawing] | None = None
     for number, state in enumerate(states):

@@ -42,7 +42,7 @@ class ProjectedFaces:
 def project_faces(view: View) -> ProjectedFaces:
     """The faces of a view in the image.
 
-    view: as of scene.look; result: one entry for each face of the view.
+    view: see scene.look; result: one entry for each face of the view.
     A face is edge-on where its image is narrower than the view's tolerance.
     Source: Glaeser, section 5.1 (backfaces and frontfaces).
     """

@@ -444,7 +444,7 @@ def visible_parts(
 ) -> Visibility:
     """The visible parts of straight segments.
 
-    view: as of scene.look; faces: as of project_faces; solid (i,): as of solid_items: the items that hide as convex
+    view: see scene.look; faces: see project_faces; solid (i,): see solid_items: the items that hide as convex
     solids; segments: in the view's coordinates; progress: progress(share) is called while it works; result: the visible
     parts only.
     What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its
@@ -490,7 +490,7 @@ def counted_parts(
 ) -> Visibility:
     """All parts of straight segments, with the number of items that hide each.
 
-    solid: (i,) as of solid_items: the items that hide as convex solids.
+    solid: (i,) as in solid_items: the items that hide as convex solids.
     Source: Glaeser, section 7.2.
     """
     gap = _gaps(view, segments)

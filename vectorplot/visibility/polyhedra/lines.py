@@ -72,7 +72,7 @@ class Lines(Elements):
         return len(self.kind)
 
     def sides(self, view: View) -> Ints:
-        """The sides of all outlines, as of side, those of smooth surfaces too.
+        """The sides of all outlines, see side, those of smooth surfaces too.
 
         result: (n,) 1, -1 or 0.
         """
@@ -123,7 +123,7 @@ def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozens
 
 
 def items_wanting(kind: LineKind, scene: Scene, kinds: frozenset[LineKind]) -> Bools:
-    """(i,) the items on which lines of a kind are looked for, as of kinds_of."""
+    """(i,) the items on which lines of a kind are looked for, see kinds_of."""
     found = (kind in kinds_of(item, kinds) for item in scene.items)
     return np.fromiter(found, dtype=np.bool_, count=len(scene.items))
 
@@ -316,12 +316,12 @@ def _outlined(scene: Scene, kinds: frozenset[LineKind]) -> Bools:
 
 
 def _smoothly_outlined(scene: Scene) -> Bools:
-    """(i,) the items whose contours run across their faces, as of the smooth shapes they stand for."""
+    """(i,) the items whose contours run across their faces, as on the smooth shapes they stand for."""
     return np.array([item.curves.smooth_contours for item in scene.items], dtype=np.bool_)
 
 
 def _parts(scene: Scene, view: View, solid: Bools) -> Ints:
-    """(f,) numbers that faces have in common where they are of one item and hang together."""
+    """(f,) numbers that faces have in common where they are of one item and are connected."""
     whole = solid.copy()
     open_ = np.flatnonzero(~solid)
     whole[open_] = [_in_one_piece(scene.items[k]) for k in open_.tolist()]
@@ -339,7 +339,7 @@ def _parts(scene: Scene, view: View, solid: Bools) -> Ints:
 
 
 def _in_one_piece(item: Item) -> bool:
-    """Whether an item is known to hang together: meshes of many faces are asked, all others looked at together."""
+    """Whether an item is known to be connected: meshes of many faces are asked, all others looked at together."""
     mesh = item.shape
     return isinstance(mesh, Mesh) and mesh.face_count >= MANY_FACES and mesh.present is None and mesh.pieces[0] == 1
 
@@ -384,7 +384,7 @@ def mesh_curve_lines(
 
     At edges that turn by more than the crease angle a mesh is not smooth: isophotes end there. budget: of shortest
     ways; done: is told the part of the work that is done.
-    Errors: InputError, with the item's name, for a light that the scene does not have, and as of item_integral_lines.
+    Errors: InputError, with the item's name, for a light that the scene does not have, and as in item_integral_lines.
     """
     parts = []
     for number, item in enumerate(scene.items):

@@ -46,7 +46,7 @@ class Occluders:
 def solid_items(view: View, faces: ProjectedFaces, *, most_faces: int = MAX_SOLID_FACES) -> Bools:
     """The items that hide as convex solids: closed, convex, with few faces, seen from outside.
 
-    view: as of scene.look; faces: as of project_faces; most_faces: items with more faces hide through their faces: few
+    view: see scene.look; faces: see project_faces; most_faces: items with more faces hide through their faces: few
     of them matter to a line, but all of the outline would; result: (i,) one for each item of the view.
     Convexity is checked, not believed: every vertex of the item lies behind every face.
     Source: Glaeser, sections 5.1 and 7.2.
