@@ -48,7 +48,7 @@ class InputError(ValueError):
 
 
 class InputWarning(UserWarning):
-    """Input that was mended or read loosely: one line, printed on stderr by the command.
+    """Input that was repaired or read loosely: one line, printed on stderr by the command.
 
     Parameters
     ----------

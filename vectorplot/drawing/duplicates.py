@@ -34,7 +34,7 @@ _PLACE_BITS = 40
 """Places along strokes are compared in steps of 2^-40 of the extent when deciding which strokes overlap."""
 
 _ROUNDS = 3
-"""How many of the best strokes of a crowd are tried on all the others before all pairs of it are looked at."""
+"""How many of the best strokes of a dense group are tried on all the others before all pairs of it are looked at."""
 
 
 def without_duplicates(
@@ -87,10 +87,10 @@ def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -
     """
     if len(line) < 2:
         return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
-    crowds = _crowds(start, end, _lengths(start, end), tolerance)
+    dense_groups = _dense_groups(start, end, _lengths(start, end), tolerance)
 
     def of_axis(axis: int) -> tuple[Ints, Ints]:
-        owner, starts = _of_several(line, *crowds(axis))
+        owner, starts = _of_several(line, *dense_groups(axis))
         owner, starts = _touching(start[:, axis], end[:, axis], owner, starts, 0.5 * tolerance)
         return _of_several(line, owner, starts)
 
@@ -195,7 +195,7 @@ def _by_importance(start: Floats, end: Floats, rank: Floats) -> Ints:
     return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -_lengths(start, end), *rank))
 
 
-def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> Callable[[int], tuple[Ints, Ints]]:
+def _dense_groups(start: Floats, end: Floats, length: Floats, tolerance: float) -> Callable[[int], tuple[Ints, Ints]]:
     """(owner, starts) of an axis: groups of strokes with nearly the same line, along which they run more than across,
     at nearly the same place.
 
@@ -247,7 +247,7 @@ def _touching(one: Floats, other: Floats, owner: Ints, starts: Ints, least: floa
 
 
 def _of_several(line: Ints, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
-    """The crowds whose strokes are of several lines: most are of one, one part of it after the other."""
+    """The dense_groups whose strokes are of several lines: most are of one, one part of it after the other."""
     size = np.diff(starts)
     of = line.take(owner)
     several = np.zeros(len(size), dtype=np.bool_)
@@ -260,7 +260,7 @@ def _of_several(line: Ints, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
 def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints, Floats, Floats]:
     """Strokes that lie on more important ones: (k,) those wholly covered by a single one; (loser, low, high) parts.
 
-    owner: the strokes of the crowds, by importance.
+    owner: the strokes of the dense_groups, by importance.
     """
     run = ragged.owner(np.diff(starts))
     bits = len(segments.length).bit_length()
@@ -288,7 +288,7 @@ def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints
 
 
 def pairs_in_dense_groups(owner: Ints, run: Ints, line: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Blocks of all pairs of strokes of a crowd that are of different lines (n,), the more important first."""
+    """Blocks of all pairs of strokes of a dense group that are of different lines (n,), the more important first."""
     if not len(run):
         return
     last = np.flatnonzero(np.concatenate((run[1:] != run[:-1], [True])))

@@ -178,7 +178,7 @@ SeparationTest = tuple[_Stretch | _AllPairs, ...]
 """Ends of strokes among which near ones are sought again and again."""
 
 
-def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> SeparationTest:
+def separation_test(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> SeparationTest:
     """The ends at these spots, with curves through them. Only ends of the same layer (n,) count for each other, but for
     opposite (n,): one end that does not count for each."""
     if len(spots) <= ALL_PAIRS:
@@ -336,7 +336,7 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places, layer: Ints) -
     spots = np.append(spread[odd], complex(np.nan, np.nan))
     of = np.append(part[odd], -1)
     mate = np.append(np.where(link[odd] >= 0, number[link[odd]], -1), -1)
-    among = crowd(spots[:-1], np.arange(len(odd)), layer[odd], curves_through(spots[:-1], layer[odd]))
+    among = separation_test(spots[:-1], np.arange(len(odd)), layer[odd], curves_through(spots[:-1], layer[odd]))
     one, other, apart = nearer_than(np.full(len(odd), np.inf), among)
     some = np.flatnonzero((of[one] == of[other]) & (one < other))
     one, other, apart = one[some], other[some], apart[some]
@@ -593,7 +593,7 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
     spots = np.append(ends, np.full(2 * len(borders) + 1, complex(np.nan, np.nan)))
     layers = np.append(layer, np.full(2 * len(borders), -1))
     mean //= len(borders) + 1
-    among = crowd(ends, np.arange(count) ^ 1, layer, curves)
+    among = separation_test(ends, np.arange(count) ^ 1, layer, curves)
     everything = awake = np.ones(len(layers), dtype=np.bool_)
     partner, travel = _partners(tour), np.inf
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):

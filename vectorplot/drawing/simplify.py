@@ -14,7 +14,7 @@ from vectorplot.geometry.polylines import with_points
 from vectorplot.tolerances import ZERO_OF_EXTENT
 
 _ROUNDS = 6
-_CROWD = 32
+_DENSE = 32
 """After so many rounds, a chord that still replaces more points than this is split in its middle too: a spiral, whose
 farthest points lie at its end, would take a round for every turn."""
 
@@ -190,8 +190,8 @@ def _keep_what_is_far(line: _Line, kept: Bools, left_out: Ints, tolerance_mm: fl
             split[~split] = deep
         kept[farthest] = True
         if rounds >= _ROUNDS:
-            crowded = split & (at.size > _CROWD)
-            kept[left_out[at.begin[crowded] + at.size[crowded] // 2]] = True
+            dense = split & (at.size > _DENSE)
+            kept[left_out[at.begin[dense] + at.size[dense] // 2]] = True
         left_out = at.only(split).left_out
         left_out = left_out[~kept[left_out]]
         rounds += 1

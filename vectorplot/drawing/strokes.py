@@ -354,8 +354,8 @@ def companions(key: Keys, owner: Ints) -> tuple[Ints, Ints]:
 def clusters(x: Floats, y: Floats, label: Ints, reach: float) -> Ints:
     """(n,) for every point the smallest index of a point it is connected to.
 
-    Points of equal label are connected by steps no longer than reach. Within a crowd of several reaches' width not
-    every step is found, but equal points always get equal clusters.
+    Points of equal label are connected by steps no longer than reach. Within a dense group of several reaches' width
+    not every step is found, but equal points always get equal clusters.
     """
     owner, starts = companions(*overlapping_cells(x, y, label, (reach, reach)))
     run = ragged.owner(np.diff(starts))

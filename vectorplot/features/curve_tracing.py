@@ -284,7 +284,7 @@ Picture = Callable[[Floats], Floats]
 REACH = 4.0
 """Times the resolution within which a curve that ends before a hole is led to its rim."""
 
-CRUMB = 8.0
+FRAGMENT = 8.0
 """Times the resolution that a curve with an end at a rim is long at least."""
 
 LED = (0.75, 0.9375, 1.0)
@@ -491,11 +491,11 @@ def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> Surf
     new = surface.points(*wrapped(surface.domain, *np.ascontiguousarray(added.T)))
     points = np.insert(curves.points, where, new, axis=0)
     led = replace(curves, u=u, v=v, points=points, offsets=ragged.offsets(np.diff(curves.offsets) + grown))
-    # A curve that comes to a rim at a flat angle has crumbs beyond its end, between cells with corners in the hole.
-    crumb = np.zeros(len(curves), dtype=np.bool_)
+    # A curve that comes to a rim at a flat angle has fragments beyond its end, between cells with corners in the hole.
+    fragment = np.zeros(len(curves), dtype=np.bool_)
     across = np.linalg.norm((places[first] - places[last]) / size, axis=1)
-    crumb[own] = found.reshape(2, -1).any(axis=0) & (across <= CRUMB * resolution)
-    return take(led, ~crumb) if crumb.any() else led
+    fragment[own] = found.reshape(2, -1).any(axis=0) & (across <= FRAGMENT * resolution)
+    return take(led, ~fragment) if fragment.any() else led
 
 
 def _in_space(conditions: StackedConditions[C], found: Sequence[ZeroManifold]) -> list[SurfaceCurves]:

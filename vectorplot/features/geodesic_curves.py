@@ -203,7 +203,7 @@ class _Shooting:
         step, part = runs.at(row, along)
         states = runs.states(step, part)
         surface, chart = self.flow.surface, self.flow.charts
-        places = chart.parameters(runs.leaps.chart[step], states[:, :2])
+        places = chart.parameters(runs.strides.chart[step], states[:, :2])
         sites = Sites(surface, *chart.inside(places))
         goal = surface.points(*chart.within(self.end[None]))
         way = goal - surface.points(*chart.within(places))

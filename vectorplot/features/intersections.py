@@ -152,7 +152,7 @@ TINY = 0.25
 TURNED_BACK = -0.7
 """Cosine of the directions of two chords below which a trace turns back."""
 
-CROWDED = 0.1
+DENSE = 0.1
 """Part of the chord on one side of a point below which that on the other is too short."""
 
 ONE_PLACE = 0.5
@@ -228,7 +228,9 @@ def _refined(one: Patch, two: Patch, found: Piercings, zero: Floats) -> tuple[Fl
     """Places on both true patches, and which of them are near the triangles they come from, across one another."""
     count = len(found.one)
     none, number = np.zeros((count, 3)), one.numbers(found.one)
-    moved = meetings(one, two, found.one, found.two, Bound(none, none, found.rail_one, found.rail_two), zero[number])
+    moved = meetings(
+        one, two, found.one, found.two, Bound(none, none, found.constraint_one, found.constraint_two), zero[number]
+    )
     good = moved.met
     with np.errstate(invalid="ignore"):
         # Measured in space: near a pole a parameter may run far.
@@ -266,7 +268,7 @@ def _running_on(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
 
 
 def without_slips(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
-    """The traces without their zigzags and crowds of points."""
+    """The traces without their zigzags and dense points."""
     if not traces:
         return []
     whole = put_together(traces, (traces[0].one.shape[1], traces[0].two.shape[1]))
@@ -274,7 +276,7 @@ def without_slips(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
     result, ends = [], np.flatnonzero(whole.last)[:-1] + 1
     for trace, own, flat in zip(traces, np.split(points, ends), np.split(shallow, ends), strict=True):
         kept = _without_zigzags(own, flat)
-        kept = kept[_uncrowded(own[kept])]
+        kept = kept[_without_dense_points(own[kept])]
         result.append(trace if len(kept) == len(trace) else Course(trace.one[kept], trace.two[kept], trace.closed))
     return result
 
@@ -300,7 +302,7 @@ def _without_zigzags(points: Floats, shallow: Bools) -> Ints:
     return kept
 
 
-def _uncrowded(points: Floats) -> Bools:
+def _without_dense_points(points: Floats) -> Bools:
     """The points (n,3) of a trace without inner ones that are much nearer to one neighbour than to the other: where an
     edge of one tessellation passes close to an edge of the other."""
     kept = np.ones(len(points), dtype=np.bool_)
@@ -308,10 +310,10 @@ def _uncrowded(points: Floats) -> Bools:
     length = np.sqrt((chord * chord).sum(axis=1))
     if len(length) < 4:
         return kept
-    crowded = np.minimum(length[1:], length[:-1]) < CROWDED * np.maximum(length[1:], length[:-1])
+    dense = np.minimum(length[1:], length[:-1]) < DENSE * np.maximum(length[1:], length[:-1])
     # Of two that are near to each other one stays.
-    crowded[1:] &= ~crowded[:-1]
-    kept[1:-1] = ~crowded
+    dense[1:] &= ~dense[:-1]
+    kept[1:-1] = ~dense
     return kept
 
 

@@ -295,7 +295,7 @@ GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
 
 
-def combed(shape: StreamlineMesh) -> MeshCurves:
+def placed_streamlines(shape: StreamlineMesh) -> MeshCurves:
     """Curves of its field that cover a mesh evenly.
 
     Errors: InputError for a distance of less than a five-hundredth of the extent of the mesh.
@@ -505,5 +505,5 @@ def evenly_spaced_on_faces(bent: BentFaces, field: TangentField, apart: float) -
         return none
     flow = face_field_flow(sides, bent, field)
     across = face_field_flow(sides, bent, TurnedField(field, 0.5 * np.pi))
-    result = combed(StreamlineMesh(bent, field, apart, sides, flow, across))
+    result = placed_streamlines(StreamlineMesh(bent, field, apart, sides, flow, across))
     return replace(result, levels=np.zeros(len(result)))

@@ -38,15 +38,15 @@ APART_ROUNDING = 4.0 * ULP
 class Piercings:
     """Where edges of one tessellation pierce triangles of the other.
 
-    one, two (n,d): the places on both; rail_one, rail_two (n,): what the points must stay on, FREE where nothing;
-    size (n,): of the larger triangle there; twin (n,): a number that a point and the same point with both sides
-    exchanged have in common. pairs (s,2) of points and triangles (s,2): the segments in which two triangles meet.
+    one, two (n,d): the places on both; constraint_one, constraint_two (n,): what the points must stay on, FREE if
+    nothing; size (n,): of the larger triangle there; twin (n,): a number that a point and the same point with both
+    sides exchanged have in common. pairs (s,2) of points and triangles (s,2): the segments in which two triangles meet.
     """
 
     one: Floats
     two: Floats
-    rail_one: Ints
-    rail_two: Ints
+    constraint_one: Ints
+    constraint_two: Ints
     size: Floats
     twin: Ints
     pairs: Ints
@@ -140,7 +140,7 @@ def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
     side, edge, twin = _unpacked(key.ravel()[first], one, two)
     size = np.fmax(*(_sizes(own)[triangles[first, k]] for k, own in ((0, one), (1, two))))
     # The tables have two rows a segment: its ends.
-    constraints = [np.where(side == k, _rail(own, edge), FREE) for k, own in ((0, one), (1, two))]
+    constraints = [np.where(side == k, _constraint(own, edge), FREE) for k, own in ((0, one), (1, two))]
     return Piercings(
         place_one[first],
         place_two[first],
@@ -161,7 +161,7 @@ def _sizes(own: Tessellation) -> Floats:
 Table = tuple[Ints, Floats, Floats, Ints]
 
 
-def _rail(own: Tessellation, edge: Ints) -> Ints:
+def _constraint(own: Tessellation, edge: Ints) -> Ints:
     return (
         own.constraints[np.minimum(edge, len(own.constraints) - 1)]
         if len(own.constraints)

@@ -1,4 +1,4 @@
-"""Meshes as they come in files, mended: seams, orientation, faces without area, parts that need no mending."""
+"""Meshes as they come in files, repaired: seams, orientation, faces without area, parts that need no mending."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ def _squares(points: Floats, corners: Ints, offsets: Ints, scale: float) -> tupl
     return dot(vector, vector), np.maximum.reduceat(dot(arms, arms), offsets[:-1])
 
 
-# Meshes as they come in files, mended: welded, without degenerate faces, consistently wound; and what there was.
+# Meshes as they come in files, repaired: welded, without degenerate faces, consistently wound; and what there was.
 
 __all__ = [
     "Mending",
@@ -305,7 +305,7 @@ def repaired(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
     Returns
     -------
     Mesh
-        What cannot be mended (open, non-manifold, one-sided) is kept.
+        What cannot be repaired (open, non-manifold, one-sided) is kept.
     Mending
         What was done, and what is left, in numbers.
 
@@ -552,10 +552,10 @@ def _without_stutter(mesh: Mesh) -> Mesh:
 
 
 def sound_parts(mesh: Mesh, part: Ints, count: int, precision: float) -> tuple[Bools, Ints]:
-    """(p,) which of count parts of a mesh mesh_repair.mended would leave unchanged, and (p,) their boundary edges. part
-    (f,): of each face; parts have no vertices in common but may touch, and are tested together at the cost of one
-    mesh. precision: see mended. A few that need no repair count as unsound too: those with points close by the
-    largest coordinate of all parts, and closed ones without volume.
+    """(p,) which of count parts of a mesh `repaired` would leave unchanged, and (p,) their boundary edges. part (f,):
+    of each face; parts have no vertices in common but may touch, and are tested together at the cost of one mesh.
+    precision: see repaired. A few that need no repair count as unsound too: those with points close by the largest
+    coordinate of all parts, and closed ones without volume.
     """
     unsound = np.zeros(count, dtype=np.bool_)
     of_corner = part[mesh.corner_face]

@@ -127,7 +127,7 @@ def close_points(points: Floats, tolerance: float) -> Ints:
     """(n,) for every point the smallest position among the points it is chained to by steps of at most tolerance.
 
     Points are sorted along a direction in general position, so that only neighbours in that order are compared, and of
-    these none that has only points of its own chain about it: a crowd within the tolerance costs a few rounds.
+    these none that has only points of its own chain about it: a dense group within the tolerance costs a few rounds.
     """
     heights = matmul(points, np.array([0.5773, 0.6132, 0.5393]))
     order = np.argsort(heights, kind="stable")

@@ -120,7 +120,7 @@ def scene_of(shown: object) -> Scene:
     has any.
     Errors: TypeError for anything else, in one sentence; as `vp.read`, for meshes that make no sense, and for a
     drawing.
-    Warns InputWarning what was mended of a mesh of another library, or of arrays, as of files; how heights were scaled.
+    Warns InputWarning: what was repaired of a mesh of another library or of arrays; how heights were scaled.
     """
     return _scene_of(shown, ())
 
@@ -192,7 +192,7 @@ def _item(shown: Any) -> Item | None:
         corners, offsets = faces_of_cells(shown.cells)
         points, of_cells = np.asarray(shown.points), getattr(shown, "cell_data", {})
         at_faces = {name: values_of_faces(shown.cells, values) for name, values in of_cells.items()}
-        mesh = _mended(points, corners, offsets)
+        mesh = _repaired(points, corners, offsets)
         return Item("mesh", mesh, fields=_fields(points, corners, offsets, getattr(shown, "point_data", {}), at_faces))
     if hasattr(shown, "vertices") and hasattr(shown, "faces"):
         mesh = _from_arrays(shown.vertices, shown.faces)
@@ -226,14 +226,14 @@ def _from_arrays(vertices: Any, faces: Any) -> Mesh:
     """The mesh of vertices (n,3) and of faces, an array (f,k) or lists of indices."""
     places = np.asarray(vertices)
     if isinstance(faces, np.ndarray) and faces.ndim == 2:
-        return _mended(places, whole_numbers(faces).ravel(), np.arange(0, faces.size + 1, max(faces.shape[1], 1)))
+        return _repaired(places, whole_numbers(faces).ravel(), np.arange(0, faces.size + 1, max(faces.shape[1], 1)))
     lists = [np.asarray(face).ravel() for face in faces]
     corners = np.concatenate([np.zeros(0, dtype=np.intp), *lists])
-    return _mended(places, whole_numbers(corners), ragged.offsets([len(face) for face in lists]))
+    return _repaired(places, whole_numbers(corners), ragged.offsets([len(face) for face in lists]))
 
 
-def _mended(vertices: np.ndarray[Any, Any], corners: Ints, offsets: Ints) -> Mesh:
-    """The mesh, welded where it is open and turned outwards; an InputWarning says what was mended."""
+def _repaired(vertices: np.ndarray[Any, Any], corners: Ints, offsets: Ints) -> Mesh:
+    """The mesh, welded where it is open and turned outwards; an InputWarning says what was repaired."""
     if vertices.ndim == 2 and vertices.shape[1] == 2:
         vertices = np.column_stack([vertices, np.zeros(len(vertices))])
     mesh = Mesh(np.asarray(vertices, dtype=np.float64), np.asarray(corners, dtype=np.intp), offsets)

@@ -104,7 +104,7 @@ def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> 
     """The scene in a file: a mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif), a terrain (asc, xyz), or the
     scene language (any other suffix). exaggeration: factor of a terrain's heights; where None, extreme heights are
     scaled by 1, 2 or 5 times a power of ten, with an InputWarning. A mesh file gives one item, or one for each
-    object or node. Meshes are repaired (see mesh_repair.mended), reported in one InputWarning a file.
+    object or node. Meshes are repaired (see mesh_repair.repaired), reported in one InputWarning a file.
     Errors: InputError, one line with file, line and cause; a file of another kind is named as such.
     """
     path = Path(path)

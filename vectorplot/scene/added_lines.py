@@ -127,12 +127,12 @@ def _with(item: Item, added: SurfaceLines) -> Item:
     sections, isophotes = (*own.sections, *reaching), (*own.isophotes, *added.isophotes)
     kinds = line_kinds(added)
     lines, usual = (
-        None if words is None else tuple(dict.fromkeys((*words, *kinds))) for words in (item.lines, item.usual_lines)
+        None if words is None else tuple(dict.fromkeys((*words, *kinds))) for words in (item.lines, item.default_lines)
     )
     smooth = own.smooth_contours or added.smooth_contours
     detail = own.detail * added.detail
     curves = replace(own, sections=sections, isophotes=isophotes, detail=detail, smooth_contours=smooth)
-    return replace(item, curves=curves, lines=lines, usual_lines=usual)
+    return replace(item, curves=curves, lines=lines, default_lines=usual)
 
 
 def _reaching(section: Section, item: Item) -> Section:
@@ -290,10 +290,10 @@ def curve_light(scene: Scene, view: View, item: Item) -> Light:
 
 def with_default_lines(scene: Scene) -> Scene:
     """The scene with the lines that are usual for its items as their own, where they have none of their own."""
-    if all(item.usual_lines is None for item in scene.items):
+    if all(item.default_lines is None for item in scene.items):
         return scene
     return replace(scene, items=tuple(map(_usual, scene.items)))
 
 
 def _usual(item: Item) -> Item:
-    return replace(item, lines=item.usual_lines) if item.lines is None else item
+    return replace(item, lines=item.default_lines) if item.lines is None else item

@@ -57,7 +57,7 @@ class FaceLooks:
     Parameters
     ----------
     mesh : Mesh
-        As it was when faces got their looks; what is drawn may be mended, cut and divided since.
+        As it was when faces got their looks; what is drawn may be repaired, cut and divided since.
     looks : tuple of FaceLook
         All that there are.
     of_face : (f,) array of int

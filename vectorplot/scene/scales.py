@@ -117,7 +117,7 @@ class Fields:
     Parameters
     ----------
     mesh : Mesh
-        As the file has it; what is drawn may be mended, cut and divided since.
+        As the file has it; what is drawn may be repaired, cut and divided since.
     at_vertices : mapping of str to (v,) array of float
         A number for every vertex, linear in the triangles between them; NaN: none.
     on_faces : mapping of str to (f,) array of float

@@ -163,7 +163,7 @@ def terrain_scene(
     drawn = land if exaggeration == 1.0 else exaggerated(land, exaggeration)
     sections = level_sections([exaggeration * height for height in heights], every) if heights else ()
     shape, lines = terrain_mesh(drawn), SurfaceLines(sections=sections)
-    item = Item(name, shape, "green", usual_lines=TERRAIN_LINES, curves=lines)
+    item = Item(name, shape, "green", default_lines=TERRAIN_LINES, curves=lines)
     return Scene((item,), title=name, exaggeration=exaggeration)
 
 

@@ -268,12 +268,12 @@ def test_a_geodesic_of_the_torus_keeps_clairauts_constant():
     flow = GeodesicFlow(torus, charts(torus))
     tangents = np.array([[0.0, np.cos(0.8), np.sin(0.8)], [0.0, np.cos(1.3), np.sin(1.3)]])
     run = traces(flow, np.array([[0.0, np.pi]] * 2), tangents, np.ones(2), np.full(2, 20.0), 11.0, 4.0, EIGHT_DIGITS)
-    every = np.arange(len(run.leaps.row))
+    every = np.arange(len(run.strides.row))
     states = run.states(every, np.ones(len(every)))
     points = run.points(every, np.ones(len(every)))
     constant = points[:, 0] * states[:, 3] - points[:, 1] * states[:, 2]
     for row, angle in enumerate((0.8, 1.3)):
-        assert np.abs(constant[run.leaps.row == row] - 4.0 * np.cos(angle)).max() < 1e-8
+        assert np.abs(constant[run.strides.row == row] - 4.0 * np.cos(angle)).max() < 1e-8
 
 
 @pytest.mark.capability("G9.4-field")

@@ -57,8 +57,8 @@ class EarlyRejection:
         return passing
 
 
-def sieve(view: View, grid: Grid, pieces: Pieces, occluders: Occluders) -> EarlyRejection:
-    """The sieve for pieces in a grid, which holds all of them, and occluders."""
+def early_rejection(view: View, grid: Grid, pieces: Pieces, occluders: Occluders) -> EarlyRejection:
+    """The early rejection for pieces in a grid, which holds all of them, and occluders."""
     left, right, bottom, top = pieces.box
     piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
     left, right, bottom, top = occluders.box
@@ -593,7 +593,7 @@ def _all_hits(
     Pieces that the caller marks as no longer alive are not tried again.
     """
     order = np.argsort(occluders.nearest, kind="stable")
-    in_image = sieve(view, grid, pieces, occluders)
+    in_image = early_rejection(view, grid, pieces, occluders)
 
     def clipped(entries: Entries, some: tuple[Ints, Ints, Ints]) -> tuple[Ints, Hits, Ints]:
         which, begin, counts = some
