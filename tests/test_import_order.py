@@ -32,7 +32,6 @@ ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "pictures"
 
 FOR_PROGRAMS = {
     "surfaces/algebraic.py",
-    "surfaces/of_equations.py",
 }
 """Files that programs of one's own call for, and no verb."""
 

@@ -338,7 +338,7 @@ class OutputStyle:
         if self.look == "plain":
             found = pipeline.run("layers", _line_layers, scene, view, strokes, hatches, hatch, self.layers, self.rules)
         else:
-            from vectorplot.effects.wireframe import wire_layers
+            from vectorplot.effects.depth_cues import wire_layers
 
             scene = scene if self.background is None else replace(scene, background=self.background)
             found = pipeline.run("layers", wire_layers, scene, view, strokes, page, self.look)
@@ -512,7 +512,7 @@ def behind_balls(pipeline: Pipeline, view: View, forms: ClosedForms | None, line
 def seen_parts(pipeline: Pipeline, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
     """The visible parts of lines, all their parts counted, or whole lines, as the plan has it."""
     if pipeline.calls_for("all lines"):
-        from vectorplot.effects.wireframe import all_lines
+        from vectorplot.effects.depth_cues import all_lines
 
         return pipeline.run("all lines", all_lines, lines)
     over = lines.kind == LineKind.CENTRE

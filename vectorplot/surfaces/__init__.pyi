@@ -1,11 +1,10 @@
-from .algebraic import first_form, gaussian_curvature, implicitized, mean_curvature
+from .algebraic import first_form, gaussian_curvature, implicitized, mean_curvature, parametrised
 from .capped_bodies import Capped, Frustum, rod
 from .function_surface import surface_of_function
 from .graphs import Disc, PolygonRegion, graph, graph_over_disc
 from .implicit import implicit_of_function
 from .inversion import inverted
 from .minimal import helicoid_to_catenoid, minimal_spiral_surface
-from .of_equations import parametrised
 from .placed_surface import PlacedSurface
 from .quadrics import (
     Cone,
