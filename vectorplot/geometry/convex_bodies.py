@@ -18,7 +18,7 @@ from vectorplot.geometry.solids import (
 )
 from vectorplot.geometry.winding import is_closed_oriented
 
-# Prisms and bodies of revolution that are not convex, and faces, as unions of convex parts.
+# Faces that are not convex as unions of convex parts.
 
 
 def split_faces(mesh: Mesh, chosen: Bools) -> Mesh:
