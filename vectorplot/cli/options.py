@@ -381,7 +381,7 @@ def _sections(planes: Planes, scene: Scene) -> Section:
 
 def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
     from vectorplot.scene.added_lines import heights_times, round_sections
-    from vectorplot.scene.surface_lines import USUAL_EVERY, Section, with_index_lines
+    from vectorplot.scene.surface_lines import DEFAULT_EVERY, Section, with_index_lines
 
     if planes is None:
         return ()
@@ -389,7 +389,7 @@ def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
         return round_sections(scene, planes.normal, planes.count)
     given = Section(planes.normal, planes.offsets)
     times = heights_times(scene, given)
-    return with_index_lines(replace(given, offsets=tuple(times * height for height in given.offsets)), USUAL_EVERY)
+    return with_index_lines(replace(given, offsets=tuple(times * height for height in given.offsets)), DEFAULT_EVERY)
 
 
 # Options for camera and page, and what becomes of them; the scene file's own are the defaults, field by field.

@@ -24,7 +24,7 @@ from vectorplot.words import COLOURS, LineKind, check_colour, check_word, is_col
 _NEXT = re.compile(r",(?=[^,=]*=)")
 """The commas between rules, where a rule has commas of its own."""
 
-USUAL_HATCHING_MM = (Hatching.width_mm, Stippling.width_mm)
+DEFAULT_HATCHING_MM = (Hatching.width_mm, Stippling.width_mm)
 """The widths of the pens that hatch, or make dots, where nothing else is said."""
 
 
@@ -191,7 +191,7 @@ def pen_of(rules: RulesByTarget, pen: Pen, kind: int, hidden: bool, item: str) -
     """
     word = HIDDEN if hidden else LineKind(kind).word
     hatching = kind == LineKind.HATCH
-    usual = pen.width_mm in USUAL_HATCHING_MM
+    usual = pen.width_mm in DEFAULT_HATCHING_MM
     for target in [(None, None), (word, None), *(() if hidden else ((None, item),)), (word, item)]:
         for rule in rules.get(target, ()):
             if hatching and rule.kind is None:

@@ -320,7 +320,7 @@ FINEST_MM = 0.7
 FLATTEST = 0.1
 """Planes that seem to be more foreshortened are hatched like those that are as much so: they are slivers."""
 
-USUAL_PAGE_MM = 216.0
+DEFAULT_PAGE_MM = 216.0
 """How large a scene is on its page, where nobody knows: an A4 sheet within its margins."""
 
 INK = 0.5
@@ -391,7 +391,7 @@ def page_hatch(cut: Cut, way: Way) -> Hatching:
 def default_page(scene: Scene) -> InSpace:
     """What a millimetre is where a scene fills a page of usual size."""
     extent = float(np.ptp(scene.bounds, axis=0).max())
-    return lambda points: np.full(len(points), extent / USUAL_PAGE_MM)
+    return lambda points: np.full(len(points), extent / DEFAULT_PAGE_MM)
 
 
 def spacings_in_space(

@@ -25,7 +25,7 @@ from vectorplot.features.mesh_lines import face_triangles
 from vectorplot.features.tessellation import Facets, facets_of_all
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
+from vectorplot.geometry.budget import USUAL as DEFAULT_BUDGET
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.elementary import arctan2
@@ -543,7 +543,7 @@ def _faceted(scene: Scene, numbers: Sequence[int], allowed: float) -> dict[int, 
     """The facets of those of some items that are smooth surfaces, off these by no more than is allowed."""
     smooth = [k for k in numbers if is_parametrised(scene.items[k].shape) or is_implicit(scene.items[k].shape)]
     within = Within(lambda points: np.full(points.shape[:-1], allowed))
-    found = facets_of_all([scene.items[k].shape for k in smooth], lambda _: within, USUAL_BUDGET.facets)
+    found = facets_of_all([scene.items[k].shape for k in smooth], lambda _: within, DEFAULT_BUDGET.facets)
     return dict(zip(smooth, found, strict=True))
 
 

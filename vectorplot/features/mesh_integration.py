@@ -13,7 +13,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import positive
 from vectorplot.errors import InputError
 from vectorplot.features.mesh_lines import NO_FACE, MeshCurves, all_mesh_curves, without_inner
-from vectorplot.features.surface_integration import USUAL_LENGTH
+from vectorplot.features.surface_integration import DEFAULT_LENGTH
 from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.geometry import ragged
@@ -629,7 +629,7 @@ def led_curves(
     beside: float = 0.0,
 ) -> MeshCurves:
     """The lines of a flow as curves, both ways joined; beside: see mesh_traces."""
-    longest = USUAL_LENGTH * sides.extent if length is None else positive("integral curves: length", length)
+    longest = DEFAULT_LENGTH * sides.extent if length is None else positive("integral curves: length", length)
     count = len(face)
     if not count:
         return all_mesh_curves([])

@@ -15,7 +15,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, no_curves, together
 from vectorplot.features.surface_integration import (
     DEFAULT,
-    USUAL_LENGTH,
+    DEFAULT_LENGTH,
     Accuracy,
     Courses,
     FieldFlow,
@@ -605,7 +605,7 @@ def evenly_spaced_curves(
         if not len(widest):
             break
         seeds = _seeds(flow, gaps.places[widest], separation, size)
-        runs = _both_ways(flow, seeds, USUAL_LENGTH * size[0], size, accuracy, separation, NEAREST)
+        runs = _both_ways(flow, seeds, DEFAULT_LENGTH * size[0], size, accuracy, separation, NEAREST)
         kept, separation = _without_dense_groups(runs, seeds, separation)
         found.append(drawn(kept, 2, size[0], tracing))
         gaps = gaps.left_by(separation, widest)

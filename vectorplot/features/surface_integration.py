@@ -704,7 +704,7 @@ def _renewed(flow: Flow, now: _Points, way: Floats) -> _Points:
 
 DEFAULT = Tracing()
 
-USUAL_LENGTH = 10.0
+DEFAULT_LENGTH = 10.0
 """Times the extent of its surface that a curve is long at most where nothing else is said, to each side."""
 
 ROUNDS = 12
@@ -851,7 +851,7 @@ def curves_from(
     size, large = extent(flow.surface)
     if size == 0.0 or not len(starts):
         return no_curves()
-    longest = USUAL_LENGTH * size if length is None else positive("integral curves: length", length)
+    longest = DEFAULT_LENGTH * size if length is None else positive("integral curves: length", length)
     sides = 2 if both_ways else 1
     return drawn(traces_from(flow, starts, tangents, longest, sides, (size, large), accuracy), sides, size, tracing)
 

@@ -104,7 +104,7 @@ def _onward(face: Ints, directions: Floats, first: Ints) -> Onward:
 
 # Roads of constant slope between two places of a terrain.
 
-USUAL_LONGEST = 6.0
+DEFAULT_LONGEST = 6.0
 """Times the distance of its ends that a road is long, at most."""
 
 TRIED = 160
@@ -140,7 +140,7 @@ def roads(mesh: Mesh, start: ArrayLike, end: ArrayLike, *, longest: float | None
         raise InputError("road: both ends are in one place")
     if abs(rise) <= ZERO_OF_EXTENT * extent:
         raise InputError("road: both ends are of one height: the road would be a level line")
-    most = USUAL_LONGEST * distance if longest is None else positive("road: longest", longest)
+    most = DEFAULT_LONGEST * distance if longest is None else positive("road: longest", longest)
     order = [0, 1] if rise > 0.0 else [1, 0]
     search = _Search(hillsides_of(mesh), faces[order], points[order], extent)
     found = [road for side in SIDES if (road := search.shortest(side, most)) is not None]

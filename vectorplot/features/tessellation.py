@@ -38,7 +38,7 @@ from vectorplot.features.implicit_surfaces import BOXED, onto_surface, polygoniz
 from vectorplot.features.intersection_grids import UNEVEN, seam_numbers
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
+from vectorplot.geometry.budget import USUAL as DEFAULT_BUDGET
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
@@ -537,7 +537,7 @@ class Facets:
     sharp: Bools
 
 
-def facets(shape: Surface | ImplicitSurface, criterion: Criterion, most: int = USUAL_BUDGET.facets) -> Facets:
+def facets(shape: Surface | ImplicitSurface, criterion: Criterion, most: int = DEFAULT_BUDGET.facets) -> Facets:
     """Triangles of a smooth surface as fine as the criterion, every vertex on the surface; oriented as u to v, or
     counter-clockwise seen from F > 0. Vertices on seams and at poles are one; neighbours of different sizes share
     vertices. The criterion is kept at LOOKS of every side and where it crosses a fold, unless that takes more than

@@ -283,7 +283,7 @@ def _between(middle: Floats, flat: Floats) -> Floats:
 
 # Where the eye of a panorama is that stands on a terrain.
 
-USUAL_ABOVE = 1.0 / 500.0
+DEFAULT_ABOVE = 1.0 / 500.0
 """How high an eye is above a terrain where nothing is said, by the width of the scene."""
 
 
@@ -304,7 +304,7 @@ def eye_of(given: Panorama, scene: Scene) -> Floats:
                 cause = error.cause
     if not heights:
         raise InputError(cause)
-    above = USUAL_ABOVE * float(np.ptp(scene.bounds, axis=0)[:2].max()) if given.above is None else given.above
+    above = DEFAULT_ABOVE * float(np.ptp(scene.bounds, axis=0)[:2].max()) if given.above is None else given.above
     return np.array([*given.place, max(heights) + above])
 
 
@@ -334,7 +334,7 @@ LEAST_RADIANS = 1.0 / 500.0
 """What is seen is taken for as high as this at least: of a plain one sees a line."""
 
 
-USUAL_RADIANS = 0.2
+DEFAULT_RADIANS = 0.2
 """How high what is seen is taken for before it is known."""
 
 
@@ -370,7 +370,7 @@ def panorama_on_page(
     """
     width = float(np.radians(given.width_deg))
     low, high = np.radians(given.lowest_deg), np.radians(given.highest_deg)
-    radius = _strips(given, sheet, width, 0.0, USUAL_RADIANS).radius_mm
+    radius = _strips(given, sheet, width, 0.0, DEFAULT_RADIANS).radius_mm
     while True:
         seen = lines_all_round(given, eye, radius, trace, done)
         lines = _within(with_chords(seen, eye, PART_OF_TOLERANCE * tolerance_mm / radius), 1, low, high)

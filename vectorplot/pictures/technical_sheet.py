@@ -888,7 +888,7 @@ MOST = 1000
 DISTANCE = 4.0
 """From the eye to the middle of the scene, in radii of the ball around it."""
 
-USUAL_PAGE = Page(80.0, 80.0, 2.0)
+DEFAULT_PAGE = Page(80.0, 80.0, 2.0)
 
 
 def turntable(
@@ -896,7 +896,7 @@ def turntable(
     count: int = 8,
     *,
     elevation_deg: float = 25.0,
-    page: Page | str = USUAL_PAGE,
+    page: Page | str = DEFAULT_PAGE,
     executor: Submits | None = None,
     **options: Any,
 ) -> tuple[Drawing, ...]:

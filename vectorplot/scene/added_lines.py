@@ -16,9 +16,9 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import (
+    DEFAULT_COUNT,
+    DEFAULT_EVERY,
     MAX_LINES,
-    USUAL_COUNT,
-    USUAL_EVERY,
     Section,
     SurfaceLines,
     Vector,
@@ -188,7 +188,7 @@ def even_sections(scene: Scene, normal: Vector, count: int) -> Section:
 
 
 def round_sections(
-    scene: Scene, normal: Vector = (0.0, 0.0, 1.0), count: int = USUAL_COUNT, every: int = USUAL_EVERY
+    scene: Scene, normal: Vector = (0.0, 0.0, 1.0), count: int = DEFAULT_COUNT, every: int = DEFAULT_EVERY
 ) -> tuple[Section, ...]:
     """Level lines at round heights through a whole scene, every k-th an index line.
 
@@ -292,8 +292,8 @@ def with_default_lines(scene: Scene) -> Scene:
     """The scene with the lines that are usual for its items as their own, where they have none of their own."""
     if all(item.default_lines is None for item in scene.items):
         return scene
-    return replace(scene, items=tuple(map(_usual, scene.items)))
+    return replace(scene, items=tuple(map(_with_own_default, scene.items)))
 
 
-def _usual(item: Item) -> Item:
+def _with_own_default(item: Item) -> Item:
     return replace(item, lines=item.default_lines) if item.lines is None else item

@@ -513,7 +513,7 @@ def _jumping_sides(surfaces: StackedSurfaces, ends: tuple[Floats, Floats], lengt
     result = np.zeros(lengths.shape, dtype=np.bool_)
     lengths = lengths.reshape(len(lengths), -1)
     long = np.nan_to_num(lengths)
-    surface, side = np.nonzero(long > LONG * _usual(lengths)[:, None])
+    surface, side = np.nonzero(long > LONG * _typical(lengths)[:, None])
     if not len(side):
         return result
     # The longest of each surface.
@@ -527,7 +527,7 @@ def _jumping_sides(surfaces: StackedSurfaces, ends: tuple[Floats, Floats], lengt
     return result
 
 
-def _usual(lengths: Floats) -> Floats:
+def _typical(lengths: Floats) -> Floats:
     """(s,) the medians of lengths (s,k) that are positive and finite; infinite where there are none."""
     known = np.isfinite(lengths) & (lengths > 0.0)
     ordered, count = np.sort(np.where(known, lengths, np.inf), axis=1), known.sum(axis=1)
