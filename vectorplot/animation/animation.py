@@ -206,12 +206,10 @@ PERIOD = 1.0
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """Numbers or points that depend on time: keys (n,) times, values (n, 1) or (n, 3), a word of WAYS.
-
-    Before the first key and behind the last one values stay; of what is closed the first key follows the last one, one
-    unit of time after it was there.
-    Errors: InputError for times that do not rise or leave 0 to 1, and for too few keys.
-    Source: Glaeser, section 9.1, errata G9-01 to G9-05.
+    """Numbers or points over time: keys (n,) times, values (n,1) or (n,3), a word of WAYS. Values stay before the first
+    and behind the last key; in a closed track the first key follows the last, one unit of time later.
+    Errors: InputError for times that do not rise or leave 0 to 1, and for too few keys. Source: Glaeser, section 9.1,
+    errata G9-01 to G9-05.
     """
 
     times: Floats

@@ -389,11 +389,9 @@ pixels a side shows both, be it blended."""
 
 
 def pruned(frame: MovieFrame, item: Ints) -> Bools:
-    """(m,) the polygons of a frame that are needed; item (m,): of which item each is, negative for none.
-
-    Not needed is a polygon inside a later one, inside the outline of an item all of which is painted later, or inside
-    an earlier one of the same palette and shade, as long as nothing else that comes between them reaches it. Lines and
-    the first polygon, which is the paper, stay; so do polygons that cross themselves, which cover nothing either.
+    """(m,) the polygons of a frame that are needed; item (m,): negative for none. Not needed is a polygon inside a
+    later one, inside the outline of an item painted wholly later, or inside an earlier one of its palette and shade,
+    unless something between reaches it. Lines, the paper, and polygons that cross themselves stay.
     Source: Glaeser, section 10.1 (necessary_to_plot); errata G10-07, G10-08.
     """
     import shapely

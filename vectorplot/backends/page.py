@@ -714,12 +714,10 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 @dataclass(frozen=True, eq=False)
 class PageStrokes:
-    """Strokes of one layer, as they appear on the page.
-
-    microns (p,2) int64, y upwards; offsets (m+1,); closed (m,); curved (m,): a cubic Bézier path, the points of which
-    are its first point and three more for each segment; the others are polylines. A curve lies on the page, its handles
-    may reach beyond it. No two neighbouring points of a polyline are equal, an open one has two points or more and a
-    closed one three or more. arcs: the curves that are arcs of ellipses, in mm, where a format can say so.
+    """Strokes of one layer on the page. microns (p,2) int64, y upwards; offsets (m+1,); closed (m,); curved (m,): a
+    cubic Bézier path, its first point and three more for each segment, handles perhaps beyond the page; the others
+    are polylines without repeated neighbours, of two points or more, three if closed. arcs: curves that are arcs of
+    ellipses, in mm.
     """
 
     microns: Ints
@@ -757,12 +755,11 @@ class PageMarks:
 
 
 def page_marks(drawing: Drawing) -> PageMarks:
-    """The drawing as a backend sees it: clipped to the page and rounded to thousandths of a millimetre.
-
-    The label of a layer is its number from 1 and its name, with the prefix % if it is not to be plotted.
-    Errors: InputError for a point, page or pen width that is not finite, a page without area or larger than
-    LARGEST_PAGE_MM, a colour other than #rrggbb, an opacity that is not from 0 to 1. Edge cases: strokes without length
-    and polygons without area are dropped.
+    """The drawing as a backend sees it: clipped to the page, rounded to thousandths of a mm, without strokes that have
+    no length and polygons that have no area. A layer's label is its number from 1 and its name, with the prefix % if
+    it is not plotted.
+    Errors: InputError for a point, page or pen width not finite, a page without area or larger than LARGEST_PAGE_MM, a
+    colour other than #rrggbb, an opacity beyond 0 to 1.
     """
     check(drawing)
     inks = tuple(_ink(drawing, layer, number) for number, layer in enumerate(drawing.layers, start=1))

@@ -321,12 +321,9 @@ _PICKLE = 5
 
 
 def frame_tasks(film: Film, folder: str | os.PathLike[str], *, format: str | None = None) -> Iterator[Task]:
-    """The files that `vp.save_frames` would write into a folder, as tasks, one by one.
-
-    film: see `vp.animate`; folder: where they go; format: svg for drawings and png for pixels where None; result:
-    0001.svg and so on, with fingerprints where the film can be pickled, as those of animation files can. Others are
-    always made, and in this process.
-    Errors: for an unknown format.
+    """The files that `vp.save_frames` would write into a folder, as tasks; format: svg for drawings, png for pixels
+    where None. Tasks have fingerprints where the film can be pickled, as those of animation files can; others are
+    always made, in this process. Errors: InputError for an unknown format.
     """
     written = format or ("png" if film.pixels else "svg")
     if written not in FORMATS:

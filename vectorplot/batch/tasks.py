@@ -138,11 +138,9 @@ class _Call(Generic[Key, Value]):
 def answers(
     calls: Iterable[tuple[Key, Callable[[], Value]]], executor: Submits, window: int
 ) -> Iterator[tuple[Key, Value | Lost]]:
-    """The answers to calls as they come, each with its key; no more than window calls are under way at any time.
-
-    The calls raise nothing: what an executor raises in their place is the loss of a worker. As a lost worker may take
-    others' calls with it, who was there at too many losses is asked alone. Where this is left early, calls that have
-    not begun are cancelled.
+    """The answers to calls as they come, each with its key; at most window calls are under way. Calls raise nothing:
+    what an executor raises instead is the loss of a worker, and a call present at too many losses is retried alone.
+    Where this is left early, calls not begun are cancelled.
     Errors: InputError where no worker survives anything.
     """
     fresh = (_Call(key, work) for key, work in calls)

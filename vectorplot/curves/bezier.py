@@ -142,12 +142,11 @@ def split(control: Floats, t: Floats | float) -> tuple[Floats, Floats]:
 
 
 def flattened(control: Floats, offsets: Ints, tolerance: float) -> tuple[Floats, Ints]:
-    """Polylines that lie within tolerance of paths: points (p,d) and their offsets (m+1,).
-
-    Errors: InputError for a tolerance that is not positive, or one that takes more than MAX_FLAT_POINTS points.
-    Edge cases: a path without segments gives no points; a straight segment one chord.
-    Source: Wang's bound, Goldman, Pyramid Algorithms, section 5.6: a chord of width 1/n is off by at most the largest
-    second difference times 6/8 over n squared.
+    """Polylines within tolerance of paths: points (p,d) and offsets (m+1,). Edge cases: a path without segments has no
+    points; a straight segment is one chord. Errors: InputError for a tolerance not positive, or more than
+    MAX_FLAT_POINTS points.
+    Source: Wang's bound, Goldman, Pyramid Algorithms, section 5.6: a chord of width 1/n is off by at most 6/8 of the
+    largest second difference over n squared.
     """
     if not tolerance > 0.0:
         raise InputError(f"flattening needs a positive tolerance, not {tolerance:g}")

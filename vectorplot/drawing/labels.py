@@ -788,11 +788,8 @@ def _with_label_layer(layers: tuple[Layer, ...], label: Layer, by_kind: bool) ->
 def labels_on_page(
     seen: SeenLabels, placement: Placement, strokes: Paths, hidden: str, text: str = "strokes", mm: float = 1.0
 ) -> SceneLabels:
-    """The letters of labels, apart from strokes and from each other. Along a curve whose image is shorter than a letter
-    is high, seen end-on, they stand beside its point.
-
-    strokes: of the drawing; hidden: what becomes of hidden lines; text: a word of LETTERS; mm: how long a millimetre is
-    in units of the page.
+    """The letters of labels, apart from strokes and each other; beside the point of a curve whose image is shorter than
+    a letter. hidden: what becomes of hidden lines; text: a word of LETTERS; mm: a millimetre in units of the page.
     Errors: InputError, with the label's name, for a character without strokes.
     """
     letters, seen = LETTERS[text], ticks_with_room(seen, placement, mm)

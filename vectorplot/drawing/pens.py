@@ -182,12 +182,10 @@ def rules_by_target(rules: Sequence[PenRule]) -> RulesByTarget:
 
 
 def pen_of(rules: RulesByTarget, pen: Pen, kind: int, hidden: bool, item: str) -> Pen:
-    """The pen of lines of one kind and item, that of their layer with what the rules say: those for all lines first,
-    then those for the kind, for the item, and for both, the later ones before the earlier ones.
-
-    Lines that something hides are of the kind hidden only; rules for their item that name no kind leave them alone. Of
-    hatchings these change the colour only, and those for all lines the width too, where it is the usual one: their
-    spacing goes by one that is their own.
+    """The pen of lines of one kind and item: their layer's, with the rules for all lines, then for the kind, for the
+    item, and for both, later rules first. Hidden lines are of the kind hidden only, and rules for an item without a
+    kind do not apply to them. Of hatchings these rules change the colour only, and those for all lines the width too
+    where it is the default, since the spacing follows the width.
     """
     word = HIDDEN if hidden else LineKind(kind).word
     hatching = kind == LineKind.HATCH

@@ -81,12 +81,9 @@ def _known(values: Floats, which: Bools) -> Ints:
 def sections(
     paths: Paths, stroke: Ints, first: Ints, t_first: Floats, last: Ints, t_last: Floats, page_from_world: Floats
 ) -> Paths:
-    """Parts of open strokes, as strokes of their own.
-
-    Part i belongs to stroke[i]; it begins on the segment that starts at point first[i], at the fraction t_first[i],
-    and ends on the segment of last[i] at t_last[i]. The points in the world divide their segments so that their
-    images are the points on the page: for a central projection the fraction differs from that on the page. Directions
-    and handles are those of the points; in the middle of a segment none is known.
+    """Parts of open strokes: part i of stroke[i], from the segment at point first[i], fraction t_first[i], to that of
+    last[i], t_last[i]. Points in the world divide their segments so that their images are those on the page.
+    Directions and handles are those of the points, unknown amid a segment.
     """
     offsets = ragged.offsets(last - first + 2)
     index = ragged.ranges(first, last - first + 2)
@@ -308,12 +305,8 @@ def hashed(*parts: Ints) -> Keys:
 
 
 def overlapping_cells(x: Floats, y: Floats, label: Ints, reach: tuple[float, float]) -> tuple[Keys, Ints]:
-    """(key, owner): the cells each point belongs to.
-
-    Points with equal label no further apart than reach, in x and in y, share at least one cell; points that share one
-    need not be close.
-
-    x, y, label (n,). A cell reaches over its left and lower border, so a point is in one cell, seldom in two or four.
+    """(key, owner): the cells of points x, y, label (n,), most in one, few in two or four. Points of equal label within
+    reach, in x and in y, share a cell; points that share one need not be close.
     """
     cell = (CELL * reach[0], CELL * reach[1])
     column, row = np.floor(x / cell[0]), np.floor(y / cell[1])

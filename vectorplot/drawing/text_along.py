@@ -275,11 +275,9 @@ def grown(boxes: Floats, margin_mm: float) -> Floats:
 
 
 def outside_boxes(paths: Paths, boxes: Floats, page_from_world: Floats) -> Paths:
-    """The parts of strokes that lie outside of rectangles, in the order of the strokes.
-
-    boxes (b,4,2): corners, counter-clockwise; page_from_world (4,4) as in Drawing: with it points in the world are cut
-    where the page is. A closed stroke that is cut becomes open ones.
-    Edge cases: what only touches a rectangle stays.
+    """The parts of strokes outside of rectangles, in order. boxes (b,4,2): corners, counter-clockwise; page_from_world
+    (4,4) as in Drawing: points in the world are cut where the page is. A closed stroke that is cut becomes open
+    ones. Edge cases: what only touches stays.
     Source: Cyrus and Beck, Generalized two- and three-dimensional clipping, Computers & Graphics 3 (1978).
     """
     touched = _touched(paths, boxes)

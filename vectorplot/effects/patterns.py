@@ -97,12 +97,9 @@ def _clipped_in_frame(
 
 
 def patterns_in_shadows(view: View, patterns: Decals, shadows: Decals, dark: Bools, lights: int) -> Decals:
-    """The patterns, and on them their parts in the shadow, which lack as many lights as the shadow does.
-
-    dark (f,): faces that turn away from all lights; on these all patterns are dark, and lack all of the lights.
-    Levels begin above those of the shadows: first comes a whole pattern, then its parts in shadows of grade 1, 2, ...,
-    then the next pattern.
-    Source: Glaeser, section 6.5.
+    """The patterns, and on them their parts in the shadow, which lack as many lights. dark (f,): faces turned away from
+    all lights, whose patterns lack all. Levels begin above those of shadows: a whole pattern, its parts of grade 1,
+    2, ..., then the next pattern. Source: Glaeser, section 6.5.
     """
     if not len(patterns):
         return patterns

@@ -110,12 +110,10 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
 
 @dataclass(frozen=True, eq=False)
 class SeenThrough(LineElements):
-    """Polygons to be painted right after the windows they are seen through, in this order.
-
-    points (3,c) in the image, see ImageFaces: heights are those of the doubles; offsets (m+1,); source (m,): the face
-    of the view that is seen; window (m,), ascending: the painted polygon each one is painted after; pane (m,): the face
-    of the view that this window is, or is a part of: the mirror; decal (m,): the decal on that face that is seen, -1
-    for the face itself.
+    """Polygons to be painted right after the windows they are seen through, in order. points (3,c): see ImageFaces,
+    heights of the doubles; offsets (m+1,); source (m,): the face seen; window (m,) ascending: the painted polygon
+    before; pane (m,): the face of which the window is a part; decal (m,): the decal seen on that face, -1 for the
+    face itself.
     """
 
     points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)

@@ -372,12 +372,9 @@ def curves_where_zero(
     rounding: float,
     tracing: Tracing,
 ) -> SurfaceCurves:
-    """The curves on a surface along which a condition f(u, v) = 0 holds.
-
-    size: how large f is where it is far from zero; rounding: the error that f is computed with: smaller values count as
-    zero. Where f is below FLAT_OF_VALUES of its size all over a cell of the grid, values as small as that count as zero
-    everywhere, so that an area where f is zero is not filled with lines.
-    Errors: InputError for a grid that is too coarse.
+    """The curves on a surface where f(u, v) = 0. size: how large f is away from zero; rounding: its error, below which
+    it counts as zero. Where f is below FLAT_OF_VALUES of size all over a cell, as small values count as zero
+    everywhere, so that an area of zeros is not filled with lines. Errors: InputError for a grid that is too coarse.
     """
     (found,) = curves_on_each(alone(surface, condition), [size], [rounding], tracing)
     return found

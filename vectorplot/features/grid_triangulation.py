@@ -14,11 +14,9 @@ from vectorplot.tolerances import ROUNDING, SYMMETRIC_DEVIATION, ZERO_OF_EXTENT
 
 
 def average_normals(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Floats:
-    """Unit normals of a surface at the points of a grid, on the side of x_u x x_v.
-
-    grid: (m, n, 3) points, two or more each way; result: (m, n, 3) each is the mean of the unit normals of the up to
-    four triangles that a point spans with its grid neighbours.
-    Edge cases: triangles without area (poles, repeated points, NaN) are left out; without any the normal is zero.
+    """(m,n,3) unit normals at the points (m,n,3) of a grid, on the side of x_u x x_v: means of those of the up to four
+    triangles with grid neighbours. Edge cases: triangles without area (poles, repeated points, NaN) do not count;
+    zero where there are none.
     Source: Glaeser, section 8.4, figure 12; erratum G8-12.
     """
     p = _checked(grid)

@@ -152,12 +152,10 @@ def curve_band(
     finest: float,
     most: int,
 ) -> Band:
-    """The band of triangles (t,3) that the curve on which values vanish can reach.
-
-    Where slopes at the corners of a triangle point different ways, and values are small enough that they could vanish
-    inside, it is cut until its sides are shorter than finest, or there are more than most of them; or STUBBORN times if
-    it stays at a singular point of the surface. middles(starts, ends) makes nodes between the ends of
-    sides; tangential(slopes (k,3,3) at corners, source (k,)) are the parts of slopes in the surface.
+    """The band of triangles (t,3) that the curve of vanishing values can reach. Where slopes at the corners diverge and
+    values could vanish inside, a triangle is cut until its sides are below finest, there are more than most, or
+    STUBBORN times at a singular point. middles(starts, ends): nodes between; tangential(slopes (k,3,3), source
+    (k,)): parts of slopes in the surface.
     """
     source = np.arange(len(triangles))
     reached = _reached(nodes, triangles, tangential(nodes.slopes[triangles], source), REACH)

@@ -515,12 +515,9 @@ def led_into_singular_set(surface: ImplicitSurface, mesh: Mesh, lines: SingularL
 
 
 def led_into_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines) -> tuple[Mesh, Bools]:
-    """The mesh, its vertices near the singular lines of the surface moved there, without the triangles that are then no
-    more than a part of a line; and which vertices (v,) are on such a line.
-
-    Where two sheets cross, polygonised ones turn away from each other and leave a gap; the wings of a cuspidal edge end
-    before it, and polygons go across from one to the other. Now all end on the line. Vertices on the sides of the box
-    stay on them.
+    """The mesh with vertices near singular lines moved onto them, without triangles that become a part of a line; and
+    (v,) which vertices are on such a line. It closes the gap that polygonised sheets leave where they cross, and
+    takes off polygons across the wings of a cuspidal edge. Vertices on sides of the box stay there.
     """
     there = np.zeros(len(mesh.vertices), dtype=np.bool_)
     if not mesh.face_count or not len(lines):

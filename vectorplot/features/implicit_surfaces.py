@@ -447,11 +447,8 @@ class SpatialCondition(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class ImplicitCentralContour:
-    """g = N.(x - eye), N the unit gradient of F: the surface turns away from the eye (3,). Positive where N points away
-    from it.
-
-    Errors: InputError for an eye that is not three finite numbers.
-    Edge cases: NaN where the gradient of F vanishes.
+    """g = N.(x - eye), N the unit gradient of F, eye (3,): positive where N points away from the eye, NaN where the
+    gradient vanishes. Errors: InputError for an eye that is not three finite numbers.
     Source: Glaeser, section 8.4, equations 25 to 27.
     """
 

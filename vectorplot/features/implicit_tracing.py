@@ -406,12 +406,9 @@ class ImplicitTracing:
 
 @dataclass(frozen=True, eq=False)
 class ImplicitCurves(NumberedLines):
-    """Polylines on an implicit surface.
-
-    points: (n, 3) in world coordinates; offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,)
-    the last point joins the first, which is not repeated; levels: (m,) the level a curve of a family belongs to;
-    isolated: (i, 3) single points that satisfy the condition; nodes: (k, 3) where curves cross; doubts: A sentence for
-    each thing that could not be decided.
+    """Polylines on an implicit surface. points (n,3): in the world; offsets (m+1,); closed (m,): the last point joins
+    the first, which is not repeated; levels (m,): of a family; isolated (i,3): single points of the condition; nodes
+    (k,3): where curves cross; doubts: a sentence for each undecided thing.
     """
 
     points: Floats = field(metadata=EACH_POINT)

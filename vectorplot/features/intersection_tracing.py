@@ -81,10 +81,9 @@ class Meetings:
 
 
 def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Bound, zero: float | Floats) -> Meetings:
-    """The places near given ones at which the patches meet; zero, or zero (k,): how far apart the points may be.
-
-    Newton's method: the point of both tangent planes that is nearest to the middle of the two points, or lies in the
-    given plane, or on the given line; both places are moved towards it. This is the step of minimum norm.
+    """The places near given ones where the patches meet; zero or zero (k,): how far apart the points may be. Newton's
+    method with steps of minimum norm: both places move towards the point of both tangent planes nearest to the
+    middle, or in the given plane or on the given line.
     Source: Glaeser, section 8.4; Barnhill and Kersey, A marching method for parametric surface/surface intersection
     (1990).
     """

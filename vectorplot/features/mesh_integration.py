@@ -394,12 +394,10 @@ def mesh_traces(
     length: Floats | float,
     beside: float = 0.0,
 ) -> MeshTraces:
-    """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it; length: of
-    all, or (k,) of each. beside: those that come back so near to where they have been do not run on for many rounds;
-    all do where it is zero.
-
-    A line ends where the flow does not lead on, where it is as long as it may be, and where it comes back to where it
-    left its first face, into the same face in the same direction: it is closed then.
+    """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it, up to length
+    (or (k,)). beside: lines that return so near to their track do not run on for many rounds; 0 for all to do. A
+    line ends where the flow does, at its length, or closed where it returns to the exit of its first face, into the
+    same face in the same direction.
     """
     count = len(face)
     nowhere = np.full(count, NO_SIDE)

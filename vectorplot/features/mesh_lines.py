@@ -51,12 +51,9 @@ class LevelSegments:
 
 
 def level_segments(triangles: Ints, values: Floats) -> LevelSegments:
-    """The segments in triangles (t,3) of vertex indices whose corners have values (n,) of different signs; of several
-    curves, with values (c,n), those of one after those of the other.
-
-    An edge is one for all its triangles, and so is the crossing on it. Zero counts as positive: a curve through a
-    vertex or along an edge is met once, in one triangle of those around it.
-    Edge cases: triangles with a value that is not a number have none.
+    """The segments in triangles (t,3) whose corners have values (n,) of different signs; of several curves with values
+    (c,n), one after the other. An edge, and the crossing on it, is one for all its triangles. Zero counts as
+    positive, so a curve through a vertex or along an edge is met once. Edge cases: none where a value is NaN.
     """
     negative = (values[..., triangles] < 0.0).reshape(-1, 3)
     count = negative.sum(axis=1)

@@ -290,12 +290,10 @@ HALVINGS = 50
 def surface_path(
     surface: Surface, path: Callable[[Floats], Floats], start: float, end: float, *, tracing: Tracing = DEFAULT
 ) -> SurfaceCurves:
-    """The curve on a surface whose parameters are path(t): (n,2), u and v, for t (n,) from start to end.
-
-    It may run over the seams of a closed surface, any number of times; where it leaves an open one, or comes to a hole,
-    it is interrupted. Of tracing, tolerance and picture count: chords stay within the tolerance, in picture where there
-    is one. A path that comes back to its start, up to whole periods, is closed.
-    Edge cases: a path that is a single point is none. Source: Glaeser, section 8.2, equation 9.
+    """The curve on a surface with parameters path(t): (n,2), for t (n,) from start to end; over seams any number of
+    times, interrupted outside the domain and in holes, closed if it returns up to whole periods. Of tracing,
+    tolerance and picture count. Edge cases: a single point is no curve.
+    Source: Glaeser, section 8.2, equation 9.
     """
     size = extent(surface)[0]
     if size == 0.0:

@@ -43,12 +43,9 @@ Gradients = Callable[[Floats, Floats, Ints], tuple[Floats, Floats]]
 
 @dataclass(frozen=True, eq=False)
 class ScalarFields:
-    """Functions f(u, v), one or many, over domains that are closed in the same directions, with their gradients if
-    these are known.
-
-    A point is a row of u, v and the number of the function. start and size (s,2): where the ranges of u and v begin,
-    and their lengths; low and high (s,2): the smallest and largest u and v where f is evaluated: nearer to a border it
-    has the values next to it.
+    """Functions f(u, v) over domains closed in the same directions, with gradients if known; a point is u, v and the
+    number of the function. start, size (s,2): the ranges; low, high (s,2): where f is evaluated, nearer to a border
+    it has the values next to it.
     """
 
     f: Functions
@@ -178,12 +175,9 @@ def in_units(field: ScalarFields, unit: Floats) -> ScalarFields:
 
 
 def without_poles(field: ScalarFields, values: Floats) -> tuple[ScalarFields, Floats]:
-    """The fields without their poles, and their values (s, columns+1, rows+1) on grids over the domains; values: those
-    that `on_grid` gives.
-
-    Edge cases: a border all along which f is zero or not defined is a pole of the parametrisation (there the normal of
-    a surface vanishes), it gets the values next to it. A single point where f is not defined, such as sin(r) / r at
-    r = 0, gets the value next to it.
+    """The fields without their poles, and values (s, columns+1, rows+1), those of `on_grid`. Edge cases: a border where
+    f is zero or undefined all along is a pole of the parametrisation and gets the values next to it; so does a
+    single undefined point, such as sin(r) / r at 0.
     """
     w, columns, rows = values.copy(), values.shape[1] - 1, values.shape[2] - 1
     low, high = field.low.copy(), field.high.copy()

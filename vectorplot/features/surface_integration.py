@@ -67,12 +67,10 @@ Rates = Callable[[Floats], Floats]
 
 @dataclass(frozen=True, eq=False)
 class Steps(Elements):
-    """Steps from states start (k,d): the one by which each leads on, move (k,d); error (k,d): what it differs from that
-    of one order less; rates (2,k,d) at both ends, times the length of the step; bend (k,d): the rest of what is
-    between.
-
-    Source: Dormand and Prince, A family of embedded Runge-Kutta formulae (1980); Hairer, Norsett and Wanner, Solving
-    ordinary differential equations I, section II.6, for what is between.
+    """Steps from states start (k,d) by move (k,d); error (k,d): difference from the step of one order less; rates
+    (2,k,d): at both ends, times the step's length; bend (k,d): the rest of the dense output.
+    Source: Dormand and Prince (1980); Hairer, Norsett and Wanner, Solving ordinary differential equations I, section
+    II.6.
     """
 
     start: Floats
@@ -508,12 +506,11 @@ def traces(
     accuracy: Accuracy = USUAL,
     until: Until = NOTHING_NEAR,
 ) -> Courses:
-    """The traces of points from u and v (m,2) along unit tangents (m,3), as long as lengths (m,) say at most.
-
-    way (m,): -1 where they run against the field; size, large: the extent of the surface and its largest coordinate.
-    They end at borders, where they close, where no step succeeds, and at what else is said.
-    Source: Glaeser, section 9.4; errata G9-13 and G9-14: here steps have the length that their error allows, and a
-    curve closes only after it has been away.
+    """The traces of points from u, v (m,2) along unit tangents (m,3), up to lengths (m,); way (m,): -1 against the
+    field; size, large: the extent and the largest coordinate. They end at borders, where they close, where no step
+    succeeds, and by until.
+    Source: Glaeser, section 9.4; errata G9-13 and G9-14: steps follow their error, and a curve closes only after it has
+    been away.
     """
     charts = flow.charts
     shortest = max(STALLED_OF_EXTENT, accuracy.error) * size

@@ -123,12 +123,10 @@ def overlapping_of_each(low: list[Floats], high: list[Floats], numbers: list[Int
 
 
 def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
-    """The segments in which pairs of triangles meet, joined where an edge of one pierces a triangle of the other.
-
-    Every sign is that of one determinant, taken with the ends of an edge in one order: both triangles at the edge get
-    the same answer, and what lies on a plane or a line counts as above it. So segments fit without gaps.
-    Edge cases: coplanar triangles do not meet.
-    Source: Glaeser, section 8.4; the determinants are those of Guigue and Devillers (2003).
+    """The segments in which pairs of triangles meet, joined where an edge of one pierces a triangle of the other. Every
+    sign is one determinant with the ends of an edge in one order, so both triangles at the edge agree and segments
+    fit; what lies on a plane or line counts as above. Edge cases: coplanar triangles do not meet.
+    Source: Glaeser, section 8.4; determinants of Guigue and Devillers (2003).
     """
     origin = one.points[one.triangles[:1, 0]].reshape(-1, 3)[:1] if len(one.triangles) else np.zeros((1, 3))
     tables = [_empty(one, two)]

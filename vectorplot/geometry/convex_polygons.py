@@ -169,11 +169,9 @@ def convex_hull(points: ArrayLike) -> Ints:
 
 
 def convex_hulls(points: Floats, offsets: Ints) -> tuple[Ints, Ints]:
-    """The convex hulls of many sets of points: set i has the points offsets[i] to offsets[i+1] of points (n, 2 or more
-    columns). Returns the corners of all hulls (h,), as indices into points, and their offsets; each as in convex_hull.
-
-    All sets are worked on at once: round by round the point that is farthest outside each side becomes a corner. On
-    which side a point lies is decided exactly.
+    """The convex hulls of sets of points (n, 2 or more), set i offsets[i] to offsets[i+1]: corners (h,) and their
+    offsets, see convex_hull. Round by round the point farthest outside each side becomes a corner; sides are decided
+    exactly.
     Source: Bykat, Convex hull of a finite set of points in two dimensions (1978); Glaeser, section 6.1.
     """
     p = np.ascontiguousarray(points[:, :2], dtype=np.float64)

@@ -205,12 +205,9 @@ def _many(count: int, one: str, many: str) -> str:
 
 @dataclass(frozen=True)
 class MeshReport:
-    """What a mesh is like.
-
-    vertices, faces, edges: how many there are; boundary_edges: edges of one face only; nonmanifold_edges: edges of more
-    than two faces; components: pieces that are connected; closed: no boundary edge; oriented: neighbours agree about
-    the outside; convex: closed, oriented and convex within 1e-9 of its extent; bounds: ((float, float, float), (float,
-    float, float)) smallest and largest coordinates.
+    """What a mesh is like. vertices, faces, edges: counts; boundary_edges: of one face; nonmanifold_edges: of more than
+    two; components: connected pieces; closed: no boundary edge; oriented: neighbours agree about the outside;
+    convex: closed, oriented and convex within 1e-9 of the extent; bounds: smallest and largest coordinates.
     """
 
     vertices: int
@@ -443,12 +440,9 @@ FEW_COPIES = 8
 
 
 def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
-    """The meshes with the boundary edges of each that coincide exactly made one edge, and boundary edges without length
-    one vertex.
-
-    Vertices stay, and faces keep their numbers: corners name one of several vertices in one place. A face that is left
-    with fewer than three corners is no longer present. Meshes without seams are returned themselves.
-    Edge cases: vertices in one place that no common edge joins stay apart; so do closed meshes that touch.
+    """The meshes with coinciding boundary edges made one, and those without length one vertex. Vertices and face
+    numbers stay; a face of fewer than three corners is no longer present; meshes without seams are returned
+    themselves. Edge cases: vertices that no common edge joins, and closed meshes that touch, stay apart.
     """
     asked = _perhaps_open(meshes)
     result = list(meshes)

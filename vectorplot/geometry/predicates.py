@@ -61,13 +61,7 @@ def orient3d(a: ArrayLike, b: ArrayLike, c: ArrayLike, d: ArrayLike) -> Signs:
 
 
 def polygon_orientation(points: ArrayLike) -> int:
-    """Which way round a polygon runs: exact.
-
-    points: (n, 2) its corners.
-    Edge cases: fewer than three points have no area.
-    Source: Shewchuk, Adaptive Precision Floating-Point Arithmetic and Fast Robust Geometric Predicates, section 4
-    (error bounds).
-    """
+    """Which way round a polygon (n,2) runs, exactly; 0 for fewer than three points. Source: Shewchuk, see orient2d."""
     p = np.asarray(points, dtype=np.float64)[:, :2]
     if len(p) < 3:
         return 0

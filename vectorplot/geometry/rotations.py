@@ -217,11 +217,9 @@ def rotated_about_line(points: ArrayLike, on_line: ArrayLike, axis: ArrayLike, a
 
 
 def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
-    """The rotations that carry centres onto the positive z-axis, horizontal lines staying horizontal but for a twist.
-
-    centres: (..., 3) eyes or lamps, with the target as the origin; twist: (...) in radians; result: (..., 3, 3)
-    Z(-gamma) X(-beta) Z(-alpha), acts on points as rows: points @ rotation.
-    Edge cases: for a centre above or below the origin the azimuth is 0.
+    """(...,3,3) the rotations (points @ rotation) that carry centres (...,3) onto the positive z-axis, Z(-gamma)
+    X(-beta) Z(-alpha), with horizontals kept but for the twist (...) in radians. Edge cases: above or below the
+    origin the azimuth is 0.
     Source: Glaeser, sections 2.1, equations 1 to 4, and 2.4.
     """
     spherical = spherical_coordinates(normalize(centres))
@@ -232,11 +230,9 @@ def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
 
 
 def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:
-    """The angles alpha, beta, gamma of Z(alpha) X(beta) Z(gamma) for a frame, in radians.
-
-    axes (3,3): unit rows right, up, back; result: (float,float,float) -pi < alpha <= pi, 0 <= beta <= pi, -pi/2 < gamma
-    <= 3 pi/2 (a quarter turn more than the azimuth of the eye).
-    Edge cases: where beta is 0 or pi, gamma is pi/2, so that an upright view has the azimuth 0.
+    """The angles alpha, beta, gamma of Z(alpha) X(beta) Z(gamma) for a frame of unit rows right, up, back (3,3): -pi <
+    alpha <= pi, 0 <= beta <= pi, -pi/2 < gamma <= 3 pi/2 (a quarter turn more than the eye's azimuth). Edge cases:
+    where beta is 0 or pi, gamma is pi/2, so an upright view has azimuth 0.
     Source: Glaeser, section 2.1, equations 9 and 10; erratum G2-01.
     """
     m = np.asarray(axes, dtype=np.float64)

@@ -68,12 +68,9 @@ def edge_uses(mesh: Mesh) -> EdgeUses:
 
 
 def is_closed_oriented(mesh: Mesh) -> bool:
-    """Whether every edge is run along as often in one direction as in the other.
-
-    mesh: any; result: True where the mesh bounds a solid and its faces agree about the outside.
-    No sort: every directed edge from a to b adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed random r and s, which
-    cancels. A mesh that is not closed passes with a probability of about 2^-63.
-    Edge cases: a mesh without faces is closed.
+    """Whether every edge is run along as often in both directions: the mesh bounds a solid and its faces agree about
+    the outside; true without faces. No sort: every directed edge adds r(a) s(b) - r(b) s(a) modulo 2^64 for fixed
+    random r and s; an open mesh passes with a probability of about 2^-63.
     """
     return mesh.is_closed
 

@@ -109,18 +109,13 @@ CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the cur
 
 
 def scene_of(shown: object) -> Scene:
-    """The scene that something with a shape is, or makes up.
-
-    shown: a path is read as by `vp.read`. Shapes become gray items named after what they are. A mesh of another library
-    is known by what it has: vertices and faces, as those of trimesh, or points and cells, as those of meshio, whose
-    volumes show their outer faces. Arrays of vertices (n, 3) and of faces (f, k) are a pair. A Terrain, or an array of
-    heights (m, n), is drawn with its level lines; heights of an array that would be a plain, or needles, over steps of
-    1 are drawn higher or lower, as those of files. A list or a tuple is all of what is in it, a mapping names it;
-    result: of several scenes all items and lights; camera, page, background and title are those of the first one that
-    has any.
-    Errors: TypeError for anything else, in one sentence; as `vp.read`, for meshes that make no sense, and for a
-    drawing.
-    Warns InputWarning: what was repaired of a mesh of another library or of arrays; how heights were scaled.
+    """The scene of anything with a shape: a path, read as by `vp.read`; shapes, as gray items named after what they
+    are; a mesh of another library, known by vertices and faces or by points and cells, whose volumes show their
+    outer faces; arrays of vertices (n,3) and faces (f,k); a Terrain or heights (m,n), with level lines, extreme
+    heights of arrays scaled as in files; a list of these, or a mapping that names them. Camera, page, background and
+    title are the first that any has.
+    Errors: TypeError for anything else; as `vp.read`, for meshes that make no sense, and for a drawing. Warns
+    InputWarning: what was repaired of other meshes and of arrays; how heights were scaled.
     """
     return _scene_of(shown, ())
 

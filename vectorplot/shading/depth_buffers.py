@@ -166,12 +166,10 @@ TILE, SMALL_TILE = 64, 16
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Triangles to be covered.
-
-    grid (2, n) subpixels; beside (2, n): how far beside these the points are, in subpixels; depths (n,) codes not yet
-    cut off; corners (t, 3); sheet (t,): the plane of slopes (3, k) that has the codes of a triangle, -1 for none: code
-    at the first column and row, and how it grows with column and row. So triangles in one plane have the same codes;
-    first, last: the smallest and the largest of all.
+    """Triangles to be covered. grid (2,n): subpixels; beside (2,n): how far the points are beside these; depths (n,):
+    codes before clipping; corners (t,3); sheet (t,): the plane of slopes (3,k) with the codes of a triangle (at the
+    first column and row, and their growth), -1 for none, so coplanar triangles have the same codes; first, last:
+    smallest and largest of all.
     """
 
     grid: NDArray[np.int32]

@@ -195,12 +195,9 @@ def reflected(normals: ArrayLike, to_light: ArrayLike) -> Floats:
 
 
 def brightness(cos_alpha: ArrayLike, cos_beta: ArrayLike, finish: Finish) -> Floats:
-    """What a surface sends to the eye of one light of intensity 1.
-
-    cos_alpha (...): of the angle between normal and light; cos_beta (...): of the angle between reflected ray and eye;
-    finish: what the material makes of light; result: (...) 1 and more is as bright as can be.
-    Highlights are only where the light falls on the outer side and the reflected ray runs towards the eye.
-    Source: Glaeser, section 8.5, equation 31; erratum G8-16.
+    """(...) what a surface sends to the eye of one light of intensity 1, 1 and more being the brightest. cos_alpha:
+    between normal and light; cos_beta: between reflected ray and eye. Highlights only where light falls on the outer
+    side and the reflected ray runs towards the eye. Source: Glaeser, section 8.5, equation 31; erratum G8-16.
     """
     alpha = np.clip(np.asarray(cos_alpha, dtype=np.float64), -1.0, 1.0)
     beta = np.clip(np.asarray(cos_beta, dtype=np.float64), -1.0, 1.0)
@@ -268,12 +265,8 @@ def distance_factor(light_distance: float, depth: ArrayLike, nearest: float) -> 
 
 
 def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
-    """What ambient light adds to shades: from 0 at the smallest depth of the screen to 0.2 at the largest.
-
-    depth (...): larger = closer to the eye; minimum: the smallest depth; total: the depth of the scene; result: (...) 0
-    to 0.2.
-    Edge cases: a scene without depth gets all of it.
-    Source: Glaeser, section 4.5, equation 5, figure 6.
+    """(...) 0 to 0.2: what ambient light adds to shades at depths (larger = closer) from minimum on, over total; all of
+    it in a scene without depth. Source: Glaeser, section 4.5, equation 5, figure 6.
     """
     z = np.asarray(depth, dtype=np.float64)
     share = (z - minimum) / total if total > 0.0 else np.ones(z.shape)

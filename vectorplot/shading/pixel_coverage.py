@@ -271,11 +271,9 @@ def whole_pixels(points: ArrayLike) -> NDArray[np.int64]:
 
 
 def line_pixels(start: ArrayLike, end: ArrayLike, columns: int, rows: int) -> Iterator[LinePixels]:
-    """The pixels of lines (n, 2 or more) within a raster, in portions; row 0 and column 0 are its first ones.
-
-    A line has max(|dx|, |dy|) + 1 pixels, both ends among them, and none is further from it than half a pixel. It has
-    the same pixels from either end, and the same where a part of it lies outside.
-    Edge cases: a line without length is one pixel.
+    """The pixels of lines (n, 2 or more) within a raster, in portions: max(|dx|, |dy|) + 1 for each, both ends among
+    them, none further than half a pixel away, the same from either end and where a part lies outside. Edge cases: a
+    line without length is one pixel.
     Source: Glaeser, section 4.6 (Bresenham); erratum G4-09.
     """
     p, q = whole_pixels(start), whole_pixels(end)

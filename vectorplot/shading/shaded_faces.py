@@ -50,12 +50,9 @@ HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
 
 @dataclass(frozen=True, eq=False)
 class Shades:
-    """How bright n points are in the light of l lights.
-
-    shares: (l, n) what a light of intensity 1 gives, 1 and more being as bright as can be; matt: (l, n) the same
-    without highlights; backlit: (l, n) whether a light shines on their far side; intensity: (l,) of the lights, or of
-    their red, green and blue where one of them is coloured; cue: (n,) what is added because they are near the eye.
-    Source: Glaeser, sections 4.5 and 8.5.
+    """How bright n points are in the light of l lights. shares (l,n): of a light of intensity 1; matt (l,n): without
+    highlights; backlit (l,n): light on the far side; intensity (l,) or of red, green and blue; cue (n,): of being
+    near the eye. Source: Glaeser, sections 4.5 and 8.5.
     """
 
     shares: Floats
@@ -508,12 +505,9 @@ def _with_creases(
 
 
 def plane_numbers(view: View) -> Ints:
-    """(f,) the number of the region that each face of a view is a part of: of the faces of one item that lie in one
-    plane, and are connected by edges of two faces.
-
-    A corner may be off the plane by FLAT_OF_EXTENT; where a region would be bent more than that, as on surfaces of very
-    small faces, only what is flat within the tolerance of the view is taken together.
-    Edge cases: faces wound against each other, and those without area, stand alone.
+    """(f,) the number of the region of each face: faces of one item in one plane, connected by edges of two faces. A
+    corner may be off by FLAT_OF_EXTENT; where that would bend a region more, only what is flat within the view's
+    tolerance is taken together. Edge cases: faces wound against each other, or without area, stand alone.
     """
     count = view.face_count
     number = np.arange(count)

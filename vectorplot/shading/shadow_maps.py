@@ -69,12 +69,9 @@ POINTS_AT_ONCE = 1 << 17
 
 @dataclass(frozen=True, eq=False)
 class ShadowMap:
-    """The depths that a lamp sees.
-
-    system: the lamp's; texel_from_light: (3, 3) from (x, y, 1) of its image plane to column, row and weight; code:
-    (rows, columns) 0 where the lamp sees nothing; depth_code: what the codes mean; biased: whether depths are compared
-    with a margin, against faces that shade themselves.
-    Source: Glaeser, section 8.6; Martin and Tan, recipe, polygon offset.
+    """The depths that a lamp sees. system: the lamp's; texel_from_light (3,3): from (x, y, 1) of its image plane to
+    column, row and weight; code (rows,columns): 0 for nothing; depth_code; biased: whether depths are compared with
+    a margin. Source: Glaeser, section 8.6; Martin and Tan, recipe, polygon offset.
     """
 
     system: CoordinateSystem

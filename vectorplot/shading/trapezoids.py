@@ -123,11 +123,9 @@ def focus_distance(axis: Axis, points: ArrayLike) -> float:
 
 
 def taper_of_focus(axis: Axis, focus: float, line: float = FOCUS_LINE) -> float:
-    """The length of the trapezoid against eta: 0 for a rectangle, and no pole in between.
-
-    It fades to 0 as the centre of the near plane moves from the top line to the middle of the frustum: so the map goes
-    over to the rectangle without a jump when eye and lamp begin to look at each other.
-    Edge cases: a focus on or before the top line takes the largest taper; a frustum without length has none.
+    """The length of the trapezoid over eta, 0 for a rectangle, without poles; it fades to 0 as the centre of the near
+    plane moves from the top line to the middle of the frustum, where eye and lamp begin to face each other. Edge
+    cases: a focus on or before the top line takes the largest taper; a frustum without length has none.
     Source: after Ressler, section 2, and erratum N-02.
     """
     if not axis.length > 0.0:
@@ -139,11 +137,10 @@ def taper_of_focus(axis: Axis, focus: float, line: float = FOCUS_LINE) -> float:
 
 
 def tapered_map(points: ArrayLike, axis: Axis, taper: float) -> Floats:
-    """(3, 3) the projective map of the trapezoid around points (n, 2) onto the square from -1 to 1: top line to y = -1.
-
-    With tau = 0 on the top line and 1 on the base, its last row is 1 + taper tau. Up to a factor it is the matrix of
-    the trapezoid's corners; and it has neither pole nor branch where the trapezoid becomes a rectangle.
-    Edge cases: points on a line get a square of a billionth of their extent across, a single point one of size 1.
+    """(3,3) the projective map of the trapezoid around points (n,2) onto the square from -1 to 1, top line to y = -1;
+    its last row is 1 + taper tau, tau from 0 on the top line to 1 on the base, so there is no pole where it becomes
+    a rectangle. Edge cases: points on a line get a billionth of their extent across, a single point a square of size
+    1.
     Source: after Ressler, sections 4 and 5.
     """
     p = np.asarray(points, dtype=np.float64)

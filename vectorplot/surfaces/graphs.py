@@ -148,12 +148,9 @@ class PolygonRegion:
 
 @dataclass(frozen=True, eq=False)
 class Graph(MovableSurface):
-    """The points (u, v, f(u, v)) above a rectangle or a region, normals upwards.
-
-    domain: the rectangle, or the one around the region; heights: f; NaN outside the region; slopes: the derivatives by
-    u and by v, or empty: they are found from the heights; jets: f, f_u, f_v at once, and these with f_uu, f_uv, f_vv,
-    each with its own holes; or empty.
-    Made by `graph`.
+    """The points (u, v, f(u, v)) above a rectangle or a region, normals upwards, made by `graph`. domain: the rectangle
+    (around the region); heights: f, NaN outside; slopes: derivatives, or empty; jets: f, f_u, f_v at once, and these
+    with second derivatives, each with its own holes, or empty.
     """
 
     domain: Domain

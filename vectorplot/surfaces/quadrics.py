@@ -204,12 +204,8 @@ def implicit_cylinder(radius: float, point: ArrayLike, axis: ArrayLike, box: Arr
 
 
 def implicit_cone(half_angle: float, apex: ArrayLike, axis: ArrayLike, box: ArrayLike) -> Quadric:
-    """The double cone whose rulings enclose the half angle with the axis, within a box.
-
-    half_angle: in radians, between 0 and pi/2; apex (3,): in world units; axis (3,): of any length; box (2,3): the
-    smallest and the largest coordinates; result: F is negative inside.
-    Errors: for an angle that is not between 0 and pi/2, an axis without length, an apex that is not three finite
-    numbers, an empty box.
+    """The double cone whose rulings enclose half_angle (0 to pi/2) with the axis, within a box (2,3); F is negative
+    inside. Errors: InputError for other angles, an axis without length, an apex not finite, an empty box.
     """
     if not 0.0 < half_angle < 0.5 * np.pi:
         raise InputError(f"cone: a half angle of {half_angle:g} is not between 0 and pi/2")
@@ -679,12 +675,9 @@ class Hyperboloid(OnSemiAxes):
 
 @dataclass(frozen=True, eq=False)
 class HyperboloidSheet(OnSemiAxes):
-    """The upper sheet of x^2/a^2 + y^2/b^2 - z^2/c^2 = -1, from its lowest point z = c up to the height top.
-
-    semi_axes (3,): a, b and c, positive, in world units; top: a height above the centre, more than c; centre (3,): in
-    world units.
-    (a p cos u, b p sin u, c cosh v) with p = sinh v; v = 0 is a pole. Normals point out of the bowl, downwards.
-    Errors: for semi-axes that are not positive, a top not above c, a centre that is not three finite numbers.
+    """The upper sheet of x^2/a^2 + y^2/b^2 - z^2/c^2 = -1 about a centre, from z = c up to top: (a p cos u, b p sin u,
+    c cosh v), p = sinh v; v = 0 is a pole; normals point out of the bowl, downwards. Errors: InputError for
+    semi-axes not positive, a top not above c, a centre not finite.
     """
 
     semi_axes: ArrayLike = (1.0, 1.0, 1.0)

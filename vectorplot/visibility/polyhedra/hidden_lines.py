@@ -157,12 +157,10 @@ def clip_pairs(
     high: Floats,
     beyond: Bools,
 ) -> Hits:
-    """What occluders hide of segments between the parameters low and high, pair by pair.
-
-    The points that a convex thing hides, itself included, form a convex set, so a zone is one interval: the segment
-    clipped by the occluder's planes, those towards the eye first; beyond (n,) tells the pairs that need not be
-    clipped by these, since the part lies behind all of the occluder. A distance below the view's tolerance is zero,
-    and zero does not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
+    """What occluders hide of segments between the parameters low and high, pair by pair: one interval, since the points
+    that a convex thing hides, itself included, are convex; the segment is clipped by the occluder's planes, those
+    towards the eye first. beyond (n,): pairs wholly behind, not clipped by these. Distances below the view's
+    tolerance are zero and do not hide; for a segment in a plane of the outline only the shadow's side counts.
     Source: Glaeser, section 7.2; errata G7-01 and G7-02.
     """
     skipped = occluders.behind.take(occluder) * beyond
@@ -442,14 +440,9 @@ def with_whole_lines(seen: Visibility, whole: Bools) -> Visibility:
 def visible_parts(
     view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
 ) -> Visibility:
-    """The visible parts of straight segments.
-
-    view: see scene.look; faces: see project_faces; solid (i,): see solid_items: the items that hide as convex
-    solids; segments: in the view's coordinates; progress: progress(share) is called while it works; result: the visible
-    parts only.
-    What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its
-    sides are. Parts below ten tolerances of the view are left out.
-    Source: Glaeser, section 7.2.
+    """The visible parts of straight segments; solid (i,): see solid_items. What lies on an occluder or the border of
+    its shadow is visible; a line along a border is hidden where both sides are. Parts below ten tolerances of the
+    view are left out. Source: Glaeser, section 7.2.
     """
     gap = _gaps(view, segments)
     if not len(segments):

@@ -49,13 +49,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Lines(Elements):
-    """Straight lines in the view's coordinates.
-
-    start, end: (3, n) their ends; kind: (n,) lineKind values; item: (n,) of which item each is a line; side: (n,) 1 or
-    -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other lines;
-    smooth: (n,) A chord of a smooth curve, both of its ends on it; behind: (n,) how many smooth surfaces hide all of
-    it; aside: (3, n) how far from it the line lies that is hidden where it is: contours across faces are seen as what
-    is just outside of these faces is; chords: which parts of smooth curves they are, if some are.
+    """Straight lines in the view's coordinates. start, end (3,n); kind (n,): LineKind values; item (n,); side (n,): 1
+    or -1 for an outline with its surface left or right of start -> end in the image, else 0; smooth (n,): chords of
+    smooth curves; behind (n,): how many smooth surfaces hide all of it; aside (3,n): offset at which it is tested,
+    as contours across faces are just outside of these; chords: the parts of smooth curves, if any.
     """
 
     start: Floats = field(metadata=IN_COLUMNS)
@@ -140,13 +137,9 @@ def kinds_of(item: Item, kinds: frozenset[LineKind]) -> frozenset[LineKind]:
 def edge_lines(
     scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], crease_angle_deg: float, backs: Bools
 ) -> Lines:
-    """Contours, boundaries, creases and other edges of all items.
-
-    scene: with its polyhedra; view: of the scene; faces: of the view; kinds: those asked for; an item's own come first;
-    crease_angle_deg: sharper edges are creases; backs (i,): items whose edges between faces that all turn away are
-    wanted too; of a closed solid they are hidden; result: with their kinds, items and sides.
-    Of items that list the edges to be drawn (drawn_edges) these are drawn, flat ones as creases, and no others;
-    segments that are no edges (added_edges) are creases too, less what is cut away.
+    """Contours, boundaries, creases and other edges of all items; kinds: unless an item has its own; backs (i,): items
+    whose edges between faces turned away are wanted too (of closed solids they are hidden). Items with drawn_edges
+    have these only, flat ones as creases; added_edges are creases too, less what is cut away.
     Source: Glaeser, sections 3.3, 4.4 and 7.2.
     """
     parts = []

@@ -44,12 +44,9 @@ class Occluders:
 
 
 def solid_items(view: View, faces: ProjectedFaces, *, most_faces: int = MAX_SOLID_FACES) -> Bools:
-    """The items that hide as convex solids: closed, convex, with few faces, seen from outside.
-
-    view: see scene.look; faces: see project_faces; most_faces: items with more faces hide through their faces: few
-    of them matter to a line, but all of the outline would; result: (i,) one for each item of the view.
-    Convexity is checked, not believed: every vertex of the item lies behind every face.
-    Source: Glaeser, sections 5.1 and 7.2.
+    """(i,) the items that hide as convex solids: closed, convex (tested: every vertex behind every face), of at most
+    most_faces (others hide through their faces, few of which matter to a line), seen from outside. Source: Glaeser,
+    sections 5.1 and 7.2.
     """
     items = len(view.item_vertices) - 1
     face_counts = np.bincount(view.face_item, minlength=items)
