@@ -138,8 +138,8 @@ class Segments:
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """Hidden zones of single pairs: pair (h,) which one, low and high (h,) parameters, and side (h,): 0, or where the
-    segment runs along a border of the occluder's shadow, 1 with the shadow on its left, -1 on its right."""
+    """Hidden intervals of single pairs: pair (h,) which one, low and high (h,) parameters, and side (h,): 0, or where
+    the segment runs along a border of the occluder's shadow, 1 with the shadow on its left, -1 on its right."""
 
     pair: Ints
     low: Floats
@@ -454,7 +454,7 @@ def visible_parts(
     occluders = _occluders(alone, faces, solid & once, grid, grids.deepest(grid, pieces))
     cover = covered_cells(view, grid, occluders)
     covered = pieces.nearest > cover.take(pieces.row * grid.columns[0] + pieces.column)
-    zones = [
+    hidden_intervals = [
         (
             pieces.segment[covered],
             pieces.low[covered],
@@ -468,10 +468,10 @@ def visible_parts(
     slabs = min(max(fewer // IN_SLAB, 4), MOST_SLABS) if fewer > ONE_SLAB else 1
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
         of = piece.take(hits.pair)
-        zones.append((pieces.segment.take(of), hits.low, hits.high, hits.side))
+        hidden_intervals.append((pieces.segment.take(of), hits.low, hits.high, hits.side))
         whole = (hits.side == 0) & (hits.low <= pieces.low.take(of)) & (hits.high >= pieces.high.take(of))
         alive[of.compress(whole)] = False
-    segment, low, high, side = (np.concatenate(column) for column in zip(*zones, strict=True))
+    segment, low, high, side = (np.concatenate(column) for column in zip(*hidden_intervals, strict=True))
     owner, low, high = _resolved(segment, low, high, side, gap)
     long = high - low > gap[owner]
     owner, low, high = intervals.complement(len(segments), owner[long], low[long], high[long], gap)
@@ -581,7 +581,7 @@ def _all_hits(
     slabs: int,
     progress: Progress,
 ) -> Iterator[tuple[Ints, Hits, Ints]]:
-    """Hidden zones of pieces, front to back, with the piece and the occluder of every pair.
+    """Hidden intervals of pieces, front to back, with the piece and the occluder of every pair.
 
     Pieces that the caller marks as no longer alive are not tried again.
     """
@@ -625,7 +625,7 @@ def _blocks(which: Ints, begin: Ints, counts: Ints) -> Iterator[tuple[Ints, Ints
 
 
 def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats) -> tuple[Ints, Floats, Floats]:
-    """Disjoint hidden zones; zones of one side count where they meet zones of the other."""
+    """Disjoint hidden intervals; those of one side count where they meet those of the other."""
     if not side.any():
         return intervals.union(segment, low, high, gap)
     halved = np.zeros(len(gap), dtype=np.bool_)
