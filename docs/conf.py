@@ -13,7 +13,7 @@ from sphinx.application import Sphinx
 from sphinx.pycode.parser import Parser
 
 ROOMS = (
-    "geometry curves surfaces features scene io visibility shading drawing effects animation textbook backends "
+    "geometry curves surfaces features scene io visibility shading drawing effects textbook backends "
     "batch testing accuracy"
 ).split()
 """The rooms whose names the reference lists."""
