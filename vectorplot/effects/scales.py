@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
+from typing import Literal
 
 import numpy as np
 
@@ -705,17 +706,17 @@ def with_colour_bar(
         at = low + (high - low) * ((value - bar.low) / span if span > 0.0 else 0.5)
         lines.append(np.array([(right, at), (right + unit * TICK_MM, at)]))
         place = (right + unit * (TICK_MM + 1.0), at)
-        lines += _letters(f"{value:.6g}", place, unit * LETTERS_MM, "left", "middle")
-    lines += _letters(bar.title, (left, high + unit * LETTERS_MM), unit * LETTERS_MM * 1.2, "left", "base")
+        lines += _letters(f"{value:.6g}", place, unit * LETTERS_MM, "middle")
+    lines += _letters(bar.title, (left, high + unit * LETTERS_MM), unit * LETTERS_MM * 1.2, "base")
     marks.append(_strokes(lines, drawing.page_from_world, longest_mm))
     layer = Layer("colour bar", PEN, tuple(marks))
     return replace(drawing, width_mm=left + strip, layers=(*drawing.layers, layer))
 
 
-def _letters(text: str, at: tuple[float, float], size: float, align: str, level: str) -> list[Floats]:
+def _letters(text: str, at: tuple[float, float], size: float, level: Literal["middle", "base"]) -> list[Floats]:
     if not text:
         return []
-    strokes = lettered(text, at, size_mm=size, align="left", level="middle" if level == "middle" else "base").strokes
+    strokes = lettered(text, at, size_mm=size, align="left", level=level).strokes
     return [strokes[k] for k in range(len(strokes))]
 
 

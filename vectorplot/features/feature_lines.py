@@ -585,7 +585,7 @@ def surface_feature_lines(
         here = surface.points(*wrapped(surface.domain, *places.T))
         lengths = norm(here[met.pairs[:, 1]] - here[met.pairs[:, 0]])
         kept = clear_segments(met.pairs, met.strength, lengths, kind, extent, detail)
-        found[kind] = _curves(surface, places, here, met.pairs[kept], asked, extent, tracing)
+        found[kind] = _curves(surface, places, met.pairs[kept], asked, extent, tracing)
     return found
 
 
@@ -644,7 +644,7 @@ def _shortest(domain: Domain, ways: Floats) -> Floats:
 
 
 def _curves(
-    surface: Surface, places: Floats, points: Floats, pairs: Ints, asked: Asked, extent: float, tracing: Tracing
+    surface: Surface, places: Floats, pairs: Ints, asked: Asked, extent: float, tracing: Tracing
 ) -> SurfaceCurves:
     """Curves from segments between places (k,2), with more points until chords are within the tolerance."""
     branches = concat(pairs)

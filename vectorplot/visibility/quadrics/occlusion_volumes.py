@@ -145,7 +145,7 @@ def capped_occlusion_volumes(bodies: CappedBodies, which: Ints) -> tuple[Occlusi
         _behind_frusta(bodies, frusta, box[:, ~round_]),
         _inside_capped(bodies, frusta, box[:, ~round_], _of_frusta(bodies, frusta)),
         _behind_parts(bodies, parts, box[:, round_]),
-        _inside_capped(bodies, parts, box[:, round_], _of_balls(bodies, parts)),
+        _inside_capped(bodies, parts, box[:, round_], _of_balls(len(parts))),
     ]
     return tuple(some for some in found if len(some))
 
@@ -259,9 +259,9 @@ def _of_frusta(bodies: CappedBodies, which: Ints) -> Floats:
     return forms
 
 
-def _of_balls(bodies: CappedBodies, which: Ints) -> Floats:
+def _of_balls(count: int) -> Floats:
     """(4,k,4) squares in unit coordinates: one, x, y and z."""
-    forms = np.zeros((4, len(which), 4))
+    forms = np.zeros((4, count, 4))
     forms[0, :, 3] = forms[1, :, 0] = forms[2, :, 1] = forms[3, :, 2] = 1.0
     return forms
 
