@@ -12,7 +12,9 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import vectorplot as vp
-from vectorplot.accuracy import APPROXIMATIONS, Accuracy, ErrorCurve, Sample, plot
+from vectorplot.accuracy import plot
+from vectorplot.accuracy.results import Accuracy, ErrorCurve, Sample
+from vectorplot.accuracy.verb import APPROXIMATIONS
 
 DOCS = Path(__file__).resolve().parent
 

@@ -13,8 +13,8 @@ from sphinx.application import Sphinx
 from sphinx.pycode.parser import Parser
 
 ROOMS = (
-    "geometry curves surfaces features scene io visibility shading drawing effects animation textbook backends "
-    "batch testing accuracy exact"
+    "geometry curves surfaces features scene io visibility shading drawing effects textbook backends "
+    "batch testing accuracy"
 ).split()
 """The rooms whose names the reference lists."""
 

@@ -11,8 +11,8 @@ from pathlib import Path
 import numpy as np
 
 import vectorplot as vp
-from vectorplot.geometry import convex_revolution_parts, has_convex_outline, revolution, translated
-from vectorplot.textbook import body_record
+from vectorplot.geometry import has_convex_outline, revolution, translated
+from vectorplot.textbook import body_record, convex_revolution_parts
 
 RADII = [1.5, 1.5, 1.1, 0.55, 0.4, 0.8, 0.8, 0.45, 0.70, 0.83, 0.83, 0.70, 0]
 HEIGHTS = [0, 0.4, 0.8, 1.5, 2.6, 2.8, 3, 3.15, 3.24, 3.53, 3.87, 4.16, 4.4]

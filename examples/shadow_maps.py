@@ -13,7 +13,8 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.geometry import box, ragged
-from vectorplot.shading import raster_system, region_in_picture, shadow_buffer, texels_per_unit
+from vectorplot.shading import raster_system, region_in_picture, shadow_buffer
+from vectorplot.textbook import texels_per_unit
 
 SIZE, MAP = (300, 200), 200
 LIGHT = vp.Light((-2.0, -0.6, 1.6), parallel=True, intensity=1.0)

@@ -15,7 +15,8 @@ from diagrams import circle, dashes, heads, layer, polygons, strokes
 
 import vectorplot as vp
 from vectorplot.geometry import convex_hull
-from vectorplot.shading import bounding_trapezoid, line_of_sight, square_map
+from vectorplot.shading import line_of_sight
+from vectorplot.textbook import bounding_trapezoid, square_map
 
 NEAR = np.array([(-1.0, 0.2), (0.2, -0.7), (0.9, -0.1), (-0.3, 0.9)])
 FAR = np.array([(3.4, 5.4), (8.6, 1.4), (9.8, 4.0), (4.6, 8.2)])

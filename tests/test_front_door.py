@@ -112,8 +112,8 @@ def test_no_name_of_a_room_is_also_a_file_or_a_folder_there(room):
 
 def test_every_room_with_stages_of_the_walk_has_a_front_door():
     folders = {path.parent.name for path in PACKAGE.glob("*/__init__.py")}
-    # Command and speed are for the shell; the verbs of pictures, and save, which calls backends, are names of vp.
-    assert folders - ROOMS == {"pictures", "cli", "speed", "backends"}
+    # Command and speed are for the shell; verbs, animations, and save, which calls backends, are names of vp.
+    assert folders - ROOMS == {"animation", "pictures", "cli", "speed", "backends"}
 
 
 @pytest.mark.slow

@@ -10,7 +10,7 @@ import pytest
 from support.drawn import EVERY_EDGE, drawn, moved, on_page, plate, stroke_count
 
 import vectorplot as vp
-from vectorplot.exact.predicates import orient3d
+from vectorplot.geometry.predicates import orient3d
 from vectorplot.testing import assert_drawing_is_right, assert_drawings_equal, edge_points
 from vectorplot.testing.shapes import (
     box,

@@ -20,7 +20,7 @@ PACKAGE = Path(vectorplot.__file__).parent
 
 ORDER = [
     *("errors", "words", "arrays", "tolerances"),
-    *("exact", "geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
+    *("geometry", "curves", "surfaces", "features", "scene", "io", "visibility", "shading"),
     *("drawing", "effects", "animation", "textbook", "backends", "pictures"),
     *("testing", "accuracy", "speed", "viewer", "cli"),
 ]
@@ -32,7 +32,6 @@ ALLOWED = {("drawing/drawing.py", "backends"), ("drawing/drawing.py", "pictures"
 
 FOR_PROGRAMS = {
     "surfaces/algebraic.py",
-    "surfaces/of_equations.py",
 }
 """Files that programs of one's own call for, and no verb."""
 

@@ -11,8 +11,8 @@ from click.testing import CliRunner
 import vectorplot as vp
 from vectorplot.cli.commands.draw import draw
 from vectorplot.drawing.strokes import chosen, concatenated
-from vectorplot.effects.panoramas import bearings_and_elevations, with_chords
 from vectorplot.geometry import box
+from vectorplot.pictures.panorama import bearings_and_elevations, with_chords
 from vectorplot.scene import terrain_mesh
 from vectorplot.surfaces import terrain
 

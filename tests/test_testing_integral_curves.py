@@ -9,7 +9,10 @@ import pytest
 import vectorplot as vp
 from vectorplot import features
 from vectorplot.drawing.drawing import Paths
-from vectorplot.features import Tracing, integral_curves
+from vectorplot.features import integral_curves
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.surface_points import Sites
+from vectorplot.features.tangent_fields import IsophoteDirections
 from vectorplot.scene import GeodesicLines
 from vectorplot.surfaces import Ellipsoid, Sphere, Torus
 from vectorplot.testing import assert_geodesic, assert_integral_curve, curves_in_space
@@ -58,7 +61,7 @@ def test_a_curve_that_jumps_to_a_neighbour_fails():
 def test_a_curve_of_another_field_fails_that_claims_the_directions_of_this_one(off):
     other = found(1e-4, features.loxodromes(1.1 + off))
     along_u, along_v = BALL.partials(other.u, other.v)
-    field = FIELD.tangents(features.Sites(BALL, other.u, other.v))[0]
+    field = FIELD.tangents(Sites(BALL, other.u, other.v))[0]
     parts = [(field * a).sum(axis=1) / (a * a).sum(axis=1) for a in (along_u, along_v)]
     with pytest.raises(AssertionError, match=CHORDS):
         assert_integral_curve(replace(other, directions=np.column_stack(parts)), BALL, FIELD, 1e-6)
@@ -66,7 +69,7 @@ def test_a_curve_of_another_field_fails_that_claims_the_directions_of_this_one(o
 
 def test_curves_with_inflections_pass():
     ring = Torus(3.0, 1.2)
-    light = features.IsophoteDirections((2.0, -3.0, 4.0))
+    light = IsophoteDirections((2.0, -3.0, 4.0))
     curves = integral_curves(ring, light, (0.3, 0.7), length=3.0, tracing=Tracing(tolerance=0.05))
     assert_integral_curve(curves, ring, light, 1e-6)
 

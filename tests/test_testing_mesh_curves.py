@@ -5,7 +5,7 @@ import pytest
 
 from vectorplot import features
 from vectorplot.errors import InputError
-from vectorplot.features.mesh_integration import mesh_integral_curves
+from vectorplot.features.mesh_integration import mesh_geodesics, mesh_integral_curves
 from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_geodesic, assert_integral_curve
 from vectorplot.testing.shapes import box
@@ -42,9 +42,9 @@ def test_curves_of_a_field_pass_and_those_of_another_do_not(name):
 @pytest.mark.capability("G9.4-polyhedron")
 def test_geodesics_pass_over_edges_and_through_vertices_and_bent_ones_do_not():
     directions = np.random.default_rng(1).normal(size=(len(STARTS), 3))
-    assert_geodesic(lines(features.mesh_geodesics(BALL, STARTS, None, directions, length=4.0)), BALL, 1e-8)
+    assert_geodesic(lines(mesh_geodesics(BALL, STARTS, None, directions, length=4.0)), BALL, 1e-8)
     wall = int(np.argmin(CUBE.face_normals @ (0.0, 1.0, 0.0)))
-    corner = features.mesh_geodesics(CUBE, wall, (0.0, -1.0, 0.0), (1.0, 0.0, 1.0), length=4.0)[0]
+    corner = mesh_geodesics(CUBE, wall, (0.0, -1.0, 0.0), (1.0, 0.0, 1.0), length=4.0)[0]
     assert_geodesic(corner, CUBE, 1e-9)
     for bent, cause in (
         ([(0, -1, 0), (1, -1, 0.2), (1, 0, 0.5)], "turns by 0.09"),

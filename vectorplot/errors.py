@@ -6,7 +6,7 @@ _HEAD, _TAIL = 300, 700
 """A longer message keeps so many of its first and of its last letters: what it is about, and the cause."""
 
 _LONGEST_WORD, _BEGIN, _END = 200, 80, 20
-"""A longer word of a message, as of a file without blanks, keeps so many of its first and of its last letters."""
+"""A longer word of a message, such as a file name, keeps so many of its first and of its last letters."""
 
 
 class InputError(ValueError):
@@ -48,7 +48,7 @@ class InputError(ValueError):
 
 
 class InputWarning(UserWarning):
-    """Input that was mended or read loosely: one line, printed on stderr by the command.
+    """Input that was repaired or read loosely: one line, printed on stderr by the command.
 
     Parameters
     ----------

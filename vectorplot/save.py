@@ -151,7 +151,7 @@ def save_for_latex(drawing: Drawing, path: str | os.PathLike[str]) -> None:
 
 def write_for_latex(drawing: Drawing, format: str, name: str) -> tuple[bytes, bytes]:
     """The contents of a picture, pdf or eps, without texts, and of the file that sets them over the picture of this
-    name. Errors: as of write."""
+    name. Errors: see write."""
     from vectorplot.backends.cairo import pdf_bytes, whole_eps_bytes
     from vectorplot.backends.tikz import overlay_bytes, without_texts
 

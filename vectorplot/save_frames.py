@@ -124,7 +124,7 @@ def kind_of(path: str | os.PathLike[str]) -> str:
 
 
 def write_frames(pictures: Iterable[Picture], format: str, fps: float) -> bytes:
-    """Frames as the content of one file of a format of ONE_FILE. Errors: as of save_frames."""
+    """Frames as the content of one file of a format of ONE_FILE. Errors: see save_frames."""
     if format in VIDEOS:
         from vectorplot.backends.video import video_bytes
 

@@ -592,7 +592,7 @@ singles, so that rounding never moves an occluder in front of what it is behind.
 
 COSINE_OF_SINGLES = 1e-5
 """Slack of a comparison of cosines of unit normals in single precision: a hundred times their rounding, and still only
-a first sieve; what passes is looked at in doubles."""
+a first test; what passes is looked at in doubles."""
 
 LEAST_DIVISOR = 1e-300
 """A length or a size is divided by this at least: what is zero divided by itself becomes zero, not undefined. Far below

@@ -195,12 +195,12 @@ LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH
 FEATURE_KINDS = (LineKind.SUGGESTIVE, LineKind.RIDGE, LineKind.VALLEY, LineKind.APPARENT)
 """The kinds of lines that curvature makes, which are drawn only where they are asked for."""
 
-_USUAL = tuple(word for word in LINE_WORDS if word not in [kind.word for kind in FEATURE_KINDS])
+_DEFAULT = tuple(word for word in LINE_WORDS if word not in [kind.word for kind in FEATURE_KINDS])
 
-DRAWN = tuple(word for word in _USUAL if word != LineKind.EDGES.word)
+DRAWN = tuple(word for word in _DEFAULT if word != LineKind.EDGES.word)
 """The kinds of lines that are drawn where nothing else is said."""
 
-WIRES = tuple(word for word in _USUAL if word != LineKind.INTERSECTION.word)
+WIRES = tuple(word for word in _DEFAULT if word != LineKind.INTERSECTION.word)
 """Those of a wireframe: every edge, and no line in which things pierce each other."""
 
 
@@ -227,7 +227,7 @@ def line_words(words: str | Iterable[str] | None, known: tuple[str, ...] = LINE_
 
 
 def line_kinds(words: str | Iterable[str] | None) -> frozenset[LineKind]:
-    """The kinds of lines that are named, as of line_words."""
+    """The kinds of lines that are named, see line_words."""
     return frozenset(map(LineKind.from_word, line_words(words)))
 
 

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.animation import read_animation
 from vectorplot.animation.animation import MODES, Mode, Track
-from vectorplot.animation.animation_file import parse_animation
+from vectorplot.animation.animation_file import parse_animation, read_animation
 from vectorplot.io import parse_scene
 
 SCENE = parse_scene(

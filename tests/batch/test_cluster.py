@@ -9,7 +9,9 @@ import pytest
 from support.batches import contents, frame, frames, slow_frame
 
 import vectorplot as vp
-from vectorplot.batch import Tally, cluster, run
+from vectorplot.batch import run
+from vectorplot.batch.running import Tally
+from vectorplot.batch.tasks import cluster
 
 
 @pytest.fixture(scope="module")

@@ -9,7 +9,8 @@ import pytest
 from support.batches import contents, deadly, frames, slow_frame
 
 import vectorplot as vp
-from vectorplot.batch import Processes, Tally, run
+from vectorplot.batch import Processes, run
+from vectorplot.batch.running import Tally
 
 
 def gone(pid: int) -> bool:

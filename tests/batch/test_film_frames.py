@@ -3,7 +3,8 @@
 import pytest
 
 import vectorplot as vp
-from vectorplot.batch import Tally, frame_tasks, run
+from vectorplot.batch import run
+from vectorplot.batch.running import Tally, frame_tasks
 from vectorplot.cli.main import run as run_command
 from vectorplot.geometry import box
 

@@ -14,8 +14,8 @@ import pytest
 from support.batches import bad, contents, frame, frames
 
 import vectorplot as vp
-from vectorplot.batch import Tally, Task, fingerprint, results, run
-from vectorplot.batch.running import RECORD
+from vectorplot.batch import Task, fingerprint, results, run
+from vectorplot.batch.running import RECORD, Tally
 from vectorplot.batch.tasks import ALONE, IN_COMPANY, Here, Lost, answers
 
 

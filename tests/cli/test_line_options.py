@@ -104,7 +104,7 @@ def test_what_makes_no_sense_is_bad_usage(words, message, cube):
 def test_terrains_draw_isophotes_too_though_they_have_kinds_of_their_own():
     hill = scenes.terrain_scene([[0, 1, 0], [1, 3, 1], [0, 1, 0]])
     (item,) = scenes.with_lines(hill, isophotes=(0.5,)).items
-    assert item.usual_lines == (*hill.items[0].usual_lines, "isophote")
+    assert item.default_lines == (*hill.items[0].default_lines, "isophote")
     assert item.curves.sections == hill.items[0].curves.sections
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.features import mesh_plane_sections
+from vectorplot.features.mesh_lines import mesh_plane_sections
 from vectorplot.io import parse_scene
 
 SHAPES = {

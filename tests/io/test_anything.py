@@ -12,7 +12,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.curves import Circle
 from vectorplot.geometry import box
-from vectorplot.io import scene_of
+from vectorplot.io.anything import scene_of
 from vectorplot.surfaces import Domain, Torus, implicit_sphere
 
 CUBE = box((1, 1, 1))

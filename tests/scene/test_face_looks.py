@@ -12,7 +12,11 @@ from vectorplot import geometry
 from vectorplot.drawing import Fills
 from vectorplot.io import parse_scene
 from vectorplot.io.scene_writer import write_scene
-from vectorplot.scene import Cut, FaceLook, FaceLooks, Item, Light, Material, Scene
+from vectorplot.scene import Cut, FaceLook, FaceLooks
+from vectorplot.scene.item import Item
+from vectorplot.scene.light import Light
+from vectorplot.scene.material import Material
+from vectorplot.scene.scene import Scene
 
 CAMERA = vp.Camera((9.0, 7.0, 6.0), (1.0, 1.0, 1.0))
 TOP, RIGHT, BACK = 5, 1, 2

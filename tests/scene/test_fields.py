@@ -11,7 +11,8 @@ from vectorplot.effects import cut_scene
 from vectorplot.effects.scales import coloured
 from vectorplot.errors import InputError
 from vectorplot.geometry import box
-from vectorplot.io import parse_scene, scene_of
+from vectorplot.io import parse_scene
+from vectorplot.io.anything import scene_of
 from vectorplot.io.description import describe
 from vectorplot.scene import Colouring, Fields
 

@@ -40,13 +40,12 @@ from vectorplot.shading.shadow_maps import (
     shadow_map,
     shape_of,
     standard_frame,
-    texels_per_unit,
     trapezoid_frame,
-    vertices_with_own_depth,
 )
 from vectorplot.shading.shadow_rays import blocked_exactly
 from vectorplot.shading.trapezoids import focus_area, projective_images
 from vectorplot.testing.shapes import bumpy_icosphere
+from vectorplot.textbook.trapezoid_maps import texels_per_unit, vertices_with_own_depth
 
 SUN = Light((1.0, -1.5, 2.0), parallel=True)
 FAR_LAMP = Light((20.0, -30.0, 40.0))

@@ -10,7 +10,7 @@ import numpy as np
 
 import vectorplot as vp
 from vectorplot.batch import Task, fingerprint
-from vectorplot.drawing import Drawing, Layer, Paths, Pen
+from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
 from vectorplot.save import write
 
 

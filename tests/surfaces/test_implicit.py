@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.rotations import rotation_about
 from vectorplot.surfaces.implicit import implicit_of_function
-from vectorplot.surfaces.inversion import InvertedImplicit, InvertedSurface, inverted
+from vectorplot.surfaces.inversion import InvertedSurface, inverted
 from vectorplot.surfaces.placed_surface import PlacedImplicit, PlacedSurface
 from vectorplot.surfaces.quadrics import (
     Cone,
@@ -49,7 +49,6 @@ IMPLICIT = {
     "torus by distance": ImplicitTorusByDistance(3, 1, (0, 1, 0)),
     "cyclide": ImplicitCyclide(3, 1, CENTRE, 2),
     "cubic cyclide": ImplicitCyclide(3, 1, (4, 0, 0), 2, BOX),
-    "inverted": InvertedImplicit(Quadric(TEN, BOX), (5, 5, 5), 2, BOX),
     "placed": PlacedImplicit(ImplicitTorus(3, 1), 2 * TURN, (1, 1, 1)),
     "wave": implicit_of_function(wave, BOX),
     "wave by differences": implicit_of_function(

@@ -10,8 +10,9 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.curves import Circle, Loxodrome
-from vectorplot.surfaces import Domain, PlacedSurface, Screw, Surface, Torus, surface_of_function
-from vectorplot.surfaces.swept import Rotoid, Swept
+from vectorplot.surfaces import Domain, PlacedSurface, Torus, surface_of_function
+from vectorplot.surfaces.surface import Surface
+from vectorplot.surfaces.swept import Rotoid, Screw, Swept
 from vectorplot.surfaces.trimmed import covered_once
 
 RIGHT_ANGLE, TURN = np.pi / 2.0, 2.0 * np.pi

@@ -11,9 +11,9 @@ import pytest
 import vectorplot as vp
 from vectorplot.geometry import box
 from vectorplot.geometry.camera import VIEWS
-from vectorplot.viewer import ViewerState, first_state, pressed
+from vectorplot.viewer import first_state, pressed
 from vectorplot.viewer.answers import KEYS
-from vectorplot.viewer.state import axes_of, camera_of_state, fitting_fov_deg, lights_of_state, seen_from
+from vectorplot.viewer.state import ViewerState, axes_of, camera_of_state, fitting_fov_deg, lights_of_state, seen_from
 
 SCENE = vp.Scene((vp.Item("die", box((1, 2, 3))),), (vp.Light((4, 0, 3)), vp.Light((0, 0, 1), parallel=True)))
 STATE = ViewerState(0.4, 0.3, 0.1, 10.0, (1.0, 2.0, 3.0))

@@ -1,13 +1,9 @@
 from .approximation import Approximation, Study, Way
-from .results import Accuracy, ErrorCurve, Sample, plot
-from .verb import APPROXIMATIONS, measured
+from .results import plot
+from .verb import measured
 
 __all__ = [
-    "APPROXIMATIONS",
-    "Accuracy",
     "Approximation",
-    "ErrorCurve",
-    "Sample",
     "Study",
     "Way",
     "measured",

@@ -115,7 +115,7 @@ class Approximation:
 
     Examples
     --------
-    >>> from vectorplot.accuracy import APPROXIMATIONS
+    >>> from vectorplot.accuracy.verb import APPROXIMATIONS
     >>> fit = next(one for one in APPROXIMATIONS if one.name == "bezier-fit")
     >>> fit.knob, fit.unit, fit.counts
     ('tolerance in mm', 'mm', 'pieces')

@@ -26,22 +26,8 @@ from vectorplot.save import write, write_whole
 class Sample:
     """What one result cost.
 
-    Parameters
-    ----------
-    knob : float
-        The value of the knob; 0 for the exact result, which has none.
-    seconds : float
-        Of the processor, the shortest of some times.
-    error : float
-        Against the truth, in the unit of the approximation.
-    count : int
-        How many things the result consists of.
-
-    Examples
-    --------
-    >>> from vectorplot.accuracy import Sample
-    >>> Sample(knob=64.0, seconds=0.02, error=0.004, count=512).error
-    0.004
+    knob: the value of the knob; 0 for the exact result, which has none; seconds: of the processor, the shortest of some
+    times; error: against the truth, in the unit of the approximation; count: how many things the result consists of.
     """
 
     knob: float
@@ -54,21 +40,8 @@ class Sample:
 class ErrorCurve:
     """The errors of one way over the knob.
 
-    Parameters
-    ----------
-    way : str
-        Its name.
-    theory : float, optional
-        The power of the knob that errors go like, by theory.
-    samples : tuple of Sample
-        One for each value of the knob, from coarse to fine.
-
-    Examples
-    --------
-    >>> from vectorplot.accuracy import ErrorCurve, Sample
-    >>> curve = ErrorCurve("linear", -2.0, tuple(Sample(n, 1e-3 * n, 5.0 / n**2, n) for n in (8, 16, 32)))
-    >>> round(curve.slope, 9), curve.falls
-    (-2.0, True)
+    way: its name; theory: the power of the knob that errors go like, by theory; samples: one for each value of the
+    knob, from coarse to fine.
     """
 
     way: str
@@ -95,21 +68,8 @@ class ErrorCurve:
 class Accuracy:
     """What accuracy costs with one approximation.
 
-    Parameters
-    ----------
-    name, title, about, knob, unit, counts : str
-        Of the approximation.
-    curves : tuple of ErrorCurve
-        One for each of its ways.
-    exact : Sample, optional
-        The exact or the finest result.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> (refraction,) = vp.accuracy("refraction", values=(1, 2))
-    >>> [curve.way for curve in refraction.curves]
-    ['by the angle', 'by the tangent']
+    name, title, about, knob, unit, counts: of the approximation; curves: one for each of its ways; exact: the exact or
+    the finest result.
     """
 
     name: str

@@ -63,7 +63,7 @@ class Animation:
     Parameters
     ----------
     motion : callable
-        motion(time) is the scene at a time from 0 to 1, or anything that has a shape, as of `io.scene_of`. Camera and
+        motion(time) is the scene at a time from 0 to 1, or anything that has a shape, see `io.scene_of`. Camera and
         lights are those of the scene. The same time gives the same scene, in whatever order frames are made; to be made
         in other processes, it can be pickled, as that of `read_animation` can.
     frames : int
@@ -166,7 +166,7 @@ class Animation:
         Raises
         ------
         InputError
-            For a frame that there is not, and as of `io.scene_of`.
+            For a frame that there is not, and as in `io.scene_of`.
 
         Examples
         --------
@@ -206,12 +206,10 @@ PERIOD = 1.0
 
 @dataclass(frozen=True, eq=False)
 class Track:
-    """Numbers or points that depend on time: keys (n,) times, values (n, 1) or (n, 3), a word of WAYS.
-
-    Before the first key and behind the last one values stay; of what is closed the first key follows the last one, one
-    unit of time after it was there.
-    Errors: InputError for times that do not rise or leave 0 to 1, and for too few keys.
-    Source: Glaeser, section 9.1, errata G9-01 to G9-05.
+    """Numbers or points over time: keys (n,) times, values (n,1) or (n,3), a word of WAYS. Values stay before the first
+    and behind the last key; in a closed track the first key follows the last, one unit of time later.
+    Errors: InputError for times that do not rise or leave 0 to 1, and for too few keys. Source: Glaeser, section 9.1,
+    errata G9-01 to G9-05.
     """
 
     times: Floats

@@ -184,12 +184,13 @@ def read_animation(path: str | os.PathLike[str], scene: Scene | None = None) -> 
     Examples
     --------
     >>> import pathlib, tempfile
-    >>> from vectorplot import animation, io
+    >>> import vectorplot as vp
+    >>> from vectorplot import io
     >>> scene = io.parse_scene("DIE red box solid 2 2 2")
     >>> with tempfile.TemporaryDirectory() as folder:
     ...     path = pathlib.Path(folder, "turn.anim")
     ...     _ = path.write_text("frames 30 loop item DIE rotation z linear at 0 0 at 1 90")
-    ...     animation.read_animation(path, scene)
+    ...     vp.read_animation(path, scene)
     <Animation: 30 frames, 25 a second, lines>
     """
     file, name = Path(path), printable(str(path))

@@ -29,13 +29,11 @@ from vectorplot.tolerances import COINCIDENT_MM
 
 
 def corresponding(drawing: Drawing, scene: Scene) -> Drawing:
-    """The drawing with the strokes of each layer in an order that does not depend on where one looks from: by item,
-    kind, whether they are hidden, and the vertices of the item that their ends are nearest to; each stroke begins at
-    the end, and each loop at the corner, that comes first among these.
-
-    Where three lines or more of a layer meet in a vertex all of them end: which two of them a pen would draw in one go
-    depends on the picture. Its order, which is short, is lost too. Curves begin where polylines would; those that close
-    begin where they did, and run counter-clockwise on the page.
+    """The drawing with the strokes of each layer in an order that does not depend on the eye: by item, kind,
+    visibility, and the item's vertices nearest to their ends. A stroke begins at the end, a loop at the corner, that
+    comes first among these.
+    Where three or more lines of a layer meet in a vertex all of them end there, since which two a pen would join
+    depends on the picture. The pen order is lost. Closed curves keep their start and run counter-clockwise.
     """
     nearest = _Nearest(drawing, scene)
     layers = []

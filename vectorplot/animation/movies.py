@@ -34,34 +34,10 @@ BLOCK = 8
 
 
 def packed(numbers: ArrayLike) -> bytes:
-    """Numbers of twelve bits as bytes, the first bit of each first.
-
-    Parameters
-    ----------
-    numbers : (n,) array_like of int
-        From 0 to 4095.
-
-    Returns
-    -------
-    bytes
-        Blocks of twelve bytes for eight numbers each, the last one filled up with zeros.
-
-    Raises
-    ------
-    InputError
-        For numbers out of range.
-
-    Notes
-    -----
-    The order of the bytes does not depend on the machine. No numbers are no bytes.
-
-    Source: Glaeser, section 10.1, figure 1; errata G10-01 to G10-03, G10-11; decision D-8.
-
-    Examples
-    --------
-    >>> from vectorplot import animation
-    >>> animation.packed([0xABC, 0xDEF, 0x123, 0x456, 0x789, 0xFED, 0xCBA, 0x987]).hex()
-    'abcdef123456789fedcba987'
+    """Numbers (n,) from 0 to 4095 as twelve bits each, most significant bit first: twelve bytes for eight numbers, the
+    last block padded with zeros; the same on every machine.
+    Source: Glaeser, section 10.1, figure 1; errata G10-01 to G10-03, G10-11; decision D-8. Errors: InputError for
+    numbers out of range.
     """
     values = np.asarray(numbers, dtype=np.int64)
     if len(values) and not (values.min() >= 0 and values.max() <= LARGEST_12_BIT):
@@ -413,11 +389,9 @@ pixels a side shows both, be it blended."""
 
 
 def pruned(frame: MovieFrame, item: Ints) -> Bools:
-    """(m,) the polygons of a frame that are needed; item (m,): of which item each is, negative for none.
-
-    Not needed is a polygon inside a later one, inside the outline of an item all of which is painted later, or inside
-    an earlier one of the same palette and shade, as long as nothing else that comes between them reaches it. Lines and
-    the first polygon, which is the paper, stay; so do polygons that cross themselves, which cover nothing either.
+    """(m,) the polygons of a frame that are needed; item (m,): negative for none. Not needed is a polygon inside a
+    later one, inside the outline of an item painted wholly later, or inside an earlier one of its palette and shade,
+    unless something between reaches it. Lines, the paper, and polygons that cross themselves stay.
     Source: Glaeser, section 10.1 (necessary_to_plot); errata G10-07, G10-08.
     """
     import shapely

@@ -634,7 +634,7 @@ def _with_exact_paper(text: bytes, page: PageMarks) -> bytes:
 
 
 def _ink_box(page: PageMarks, height: float) -> tuple[float, ...]:
-    """Left, lower, right and upper end of all that is drawn on the page, in points; height: as of draw_page."""
+    """Left, lower, right and upper end of all that is drawn on the page, in points; height: see draw_page."""
     import cairo
 
     wide, high = _points(page)

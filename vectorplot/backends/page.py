@@ -276,14 +276,12 @@ _SHAPES_AT_ONCE = 256
 
 
 def groups_of(microns: Ints, offsets: Ints, run: Ints, part: Ints) -> Ints:
-    """(m,) the transparency groups of polygons, ascending from 0, and -1 for polygons that are in none.
+    """(m,) the transparency groups of polygons, ascending from 0; -1 for polygons in none.
 
-    microns (p,2) corners, counter-clockwise; run (m,): neighbours of one number of at least 0 may share a group, as
-    they are equally transparent; part (m,): neighbours of one number are of one item. Polygons of one group follow each
-    other, and do not overlap, as what is seen through two of them is to be seen through both; at least two of a group
-    touch. A group ends before an item of which a polygon overlaps it, or, where it begins amid one, before that
-    polygon.
-    Edge cases: polygons that cross themselves are in none, nor are those of a heap.
+    microns (p,2): corners, counter-clockwise; run (m,): equally transparent neighbours have one number, at least 0;
+    part (m,): the item. Polygons of a group follow each other and touch, but do not overlap, since overlapping ones
+    show through. A group ends before an item, or within an item before a polygon, that overlaps it. Polygons that cross
+    themselves, and those in stacks, are in no group.
     """
     group = np.full(len(run), -1, dtype=np.intp)
     near = run[1:] == run[:-1]
@@ -413,13 +411,11 @@ MESH_LENGTH = 1 << 16
 class Areas:
     """Filled polygons, each painted over those before it.
 
-    microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,), more than 0; bare (m,):
-    those without a line around them: transparent ones, bands, and blank ones that are there to hide things; group
-    (m,): the transparency groups, ascending, -1 for none: those of a group are opaque, and their opacity is that of
-    all; part (m,): of those of several items in a group, ascending, the runs that are clipped to their own outlines, -1
-    for the first one and outside of groups; fringe (m,): what is painted first in a group, under others, and is no part
-    of its outline; item (m,): of the drawing. A polygon of two corners is a line. All others are counter-clockwise,
-    have an area, and no two neighbouring corners that are equal; they are flat, or triangles that are shaded linearly.
+    microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,) above 0; bare (m,):
+    without an outline, as bands are; group (m,): transparency group, ascending, -1 for none, whose polygons are opaque
+    and share one opacity; part (m,): runs of one item in a group that are clipped to their own outlines, -1 for the
+    first; fringe (m,): painted first in a group and no part of its outline; item (m,). A polygon of two corners is a
+    line; others are counter-clockwise, with area and without repeated corners, flat or linearly shaded triangles.
     """
 
     microns: Ints
@@ -718,12 +714,10 @@ _COLOUR = re.compile(r"#[0-9a-fA-F]{6}")
 
 @dataclass(frozen=True, eq=False)
 class PageStrokes:
-    """Strokes of one layer, as they appear on the page.
-
-    microns (p,2) int64, y upwards; offsets (m+1,); closed (m,); curved (m,): a cubic Bézier path, the points of which
-    are its first point and three more for each segment; the others are polylines. A curve lies on the page, its handles
-    may reach beyond it. No two neighbouring points of a polyline are equal, an open one has two points or more and a
-    closed one three or more. arcs: the curves that are arcs of ellipses, in mm, where a format can say so.
+    """Strokes of one layer on the page. microns (p,2) int64, y upwards; offsets (m+1,); closed (m,); curved (m,): a
+    cubic Bézier path, its first point and three more for each segment, handles perhaps beyond the page; the others
+    are polylines without repeated neighbours, of two points or more, three if closed. arcs: curves that are arcs of
+    ellipses, in mm.
     """
 
     microns: Ints
@@ -761,12 +755,11 @@ class PageMarks:
 
 
 def page_marks(drawing: Drawing) -> PageMarks:
-    """The drawing as a backend sees it: clipped to the page and rounded to thousandths of a millimetre.
-
-    The label of a layer is its number from 1 and its name, with the prefix % if it is not to be plotted.
-    Errors: InputError for a point, page or pen width that is not finite, a page without area or larger than
-    LARGEST_PAGE_MM, a colour other than #rrggbb, an opacity that is not from 0 to 1. Edge cases: strokes without length
-    and polygons without area are dropped.
+    """The drawing as a backend sees it: clipped to the page, rounded to thousandths of a mm, without strokes that have
+    no length and polygons that have no area. A layer's label is its number from 1 and its name, with the prefix % if
+    it is not plotted.
+    Errors: InputError for a point, page or pen width not finite, a page without area or larger than LARGEST_PAGE_MM, a
+    colour other than #rrggbb, an opacity beyond 0 to 1.
     """
     check(drawing)
     inks = tuple(_ink(drawing, layer, number) for number, layer in enumerate(drawing.layers, start=1))

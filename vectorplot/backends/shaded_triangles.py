@@ -311,7 +311,7 @@ def underlaps(areas: Areas) -> Underlaps:
     open_ = np.zeros(len(covers), dtype=np.bool_)
     open_[owner[~met]] = open_[owner[hollow]] = open_[owner[later[thin]]] = open_[owner[beyond[thin]]] = True
     beside = np.append(np.flatnonzero(met), found.side), np.append(owner[other[met]], owner[found.other])
-    amid = _amid(sides, open_ & covers & ~_with_foreign_sides(sides, *beside))
+    amid = _amid(sides, open_ & covers & ~_with_unlike_sides(sides, *beside))
     # A line around those that are open does the same, but meshes have none.
     thin = later[thin & amid[owner[beyond]] & areas.meshed[owner[later]]]
     # A group is cut off at its outline.
@@ -355,16 +355,16 @@ def _inwards(sides: _Sides, side: Ints, end: Ints, beside: Ints, closed: Bools) 
     return way, high, np.minimum(REACH_MICRONS / np.maximum(high, LEAST_DIVISOR), INSIDE)[:, None]
 
 
-def _with_foreign_sides(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:
+def _with_unlike_sides(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:
     """(m,) the polygons that have a side, but for where the picture ends, without a neighbour of about their colour;
     neighbour (k,): polygons beside sides (k,)."""
-    foreign = np.ones(len(sides.owner), dtype=np.bool_)
-    foreign[side] = False
-    foreign[side[~sides.alike(sides.owner[side], neighbour)]] = True
+    unlike = np.ones(len(sides.owner), dtype=np.bool_)
+    unlike[side] = False
+    unlike[side[~sides.alike(sides.owner[side], neighbour)]] = True
     ends = np.stack((sides.microns, sides.microns[sides.after]))
     border = (ends == sides.microns.min(axis=0, initial=0)) | (ends == sides.microns.max(axis=0, initial=0))
-    foreign &= ~border.all(axis=0).any(axis=1)
-    return np.asarray(np.bincount(sides.owner, weights=foreign, minlength=len(sides.covers)) > 0.0)
+    unlike &= ~border.all(axis=0).any(axis=1)
+    return np.asarray(np.bincount(sides.owner, weights=unlike, minlength=len(sides.covers)) > 0.0)
 
 
 def _amid(sides: _Sides, which: Bools) -> Bools:

@@ -434,7 +434,7 @@ def _stops(colours: Floats) -> list[str]:
 
 def _gradients(areas: Areas, shaded: Ints, ramps: Ramps, ramp: Ints, colours: Floats) -> Strips:
     """The polygons with gradients that shaded triangles (t,), in colours (t,3,3), become: those of one ramp (t,) that
-    follow each other and hang together one, as far as SHADE_ERROR allows; others strips."""
+    follow each other and are connected one, as far as SHADE_ERROR allows; others strips."""
     corners = areas.microns[areas.offsets[shaded, None] + np.arange(3)]
     on = np.flatnonzero(ramp >= 0)
     off = np.flatnonzero(ramp < 0)

@@ -1,13 +1,10 @@
-from .running import Tally, frame_tasks, results, run
-from .tasks import Processes, Task, cluster, fingerprint
+from .running import results, run
+from .tasks import Processes, Task, fingerprint
 
 __all__ = [
     "Processes",
-    "Tally",
     "Task",
-    "cluster",
     "fingerprint",
-    "frame_tasks",
     "results",
     "run",
 ]

@@ -113,16 +113,7 @@ class Outcome:
 class Tally:
     """How many files were written, kept because they were up to date, and failed.
 
-    Parameters
-    ----------
-    written, kept, failed : int
-        The counts.
-
-    Examples
-    --------
-    >>> from vectorplot.batch import Tally
-    >>> Tally(3, 4, 1).count
-    8
+    written, kept, failed: the counts.
     """
 
     written: int = 0
@@ -241,9 +232,9 @@ def results(
     calls : sequence of callables
         Without arguments; for workers in other processes they can be pickled.
     executor : Executor, optional
-        As of `run`.
+        See `run`.
     window : int
-        As of `run`.
+        See `run`.
     tell : callable, optional
         Is called after each that is done.
 
@@ -255,9 +246,9 @@ def results(
     Raises
     ------
     InputError
-        As of `run`, and what a call raises of InputError, OSError and MemoryError.
+        See `run`, and what a call raises of InputError, OSError and MemoryError.
     RuntimeError
-        As of `run`.
+        See `run`.
 
     Examples
     --------
@@ -330,37 +321,9 @@ _PICKLE = 5
 
 
 def frame_tasks(film: Film, folder: str | os.PathLike[str], *, format: str | None = None) -> Iterator[Task]:
-    """The files that `vp.save_frames` would write into a folder, as tasks, one by one.
-
-    Parameters
-    ----------
-    film : Film
-        As of `vp.animate`.
-    folder : str or path
-        Where they go.
-    format : str, optional
-        svg for drawings and png for pixels where None.
-
-    Returns
-    -------
-    iterator of Task
-        0001.svg and so on, with fingerprints where the film can be pickled, as those of animation files can. Others are
-        always made, and in this process.
-
-    Raises
-    ------
-    InputError
-        For an unknown format.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot.batch import frame_tasks
-    >>> from vectorplot.geometry import box
-    >>> die = vp.Item("die", box((1, 1, 1)))
-    >>> film = vp.animate(vp.Animation(lambda time: die.turned("z", 90 * time), frames=3), page="100x80")
-    >>> [task.path for task in frame_tasks(film, "frames")]
-    ['frames/0001.svg', 'frames/0002.svg', 'frames/0003.svg']
+    """The files that `vp.save_frames` would write into a folder, as tasks; format: svg for drawings, png for pixels
+    where None. Tasks have fingerprints where the film can be pickled, as those of animation files can; others are
+    always made, in this process. Errors: InputError for an unknown format.
     """
     written = format or ("png" if film.pixels else "svg")
     if written not in FORMATS:

@@ -138,11 +138,9 @@ class _Call(Generic[Key, Value]):
 def answers(
     calls: Iterable[tuple[Key, Callable[[], Value]]], executor: Submits, window: int
 ) -> Iterator[tuple[Key, Value | Lost]]:
-    """The answers to calls as they come, each with its key; no more than window calls are under way at any time.
-
-    The calls raise nothing: what an executor raises in their place is the loss of a worker. As a lost worker may take
-    others' calls with it, who was there at too many losses is asked alone. Where this is left early, calls that have
-    not begun are cancelled.
+    """The answers to calls as they come, each with its key; at most window calls are under way. Calls raise nothing:
+    what an executor raises instead is the loss of a worker, and a call present at too many losses is retried alone.
+    Where this is left early, calls not begun are cancelled.
     Errors: InputError where no worker survives anything.
     """
     fresh = (_Call(key, work) for key, work in calls)
@@ -297,34 +295,11 @@ def _begin(theirs: Connection) -> None:
 
 @contextmanager
 def cluster(address: str) -> Iterator[Executor]:
-    """The workers of a Dask cluster that runs already.
-
-    Parameters
-    ----------
-    address : str
-        Of its scheduler, as ``tcp://host:8786``.
-
-    Returns
-    -------
-    context manager
-        Gives an executor; tasks that are under way when it is left with an error are cancelled.
-
-    Raises
-    ------
-    InputError
-        Where the extra ``cluster`` is not installed, or nobody answers at the address.
-
-    Notes
-    -----
-    Whoever reaches a scheduler may run programs on its workers: it belongs into a network of one's own, or behind TLS.
-    Workers have the same versions of Python and of this package, and see input files by the same names.
-
-    Examples
-    --------
-    >>> from vectorplot.batch import cluster
-    >>> with cluster("tcp://127.0.0.1:8786") as executor:  # doctest: +SKIP
-    ...     executor.submit(divmod, 7, 2).result()
-    (3, 1)
+    """The workers of a running Dask cluster as an executor; address: of its scheduler, such as ``tcp://host:8786``.
+    Tasks under way are cancelled when it is left with an error.
+    Whoever reaches a scheduler may run programs on its workers, so it belongs in a private network or behind TLS.
+    Workers need the same versions of Python and of this package, and the same names for input files. Errors: without
+    the extra ``cluster``, or where nobody answers.
     """
     try:
         distributed: Any = import_module("distributed")

@@ -362,7 +362,7 @@ class LineOptions:
         return with_numbers(scene)
 
     def of_scene(self, scene: Scene) -> SurfaceLines:
-        """The lines that these are in a scene. Errors: InputError as of even_sections and round_sections."""
+        """The lines that these are in a scene. Errors: InputError as in even_sections and round_sections."""
         from vectorplot.scene.surface_lines import SurfaceLines, even_cosines
 
         cosines = even_cosines(self.isophotes) if self.isophotes else ()
@@ -381,7 +381,7 @@ def _sections(planes: Planes, scene: Scene) -> Section:
 
 def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
     from vectorplot.scene.added_lines import heights_times, round_sections
-    from vectorplot.scene.surface_lines import USUAL_EVERY, Section, with_index_lines
+    from vectorplot.scene.surface_lines import DEFAULT_EVERY, Section, with_index_lines
 
     if planes is None:
         return ()
@@ -389,7 +389,7 @@ def _levels(planes: Planes | None, scene: Scene) -> tuple[Section, ...]:
         return round_sections(scene, planes.normal, planes.count)
     given = Section(planes.normal, planes.offsets)
     times = heights_times(scene, given)
-    return with_index_lines(replace(given, offsets=tuple(times * height for height in given.offsets)), USUAL_EVERY)
+    return with_index_lines(replace(given, offsets=tuple(times * height for height in given.offsets)), DEFAULT_EVERY)
 
 
 # Options for camera and page, and what becomes of them; the scene file's own are the defaults, field by field.
@@ -870,7 +870,7 @@ def hatching_from(options: Mapping[str, Any]) -> tuple[Hatching | Stippling | No
     """The hatching or stippling that the options of a command ask for, None where they ask for none, and the other
     options.
 
-    Errors: bad usage for options of a hatching without one, or beside dots; InputError as of Hatching and Stippling.
+    Errors: bad usage for options of a hatching without one, or beside dots; InputError as in Hatching and Stippling.
     """
     from vectorplot.scene.hatching import Hatching, Stippling
 

@@ -124,7 +124,7 @@ def with_errors(reports: Sequence[StageReport]) -> list[StageReport]:
 
 
 def summed(reports: Sequence[StageReport]) -> list[StageReport]:
-    """The reports of many pictures as of one: times and counts together, of memory and errors the largest."""
+    """The reports of many pictures as in one: times and counts together, of memory and errors the largest."""
     found: dict[tuple[str, bool], StageReport] = {}
     for one in reports:
         key = one.name, one.error is None
@@ -219,7 +219,7 @@ def make_pages(
     explain: bool,
 ) -> None:
     """Read scenes, draw a page of each, which is told its number from 0, and write them as one PDF; nothing is written
-    unless all of it succeeds. quiet, explain: as of make_picture.
+    unless all of it succeeds. quiet, explain: see make_picture.
     """
     from vectorplot.save_frames import write_frames
 

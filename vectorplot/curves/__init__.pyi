@@ -1,6 +1,6 @@
 from .curve import Curve
 from .families import Circle, Helix, Line, Loxodrome, cylinder_intersection
-from .placed_curves import FunctionCurve, PlacedCurve, curve_of_function
+from .placed_curves import PlacedCurve, curve_of_function
 from .splines import (
     AkimaSpline,
     ApproximatingSpline,
@@ -19,7 +19,6 @@ __all__ = [
     "Circle",
     "CubicSpline",
     "Curve",
-    "FunctionCurve",
     "Helix",
     "InterpolatingSpline",
     "Line",

@@ -146,14 +146,11 @@ class EllipseArcs(Elements):
 
 
 def recognised_arcs(points: Floats, offsets: Ints, closed: Bools, *, tolerance: float) -> EllipseArcs:
-    """The polylines that sample an arc of a circle or an ellipse, and the arcs.
-
-    points (p,2), offsets (m+1,), closed (m,): the last point joins the first. All points of such a polyline lie within
-    tolerance of its arc, which runs through them in their order, by less than a quarter from one to the next.
-    Edge cases: polylines of fewer than FEWEST_POINTS points, flatter than SMALLEST_ANGLE or SMALLEST_RISE, or of more
-    than one turn are none.
-    Source: the conic through five of the points, from the pencil of the line pairs through four of them; Glaeser,
-    section 8.1 on conics.
+    """The polylines that sample an arc of a circle or an ellipse, and the arcs. points (p,2), offsets (m+1,), closed
+    (m,).
+    All points lie within tolerance of the arc, in order, by less than a quarter turn from one to the next. Edge cases:
+    none for fewer than FEWEST_POINTS points, arcs flatter than SMALLEST_ANGLE or SMALLEST_RISE, and more than one turn.
+    Source: the conic through five points, from the pencil of line pairs through four of them; Glaeser, section 8.1.
     """
     stroke = np.flatnonzero(np.diff(offsets) >= FEWEST_POINTS)
     if not len(stroke):

@@ -142,12 +142,11 @@ def split(control: Floats, t: Floats | float) -> tuple[Floats, Floats]:
 
 
 def flattened(control: Floats, offsets: Ints, tolerance: float) -> tuple[Floats, Ints]:
-    """Polylines that lie within tolerance of paths: points (p,d) and their offsets (m+1,).
-
-    Errors: InputError for a tolerance that is not positive, or one that takes more than MAX_FLAT_POINTS points.
-    Edge cases: a path without segments gives no points; a straight segment one chord.
-    Source: Wang's bound, Goldman, Pyramid Algorithms, section 5.6: a chord of width 1/n is off by at most the largest
-    second difference times 6/8 over n squared.
+    """Polylines within tolerance of paths: points (p,d) and offsets (m+1,). Edge cases: a path without segments has no
+    points; a straight segment is one chord. Errors: InputError for a tolerance not positive, or more than
+    MAX_FLAT_POINTS points.
+    Source: Wang's bound, Goldman, Pyramid Algorithms, section 5.6: a chord of width 1/n is off by at most 6/8 of the
+    largest second difference over n squared.
     """
     if not tolerance > 0.0:
         raise InputError(f"flattening needs a positive tolerance, not {tolerance:g}")
@@ -199,13 +198,10 @@ _HALVINGS = 55
 
 
 def clipped_paths(paths: BezierPaths, low: Floats, high: Floats) -> tuple[BezierPaths, Ints]:
-    """The parts of plane paths inside the box from low (2,) to high (2,), its border included, and the path that each
-    comes from.
-
-    Segments are divided where they cross the border, which is exact but for rounding.
-    Paths keep their order; a closed path that is cut becomes open ones.
-    Edge cases: what only touches the border leaves nothing; a path without segments is left out.
-    Source: de Casteljau's scheme at the roots of the coordinates' polynomials.
+    """The parts of plane paths within the box low (2,) to high (2,), border included, in order, and the path each comes
+    from. Segments are divided at the border, exact but for rounding; a closed path that is cut becomes open ones.
+    Edge cases: what only touches the border, and paths without segments, leave nothing. Source: de Casteljau's scheme
+    at the roots of the coordinate polynomials.
     """
     size = np.diff(paths.offsets)
     owner = ragged.owner(size)

@@ -65,16 +65,14 @@ shorter chord by so much, about."""
 def directions(
     lines: FitLines, given: Floats, window: Floats, corner_angle: float, tolerance: float, deviation: float = np.inf
 ) -> Directions:
-    """Corners and tangents of lines.
-
-    given (2,d,n): tangents with which curves are known to arrive at points and to leave them; zero at a corner, NaN
-    where nothing is known. A tangent that is not known is that of the circle through the point and its neighbours at
-    the distance window (m,) of its line, so that noise below the tolerance does not turn it; at ends and corners that
-    of the circle through the next point with the tangent known there, or through the two next ones.
-    A point with known tangents is a corner if they differ by so much that no smooth curve could pass it within the
-    tolerance, or by more than corner_angle. Another one is a corner if the line turns by more than corner_angle there,
-    and still within the window, or by more than chords allow that are no farther than deviation off their curve; if one
-    tangent is known, and it turns away, moreover, by a third of corner_angle from the circle's.
+    """Corners and tangents of lines. given (2,d,n): known tangents of arrival and departure, zero at a corner, NaN
+    where unknown. An unknown tangent is that of the circle through the point and its neighbours at distance window
+    (m,) along the line, so that noise below the tolerance does not turn it; at ends and corners of the circle
+    through the next point with its known tangent, or through the next two points.
+    A point with known tangents is a corner if they differ by more than corner_angle, or than any smooth curve within
+    the tolerance allows. Another one is a corner if the line turns by more than corner_angle there and within the
+    window, or by more than chords within deviation of their curve allow; with one known tangent it must also turn a
+    third of corner_angle away from the circle's.
     """
     ends = _ends(lines)
     before, after = _next_chords(lines)
@@ -257,13 +255,10 @@ class Spans(Elements):
 def fitted_spans(
     lines: FitLines, tangent: Directions, room: Floats, tolerance: float, ends: tuple[Ints, Ints]
 ) -> Spans:
-    """Segments with the tangents given, their handles such that the distances to the points are small.
-
-    room (n,): how far a curve with these tangents may leave the chord from a point to the next; ends: first and last
-    points (k,). Where the tolerance is missed, the parabola with these tangents is tried too: on long parabolas the
-    steps come to it slowly, for other handles are nearly as good.
-    These are Gauss-Newton steps on distances measured normal to the curve, the points' feet found by Newton's method
-    between them.
+    """Segments with given tangents and handles such that the points are close, by Gauss-Newton steps on normal
+    distances (feet by Newton's method in between). room (n,): how far the curve may leave the chord to the next
+    point; ends: first and last points (k,). Where the tolerance is missed, the parabola with these tangents is tried
+    too, which the steps approach slowly.
     Source: Wang, Pottmann and Liu, Fitting B-spline curves to point clouds, section 3 (tangent distances).
     """
     first, last = ends
@@ -471,13 +466,10 @@ def fitted_paths(
     corner_angle: float = CORNER_ANGLE,
     deviation: float = np.inf,
 ) -> BezierPaths:
-    """Smooth Bézier paths within a tolerance of polylines, all fitted at once.
-
-    points: (p, d) the points of all polylines, one after the other; offsets: (m+1,) polyline i has the points
-    offsets[i] to offsets[i+1]; closed: (m,) the last point joins the first, which is not repeated (it may be);
-    tangents: (p, d) forwards and of any length.
-    Source: Schneider, An algorithm for automatically fitting digitized curves, Graphics Gems (1990), for tangents first
-    and handles by least squares; spans that fail are divided evenly by the sixth-order law of their error.
+    """Smooth Bézier paths within a tolerance of polylines, fitted together. points (p,d); offsets (m+1,); closed (m,):
+    the last point joins the first, which may be repeated; tangents (p,d): forward, of any length.
+    Spans that fail are divided evenly, by the sixth-order law of their error. Source: Schneider, An algorithm for
+    automatically fitting digitized curves, Graphics Gems (1990).
     """
     _check(points, offsets, tangents, tolerance)
     lines, given, kept = _lines(np.asarray(points, dtype=np.float64), offsets, closed, tangents)
@@ -497,7 +489,7 @@ def fitted_paths(
 def fitted_curve(curve: Curve, *, tolerance: float) -> BezierPath:
     """A smooth Bézier path within a tolerance of a curve, from its start to its end.
 
-    Source: as of fitted_paths.
+    Source: see fitted_paths.
     """
     count = _CURVE_SAMPLES
     while count <= _MOST_SAMPLES:

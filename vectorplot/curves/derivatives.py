@@ -49,13 +49,11 @@ Limits = tuple[Floats, Floats]
 
 
 def limits_of(values: Callable[..., Floats], low: Floats, high: Floats, *, looks: int = LOOKS) -> Limits | None:
-    """Where a function of two parameters, between low and high (2,), is cut off because it runs to infinity; None for
-    one that does not.
-
-    values(u, v) -> (n, k), NaN where the function has none. A component that grows without end about one of its
-    extreme values is cut off at its inner fences, above and below.
-    Edge cases: poles that all of the looks miss are not found; a function all but constant has no fences.
-    Source: Tukey, Exploratory Data Analysis, 1977, chapter 2 (inner fences).
+    """Where a function of two parameters between low and high (2,) is cut off because it runs to infinity; None if it
+    does not. values(u, v) -> (n,k), NaN where undefined. A component that grows without end about an extreme value
+    is cut at its inner fences.
+    Edge cases: poles that all samples miss are not found; an almost constant function has no fences. Source: Tukey,
+    Exploratory Data Analysis, 1977, chapter 2 (inner fences).
     """
     step = (high - low) / looks
     # Off the lines of symmetry, on which poles lie: they are beside some of the places.
@@ -279,15 +277,11 @@ class Range:
 
 @dataclass(frozen=True, eq=False)
 class NumericFunction:
-    """A user's function with its derivatives. Parameters and results have any shape; vectors stand on the last axis.
-
-    inside: where the function is asked at all, elsewhere it is NaN. limits: smallest and largest values (k,); where one
-    is beyond them the function counts as not finite. A function that is not finite is NaN there, and so are its
-    derivatives; beside a hole they are taken from the other side. vectors: how many vectors the k components make up,
-    each of which is finite or NaN by itself.
-    Error: first derivatives by complex step to rounding, if the function takes complex numbers and is analytic in them
-    (tried out at probes); else by differences of fourth order, about 1e-12 of the largest for functions that turn a
-    few times over the range. Second derivatives: differences of first ones, about 1e-12 and 1e-9.
+    """A user's function with its derivatives; vectors stand on the last axis. inside: where it is evaluated at all, NaN
+    elsewhere; limits: smallest and largest values (k,), beyond which it counts as not finite; vectors: how many
+    vectors the k components make up, each finite or NaN by itself. Beside holes derivatives are one-sided.
+    Error: first derivatives by complex step to rounding where the function is analytic (probed), else fourth-order
+    differences, about 1e-12 of the largest; second derivatives are differences of first ones, about 1e-12 and 1e-9.
     """
 
     function: UserFunction

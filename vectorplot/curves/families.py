@@ -162,7 +162,7 @@ def cylinder_intersection(r: float, s: float, a: float) -> tuple[Curve, ...]:
 def cylinder_branches(r: float, s: float, a: float) -> tuple[Curve, ...]:
     """The branches that cylinder_intersection gives, without a word where the cylinders touch in a point.
 
-    Edge cases: as of cylinder_intersection.
+    Edge cases: see cylinder_intersection.
     Source: Glaeser, section 8.1, example 4, equations 6 to 8; errata G8-01, G8-02.
     """
     r, s, a = positive("cylinder radius r", r), positive("cylinder radius s", s), number("distance of the axes a", a)

@@ -133,28 +133,9 @@ class PlacedCurve(Placed, MovableCurve):
 class FunctionCurve(MovableCurve):
     """The curve of a user's function, with its derivatives.
 
-    Parameters
-    ----------
-    start, end : float
-        The first and the last parameter.
-    closed : bool
-        Whether it is a smooth loop.
-    function : NumericFunction
-        The points.
-    derivative : NumericFunction, optional
-        The tangents; without it they are found from the points.
-
-    Notes
-    -----
+    start, end: the first and the last parameter; closed: whether it is a smooth loop; function: the points; derivative:
+    the tangents; without it they are found from the points.
     Made by `curve_of_function`. Where the function has no value the points are NaN.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves
-    >>> parabola = curves.curve_of_function(lambda t: (t, t**2, 0), -1.0, 1.0)
-    >>> isinstance(parabola, curves.FunctionCurve), parabola.tangents(np.array(0.5)).round(9).tolist()
-    (True, [1.0, 1.0, 0.0])
     """
 
     start: float

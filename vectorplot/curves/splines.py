@@ -350,7 +350,7 @@ class CubicSpline(_Through):
         The derivatives at both ends, of an open one: the clamped spline. Where None the natural one, with second
         derivatives 0 there.
     parameters : (n,) array_like of float, optional
-        As of `AkimaSpline`.
+        See `AkimaSpline`.
 
     Raises
     ------
@@ -429,7 +429,7 @@ class InterpolatingSpline(_Through):
     closed : bool
         Whether it comes back to its first point.
     parameters : (n,) array_like of float, optional
-        As of `AkimaSpline`.
+        See `AkimaSpline`.
 
     Raises
     ------
@@ -494,7 +494,7 @@ class ApproximatingSpline(_Through):
     closed : bool
         Whether it comes back to its first point.
     parameters : (n,) array_like of float, optional
-        As of `AkimaSpline`: where along the spline the points are compared with it.
+        See `AkimaSpline`: where along the spline the points are compared with it.
 
     Raises
     ------
@@ -754,12 +754,8 @@ def checked_weights(name: str, weights: ArrayLike | None, shape: tuple[int, ...]
 
 @dataclass(frozen=True, eq=False)
 class SplineCurve(MovableCurve):
-    """A curve of polynomial pieces, or of their quotients: control points over knots (NURBS).
-
-    controls: (n, 3) the control points, in world units; knots: (n + order,) they do not fall; order: one more than the
-    degree of its polynomials, 2 to 32; weights: (n,) of the control points, positive: the greater, the more a point
-    attracts the curve; closed: whether it is a loop.
-    Source: Piegl and Tiller, The NURBS book, chapters 3 to 5.
+    """A NURBS curve. controls (n,3); knots (n + order,): not falling; order: degree + 1, 2 to 32; weights (n,):
+    positive; closed: whether it is a loop. Source: Piegl and Tiller, The NURBS book, chapters 3 to 5.
     """
 
     controls: ArrayLike
@@ -985,7 +981,7 @@ def nurbs_curve(
     Raises
     ------
     InputError
-        As of `SplineCurve`.
+        See `SplineCurve`.
 
     Notes
     -----

@@ -1,25 +1,16 @@
-from .drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from .fill_visibility import visible_fills
 from .fills import FillKind, Fills
 from .hatching import hatched_fills
 from .letters import lettered, typeset
 from .painted_fills import placement_of_faces
 from .pen_order import travel_mm
-from .sheets import Sheet, contact_sheet
 from .stroke_curves import curved_strokes
 from .strokes import split_long
 from .text_along import lettered_along, typeset_along
 
 __all__ = [
-    "CurvedStrokes",
-    "Drawing",
     "FillKind",
     "Fills",
-    "Layer",
-    "Paths",
-    "Pen",
-    "Sheet",
-    "contact_sheet",
     "curved_strokes",
     "hatched_fills",
     "lettered",

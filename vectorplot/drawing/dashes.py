@@ -24,15 +24,12 @@ WIDEST_GAP = 1.0 / 3.0
 def dashed(
     paths: Paths, dash_mm: float, gap_mm: float, page_from_world: Floats | None = None, *, dot_mm: float = 0.0
 ) -> Paths:
-    """The strokes broken into dashes; every dash is a stroke of its own.
-
-    The pattern runs along each polyline and is stretched or squeezed as a whole so that an open stroke begins and ends
-    with a whole dash, and the dash over the first point of a closed one joins up. page_from_world (4,4) as in Drawing,
-    by default a parallel projection; dot_mm: of the dots in the middle of gaps. There are about length / (dash + gap)
-    dashes: clip to the page first.
-    Errors: InputError unless the dash is positive, the gap positive or zero, and the dot no longer than the gap.
-    Edge cases: an open stroke that is too short for that has two shorter dashes and a gap between them; one that is
-    shorter than a dash, or with dots has no room for two, stays whole. With a gap of 0 nothing changes.
+    """The strokes broken into dashes, about length / (dash + gap) of them; every dash is a stroke, so clip to the page
+    first. The pattern is stretched so that an open stroke begins and ends with a whole dash and a closed one joins
+    up. page_from_world (4,4) as in Drawing, by default parallel; dot_mm: of dots in the middle of gaps.
+    Edge cases: a short open stroke gets two shorter dashes with a gap; one shorter than a dash, or without room for two
+    with dots, stays whole; a gap of 0 changes nothing. Errors: InputError unless the dash is positive, the gap not
+    negative, and the dot no longer than the gap.
     """
     if not (0.0 < dash_mm < np.inf and 0.0 <= gap_mm < np.inf):
         raise InputError(f"dash and gap must be lengths in mm, got {dash_mm:g} and {gap_mm:g}")

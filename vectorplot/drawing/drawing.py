@@ -124,28 +124,9 @@ class Paths:
 class CurvedStrokes:
     """Strokes of which some are drawn as curves.
 
-    Parameters
-    ----------
-    paths : Paths
-        All of them as polylines.
-    beziers : BezierPaths
-        One path for each, in mm, without segments for a stroke that is drawn as its polyline.
-    arcs : EllipseArcs
-        Those of them that are arcs of ellipses.
-
-    Notes
-    -----
+    paths: all of them as polylines; beziers: one path for each, in mm, without segments for a stroke that is drawn as
+    its polyline; arcs: those of them that are arcs of ellipses.
     Paths and arcs begin and end where their polylines do.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot.curves import Circle
-    >>> ring = vp.Scene((vp.Item("ring", Circle()),))
-    >>> drawing = vp.draw(ring, vp.Camera.view("top"))
-    >>> (curves,) = [mark for layer in drawing.layers for mark in layer.marks if len(mark)]
-    >>> len(curves), len(curves.arcs)
-    (1, 1)
     """
 
     paths: Paths

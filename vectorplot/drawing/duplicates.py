@@ -11,12 +11,11 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes import NO_END, chains, chosen, companions, linked_ends, overlapping_cells, sections
-from vectorplot.exact import intervals
-from vectorplot.exact.intervals import NUMBER_BITS
-from vectorplot.exact.radix import radix_order
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.budget import mapped, threads, workers
 from vectorplot.geometry.elementary import arctan2, tan
+from vectorplot.geometry.intervals import NUMBER_BITS
+from vectorplot.geometry.radix import radix_order
 from vectorplot.scene.view import View
 from vectorplot.tolerances import COLLINEAR_OF_LENGTH, ONE_LINE_OF_EXTENT, TOUCHING_AT_MM
 from vectorplot.visibility.polyhedra import grid as grids
@@ -35,7 +34,7 @@ _PLACE_BITS = 40
 """Places along strokes are compared in steps of 2^-40 of the extent when deciding which strokes overlap."""
 
 _ROUNDS = 3
-"""How many of the best strokes of a crowd are tried on all the others before all pairs of it are looked at."""
+"""How many of the best strokes of a dense group are tried on all the others before all pairs of it are looked at."""
 
 
 def without_duplicates(
@@ -45,15 +44,12 @@ def without_duplicates(
     page_from_world: Floats | None = None,
     line: Ints | None = None,
 ) -> Paths:
-    """The same picture without the parts of strokes that lie on more important ones.
-
-    paths: straight strokes of two points; rank (m,): the smaller of two wins, or (k,m), where the last row counts most;
-    of equal ones the longer, then the one further left, so that the picture does not depend on the order of the
-    strokes. Two strokes lie on each other where they overlap and the shorter one's ends are within tolerance_mm (and a
-    thousandth of its length) of the other's line: lines that only run close together both stay. page_from_world (4,4)
-    as in Drawing, by default a parallel projection: points3d is divided where the page is. line (m,): equal for parts
-    of one straight line, which do not lie on each other; by default each is one of its own. Strokes keep their order;
-    what is no longer than tolerance_mm is left out.
+    """The same picture without the parts of strokes that lie on more important ones. paths: strokes of two points,
+    whose order is kept; rank (m,) or (k,m), the last row counting most: the smaller wins, of equals the longer, then
+    the one further left. Two strokes coincide where they overlap and the shorter one's ends are within tolerance_mm
+    (and a thousandth of its length) of the other's line. page_from_world (4,4) as in Drawing, by default parallel;
+    line (m,): parts of one straight line, which never coincide.
+    Edge cases: what is no longer than tolerance_mm is left out.
     """
     long = np.flatnonzero(_lengths(paths.points[::2], paths.points[1::2]) > tolerance_mm)
     kept = np.zeros(len(paths), dtype=np.bool_)
@@ -91,10 +87,10 @@ def nearly_collinear(start: Floats, end: Floats, tolerance: float, line: Ints) -
     """
     if len(line) < 2:
         return np.zeros(0, dtype=np.intp), np.zeros(1, dtype=np.intp)
-    crowds = _crowds(start, end, _lengths(start, end), tolerance)
+    dense_groups = _dense_groups(start, end, _lengths(start, end), tolerance)
 
     def of_axis(axis: int) -> tuple[Ints, Ints]:
-        owner, starts = _of_several(line, *crowds(axis))
+        owner, starts = _of_several(line, *dense_groups(axis))
         owner, starts = _touching(start[:, axis], end[:, axis], owner, starts, 0.5 * tolerance)
         return _of_several(line, owner, starts)
 
@@ -199,7 +195,7 @@ def _by_importance(start: Floats, end: Floats, rank: Floats) -> Ints:
     return np.lexsort((two[:, 1], two[:, 0], one[:, 1], one[:, 0], -_lengths(start, end), *rank))
 
 
-def _crowds(start: Floats, end: Floats, length: Floats, tolerance: float) -> Callable[[int], tuple[Ints, Ints]]:
+def _dense_groups(start: Floats, end: Floats, length: Floats, tolerance: float) -> Callable[[int], tuple[Ints, Ints]]:
     """(owner, starts) of an axis: groups of strokes with nearly the same line, along which they run more than across,
     at nearly the same place.
 
@@ -251,7 +247,7 @@ def _touching(one: Floats, other: Floats, owner: Ints, starts: Ints, least: floa
 
 
 def _of_several(line: Ints, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
-    """The crowds whose strokes are of several lines: most are of one, one part of it after the other."""
+    """The dense_groups whose strokes are of several lines: most are of one, one part of it after the other."""
     size = np.diff(starts)
     of = line.take(owner)
     several = np.zeros(len(size), dtype=np.bool_)
@@ -264,7 +260,7 @@ def _of_several(line: Ints, owner: Ints, starts: Ints) -> tuple[Ints, Ints]:
 def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints, Floats, Floats]:
     """Strokes that lie on more important ones: (k,) those wholly covered by a single one; (loser, low, high) parts.
 
-    owner: the strokes of the crowds, by importance.
+    owner: the strokes of the dense_groups, by importance.
     """
     run = ragged.owner(np.diff(starts))
     bits = len(segments.length).bit_length()
@@ -292,7 +288,7 @@ def _covered(segments: _Segments, owner: Ints, starts: Ints) -> tuple[Ints, Ints
 
 
 def pairs_in_dense_groups(owner: Ints, run: Ints, line: Ints) -> Iterator[tuple[Ints, Ints]]:
-    """Blocks of all pairs of strokes of a crowd that are of different lines (n,), the more important first."""
+    """Blocks of all pairs of strokes of a dense group that are of different lines (n,), the more important first."""
     if not len(run):
         return
     last = np.flatnonzero(np.concatenate((run[1:] != run[:-1], [True])))
@@ -403,15 +399,12 @@ _STEEPEST = 1.0
 
 
 def without_smooth_duplicates(paths: Paths, rank: Ints, tolerance_mm: float) -> Paths:
-    """The same picture without the chords of smooth curves that lie on more important smooth curves.
-
-    paths: strokes of two points; those that are smooth are chords between points of a curve; rank (m,): equal for all
-    chords of a curve, which gives way to curves of smaller rank only. A chord goes if its ends and the middle of its
-    own arc lie on arcs of smaller rank, within tolerance_mm and a little of the arcs' height, and so does all
-    of its curve, or TOUCHING_MM of it in a row; chords without length go too. Strokes keep their order.
-    Edge cases: curves that overlap in part may go on doing so over less than a chord at the ends of the common part.
-    Source: cubic Hermite arcs over the chords, with the tangents of the curves, or where these are not known of circles
-    through three neighbouring points.
+    """The same picture without the chords of smooth curves that lie on more important ones. paths: strokes of two
+    points, chords where they are smooth; rank (m,): of the curve, which gives way to smaller ranks only. A chord
+    goes if its ends and the middle of its arc lie on arcs of smaller rank within tolerance_mm (and a little of the
+    arc's height), together with all of its curve or TOUCHING_MM of it; chords without length go too.
+    Edge cases: partly overlapping curves may still overlap by less than a chord. Source: cubic Hermite arcs with known
+    tangents, or those of circles through three neighbours.
     """
     along = paths.points[paths.offsets[1:] - 1] - paths.points[paths.offsets[:-1]]
     long = ~paths.smooth | along.any(axis=1)

@@ -43,7 +43,7 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
     fills : Fills
         Each painted over those before it.
     page_from_world : (4, 4) array of float
-        As of Drawing: points3d of new corners lie on the planes of their polygons.
+        See Drawing: points3d of new corners lie on the planes of their polygons.
 
     Returns
     -------
@@ -77,7 +77,7 @@ def visible_fills(fills: Fills, page_from_world: Floats) -> Fills:
 
 
 def cut_out(fills: Fills, over: Fills, page_from_world: Floats) -> Fills:
-    """The parts of polygons, as of visible_fills, that do not lie under others; these are not among them."""
+    """The parts of polygons, see visible_fills, that do not lie under others; these are not among them."""
     mark = int(fills.item.max(initial=0)) + 1
     found = visible_fills(Fills.joined(fills, replace(over, item=np.full(len(over), mark))), page_from_world)
     return found.take(np.flatnonzero(found.item != mark))
@@ -87,7 +87,7 @@ def visible_regions(fills: Fills) -> tuple[Any, Ints]:
     """What is seen of polygons of three corners or more: polygons of shapely (n,), which may have holes, and the number
     (n,) of the one each is a part of, ascending.
 
-    Errors as of visible_fills.
+    Errors as in visible_fills.
     """
     return _seen(_regions(fills) if len(fills) else np.zeros(0, object), fills.opacity >= 1.0)
 
@@ -106,7 +106,7 @@ def visible_parts(fills: Fills, whole: Ints) -> PartsOfWholes:
     """What is seen of polygons of three corners or more, those of one number (m,) convex parts of a convex one, that
     have whole sides in common, and that are painted one after the other but for what lies on them.
 
-    What covers a whole one covers its parts, and it is looked at once for all of them. Errors as of visible_fills.
+    What covers a whole one covers its parts, and it is looked at once for all of them. Errors as in visible_fills.
     """
     import shapely
 
@@ -287,16 +287,13 @@ are."""
 
 
 def flattened(base: Fills, overlays: Sequence[Overlay], page_from_world: Floats, plane: Ints | None = None) -> Overlay:
-    """The polygons of base with what lies on them, each after the one it lies on: the same picture, but that no more
-    than one of them covers a place near the border of a polygon of base.
-
-    overlays: polygons inside those of base that they come after, in the order in which they lie on each other. plane
-    (m,): numbers of the planes of the polygons of base: those of one plane that follow each other become one, without
-    borders between them, and so does what lies on them. page_from_world (4,4) as in Drawing. Polygons of one colour
-    that follow each other on the same one become one. What lies on polygons that one can see through stays as it is.
-    Error: parts narrower than a few of GRID_MM are left out.
-    Edge cases: what is covered as a whole is left out; heaps of more than MOST_LAYERS or MOST_CLEAR stay as they are,
-    but that what has one colour is brought together where several polygons are one.
+    """The polygons of base with what lies on them, each after its base polygon: the same picture, with at most one
+    covering any place near a border of base. overlays: polygons within those of base that they come after, in their
+    order on each other; plane (m,): consecutive polygons of one plane become one, with what lies on them;
+    page_from_world (4,4) as in Drawing. Consecutive polygons of one colour on the same one are united; what lies on
+    transparent polygons stays.
+    Error: parts narrower than a few GRID_MM are left out. Edge cases: what is wholly covered is left out; stacks of
+    more than MOST_LAYERS or MOST_CLEAR stay, but for the union of equal colours.
     """
     opaque = (base.opacity >= 1.0) & (base.kind != FillKind.BACKGROUND)
     layers = stacked([Overlay(base, np.arange(len(base))), *overlays])
@@ -627,13 +624,10 @@ def _turn(a: Floats, b: Floats, c: Floats) -> Floats:
 
 
 def united(overlay: Overlay, sheet: Ints) -> Overlay:
-    """The same picture with one region, cut open to its holes, in place of polygons of one colour, item and kind that
-    are painted right after each other on the same polygon, and of the same sheet (m,), a number of each, -1 for none.
-
-    Shaded polygons stay as they are, and so do those that one can see through and that are of no sheet: they may
-    overlap. Corners in space are
-    those of the polygons, or what is between the two next ones.
-    Error: new corners, where sides cross, are off by GRID_MM at most; parts narrower than a few of these are left out.
+    """The same picture with one region, cut open to its holes, in place of consecutive polygons of one colour, item and
+    kind on the same polygon and of one sheet (m,), -1 for none. Shaded polygons, and transparent ones without a
+    sheet, which may overlap, stay. Corners in space are those of the polygons, or interpolated.
+    Error: new corners are off by GRID_MM at most; parts narrower than a few of these are left out.
     """
     import shapely
 
@@ -658,11 +652,11 @@ def united(overlay: Overlay, sheet: Ints) -> Overlay:
 
 
 def visible_shades(painted: Overlay, smooth: Bools, page_from_world: Floats) -> Fills:
-    """What is seen of polygons, as of visible_fills, with one region, cut open to its holes, in place of those of one
+    """What is seen of polygons, see visible_fills, with one region, cut open to its holes, in place of those of one
     colour of an item, among the items that are smooth (i,). What one can see through stays in its parts.
 
-    painted: the polygons; those that come after one number are parts of one, as of visible_parts, those of -1 of none.
-    Corners in space, errors as of united; borders of regions are off by less than STEP_BORDER_MM, on both sides alike.
+    painted: the polygons; those that come after one number are parts of one, see visible_parts, those of -1 of none.
+    Corners in space, errors as in united; borders of regions are off by less than STEP_BORDER_MM, on both sides alike.
     """
     import shapely
 

@@ -139,10 +139,7 @@ class Fills:
     def empty(cls) -> Fills:
         """No polygons at all.
 
-        Returns
-        -------
-        Fills
-            Of length 0.
+        result: of length 0.
         """
         none = np.zeros(0, dtype=np.intp)
         colours = np.zeros((0, 3), dtype=np.uint8)
@@ -162,28 +159,11 @@ class Fills:
     ) -> Fills:
         """Polygons of one colour each.
 
-        Parameters
-        ----------
-        points : (p, 2) array of float
-            On the page in mm, y upwards.
-        offsets : (m+1,) array of int
-            Polygon k has the corners offsets[k] to offsets[k+1].
-        colours : (m, 3) array of uint8
-            Red, green and blue.
-        points3d : (p, 3) array of float, optional
-            The same points in the world; where None, the world is the page.
-        opacity, item, kind : array_like
-            For each polygon (m,), or one for all.
-
-        Returns
-        -------
-        Fills
-            The polygons in the same order.
-
-        Raises
-        ------
-        InputError
-            For what Fills refuses.
+        points (p,2): on the page in mm, y upwards; offsets (m+1,): polygon k has the corners offsets[k] to
+        offsets[k+1]; colours (m,3): red, green and blue; points3d (p,3): the same points in the world; where None, the
+        world is the page; opacity, item, kind: for each polygon (m,), or one for all; result: the polygons in the same
+        order.
+        Errors: for what Fills refuses.
         """
         count = len(offsets) - 1
         solid = np.column_stack((points, np.zeros(len(points)))) if points3d is None else points3d
@@ -201,17 +181,8 @@ class Fills:
     def whole_page(cls, width_mm: float, height_mm: float, colour: Colours) -> Fills:
         """A sheet of paper in a colour.
 
-        Parameters
-        ----------
-        width_mm, height_mm : float
-            The sides of the page.
-        colour : (3,) array of uint8
-            Red, green and blue.
-
-        Returns
-        -------
-        Fills
-            One polygon of the kind BACKGROUND.
+        width_mm, height_mm: the sides of the page; colour (3,): red, green and blue; result: one polygon of the kind
+        BACKGROUND.
         """
         corners = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]]) * (width_mm, height_mm)
         return cls.flat(corners, np.array([0, 4]), colour[None, :], kind=FillKind.BACKGROUND)
@@ -220,29 +191,13 @@ class Fills:
     def joined(cls, *parts: Fills) -> Fills:
         """The polygons of all parts, one part after the other.
 
-        Parameters
-        ----------
-        parts : Fills
-            As many as there are, also none.
-
-        Returns
-        -------
-        Fills
-            In the same order.
+        parts: as many as there are, also none; result: in the same order.
         """
         return joined(parts or (cls.empty(),))
 
     def take(self, which: Ints) -> Fills:
         """The polygons with these numbers, in this order.
 
-        Parameters
-        ----------
-        which : (k,) array of int
-            Numbers from 0, each one as often as wanted.
-
-        Returns
-        -------
-        Fills
-            k polygons.
+        which (k,): numbers from 0, each one as often as wanted; result: k polygons.
         """
         return take(self, which)

@@ -34,7 +34,7 @@ from vectorplot.words import LineKind
 # Ends of strokes where many of them run into one point, as in the apex of a cone: there ink would make a blot.
 
 FEWEST = 8
-"""So many lines that end in one point converge; fewer make a corner, as of a mesh."""
+"""So many lines that end in one point converge; fewer make a corner, as on a mesh."""
 
 
 def trimmed_ends(paths: Paths, width_mm: float, page_from_world: Floats) -> Paths:

@@ -206,14 +206,12 @@ def places(
     page: Floats,
     taken: Floats,
 ) -> Places:
-    """Where labels stand: one after the other each is put where the least counts against it.
-
-    anchors (l,2): what they name; sizes (l,2): width and height of their boxes; height (l,): of their capitals; gap
-    (l,): from a point to the letters beside it; asked: the words of DIRECTIONS, or auto; start, end (s,2): the strokes
-    of the picture; page (2,2): its corners; taken (b,2,2): boxes, smallest and largest coordinates, where no label is.
+    """Where labels stand: greedily, each at the least cost. anchors (l,2): what they name; sizes (l,2): of their boxes;
+    height (l,): of capitals; gap (l,): from the point to the letters; asked: words of DIRECTIONS, or auto; start,
+    end (s,2): strokes; page (2,2): corners; taken (b,2,2): boxes without labels, smallest and largest coordinates.
     All in mm.
     Source: Christensen, Marks and Shieber, An empirical study of algorithms for point-feature label placement, ACM
-    Trans. Graphics 14 (1995): the greedy algorithm.
+    Trans. Graphics 14 (1995).
     """
     middle = (
         0.5 * (np.minimum(start, end).min(axis=0) + np.maximum(start, end).max(axis=0))
@@ -522,7 +520,7 @@ def labels_with_room(seen: SeenLabels, some: Sequence[int], mm: float) -> list[i
 
 def ticks_with_room(seen: SeenLabels, placement: Placement, mm: float) -> SeenLabels:
     """The labels without numbers at ticks that would stand in those before them on the same curve, and without ticks
-    that are hardly apart: of a curve that is seen end-on there are none. mm: as of labels_with_room."""
+    that are hardly apart: of a curve that is seen end-on there are none. mm: see labels_with_room."""
     curves: dict[str, list[tuple[float, int]]] = {}
     for number, label in enumerate(seen.anchors.labels):
         if isinstance(label.at, OnCurve) and label.mark == "tick":
@@ -609,7 +607,7 @@ def measures_tried(
 ) -> list[Measure]:
     """Where the text of a dimension may stand along its line (n,2), the best first; usual: the text above it.
 
-    heads: as of arrowheads; set_at: the text above or below, at a part of the length of the line, outside of 0 to 1
+    heads: see arrowheads; set_at: the text above or below, at a part of the length of the line, outside of 0 to 1
     beyond its ends; gap: from the end of the line to a text beyond it.
     """
     whole = float(np.hypot(*np.diff(path, axis=0).T).sum())
@@ -670,7 +668,7 @@ def measures_on_page(
 ) -> dict[int, Measure]:
     """The texts above lines with arrowheads, each where it interrupts least of the strokes, without hatches.
 
-    paths: the courses of lines by the numbers of labels along them; usual: these labels above them; heads: as of
+    paths: the courses of lines by the numbers of labels along them; usual: these labels above them; heads: see
     arrowheads; page (2,2): its corners.
     """
     tried = {}
@@ -790,11 +788,8 @@ def _with_label_layer(layers: tuple[Layer, ...], label: Layer, by_kind: bool) ->
 def labels_on_page(
     seen: SeenLabels, placement: Placement, strokes: Paths, hidden: str, text: str = "strokes", mm: float = 1.0
 ) -> SceneLabels:
-    """The letters of labels, apart from strokes and from each other. Along a curve whose image is shorter than a letter
-    is high, seen end-on, they stand beside its point.
-
-    strokes: of the drawing; hidden: what becomes of hidden lines; text: a word of LETTERS; mm: how long a millimetre is
-    in units of the page.
+    """The letters of labels, apart from strokes and each other; beside the point of a curve whose image is shorter than
+    a letter. hidden: what becomes of hidden lines; text: a word of LETTERS; mm: a millimetre in units of the page.
     Errors: InputError, with the label's name, for a character without strokes.
     """
     letters, seen = LETTERS[text], ticks_with_room(seen, placement, mm)
@@ -975,7 +970,7 @@ ROOM_MM = 1.2
 def level_numbers(scene: Scene, strokes: Paths, text: str, mm: float) -> list[Lettering]:
     """The heights of numbered sections, upright on their lines where these are straight enough for them.
 
-    strokes: of the picture; text, mm: as of labels_on_page. A line that is nowhere visible and straight over the length
+    strokes: of the picture; text, mm: see labels_on_page. A line that is nowhere visible and straight over the length
     of the longest number has none.
     """
 

@@ -126,7 +126,7 @@ def layers_by_colour(paths: Paths, colours: Sequence[str], shown_item: Ints) -> 
 def shown_items(scene: Scene, strokes: Paths, eye: Floats) -> Ints:
     """(m,) the item whose colour each stroke has: the look of the face that it lies on, if that has one of its own.
 
-    eye: as of FaceLooks.seen_at. Error: a stroke is looked up in the middle of its first segment.
+    eye: see FaceLooks.seen_at. Error: a stroke is looked up in the middle of its first segment.
     """
     found = strokes.item.copy()
     distance = FLAT_OF_EXTENT * float(np.ptp(scene.bounds, axis=0).max())

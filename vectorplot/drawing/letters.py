@@ -545,9 +545,9 @@ def typeset(
     Parameters
     ----------
     text : str
-        As of lettered, but of any characters.
+        As in lettered, but of any characters.
     at, size_mm, align, level, rotation_deg : (float, float), float, str, str and float
-        As of lettered.
+        See lettered.
 
     Returns
     -------

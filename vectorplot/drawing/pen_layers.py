@@ -78,13 +78,10 @@ def sorted_layers(
     hatches: Sequence[Layer] = (),
     shown_item: Ints | None = None,
 ) -> tuple[Layer, ...]:
-    """The layers of strokes; hidden ones have one of their own.
-
-    items, colours: the name and the colour of every item; layers: as of layer_words; hatches: layers of hatching, which
-    come last; by kind the first of them has its place among the kinds; shown_item (m,): the item whose colour each
-    stroke has, where None its own. Where rules give strokes of a layer different
-    pens, it becomes as many as of in_pens.
-    Errors: InputError for rules for items that are not there.
+    """The layers of strokes, hidden ones on their own. items, colours: of every item; layers: see layer_words; hatches:
+    layers of hatching, last, or among the kinds; shown_item (m,): whose colour each stroke has, None for its own. A
+    layer whose strokes get different pens by the rules is divided, see in_pens.
+    Errors: InputError for rules for items that do not exist.
     """
     check_targets(rules, items)
     words = layer_words(layers)

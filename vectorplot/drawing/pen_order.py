@@ -12,11 +12,11 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.strokes import chosen, directed, swapped
 from vectorplot.errors import InputError
-from vectorplot.exact.radix import ShortKeys, radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices, threads, workers
 from vectorplot.geometry.elementary import modulus
 from vectorplot.geometry.polylines import with_points
+from vectorplot.geometry.radix import ShortKeys, radix_order
 from vectorplot.tolerances import DRAWN_TOGETHER_OF_EXTENT, LEAST_GAIN_OF_TRAVEL, SPREAD_OF_EXTENT, ZERO_OF_EXTENT
 
 # Places of the ends of strokes, curves through them, and which of them are each other's nearest.
@@ -178,7 +178,7 @@ SeparationTest = tuple[_Stretch | _AllPairs, ...]
 """Ends of strokes among which near ones are sought again and again."""
 
 
-def crowd(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> SeparationTest:
+def separation_test(spots: Places, opposite: Ints, layer: Ints, curves: Curves) -> SeparationTest:
     """The ends at these spots, with curves through them. Only ends of the same layer (n,) count for each other, but for
     opposite (n,): one end that does not count for each."""
     if len(spots) <= ALL_PAIRS:
@@ -336,7 +336,7 @@ def _exchanged(link: Ints, odd: Ints, part: Ints, spread: Places, layer: Ints) -
     spots = np.append(spread[odd], complex(np.nan, np.nan))
     of = np.append(part[odd], -1)
     mate = np.append(np.where(link[odd] >= 0, number[link[odd]], -1), -1)
-    among = crowd(spots[:-1], np.arange(len(odd)), layer[odd], curves_through(spots[:-1], layer[odd]))
+    among = separation_test(spots[:-1], np.arange(len(odd)), layer[odd], curves_through(spots[:-1], layer[odd]))
     one, other, apart = nearer_than(np.full(len(odd), np.inf), among)
     some = np.flatnonzero((of[one] == of[other]) & (one < other))
     one, other, apart = one[some], other[some], apart[some]
@@ -593,7 +593,7 @@ def shortened(ends: Places, tour: Ints, layer: Ints, curves: Curves) -> Ints:
     spots = np.append(ends, np.full(2 * len(borders) + 1, complex(np.nan, np.nan)))
     layers = np.append(layer, np.full(2 * len(borders), -1))
     mean //= len(borders) + 1
-    among = crowd(ends, np.arange(count) ^ 1, layer, curves)
+    among = separation_test(ends, np.arange(count) ^ 1, layer, curves)
     everything = awake = np.ones(len(layers), dtype=np.bool_)
     partner, travel = _partners(tour), np.inf
     for _ in range(_ROUNDS + _MORE_ROUNDS // mean):
@@ -838,7 +838,8 @@ def travel_mm(paths: Paths) -> float:
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.drawing import Paths, travel_mm
+    >>> from vectorplot.drawing import travel_mm
+    >>> from vectorplot.drawing.drawing import Paths
     >>> points = np.array([(0.0, 0.0), (50.0, 0.0), (50.0, 10.0), (0.0, 10.0)])
     >>> none, open_ = np.zeros(2, dtype=int), np.zeros(2, dtype=bool)
     >>> travel_mm(Paths(points, np.array([0, 2, 4]), open_, none, none, none, np.zeros((4, 3))))

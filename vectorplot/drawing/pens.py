@@ -24,7 +24,7 @@ from vectorplot.words import COLOURS, LineKind, check_colour, check_word, is_col
 _NEXT = re.compile(r",(?=[^,=]*=)")
 """The commas between rules, where a rule has commas of its own."""
 
-USUAL_HATCHING_MM = (Hatching.width_mm, Stippling.width_mm)
+DEFAULT_HATCHING_MM = (Hatching.width_mm, Stippling.width_mm)
 """The widths of the pens that hatch, or make dots, where nothing else is said."""
 
 
@@ -182,16 +182,14 @@ def rules_by_target(rules: Sequence[PenRule]) -> RulesByTarget:
 
 
 def pen_of(rules: RulesByTarget, pen: Pen, kind: int, hidden: bool, item: str) -> Pen:
-    """The pen of lines of one kind and item, that of their layer with what the rules say: those for all lines first,
-    then those for the kind, for the item, and for both, the later ones before the earlier ones.
-
-    Lines that something hides are of the kind hidden only; rules for their item that name no kind leave them alone. Of
-    hatchings these change the colour only, and those for all lines the width too, where it is the usual one: their
-    spacing goes by one that is their own.
+    """The pen of lines of one kind and item: their layer's, with the rules for all lines, then for the kind, for the
+    item, and for both, later rules first. Hidden lines are of the kind hidden only, and rules for an item without a
+    kind do not apply to them. Of hatchings these rules change the colour only, and those for all lines the width too
+    where it is the default, since the spacing follows the width.
     """
     word = HIDDEN if hidden else LineKind(kind).word
     hatching = kind == LineKind.HATCH
-    usual = pen.width_mm in USUAL_HATCHING_MM
+    usual = pen.width_mm in DEFAULT_HATCHING_MM
     for target in [(None, None), (word, None), *(() if hidden else ((None, item),)), (word, item)]:
         for rule in rules.get(target, ()):
             if hatching and rule.kind is None:
@@ -221,9 +219,9 @@ class Style:
     hidden : {"none", "dashed", "solid"}
         How hidden lines look.
     pens : mapping of str to str
-        As of `vp.draw`: kinds of lines, items, or item.kind, and WIDTH, COLOUR or WIDTH:COLOUR.
+        See `vp.draw`: kinds of lines, items, or item.kind, and WIDTH, COLOUR or WIDTH:COLOUR.
     dashes : mapping of str to str
-        As of `vp.draw`: the same, and DASH,GAP.
+        See `vp.draw`: the same, and DASH,GAP.
     background : str, optional
         The colour of the paper; none is drawn where None.
     layers : str

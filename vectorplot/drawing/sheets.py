@@ -206,7 +206,7 @@ def contact_sheet(
     drawings : sequence of Drawing
         In reading order.
     page : Page or str
-        The sheet, as of Sheet; its margin stays empty.
+        The sheet, see Sheet; its margin stays empty.
     columns : int, optional
         How many stand side by side; where None, as many as make the smallest of them the largest.
     gap_mm : float
@@ -217,7 +217,7 @@ def contact_sheet(
     Returns
     -------
     Drawing
-        As of Sheet.drawing.
+        See Sheet.drawing.
 
     Raises
     ------

@@ -14,7 +14,7 @@ from vectorplot.geometry.polylines import with_points
 from vectorplot.tolerances import ZERO_OF_EXTENT
 
 _ROUNDS = 6
-_CROWD = 32
+_DENSE = 32
 """After so many rounds, a chord that still replaces more points than this is split in its middle too: a spiral, whose
 farthest points lie at its end, would take a round for every turn."""
 
@@ -28,17 +28,11 @@ _SAMPLE_TOLERANCE = 0.95
 
 
 def without_collinear_points(paths: Paths, tolerance_mm: float) -> Paths:
-    """The same strokes without the points on the straight line between their neighbours.
-
-    Every point left out lies within tolerance_mm of the segment that takes its place, however many are left out in a
-    row, and in the world within as much of it on the scale of the drawing; a point where the stroke turns back stays:
-    along the segment that takes their place, points left out only go forward. A closed stroke begins where it did if
-    that point stays, otherwise at the next one that stays. points3d keeps the points that stay. Strokes of which the
-    Bézier curves are known keep all points, unless they are straight.
-    Edge cases: of repeated points one stays; a closed stroke of which two points stay becomes an open one; strokes of
-    fewer than three points stay.
-    Source: Douglas and Peucker, Algorithms for the reduction of the number of points, Cartographica 10 (1973), between
-    the points that are no candidates.
+    """The same strokes without points on the straight line between their neighbours: each is within tolerance_mm of the
+    segment in its place, on the page and, to scale, in the world; along it they only go forward. A closed stroke
+    begins at its first point that stays. Strokes with known Bézier curves keep all points unless they are straight.
+    Edge cases: of repeated points one stays; a closed stroke of two points becomes open; strokes of fewer than three
+    points stay. Source: Douglas and Peucker, Cartographica 10 (1973), between the points that must stay.
     """
     straight = _goes_straight(paths, tolerance_mm) if len(paths.points) else np.zeros(0, dtype=np.bool_)
     if not straight.any():
@@ -196,8 +190,8 @@ def _keep_what_is_far(line: _Line, kept: Bools, left_out: Ints, tolerance_mm: fl
             split[~split] = deep
         kept[farthest] = True
         if rounds >= _ROUNDS:
-            crowded = split & (at.size > _CROWD)
-            kept[left_out[at.begin[crowded] + at.size[crowded] // 2]] = True
+            dense = split & (at.size > _DENSE)
+            kept[left_out[at.begin[dense] + at.size[dense] // 2]] = True
         left_out = at.only(split).left_out
         left_out = left_out[~kept[left_out]]
         rounds += 1

@@ -103,12 +103,11 @@ MOST_SAMPLES = 1024
 
 
 def fewer_cubics(paths: BezierPaths, tolerance: float) -> BezierPaths:
-    """The paths, those that fewer curves serve within the tolerance as these, with their error.
-
-    They are sampled, with their true tangents, so closely that chords are nowhere farther off than a part of the
-    tolerance, and the fit goes by the samples: it begins and ends in points of the paths, in their directions.
-    Source: Farin, Curves and Surfaces for CAGD, section 6.9: a chord is off its curve by no more than an eighth of
-    the second derivative.
+    """The paths, with fewer curves where these serve within the tolerance of the given ones and their error. They are
+    sampled with true tangents, chords within a part of the tolerance, and refitted between the same ends in the same
+    directions.
+    Source: Farin, Curves and Surfaces for CAGD, section 6.9: a chord is off its curve by at most an eighth of the
+    second derivative.
     """
     count, samples = np.diff(paths.offsets), _samples_needed(paths, SAG_OF_KNOWN * tolerance)
     too_large = np.bincount(ragged.owner(count)[samples > MOST_SAMPLES], minlength=len(count)) > 0
@@ -229,7 +228,8 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
     --------
     >>> from dataclasses import replace
     >>> import numpy as np
-    >>> from vectorplot.drawing import Paths, curved_strokes
+    >>> from vectorplot.drawing import curved_strokes
+    >>> from vectorplot.drawing.drawing import Paths
     >>> t = np.linspace(0.0, np.pi, 60)
     >>> arch = np.column_stack([50.0 + 30.0 * np.cos(t), 20.0 + 30.0 * np.sin(t)])
     >>> one, solid = np.zeros(1, dtype=int), np.column_stack([arch, 0.0 * t])

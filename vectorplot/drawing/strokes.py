@@ -9,12 +9,12 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, Paths
 from vectorplot.errors import InputError
-from vectorplot.exact.radix import Keys, radix_order
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import joined as joined_of_polylines
 from vectorplot.geometry.polylines import take, with_points
+from vectorplot.geometry.radix import Keys, radix_order
 from vectorplot.geometry.weld import close_points
 from vectorplot.tolerances import SUM_OF_LENGTHS
 
@@ -81,12 +81,9 @@ def _known(values: Floats, which: Bools) -> Ints:
 def sections(
     paths: Paths, stroke: Ints, first: Ints, t_first: Floats, last: Ints, t_last: Floats, page_from_world: Floats
 ) -> Paths:
-    """Parts of open strokes, as strokes of their own.
-
-    Part i belongs to stroke[i]; it begins on the segment that starts at point first[i], at the fraction t_first[i],
-    and ends on the segment of last[i] at t_last[i]. The points in the world divide their segments so that their
-    images are the points on the page: for a central projection the fraction differs from that on the page. Directions
-    and handles are those of the points; in the middle of a segment none is known.
+    """Parts of open strokes: part i of stroke[i], from the segment at point first[i], fraction t_first[i], to that of
+    last[i], t_last[i]. Points in the world divide their segments so that their images are those on the page.
+    Directions and handles are those of the points, unknown amid a segment.
     """
     offsets = ragged.offsets(last - first + 2)
     index = ragged.ranges(first, last - first + 2)
@@ -308,12 +305,8 @@ def hashed(*parts: Ints) -> Keys:
 
 
 def overlapping_cells(x: Floats, y: Floats, label: Ints, reach: tuple[float, float]) -> tuple[Keys, Ints]:
-    """(key, owner): the cells each point belongs to.
-
-    Points with equal label no further apart than reach, in x and in y, share at least one cell; points that share one
-    need not be close.
-
-    x, y, label (n,). A cell reaches over its left and lower border, so a point is in one cell, seldom in two or four.
+    """(key, owner): the cells of points x, y, label (n,), most in one, few in two or four. Points of equal label within
+    reach, in x and in y, share a cell; points that share one need not be close.
     """
     cell = (CELL * reach[0], CELL * reach[1])
     column, row = np.floor(x / cell[0]), np.floor(y / cell[1])
@@ -352,10 +345,10 @@ def companions(key: Keys, owner: Ints) -> tuple[Ints, Ints]:
 
 
 def clusters(x: Floats, y: Floats, label: Ints, reach: float) -> Ints:
-    """(n,) for every point the smallest index of a point it hangs together with.
+    """(n,) for every point the smallest index of a point it is connected to.
 
-    Points of equal label hang together by steps no longer than reach. Within a crowd of several reaches' width not
-    every step is found, but equal points always get equal clusters.
+    Points of equal label are connected by steps no longer than reach. Within a dense group of several reaches' width
+    not every step is found, but equal points always get equal clusters.
     """
     owner, starts = companions(*overlapping_cells(x, y, label, (reach, reach)))
     run = ragged.owner(np.diff(starts))
@@ -396,14 +389,11 @@ _TURN = 1 << 30
 
 
 def joined(paths: Paths, group: Ints, tolerance_mm: float) -> Paths:
-    """The same lines in as few and as long strokes as their ends allow.
-
-    group (m,): only strokes of equal group, and smooth ones with smooth ones, are joined; a joined stroke has the kind,
-    item and hidden_by of its first part. Ends within tolerance_mm are one node, unless they lie one behind the other in
-    the world. Two ends at a node are joined; of more, those that go on most nearly straight are joined first. Strokes
-    that come back to their start are closed, their first point not repeated.
-    Edge cases: closed strokes stay as they are and come last; a straight stroke with both ends at one node is left out;
-    two straight strokes between the same nodes and no others become one.
+    """The same lines in as few and long strokes as their ends allow. group (m,): only strokes of one group, smooth with
+    smooth, are joined; the result has the kind, item and hidden_by of its first part. Ends within tolerance_mm are
+    one node unless they differ in depth; at a node the straightest pairs are joined first.
+    Edge cases: closed strokes stay, last; a straight stroke with both ends at one node is left out; two straight
+    strokes between the same two nodes become one.
     """
     sizes = np.diff(paths.offsets)
     open_ = np.flatnonzero(~paths.closed & (sizes > 1))
@@ -601,7 +591,7 @@ def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = Non
     max_mm : float
         The longest that a stroke may be.
     page_from_world : (4, 4) array of float, optional
-        As of Drawing, by default a parallel projection: points3d is divided where the page is.
+        See Drawing, by default a parallel projection: points3d is divided where the page is.
 
     Returns
     -------
@@ -620,7 +610,8 @@ def split_long(paths: Paths, max_mm: float, page_from_world: Floats | None = Non
     Examples
     --------
     >>> import numpy as np
-    >>> from vectorplot.drawing import Paths, split_long
+    >>> from vectorplot.drawing import split_long
+    >>> from vectorplot.drawing.drawing import Paths
     >>> points, none = np.array([(0.0, 0.0), (100.0, 0.0)]), np.zeros(1, dtype=int)
     >>> line = Paths(points, np.array([0, 2]), np.array([False]), none, none, none, np.zeros((2, 3)))
     >>> split_long(line, max_mm=60.0).points.tolist()
@@ -684,14 +675,11 @@ def clipped(paths: Paths, rectangle: Rectangle, page_from_world: Floats | None =
 
 
 def clipped_parts(paths: Paths, rectangle: Rectangle, page_from_world: Floats | None = None) -> tuple[Paths, Ints]:
-    """The parts of the strokes inside the rectangle, its border included, and the stroke that each comes from.
-
-    rectangle: left, bottom, right, top in mm; page_from_world (4,4) as in Drawing, by default a parallel projection:
-    with it points3d is cut where the page is. Strokes keep their order; a closed stroke that is cut becomes open ones
-    that begin where it enters.
-    Edge cases: a stroke that only touches the border leaves nothing. Of a segment more than 1e15 times as long as the
-    rectangle nothing may be left: doubles do not say where it crosses.
-    Source: Liang and Barsky, A new concept and method for line clipping, ACM Trans. Graphics 3 (1984).
+    """The parts of strokes within the rectangle (left, bottom, right, top in mm), border included, in order, and the
+    stroke each comes from. page_from_world (4,4) as in Drawing, by default parallel: points3d is cut where the page
+    is. A closed stroke that is cut becomes open ones.
+    Edge cases: what only touches the border leaves nothing; of a segment 1e15 times as long as the rectangle nothing
+    may be left. Source: Liang and Barsky, ACM Trans. Graphics 3 (1984).
     """
     low, high = np.array(rectangle[:2]), np.array(rectangle[2:])
     outside: Bools = np.any((paths.points < low) | (paths.points > high), axis=1)

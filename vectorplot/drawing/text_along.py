@@ -32,8 +32,7 @@ from vectorplot.drawing.letters import (
 from vectorplot.drawing.strokes import chosen, concatenated, sections, unrolled
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.tolerances import UNION_OF_SEGMENT
 
@@ -67,11 +66,11 @@ def lettered_along(
     Parameters
     ----------
     text : str
-        In one line, as of lettered.
+        In one line, see lettered.
     path : (n, 2) array_like of float
         Points of the curve in mm, n >= 2.
     size_mm, align : float and str
-        As of lettered.
+        See lettered.
     level : {"base", "middle", "top"}
         Whether the curve runs under the letters, through their middle, or above them.
     at : float
@@ -87,7 +86,7 @@ def lettered_along(
     Raises
     ------
     InputError
-        As of lettered; for a path without length.
+        See lettered; for a path without length.
 
     Notes
     -----
@@ -123,9 +122,9 @@ def typeset_along(
     Parameters
     ----------
     text : str
-        As of typeset, in one line.
+        See typeset, in one line.
     path, size_mm, align, level, at, off_mm : array_like, float, str, str, float and float
-        As of lettered_along.
+        See lettered_along.
 
     Returns
     -------
@@ -135,7 +134,7 @@ def typeset_along(
     Raises
     ------
     InputError
-        As of typeset; for a path without length.
+        See typeset; for a path without length.
 
     Examples
     --------
@@ -276,11 +275,9 @@ def grown(boxes: Floats, margin_mm: float) -> Floats:
 
 
 def outside_boxes(paths: Paths, boxes: Floats, page_from_world: Floats) -> Paths:
-    """The parts of strokes that lie outside of rectangles, in the order of the strokes.
-
-    boxes (b,4,2): corners, counter-clockwise; page_from_world (4,4) as of Drawing: with it points in the world are cut
-    where the page is. A closed stroke that is cut becomes open ones.
-    Edge cases: what only touches a rectangle stays.
+    """The parts of strokes outside of rectangles, in order. boxes (b,4,2): corners, counter-clockwise; page_from_world
+    (4,4) as in Drawing: points in the world are cut where the page is. A closed stroke that is cut becomes open
+    ones. Edge cases: what only touches stays.
     Source: Cyrus and Beck, Generalized two- and three-dimensional clipping, Computers & Graphics 3 (1978).
     """
     touched = _touched(paths, boxes)

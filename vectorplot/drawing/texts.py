@@ -12,13 +12,10 @@ from vectorplot.arrays import Floats, Ints
 
 @dataclass(frozen=True, eq=False)
 class Texts:
-    """Lines of text on the page, in letters of a font.
-
-    strings: one line each; points: (n, 2) in mm, y upwards: a point of the line that the letters stand on; size_mm:
-    (n,) the heights of capitals; turn_deg: (n,) the directions that the lines run in, from the page's x axis,
-    counter-clockwise; anchor: (n,) what part of a line lies before its point: 0 where it begins there, 0.5 for its
-    middle, 1 where it ends there; room_mm: (n,) the lengths that are kept free for the lines; hidden_by: (n,) number of
-    items in front of what they name, 0 where these do not count.
+    """Lines of text on the page, in letters of a font. strings: one line each; points (n,2) in mm: on the baseline;
+    size_mm (n,): heights of capitals; turn_deg (n,): directions, counter-clockwise from x; anchor (n,): part of the
+    line before its point, 0 to 1; room_mm (n,): lengths kept free; hidden_by (n,): items in front of what they name,
+    or 0.
     """
 
     strings: tuple[str, ...]

@@ -41,13 +41,11 @@ def with_title(
     longest_mm: float | None,
     text: str = "strokes",
 ) -> tuple[Layer, ...]:
-    """The layers of a drawing, and one with its title and a frame, if these are wanted.
-
-    The frame runs in the middle of the margin; the title stands in the middle of the lower margin, in several lines
-    where one is too wide, and the frame ends before it. pen: of both, the frame with its dashes; longest_mm: longer
-    strokes leave in parts; text: a word of LETTERS.
-    Errors: InputError for a character without strokes, a title that the margin has no room for, and a frame on a page
-    without a margin.
+    """The layers of a drawing, and one with its title and frame if wanted: the frame in the middle of the margin,
+    interrupted by the title in the middle of the lower margin, in several lines where it is too wide. longest_mm:
+    longer strokes are split; text: a word of LETTERS.
+    Errors: InputError for a character without strokes, a title too large for the margin, and a frame on a page without
+    margin.
     """
     page = placement.page
     if frame and not page.margin_mm > 0.0:

@@ -1,12 +1,10 @@
 from .cuts import cut_scene
-from .halos import halo
 from .refraction import angle_of_refraction, inverse_refraction, plate_shift, refracted, seen_in_surface
 from .shadows import shadow_decals
 
 __all__ = [
     "angle_of_refraction",
     "cut_scene",
-    "halo",
     "inverse_refraction",
     "plate_shift",
     "refracted",

@@ -320,7 +320,7 @@ FINEST_MM = 0.7
 FLATTEST = 0.1
 """Planes that seem to be more foreshortened are hatched like those that are as much so: they are slivers."""
 
-USUAL_PAGE_MM = 216.0
+DEFAULT_PAGE_MM = 216.0
 """How large a scene is on its page, where nobody knows: an A4 sheet within its margins."""
 
 INK = 0.5
@@ -391,7 +391,7 @@ def page_hatch(cut: Cut, way: Way) -> Hatching:
 def default_page(scene: Scene) -> InSpace:
     """What a millimetre is where a scene fills a page of usual size."""
     extent = float(np.ptp(scene.bounds, axis=0).max())
-    return lambda points: np.full(len(points), extent / USUAL_PAGE_MM)
+    return lambda points: np.full(len(points), extent / DEFAULT_PAGE_MM)
 
 
 def spacings_in_space(
@@ -473,15 +473,15 @@ def cut(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, or several of these
-        What is cut, as of `io.scene_of`; cuts that a scene has stay.
+        What is cut, see `io.scene_of`; cuts that a scene has stay.
     cuts : Cut or str, or several
-        Texts as of `Cut.of`: y = 0, x + 2y > 3, or several conditions with commas between them.
+        Texts as in `Cut.of`: y = 0, x + 2y > 3, or several conditions with commas between them.
     away : {"gone", "ghost", "moved"}
         What becomes of what texts take away.
     colour : str, optional
         Of the faces at cuts that are texts.
     spacing_mm, angle_deg : float
-        Of the hatches of these faces, as of `Cut`.
+        Of the hatches of these faces, see `Cut`.
     items : names, optional
         Of the items that texts cut; all where None.
 

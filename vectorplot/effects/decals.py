@@ -22,13 +22,11 @@ from vectorplot.visibility.projected_faces import newell
 
 @dataclass(frozen=True, eq=False)
 class Decals:
-    """Polygons on faces of a View, painted right after the face they lie on.
-
-    points: (3, c) in the view's coordinates, on the planes of their faces; face: (m,) the face of the view it lies on;
-    kind: (m,) fillKind values; grade: (m,) how many lights it lacks (0 for decals that are no shadows); light: (m,)
-    which light of the scene, -1 for several or none; colour: (m,) index into colours, or -1: the face's own; level:
-    (m,) the order on one face, smaller first, equal ones in any order; lacking: (m,) the lights that do not get there
-    at all, bit k for light k; opacity: (m,) how much of the face they cover.
+    """Polygons on faces of a View, painted right after their face. points (3,c) in the view's coordinates, on the
+    planes of their faces; face (m,); kind (m,): FillKind values; grade (m,): how many lights are lacking, 0 for no
+    shadow; light (m,): which light, -1 for several or none; colour (m,): index into colours, -1 for the face's own;
+    level (m,): order on one face, smaller first; lacking (m,): bit k for light k that does not get there at all;
+    opacity (m,).
     """
 
     points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
@@ -178,7 +176,7 @@ def _bent(flat: Floats, offsets: Ints, tolerance: float) -> Bools:
 
 @dataclass(frozen=True, eq=False)
 class Laid:
-    """Parts of decals in the image: points (3,c), as of ImageFaces; offsets (n+1,); decal (n,) which decal each part is
+    """Parts of decals in the image: points (3,c), see ImageFaces; offsets (n+1,); decal (n,) which decal each part is
     of; piece (n,) the painted polygon that it lies on, ascending, and for each the decals in the order of painting."""
 
     points: Floats

@@ -1,4 +1,4 @@
-"""Strokes that are thinner, or paler, the farther away they are.
+"""Strokes that are thinner, or paler, the farther away they are; wireframes in the shades of depth.
 
 Source: Glaeser, section 4.4.
 """
@@ -7,32 +7,37 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import Literal
 
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Layer, Paths, Pen
+from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.layers import PENS, layers_of, shown_items
 from vectorplot.drawing.strokes import chosen, concatenated, sections, unrolled
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue
+from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.shading.illumination import depth_shades
+from vectorplot.shading.illumination import MIDDLE, depth_shades, edge_shades, shade_numbers
+from vectorplot.shading.palettes import PALETTE_SIZE, palette
 from vectorplot.shading.shaded_faces import limited_depths
 from vectorplot.tolerances import ZERO_OF_EXTENT
+from vectorplot.visibility.polyhedra.hidden_lines import Visibility
+from vectorplot.visibility.polyhedra.lines import Lines
 
 
 def depth_cued(
     layers: Sequence[Layer], view: View, cue: DepthCue, paper: Sequence[int], page_from_world: Floats
 ) -> tuple[Layer, ...]:
-    """The layers, one for each step of depth that their strokes are in, the farthest first; strokes that go on into the
-    next step are divided there.
-
-    view: in whose axes strokes are near and far, within the limits of depth; paper: its colour, three numbers of 0 to
-    255. The nearest part of a layer keeps its name and its pen, the others are numbered from there: contour, contour
-    depth 2, contour depth 3. Empty ones are left out.
-    Edge cases: where all strokes are as far away, they are near.
-    Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
+    """The layers, one for each step of depth, the farthest first; strokes are divided between steps. view: in whose
+    axes depth is measured, within its limits; paper: colour, three numbers of 0 to 255. The nearest part keeps its
+    layer's name and pen, the others are numbered: contour, contour depth 2, ...
+    Edge cases: empty layers are left out; strokes all at one depth are near. Source: Glaeser, section 4.4, figure 2;
+    errata G4-03, G4-04.
     """
     strokes = [paths for layer in layers for paths in layer.strokes]
     depths = view.points_of(np.concatenate([np.zeros((0, 3)), *(paths.points3d for paths in strokes)]))[2]
@@ -114,3 +119,52 @@ def _pen(pen: Pen, cue: DepthCue, share: float, paper: Sequence[int]) -> Pen:
         mixed = (round(share * own + (1.0 - share) * other) for own, other in zip(ink, paper, strict=True))
         pen = replace(pen, colour="#{:02x}{:02x}{:02x}".format(*mixed))
     return pen
+
+
+# Wireframes: all lines, hidden or not, in the shades of their items' palettes.
+
+BACKGROUND = "gray"
+"""Its darkest shade is behind wireframes where the scene names no background."""
+
+
+def all_lines(lines: Lines) -> Visibility:
+    """Every line, from end to end, as if nothing hid it."""
+    count = len(lines)
+    return Visibility(np.arange(count), np.zeros(count), np.ones(count), np.zeros(count, dtype=np.intp))
+
+
+def wire_layers(
+    scene: Scene, view: View, strokes: Paths, page: Page, style: Literal["wireframe", "depth-cue"]
+) -> tuple[Layer, ...]:
+    """The background, and a layer for every shade of every colour, the darkest first; strokes of two points. wireframe:
+    the middle shade of the item's palette, or its face's; depth-cue: the mean of the shades at its ends, from a
+    fifth of the palette for the farthest to its brightest for the nearest. Palettes have 32 shades.
+    Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
+    """
+    shade = np.full(len(strokes), MIDDLE) if style == "wireframe" else _cued(view, strokes.points3d)
+    names = list(dict.fromkeys(item.colour for item in scene.items))
+    of_item = np.array([names.index(item.colour) for item in scene.items], dtype=np.intp)
+    key = shade_numbers(shade, PALETTE_SIZE) * len(names) + of_item[shown_items(scene, strokes, view.world_eye)]
+    used, which = np.unique(key, return_inverse=True)
+    pens = [_wire_pen(names[k % len(names)], k // len(names)) for k in used.tolist()]
+    return (_background(scene, page), *layers_of(strokes, which, pens))
+
+
+def _background(scene: Scene, page: Page) -> Layer:
+    """The sheet behind a wireframe, which is not plotted: in the scene's own colour, or in the darkest gray.
+
+    Source: Glaeser, section 4.3.
+    """
+    named = scene.background is not None
+    colour = palette(scene.background or BACKGROUND)[-1 if named else 0]
+    return Layer("background", Pen(), (Fills.whole_page(page.width_mm, page.height_mm, colour),), plotted=False)
+
+
+def _cued(view: View, world: Floats) -> Floats:
+    depths = view.points_of(world)[2]
+    return edge_shades(depths[::2], depths[1::2], *limited_depths(view, depths))
+
+
+def _wire_pen(colour: str, shade: int) -> tuple[str, Pen, bool]:
+    red, green, blue = palette(colour)[shade].tolist()
+    return f"{colour} {shade}", Pen(PENS["visible"].width_mm, f"#{red:02x}{green:02x}{blue:02x}"), True

@@ -378,7 +378,7 @@ def refracted_order(view: View, parts: ImageFaces, face: Ints, tolerance: float)
     """Parts of bent faces (n,), numbers from 0, back to front; parts of one face stand together, and are not compared.
 
     tolerance: how far, in units of the image, the sides of parts are off the curves they stand for: those that overlap
-    by no more may stand in any order. Where whole faces pierce one another or lie on one another in circles their parts
+    by no more may stand in any order. Where whole faces pierce one another or overlap cyclically their parts
     are put in order, and cut where there is no other way.
     """
     count = int(face.max(initial=-1)) + 1
@@ -463,17 +463,13 @@ def seen_in_glass(
     tolerance: float,
     decals: Decals | None = None,
 ) -> SeenThrough:
-    """What is seen in and behind transparent solids, refracted, to be painted after what is painted of the solids'
-    front faces has been filled with the colour of the paper; then comes the tint of these faces.
-
-    painted: the polygons of the picture, back to front. tolerance: how far, in units of the image, straight sides of
-    polygons may be off the curves that refraction makes of them in a perspective; their corners are exact. decals:
-    convex ones on faces, in the order in which they are painted, seen as their faces are.
-    Other transparent solids are seen without refraction. A face that reflects all light that gets there from within, by
-    a front face, shows what is seen by way of it; further reflections, and those at parts of faces, show nothing.
-    Edge cases: of material thinner than its surroundings (constants below 1), which a perspective can see through up to
-    the angle of total reflection only, parts near that angle may be missing.
-    Source: Glaeser, section 6.6 (transparent solid polyhedra; the swimming pool, figure 12).
+    """What is seen in and behind transparent solids, refracted: painted after their front faces are filled with the
+    paper's colour, before these faces' tint. painted: polygons of the picture, back to front; tolerance: in units of
+    the image, how far straight sides may be off the curves that refraction makes of them (corners are exact);
+    decals: convex ones on faces, in painting order.
+    Other transparent solids are seen without refraction. A face of total reflection, seen through a front face, shows
+    what it reflects; further reflections show nothing. Edge cases: of material thinner than its surroundings (constants
+    below 1) parts near the angle of total reflection may be missing. Source: Glaeser, section 6.6, figure 12.
     """
     parts = []
     for item in np.flatnonzero(refracting_items(scene, view, projected)).tolist():
@@ -525,7 +521,7 @@ def _cover(glass: _Glass, inside: SeenThrough, scene: Scene) -> _Cover:
 @dataclass(frozen=True, eq=False)
 class _Glass:
     """A solid in a view: front (w,) those of its faces that one looks through, by panes whose ways are the numbers of
-    these faces; tolerance and decals as of seen_in_glass; rest: all things but the solid, and inside what of them is in
+    these faces; tolerance and decals as in seen_in_glass; rest: all things but the solid, and inside what of them is in
     it, and lying what of decals is; cover: what of the panes is hidden by opaque things in it."""
 
     view: View

@@ -5,8 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.vectors import norm
 from vectorplot.scene.view import View
 from vectorplot.tolerances import HALO_MARGIN, UNION_OF_SEGMENT
@@ -19,51 +18,10 @@ OWN_DEPTH = 2.0
 
 
 def halo(view: View, lines: Lines, seen: Visibility, width: float) -> Visibility:
-    """The same parts, without what is visible within some width of an outline in front of it, on the outer side.
-
-    Parameters
-    ----------
-    view : View
-        What the lines are lines of.
-    lines : Lines
-        Segments in the view's coordinates, with the sides on which they are outlines.
-    seen : Visibility
-        The parts of the lines.
-    width : float
-        In units of the image, not negative.
-
-    Returns
-    -------
-    Visibility
-        Parts of the same lines. Hidden parts stay.
-
-    Notes
-    -----
-    Outlines are the visible contours and boundaries among the lines.
-
-    Edge cases: a visible part that lies within a halo as a whole is left out.
-
-    Source: Glaeser, section 7.2, figure 4; the outlines are enlarged (decision D-7).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import effects
-    >>> from vectorplot.scene import look
-    >>> from vectorplot.visibility import edge_lines, project_faces, visible_parts
-    >>> needle = vp.Mesh.from_triangles([(-4, 0, 0), (4, -1, 0), (4, 1, 0)], [(0, 1, 2)])
-    >>> bar = vp.Mesh.from_polygons([(-1, -4, 1), (1, -4, 1), (1, 4, 1), (-1, 4, 1)], [(0, 1, 2, 3)])
-    >>> scene = vp.Scene((vp.Item("needle", needle), vp.Item("bar", bar)))
-    >>> view = look(scene, vp.Camera.view("top"))
-    >>> faces = project_faces(view)
-    >>> lines = edge_lines(scene, view, faces, frozenset({vp.LineKind.BOUNDARY}), 25.0, np.zeros(2, bool))
-    >>> seen = visible_parts(view, faces, np.zeros(2, bool), lines, lambda fraction: None)
-    >>> seen.low[:2].round(3).tolist(), seen.high[:2].round(3).tolist()
-    ([0.0, 0.625], [0.375, 1.0])
-    >>> with_halo = effects.halo(view, lines, seen, 0.05)
-    >>> with_halo.low[:2].round(3).tolist(), with_halo.high[:2].round(3).tolist()
-    ([0.0, 0.65], [0.35, 1.0])
+    """The same parts without what is visible within some width of an outline in front of it, on its outer side; hidden
+    parts stay. lines: segments with the sides on which they are outlines; seen: their parts; width: in units of the
+    image. Outlines are the visible contours and boundaries among the lines.
+    Edge cases: a visible part wholly within a halo is left out. Source: Glaeser, section 7.2, figure 4; decision D-7.
     """
     shown = np.flatnonzero(seen.hidden_by == 0)
     side = lines.sides(view)[seen.segment]

@@ -65,13 +65,11 @@ def mirror_light(
     projected: ProjectedFaces | None = None,
     off: Floats | None = None,
 ) -> Decals:
-    """Where the light of doubles falls through the windows that their mirrors are, on faces seen on the lit side.
-
-    Decals of the kind LIGHT: light is the number of the double. On them lie their parts that it does not reach, since
-    the scene or its double are in the way: light -1, to be painted as if there were no mirror. Both still have to be
-    clipped with the shadows of the lights of the scene, by patterns_in_shadows. off (i,): as of cast_within.
-    Edge cases: where the light of several doubles falls, only that of the last one is painted.
-    Source: Glaeser, section 6.4: the reflected light is obscured by the reflected objects.
+    """Where the light of doubles falls through the windows of their mirrors, on faces seen on the lit side: decals of
+    the kind LIGHT, light the number of the double. On them, with light -1, lie the parts that the scene or its
+    double keeps dark, to be painted as if there were no mirror. Both must still be clipped with the scene's shadows
+    by patterns_in_shadows. off (i,): see cast_within.
+    Edge cases: where several doubles shine only the last is painted. Source: Glaeser, section 6.4.
     """
     projected = project_faces(view) if projected is None else projected
     found: list[Decals] = []

@@ -87,11 +87,9 @@ def _in_plane(view: View, face: Ints, normal: Floats, point: Floats) -> Bools:
 
 
 def reflections(view: View, mirrors: Mirrors, painted: ImageFaces) -> SeenThrough:
-    """The doubles of all faces on the reflecting sides of the mirrors, clipped with what is painted of the mirrors.
-
-    painted: the polygons of the picture, back to front. Doubles are to be painted right after their windows, DIMMED.
-    Mirrors show no mutual reflections: in each other they are plain faces.
-    Edge cases: items that the plane of a mirror cuts are seen as far as they are on its reflecting side.
+    """The doubles of all faces on the reflecting sides of mirrors, clipped with what is painted (back to front) of the
+    mirrors; to be painted right after their windows, DIMMED. In each other mirrors are plain faces; items cut by a
+    mirror's plane are seen on its reflecting side.
     Source: Glaeser, section 6.4, figures 7 and 8.
     """
     return joined_seen([_reflected(view, mirrors, number, painted) for number in range(len(mirrors))])

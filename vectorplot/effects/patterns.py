@@ -19,13 +19,11 @@ from vectorplot.visibility.projected_faces import newell
 
 
 def pattern_decals(scene: Scene, view: View) -> Decals:
-    """The patterns of all items as convex polygons on the faces of the view, cut off at the borders of their faces.
-
-    Those of one face lie on each other in the order of the file: levels 0, 1, ... Patterns on faces that are not
-    present, and those wholly beside their face, are left out.
-    Errors: InputError for a pattern on a face that is not there, or has no area.
-    Edge cases: patterns without area are left out; one that crosses itself is reported by an InputWarning.
-    Source: Glaeser, section 6.5, figures 9 and 10; erratum G6-09.
+    """The patterns of all items as convex polygons on faces of the view, cut at the faces' borders; those of one face
+    are levels 0, 1, ... in file order. Patterns on absent faces, beside their face, or without area are left out;
+    one that crosses itself is reported by an InputWarning.
+    Errors: InputError for a pattern on a face that does not exist or has no area. Source: Glaeser, section 6.5, figures
+    9 and 10; erratum G6-09.
     """
     parts = [_item_patterns(view, number, item) for number, item in enumerate(scene.items) if item.patterns]
     return joined_decals(*(part for part in parts if len(part)))
@@ -99,12 +97,9 @@ def _clipped_in_frame(
 
 
 def patterns_in_shadows(view: View, patterns: Decals, shadows: Decals, dark: Bools, lights: int) -> Decals:
-    """The patterns, and on them their parts in the shadow, which lack as many lights as the shadow does.
-
-    dark (f,): faces that turn away from all lights; on these all patterns are dark, and lack all of the lights.
-    Levels begin above those of the shadows: first comes a whole pattern, then its parts in shadows of grade 1, 2, ...,
-    then the next pattern.
-    Source: Glaeser, section 6.5.
+    """The patterns, and on them their parts in the shadow, which lack as many lights. dark (f,): faces turned away from
+    all lights, whose patterns lack all. Levels begin above those of shadows: a whole pattern, its parts of grade 1,
+    2, ..., then the next pattern. Source: Glaeser, section 6.5.
     """
     if not len(patterns):
         return patterns

@@ -128,12 +128,9 @@ def double_decals(
     off: Floats,
     budget: Budget = USUAL,
 ) -> tuple[Decals, ...]:
-    """The decals on the doubles of faces shown (f,), in the double of the view: those of a mirrored scene in mirrored
-    light, of which the same holds as of the scene.
-
-    lighting: as it is in the mirror; aura: the width of soft borders in the image, None where lights cast no shadows;
-    off (i,) as of scene_shadows; budget: of the work on these.
-    Source: Glaeser, section 6.4.
+    """The decals on the doubles of faces shown (f,): those of the mirrored scene in mirrored light. lighting: in the
+    mirror; aura: the width of soft borders in the image, None without shadows; off (i,): see scene_shadows; budget:
+    of the work. Source: Glaeser, section 6.4.
     """
     mirrored = doubled(view, mirrors, number)
     lights = () if aura is None else tuple(_in_world(view, light) for light in lighting.lights[: len(scene.lights)])

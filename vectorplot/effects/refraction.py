@@ -89,7 +89,7 @@ def plate_shift(alpha: ArrayLike, thickness: ArrayLike, c: ArrayLike) -> Floats:
     thickness : (...) array_like of float
         Of the plate, in world units: the a of the equation.
     c : (...) array_like of float
-        As of angle_of_refraction, for rays into the plate.
+        See angle_of_refraction, for rays into the plate.
 
     Returns
     -------
@@ -129,7 +129,7 @@ def refracted(directions: ArrayLike, normals: ArrayLike, c: ArrayLike) -> tuple[
     normals : (..., 3) array_like of float
         Of the surfaces, of any length, to either side.
     c : (...) array_like of float
-        As of angle_of_refraction, for rays in these directions.
+        See angle_of_refraction, for rays in these directions.
 
     Returns
     -------
@@ -168,15 +168,12 @@ def refracted(directions: ArrayLike, normals: ArrayLike, c: ArrayLike) -> tuple[
 
 
 def tangents_of_rays(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike) -> tuple[Floats, Floats]:
-    """(...) tan(alpha) and tan(beta) of the rays from a point below a plane surface to an eye above it.
-
-    p1: how far the eye is from the point, measured along the surface; p2: how high it is above the point; a: how deep
-    the point is below the surface, so that the eye is p2 - a above it; c: of rays from the eye into the water.
-    (p2 - a) tan(alpha) + a tan(beta) = p1 to a few rounding steps.
-    Errors: InputError for numbers that are not finite, a < 0 or p2 <= a, and constants that are not positive.
-    Edge cases: an eye right above the point looks straight down; a point in the surface is seen where it is, or, from
-    the denser side, at the angle of total reflection if that is smaller.
-    Source: Glaeser, section 6.6, equations 4 and 5; erratum G6-11 (the equation is algebraic).
+    """(...) tan(alpha) and tan(beta) of the ray from a point below a plane surface to an eye above it: (p2 - a)
+    tan(alpha) + a tan(beta) = p1 to a few rounding steps. p1: distance of eye and point along the surface; p2:
+    height of the eye above the point; a: depth of the point; c: constant of rays from the eye into the water.
+    Edge cases: an eye right above looks straight down; a point in the surface is seen in place or, from the denser
+    side, at the angle of total reflection if smaller. Errors: InputError for numbers not finite, a < 0, p2 <= a, c <=
+    0. Source: Glaeser, section 6.6, equations 4 and 5; erratum G6-11.
     """
     p1, p2, a, c = np.broadcast_arrays(*(np.asarray(x, dtype=np.float64) for x in (p1, p2, a, c)))
     above = p2 - a
@@ -216,7 +213,7 @@ def inverse_refraction(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike)
     a : (...) array_like of float
         How deep the point is below the surface, so that the eye is p2 - a above it.
     c : (...) array_like of float
-        As of angle_of_refraction, for rays from the eye into the water.
+        See angle_of_refraction, for rays from the eye into the water.
 
     Returns
     -------
@@ -265,7 +262,7 @@ def seen_in_surface(eye: ArrayLike, points: ArrayLike, normal: ArrayLike, on_sur
     on_surface : (3,) or (n, 3) array_like of float
         A point of the plane, or one for each point.
     c : float
-        As of angle_of_refraction, for rays from the eye into the material.
+        See angle_of_refraction, for rays from the eye into the material.
 
     Returns
     -------
@@ -415,14 +412,12 @@ def _refracted(direction: Floats, normal: Floats, slope: Floats, constant: float
 
 
 def virtual_points(view: View, sight_ways: SightWays, points: Floats, way: Ints | None = None) -> tuple[Floats, Bools]:
-    """(3,n) where points (3,n) behind ways seem to be, and (n,) which are seen at all.
-
-    way (n,): which of the ways light takes from each point (None: there is one only).
-    A virtual point lies on the straight line on which the eye sees the point, and so far behind the first surface as
-    light takes time to go there: what lies behind another point on a ray still does so. In a parallel projection the
-    map is affine; rays of a perspective are found by Newton's iteration in the image.
-    Edge cases: points that no ray through the surfaces, thought without borders, can reach are not seen.
-    Source: Glaeser, section 6.6, equations 4 and 5 for one plane surface and for plates.
+    """(3,n) where points (3,n) behind refracting surfaces seem to be, and (n,) which are seen at all. way (n,): the
+    path of light of each point, None for a single one. A virtual point lies on the ray on which the eye sees the
+    point, as far behind the first surface as light takes time, so depth order along a ray is kept. Parallel
+    projections give an affine map; perspective rays are found by Newton's method.
+    Edge cases: points that no ray reaches, even without borders, are not seen. Source: Glaeser, section 6.6, equations
+    4 and 5.
     """
     way = np.zeros(points.shape[1], dtype=np.intp) if way is None else way
     found, seen = np.empty_like(points), np.empty(points.shape[1], dtype=np.bool_)
@@ -633,7 +628,7 @@ def bent(view: View, sight_ways: SightWays, soup: Soup, windows: Floats, toleran
 @dataclass(frozen=True, eq=False)
 class _Triangles:
     """Triangles: corners (3,3,t): coordinate, corner, triangle; outer (3,t): whether the side that begins at each
-    corner is part of the outline of a polygon; source, way (t,) as of Soup."""
+    corner is part of the outline of a polygon; source, way (t,) as in Soup."""
 
     corners: Floats = field(metadata=IN_COLUMNS)
     outer: Bools = field(metadata=IN_COLUMNS)

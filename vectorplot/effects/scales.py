@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from importlib import import_module
+from typing import Literal
 
 import numpy as np
 
@@ -25,7 +26,7 @@ from vectorplot.features.mesh_lines import face_triangles
 from vectorplot.features.tessellation import Facets, facets_of_all
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
+from vectorplot.geometry.budget import USUAL as DEFAULT_BUDGET
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.elementary import arctan2
@@ -477,13 +478,11 @@ class ColourBar:
 
 
 def coloured(scene: Scene, colouring: Colouring) -> tuple[Scene, ColourBar]:
-    """The scene with a band of every body for each colour, and the bar that explains them.
-
-    Smooth surfaces become triangles within COLOURED_OF_EXTENT of the extent of the scene; their parameter lines, paths
-    and integral curves are left out. Triangles are divided until formulas and functions are linear in each within
-    PART_OF_STEP of a colour, or there are too many. Cut faces keep their colour and their hatches.
-    Errors: InputError for an unknown map or word, a formula that is none, a scene without bodies, numbers that are not
-    finite anywhere.
+    """The scene with a band of every body for each colour, and the colour bar. Smooth surfaces become triangles within
+    COLOURED_OF_EXTENT of the scene's extent, without their parameter lines, paths and integral curves; triangles are
+    divided until formulas are linear in them within PART_OF_STEP of a colour, or there are too many. Cut faces keep
+    colour and hatches.
+    Errors: InputError for an unknown map, word or formula, a scene without bodies, numbers finite nowhere.
     """
     colours = map_colours(colouring.colour_map, colouring.steps)
     size = float(norm(np.ptp(scene.bounds, axis=0)))
@@ -545,7 +544,7 @@ def _faceted(scene: Scene, numbers: Sequence[int], allowed: float) -> dict[int, 
     """The facets of those of some items that are smooth surfaces, off these by no more than is allowed."""
     smooth = [k for k in numbers if is_parametrised(scene.items[k].shape) or is_implicit(scene.items[k].shape)]
     within = Within(lambda points: np.full(points.shape[:-1], allowed))
-    found = facets_of_all([scene.items[k].shape for k in smooth], lambda _: within, USUAL_BUDGET.facets)
+    found = facets_of_all([scene.items[k].shape for k in smooth], lambda _: within, DEFAULT_BUDGET.facets)
     return dict(zip(smooth, found, strict=True))
 
 
@@ -707,17 +706,17 @@ def with_colour_bar(
         at = low + (high - low) * ((value - bar.low) / span if span > 0.0 else 0.5)
         lines.append(np.array([(right, at), (right + unit * TICK_MM, at)]))
         place = (right + unit * (TICK_MM + 1.0), at)
-        lines += _letters(f"{value:.6g}", place, unit * LETTERS_MM, "left", "middle")
-    lines += _letters(bar.title, (left, high + unit * LETTERS_MM), unit * LETTERS_MM * 1.2, "left", "base")
+        lines += _letters(f"{value:.6g}", place, unit * LETTERS_MM, "middle")
+    lines += _letters(bar.title, (left, high + unit * LETTERS_MM), unit * LETTERS_MM * 1.2, "base")
     marks.append(_strokes(lines, drawing.page_from_world, longest_mm))
     layer = Layer("colour bar", PEN, tuple(marks))
     return replace(drawing, width_mm=left + strip, layers=(*drawing.layers, layer))
 
 
-def _letters(text: str, at: tuple[float, float], size: float, align: str, level: str) -> list[Floats]:
+def _letters(text: str, at: tuple[float, float], size: float, level: Literal["middle", "base"]) -> list[Floats]:
     if not text:
         return []
-    strokes = lettered(text, at, size_mm=size, align="left", level="middle" if level == "middle" else "base").strokes
+    strokes = lettered(text, at, size_mm=size, align="left", level=level).strokes
     return [strokes[k] for k in range(len(strokes))]
 
 
@@ -774,7 +773,7 @@ class Scaled:
 
 
 def scaled(scene: Scene, camera: Camera | str | None, page: Callable[[Scene], InSpace] = default_page) -> Scaled:
-    """The scene as a chart, after its cuts; page: as of cut_scene. Errors: InputError as of coloured."""
+    """The scene as a chart, after its cuts; page: see cut_scene. Errors: InputError as in coloured."""
     seen_from, bar = camera_of(camera, scene), None
     if scene.colouring is not None or scene.box is not None:
         # Bands of closed bodies are open, and no cut goes through a box with ticks.

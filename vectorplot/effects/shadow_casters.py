@@ -200,12 +200,10 @@ def _boxes(points: Floats, offsets: Ints) -> Floats:
 
 @dataclass(frozen=True, eq=False)
 class Casters:
-    """Convex things that cast shadows.
-
-    volumes: the planes of what each keeps dark: the cone of rays through its outline, as far as it lies behind all its
-    faces; item (k,): of the scene; face (g,): the faces of the view that they show the light, caster (g,), ascending:
-    whose they are. No face of a convex body lies behind all others that are lit: the body never shadows its outside.
-    known: of pairs (n,) of items and faces of the view, those whose shadows come from elsewhere.
+    """Convex things that cast shadows. volumes: planes of what each keeps dark, the cone of rays through its outline
+    behind all its faces; item (k,); face (g,): the faces they show the light, caster (g,) ascending: whose they are;
+    known: pairs (n,) of items and faces whose shadows come from elsewhere. No face of a convex body lies behind all
+    its other lit ones: it never shadows its outside.
     Source: Glaeser, section 6.3, figure 5.
     """
 
@@ -255,7 +253,7 @@ def shadow_casters(
 
 
 def turned_to_light(view: View, planes: FacePlanes, system: LightSystem, facing: Ints) -> tuple[Bools, Bools]:
-    """(i,) closed items, as of body_sides, that the light is outside of, and (f,) the faces that they turn to it."""
+    """(i,) closed items, see body_sides, that the light is outside of, and (f,) the faces that they turn to it."""
     side = np.where(_near_light(view, system), 0, body_sides(view))
     return side != 0, np.asarray(facing * side[view.face_item] > 0)
 

@@ -1,4 +1,4 @@
-"""Soft borders of shadows, as of lamps that are no points, and shadows that overlap, united."""
+"""Soft borders of shadows, see lamps that are no points, and shadows that overlap, united."""
 
 from __future__ import annotations
 
@@ -23,15 +23,12 @@ BEVEL = 1.0
 
 
 def shadow_borders(view: View, single: Shadows, cells: Shadows, width: float) -> Decals:
-    """Strips around shadows, in the image as wide as the width, to be painted before them: the narrower, the darker.
-
-    single: the shadows of single lights; cells: those of all grades, as graded makes them. Strips lie on what their
-    light reaches: faces, and on them cells that lack other lights. All shadows of a light on a face have one border, a
-    whole region, larger than what is seen of it, that darker cells are painted over. lacking: the lights that do not
-    get there at all; light: the one that gets there in part; grade: that of the shadow beside it; level: a multiple of
-    LEVELS for what it lies on, and the step, 1 at the outer side to LEVELS - 1 beside the shadow.
-    Errors: InputError for a width that is negative or not finite.
-    Edge cases: no borders for width zero, and around faces that are dark as wholes.
+    """Strips around shadows, as wide as the width in the image, painted before them: the narrower, the darker. single:
+    shadows of single lights; cells: of all grades, see graded. Strips lie on what their light reaches, also on cells
+    that lack others; all shadows of a light on a face share one border. lacking: lights wholly absent; light: the
+    one partly present; grade: of the shadow beside; level: a multiple of LEVELS for what it lies on plus the step, 1
+    outside to LEVELS - 1.
+    Edge cases: none for width 0 and around wholly dark faces. Errors: InputError for a negative or infinite width.
     Source: Glaeser, section 6.3 (aura).
     """
     if not 0.0 <= width < np.inf:

@@ -21,7 +21,6 @@ from vectorplot.geometry.records import IN_COLUMNS
 from vectorplot.scene.placement import Placement
 from vectorplot.scene.view import View
 from vectorplot.shading.painted_colours import Lighting, colours_of, corner_shades_of, opacities
-from vectorplot.shading.screen import every_nth
 from vectorplot.tolerances import LEAST_DIVISOR
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
 from vectorplot.visibility.projected_faces import Floats32
@@ -57,14 +56,12 @@ def sparseness(opacity: ArrayLike) -> Ints:
 
 
 def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, angle_deg: float = 45.0) -> ScreenDoor:
-    """Polygons filled with every n-th of parallel lines, as a plotter can draw transparent faces.
-
-    points (2 or more, c), offsets (m+1,): simple polygons, convex or not; pitch: distance of the lines that would fill
-    a polygon densely, the width of the pen, in the units of the points; every (m,) or a number: which of these lines
-    are drawn, 0 for none; angle_deg: from the x-axis. All polygons share one set of lines, so that neighbours fit.
-    Errors: InputError for a pitch that is not positive, or as of `hatching.scanned`.
-    Edge cases: polygons between two lines get no stroke.
-    Source: Glaeser, section 6.6 (every second, third or fourth pixel), for pens.
+    """Polygons filled with every n-th of parallel lines, as plotters draw transparent faces. points (2 or more, c),
+    offsets (m+1,): simple polygons; pitch: distance of lines that fill densely, in the units of the points; every
+    (m,) or number: which lines are drawn, 0 for none; angle_deg: from the x-axis. All share one set of lines, so
+    neighbours fit.
+    Edge cases: a polygon between two lines gets no stroke. Errors: InputError for a pitch not positive; see
+    `hatching.scanned`. Source: Glaeser, section 6.6.
     """
     if not 0.0 < pitch < np.inf:
         raise InputError(f"lines {pitch:g} apart fill nothing: expected a positive distance")
@@ -80,16 +77,6 @@ def screen_door(points: Floats, offsets: Ints, pitch: float, every: ArrayLike, a
     return ScreenDoor(start, end, parts.region)
 
 
-def screen_door_pixels(rows: int, columns: int, every: int) -> Bools:
-    """(rows, columns) every n-th pixel: a checkerboard for 2, diagonals for 3, and knight's moves for 4.
-
-    Errors: InputError for every below 1, or sizes that are negative. Source: Glaeser, section 6.6.
-    """
-    if every < 1 or rows < 0 or columns < 0:
-        raise InputError(f"every {every}-th of {rows} x {columns} pixels: expected positive numbers")
-    return every_nth(np.arange(rows)[:, None], np.arange(columns), every)
-
-
 # Transparent polygons for pens: sparse parallel lines in their colour.
 
 
@@ -97,7 +84,7 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
     """The polygons, those that one can see through as every second, third or fourth of lines so far apart.
 
     The lines come after all polygons. page_from_world (4,4) as in Drawing.
-    Errors and degenerate cases as of screen_door.
+    Errors and degenerate cases as in screen_door.
     Source: Glaeser, section 6.6 (every second, third or fourth pixel), for pens.
     """
     clear = (fills.opacity < 1.0) & (np.diff(fills.offsets) > 2)
@@ -123,12 +110,10 @@ def screened(fills: Fills, pitch_mm: float, page_from_world: Floats) -> Fills:
 
 @dataclass(frozen=True, eq=False)
 class SeenThrough(LineElements):
-    """Polygons to be painted right after the windows they are seen through, in this order.
-
-    points (3,c) in the image, as of ImageFaces: heights are those of the doubles; offsets (m+1,); source (m,): the face
-    of the view that is seen; window (m,), ascending: the painted polygon each one is painted after; pane (m,): the face
-    of the view that this window is, or is a part of: the mirror; decal (m,): the decal on that face that is seen, -1
-    for the face itself.
+    """Polygons to be painted right after the windows they are seen through, in order. points (3,c): see ImageFaces,
+    heights of the doubles; offsets (m+1,); source (m,): the face seen; window (m,) ascending: the painted polygon
+    before; pane (m,): the face of which the window is a part; decal (m,): the decal seen on that face, -1 for the
+    face itself.
     """
 
     points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)

@@ -100,7 +100,7 @@ def contour(surface: Surface, eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> 
 
 
 def contours(surfaces: Sequence[Surface], eye: ArrayLike, *, tracing: Tracing = DEFAULT) -> list[SurfaceCurves]:
-    """The contours of many surfaces for one eye, as of `contour`: those of placed surfaces traced at once."""
+    """The contours of many surfaces for one eye, see `contour`: those of placed surfaces traced at once."""
     centre = vector("contour: eye", eye)
 
     def found(conditions: StackedConditions[Any]) -> list[SurfaceCurves]:
@@ -145,7 +145,7 @@ def parallel_contour(surface: Surface, direction: ArrayLike, *, tracing: Tracing
 def parallel_contours(
     surfaces: Sequence[Surface], direction: ArrayLike, *, tracing: Tracing = DEFAULT
 ) -> list[SurfaceCurves]:
-    """The contours of many surfaces for one direction, as of `parallel_contour`: those of placed surfaces traced at
+    """The contours of many surfaces for one direction, see `parallel_contour`: those of placed surfaces traced at
     once."""
 
     def found(conditions: StackedConditions[Any]) -> list[SurfaceCurves]:
@@ -365,50 +365,6 @@ def in_planes(lines: N, normal: Floats, levels: Floats, off: Floats | float) -> 
     # The polylines of all kinds of surfaces have levels.
     changes: dict[str, Any] = {"levels": level[lies]}
     return replace(take(lines, lies), **changes)
-
-
-def level_lines(surface: Surface, heights: ArrayLike, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The curves of a surface at given heights: `plane_sections` with z up.
-
-    Parameters
-    ----------
-    surface : Surface
-        On which they are traced.
-    heights : (k,) array_like of float
-        In world units; or one of them.
-    tracing : Tracing
-        How finely they are looked for and followed.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines with the height as level.
-
-    Raises
-    ------
-    InputError
-        For heights that are not finite numbers in a row, a grid that is too coarse, a resolution that is not positive.
-
-    Warns
-    -----
-    InputWarning
-        Where a plane touches the surface in a point.
-
-    Notes
-    -----
-    Edge cases: as for `section_by_implicit`.
-
-    Source: Glaeser, section 8.4, equation 29.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> hill = surfaces.graph(lambda x, y: 4.0 - x**2 - y**2, surfaces.Domain(-1, 1, -1, 1))
-    >>> curves = features.level_lines(hill, [3.5, 5.0])
-    >>> curves.levels.tolist(), curves.closed.tolist()
-    ([3.5], [True])
-    """
-    return plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
 
 
 def _warned(curves: SurfaceCurves) -> SurfaceCurves:

@@ -190,13 +190,10 @@ def _joined(
 
 @dataclass(frozen=True, eq=False)
 class SurfaceCurves(NumberedLines):
-    """Polylines on a surface, each point known by its parameters and in space.
-
-    u, v: (n,) parameters: along a curve they run on over seams, beyond the domain; points: (n, 3) in world coordinates;
-    offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,) the last point joins the first,
-    which is not repeated; turns: (m, 2) the periods that a closed curve has run through when it is back at its start;
-    isolated: (i, 2) parameters of single points that satisfy the condition; nodes: (k, 2) parameters of points where
-    curves cross; touching: (t, 2) parameters of places where the condition is just touched along a line.
+    """Polylines on a surface, each point known by its parameters and in space. u, v (n,): along a curve they run on
+    over seams; points (n,3): in the world; offsets (m+1,); closed (m,): the last point joins the first, which is not
+    repeated; turns (m,2): periods that a closed curve has run through; isolated (i,2): single points of the
+    condition; nodes (k,2): where curves cross; touching (t,2): where the condition is only touched along a line.
     """
 
     u: Floats = field(metadata=EACH_POINT)
@@ -287,7 +284,7 @@ Picture = Callable[[Floats], Floats]
 REACH = 4.0
 """Times the resolution within which a curve that ends before a hole is led to its rim."""
 
-CRUMB = 8.0
+FRAGMENT = 8.0
 """Times the resolution that a curve with an end at a rim is long at least."""
 
 LED = (0.75, 0.9375, 1.0)
@@ -375,12 +372,9 @@ def curves_where_zero(
     rounding: float,
     tracing: Tracing,
 ) -> SurfaceCurves:
-    """The curves on a surface along which a condition f(u, v) = 0 holds.
-
-    size: how large f is where it is far from zero; rounding: the error that f is computed with: smaller values count as
-    zero. Where f is below FLAT_OF_VALUES of its size all over a cell of the grid, values as small as that count as zero
-    everywhere, so that an area where f is zero is not filled with lines.
-    Errors: InputError for a grid that is too coarse.
+    """The curves on a surface where f(u, v) = 0. size: how large f is away from zero; rounding: its error, below which
+    it counts as zero. Where f is below FLAT_OF_VALUES of size all over a cell, as small values count as zero
+    everywhere, so that an area of zeros is not filled with lines. Errors: InputError for a grid that is too coarse.
     """
     (found,) = curves_on_each(alone(surface, condition), [size], [rounding], tracing)
     return found
@@ -495,11 +489,11 @@ def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> Surf
     new = surface.points(*wrapped(surface.domain, *np.ascontiguousarray(added.T)))
     points = np.insert(curves.points, where, new, axis=0)
     led = replace(curves, u=u, v=v, points=points, offsets=ragged.offsets(np.diff(curves.offsets) + grown))
-    # A curve that comes to a rim at a flat angle has crumbs beyond its end, between cells with corners in the hole.
-    crumb = np.zeros(len(curves), dtype=np.bool_)
+    # A curve that comes to a rim at a flat angle has fragments beyond its end, between cells with corners in the hole.
+    fragment = np.zeros(len(curves), dtype=np.bool_)
     across = np.linalg.norm((places[first] - places[last]) / size, axis=1)
-    crumb[own] = found.reshape(2, -1).any(axis=0) & (across <= CRUMB * resolution)
-    return take(led, ~crumb) if crumb.any() else led
+    fragment[own] = found.reshape(2, -1).any(axis=0) & (across <= FRAGMENT * resolution)
+    return take(led, ~fragment) if fragment.any() else led
 
 
 def _in_space(conditions: StackedConditions[C], found: Sequence[ZeroManifold]) -> list[SurfaceCurves]:

@@ -225,13 +225,11 @@ class _Found:
 
 
 def refined(net: Net, between: Between, criterion: Criterion, most: int) -> Net:
-    """The triangles divided until all of their sides are fine enough, or there are so many of a surface that the next
-    division would make more than most. They keep the sense in which they turn.
-
-    Of a triangle the worst side is split first, so that it has a better shape for the others. Several surfaces may be
-    divided at once: of each there come out the triangles, in the order, that come out of it alone.
-    Edge cases: sides that lead into a hole are cut at its rim; triangles in holes stay, with vertices that are NaN;
-    sides across a jump stay when their places are one.
+    """The triangles divided until all sides are fine enough, or a surface would exceed most; orientation is kept. The
+    worst side of a triangle is split first, for the shape. Several surfaces may be divided at once, each as if
+    alone.
+    Edge cases: sides into a hole are cut at its rim; triangles in holes keep NaN vertices; sides across a jump stay
+    when their ends coincide.
     """
     found = _Found(np.zeros(0, dtype=np.intp), np.zeros((3, 0)))
     front = _front(net.vertices, net.triangles, criterion)

@@ -34,12 +34,9 @@ from vectorplot.words import LineKind
 
 @dataclass(frozen=True, eq=False)
 class Bending(Elements):
-    """Points of a shape, each with the shape's third-order approximation there.
-
-    points (n,3); normals (n,3), of length one; along (n,3): a unit tangent; second (n,3): the second fundamental form
-    p, m, q by along and the tangent a quarter turn to its left, positive where the shape bends towards its normal;
-    third (n,4): its derivatives d, e, f, g, those of p by the first tangent, of p by the second, of q by the first and
-    of q by the second. What is not known is NaN.
+    """Points of a shape with its third-order approximation. points, normals (n,3); along (n,3): a unit tangent; second
+    (n,3): the second fundamental form p, m, q by along and the tangent to its left, positive towards the normal;
+    third (n,4): derivatives of p by both tangents, and of q by both. Unknown values are NaN.
     """
 
     points: Floats
@@ -187,12 +184,10 @@ ROUND = 0.1
 
 @dataclass(frozen=True, eq=False)
 class LineField:
-    """A function at points of a shape.
-
-    values (n,): lines are where they vanish; strength (n,): how clear a line there is, a number that does not change
-    when all is made larger, NaN where there is none; directions (n,3), or None: those that values belong to, which
-    change sign with them: a line is where what they are derivatives of is largest. height (n,): that size. sides (n,):
-    -1 where the shape turns away from the eye, where that matters.
+    """A function at points of a shape. values (n,): lines are where they vanish; strength (n,): how clear a line is,
+    independent of scale, NaN for none; directions (n,3) or None: those of values, which change sign with them: a
+    line is where height (n,), what values are derivatives of, is largest; sides (n,): -1 where the shape turns away
+    from the eye, if that matters.
     """
 
     values: Floats
@@ -254,11 +249,9 @@ def _ridge(bending: Bending, extent: float) -> LineField:
 
 
 def _apparent(bending: Bending, sight: Sight, extent: float) -> LineField:
-    """The derivative of the view-dependent curvature along its own direction.
-
-    That curvature is how fast the normal turns over the image: the larger singular value of S P^-1, S the shape
-    operator and P the projection of the tangent plane to the image. Its square is the larger eigenvalue of
-    A = S S + (S w) (S w)' / c^2, w the tangential part of the way to the eye and c its part along the normal.
+    """The derivative of the view-dependent curvature along its own direction. That curvature is the larger singular
+    value of S P^-1, S the shape operator, P the projection of the tangent plane to the image; its square is the
+    larger eigenvalue of A = S S + (S w) (S w)' / c^2, w the tangential and c the normal part of the way to the eye.
     Source: Judd, Durand, Adelson (2007), section 3.
     """
     ways, nearness = sight.ways(bending.points)
@@ -484,7 +477,7 @@ def surface_bending(surface: Surface, u: Floats, v: Floats) -> Bending:
 def implicit_bending(surface: ImplicitSurface, points: Floats, extent: float) -> Bending:
     """How an implicit surface bends at points (k,3) on it.
 
-    extent: of the surface. Error: as of surface_bending; where the surface has second derivatives by differences only,
+    extent: of the surface. Error: see surface_bending; where the surface has second derivatives by differences only,
     about 1e-4.
     Edge cases: not a number at singular points.
     """
@@ -592,7 +585,7 @@ def surface_feature_lines(
         here = surface.points(*wrapped(surface.domain, *places.T))
         lengths = norm(here[met.pairs[:, 1]] - here[met.pairs[:, 0]])
         kept = clear_segments(met.pairs, met.strength, lengths, kind, extent, detail)
-        found[kind] = _curves(surface, places, here, met.pairs[kept], asked, extent, tracing)
+        found[kind] = _curves(surface, places, met.pairs[kept], asked, extent, tracing)
     return found
 
 
@@ -651,7 +644,7 @@ def _shortest(domain: Domain, ways: Floats) -> Floats:
 
 
 def _curves(
-    surface: Surface, places: Floats, points: Floats, pairs: Ints, asked: Asked, extent: float, tracing: Tracing
+    surface: Surface, places: Floats, pairs: Ints, asked: Asked, extent: float, tracing: Tracing
 ) -> SurfaceCurves:
     """Curves from segments between places (k,2), with more points until chords are within the tolerance."""
     branches = concat(pairs)

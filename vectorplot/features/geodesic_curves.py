@@ -90,50 +90,14 @@ def geodesics_between(
     accuracy: Accuracy = EIGHT_DIGITS,
     tracing: Tracing = DEFAULT,
 ) -> SurfaceCurves:
-    """The geodesics of a surface from one place to another, the shortest first.
-
-    Parameters
-    ----------
-    surface : Surface
-        With points, partials and second partials.
-    start, end : (2,) array_like of float
-        Parameters u, v.
-    most : int, optional
-        How many; all that are found where None.
-    longest : float, optional
-        How long they are at most, in world units; three times the extent of the surface where None.
-    accuracy : Accuracy
-        How well they are integrated.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines from start to end, with their exact lengths as levels.
-
-    Raises
-    ------
-    InputError
-        For places that are not finite pairs within the domain, or one place; for a start without a tangent plane; for a
-        length or a number that is not positive, and more than a hundred times the extent of the surface.
-
-    Notes
-    -----
-    Geodesics that leave in 240 directions all round are asked where they pass the end; those that come by are led there
-    by Newton's method, with the distance by which neighbours run apart (Jacobi's field). Of many that wind far round a
-    surface, or run apart quickly, some may be missed. Edge cases: none where a border or a hole is in the way; between
-    conjugate points, such as opposite ones of a sphere, one of infinitely many, with a doubt that says so.
-
-    Source: do Carmo, Differential geometry of curves and surfaces, sections 4-6 and 5-5.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> found = features.geodesics_between(surfaces.Cylinder(1.0, 0.0, 3.0), (0.0, 0.5), (np.pi / 2, 2.0), most=2)
-    >>> [round(float(length), 6) for length in found.levels]  # unrolled: straight, to the left and to the right
-    [2.171958, 4.945362]
+    """The geodesics of a surface from one place to another, shortest first, with exact lengths as levels. start, end
+    (2,): u, v; most: how many, None for all found; longest: in world units, three times the extent where None;
+    tracing: its tolerance, picture and budget count. Geodesics in 240 directions are shot; those that pass the end
+    are corrected by Newton's method with Jacobi's field. Of many that wind round far, or diverge fast, some may be
+    missed.
+    Edge cases: none past borders and holes; between conjugate points one of infinitely many, reported in doubts.
+    Errors: InputError for places outside the domain, equal, or without a tangent plane; most or longest not positive,
+    or over a hundred extents. Source: do Carmo, Differential geometry of curves and surfaces, sections 4-6 and 5-5.
     """
     if most is not None and most < 1:
         raise InputError(f"geodesics between two places: {most} of them, expected 1 or more")
@@ -239,7 +203,7 @@ class _Shooting:
         step, part = runs.at(row, along)
         states = runs.states(step, part)
         surface, chart = self.flow.surface, self.flow.charts
-        places = chart.parameters(runs.leaps.chart[step], states[:, :2])
+        places = chart.parameters(runs.strides.chart[step], states[:, :2])
         sites = Sites(surface, *chart.inside(places))
         goal = surface.points(*chart.within(self.end[None]))
         way = goal - surface.points(*chart.within(places))

@@ -14,11 +14,9 @@ from vectorplot.tolerances import ROUNDING, SYMMETRIC_DEVIATION, ZERO_OF_EXTENT
 
 
 def average_normals(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = False) -> Floats:
-    """Unit normals of a surface at the points of a grid, on the side of x_u x x_v.
-
-    grid: (m, n, 3) points, two or more each way; result: (m, n, 3) each is the mean of the unit normals of the up to
-    four triangles that a point spans with its grid neighbours.
-    Edge cases: triangles without area (poles, repeated points, NaN) are left out; without any the normal is zero.
+    """(m,n,3) unit normals at the points (m,n,3) of a grid, on the side of x_u x x_v: means of those of the up to four
+    triangles with grid neighbours. Edge cases: triangles without area (poles, repeated points, NaN) do not count;
+    zero where there are none.
     Source: Glaeser, section 8.4, figure 12; erratum G8-12.
     """
     p = _checked(grid)
@@ -60,14 +58,14 @@ def triangulate_surface(grid: ArrayLike, *, closed_u: bool = False, closed_v: bo
     grid : (m, n, 3) array_like of float
         Points, two or more each way.
     closed_u, closed_v : bool
-        As of `average_normals`.
+        See `average_normals`.
 
     Returns
     -------
     triangles : (2 (m-1) (n-1), 3) array of int
         They index the points row by row, i n + j, and turn as u to v does.
     normals : (m, n, 3) array of float
-        As of `average_normals`.
+        See `average_normals`.
 
     Raises
     ------
@@ -139,7 +137,7 @@ def mesh_of_grid(grid: ArrayLike, *, closed_u: bool = False, closed_v: bool = Fa
     grid : (m, n, 3) array_like of float
         Points, two or more each way.
     closed_u, closed_v : bool
-        As of `average_normals`: seams are closed.
+        See `average_normals`: seams are closed.
 
     Returns
     -------

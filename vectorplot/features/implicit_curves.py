@@ -128,18 +128,6 @@ def implicit_plane_sections(
     return _family(surface, lambda d: (MeetsPlane(n, d), size), levels, tracing)
 
 
-def implicit_level_lines(
-    surface: ImplicitSurface, heights: ArrayLike, *, tracing: ImplicitTracing = DEFAULT
-) -> ImplicitCurves:
-    """The curves of an implicit surface at given heights: `implicit_plane_sections` with z up.
-
-    heights: (k,) in world units.
-    Edge cases: as for `implicit_intersection`.
-    Source: as of `implicit_plane_sections`.
-    """
-    return implicit_plane_sections(surface, (0.0, 0.0, 1.0), heights, tracing=tracing)
-
-
 def _family(
     surface: ImplicitSurface,
     condition: Callable[[float], tuple[SpatialCondition, float]],
@@ -167,7 +155,7 @@ def implicit_tangent_sections(
     surface: ImplicitSurface, normal: Floats, levels: Floats, *, tracing: ImplicitTracing
 ) -> ImplicitCurves:
     """The curves along which one of the planes n.x = d, n a unit normal, d of levels (k,), touches an implicit surface,
-    with d as level: as of tangent_sections."""
+    with d as level: see tangent_sections."""
     found = implicit_parallel_contour(surface, direction_across(normal), tracing=tracing)
     alone = replace(found, isolated=found.isolated[:0], nodes=found.nodes[:0], doubts=())
     return in_planes(alone, normal, levels, ZERO_OF_EXTENT * float(np.ptp(np.asarray(surface.box), axis=0).max()))

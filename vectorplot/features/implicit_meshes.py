@@ -33,7 +33,7 @@ class ImplicitMesh:
     """An implicit surface as triangles that end on its singular lines.
 
     mesh: the triangles; on_line: (v,) which vertices are on a singular line; lines: where sheets of the surface cross
-    or end; doubts: A sentence where it could not be settled how the surface hangs together.
+    or end; doubts: A sentence where it could not be settled how the surface is connected.
     """
 
     mesh: Mesh
@@ -60,7 +60,7 @@ def implicit_mesh(surface: ImplicitSurface, cells: int) -> ImplicitMesh:
 
 def mesh_with_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines, cells: int) -> ImplicitMesh:
     """The surface polygonised as a mesh, of so many cells, up to its singular lines. Where it has none the mesh is made
-    finer until it is settled how it hangs together: with lines it never is, for sheets that cross are joined by chance.
+    finer until it is settled how it is connected: with lines it never is, for sheets that cross are joined by chance.
     """
     doubts: tuple[str, ...] = ()
     if not len(lines):
@@ -152,12 +152,10 @@ def curve_band(
     finest: float,
     most: int,
 ) -> Band:
-    """The band of triangles (t,3) that the curve on which values vanish can reach.
-
-    Where slopes at the corners of a triangle point different ways, and values are small enough that they could vanish
-    inside, it is cut until its sides are shorter than finest, or there are more than most of them; or STUBBORN times if
-    it stays at a singular point of the surface. middles(starts, ends) makes nodes between the ends of
-    sides; tangential(slopes (k,3,3) at corners, source (k,)) are the parts of slopes in the surface.
+    """The band of triangles (t,3) that the curve of vanishing values can reach. Where slopes at the corners diverge and
+    values could vanish inside, a triangle is cut until its sides are below finest, there are more than most, or
+    STUBBORN times at a singular point. middles(starts, ends): nodes between; tangential(slopes (k,3,3), source
+    (k,)): parts of slopes in the surface.
     """
     source = np.arange(len(triangles))
     reached = _reached(nodes, triangles, tangential(nodes.slopes[triangles], source), REACH)

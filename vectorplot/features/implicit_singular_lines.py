@@ -334,7 +334,7 @@ def _slow_places(surface: ImplicitSurface, mesh: Mesh, step: float) -> Floats:
 
 
 @dataclass(frozen=True, eq=False)
-class _SpuriousLoops:
+class _Chain:
     """Points (n,3) on lines with unit tangents (n,3); next (n,2): for each the one before it and the one behind it, by
     its tangent; NONE where that is not known yet, GONE where there is none."""
 
@@ -342,10 +342,10 @@ class _SpuriousLoops:
     tangents: Floats
     next: Ints
 
-    def joined(self, points: Floats, tangents: Floats) -> _SpuriousLoops:
+    def joined(self, points: Floats, tangents: Floats) -> _Chain:
         """These and more."""
         fresh = np.full((len(points), 2), NONE)
-        return records.joined((self, _SpuriousLoops(points, tangents, fresh)))
+        return records.joined((self, _Chain(points, tangents, fresh)))
 
 
 def _traced(equations: SingularEquations, start: Floats) -> Polylines:
@@ -354,21 +354,21 @@ def _traced(equations: SingularEquations, start: Floats) -> Polylines:
     found, on = onto_lines(equations, start, np.full(len(start), REACH * step))
     found = found[on & sides_of(equations.surface).has(found)]
     found = found[one_each(found, step)]
-    beads = _SpuriousLoops(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2), dtype=np.intp))
-    beads = beads.joined(found, line_tangents(equations, found))
+    chain = _Chain(np.zeros((0, 3)), np.zeros((0, 3)), np.zeros((0, 2), dtype=np.intp))
+    chain = chain.joined(found, line_tangents(equations, found))
     for _ in range(LINE_ROUNDS):
-        beads = _linked(equations, beads, step)
-        row, side = np.nonzero(beads.next == NONE)
+        chain = _linked(equations, chain, step)
+        row, side = np.nonzero(chain.next == NONE)
         if not len(row):
             break
-        way = beads.tangents[row] * np.where(side == 1, 1.0, -1.0)[:, None]
-        new, on = _ahead(equations, beads.points[row], way, np.full(len(row), step))
-        beads.next[row[~on], side[~on]] = GONE
+        way = chain.tangents[row] * np.where(side == 1, 1.0, -1.0)[:, None]
+        new, on = _ahead(equations, chain.points[row], way, np.full(len(row), step))
+        chain.next[row[~on], side[~on]] = GONE
         new = new[on]
         # Ends that come towards each other make one new point.
         new = new[one_each(new, SAME_ON_LINE * equations.extent)]
-        beads = beads.joined(new, line_tangents(equations, new))
-    return _polylines(equations, beads, step)
+        chain = chain.joined(new, line_tangents(equations, new))
+    return _polylines(equations, chain, step)
 
 
 def _ahead(equations: SingularEquations, points: Floats, ways: Floats, lengths: Floats) -> tuple[Floats, Bools]:
@@ -378,11 +378,12 @@ def _ahead(equations: SingularEquations, points: Floats, ways: Floats, lengths: 
     return found, on & sides_of(equations.surface).has(found)
 
 
-def _linked(equations: SingularEquations, beads: _SpuriousLoops, step: float) -> _SpuriousLoops:
-    """The beads with those joined that follow one another: a line that sets out from the one arrives at the other."""
+def _linked(equations: SingularEquations, chain: _Chain, step: float) -> _Chain:
+    """The chain with those points joined that follow one another: a line that sets out from the one arrives at the
+    other."""
     from scipy.spatial import cKDTree
 
-    points, tangents = beads.points, beads.tangents
+    points, tangents = chain.points, chain.tangents
     pairs = cKDTree(points).query_pairs(FARTHEST * step, output_type="ndarray") if len(points) else np.zeros((0, 2))
     one, two = np.concatenate([pairs, pairs[:, ::-1]]).astype(np.intp).T
     way = points[two] - points[one]
@@ -391,7 +392,7 @@ def _linked(equations: SingularEquations, beads: _SpuriousLoops, step: float) ->
     side = (along > 0.0).astype(np.intp)
     from_two = (tangents[two] * way).sum(axis=1)
     other = (from_two < 0.0).astype(np.intp)
-    open_ = (beads.next[one, side] == NONE) & (np.abs(along) > FORWARD * long) & (np.abs(from_two) > FORWARD * long)
+    open_ = (chain.next[one, side] == NONE) & (np.abs(along) > FORWARD * long) & (np.abs(from_two) > FORWARD * long)
     one, two, side, other, along, long = (x[open_] for x in (one, two, side, other, along, long))
     sense = np.sign(along)
     found, on = _ahead(equations, points[one], tangents[one] * sense[:, None], np.abs(along))
@@ -401,22 +402,22 @@ def _linked(equations: SingularEquations, beads: _SpuriousLoops, step: float) ->
     order = np.lexsort((long, 2 * one + side))
     first = np.concatenate([[True], np.diff((2 * one + side)[order]) != 0])[: len(order)]
     chosen = order[first]
-    new = beads.next.copy()
+    new = chain.next.copy()
     new[one[chosen], side[chosen]] = two[chosen]
     back = (new[two[chosen], other[chosen]] == one[chosen]) | (new[two[chosen], other[chosen]] < 0)
     new[two[chosen][back], other[chosen][back]] = one[chosen][back]
-    return _SpuriousLoops(points, tangents, new)
+    return _Chain(points, tangents, new)
 
 
-def _polylines(equations: SingularEquations, beads: _SpuriousLoops, step: float) -> Polylines:
-    """The beads on their strings, led on to where the lines end; those without neighbours that stay where they are make
+def _polylines(equations: SingularEquations, chain: _Chain, step: float) -> Polylines:
+    """The points in chains, led on to where the lines end; those without neighbours that stay where they are make
     no line."""
-    one, two = np.nonzero(beads.next >= 0)
-    chords = [np.unique(np.sort(np.stack([one, beads.next[one, two]], axis=1), axis=1), axis=0)]
-    points = [beads.points]
-    row, side = np.nonzero(beads.next == GONE)
-    number, last, way = row, beads.points[row], beads.tangents[row] * np.where(side == 1, 1.0, -1.0)[:, None]
-    count, far = len(beads.points), np.zeros(len(beads.points))
+    one, two = np.nonzero(chain.next >= 0)
+    chords = [np.unique(np.sort(np.stack([one, chain.next[one, two]], axis=1), axis=1), axis=0)]
+    points = [chain.points]
+    row, side = np.nonzero(chain.next == GONE)
+    number, last, way = row, chain.points[row], chain.tangents[row] * np.where(side == 1, 1.0, -1.0)[:, None]
+    count, far = len(chain.points), np.zeros(len(chain.points))
     for _ in range(LAST_STEPS):
         new, gone = _farthest(equations, last, way, step)
         np.maximum.at(far, row, gone)
@@ -430,7 +431,7 @@ def _polylines(equations: SingularEquations, beads: _SpuriousLoops, step: float)
         tangents = line_tangents(equations, new)
         way = tangents * np.where((tangents * way).sum(axis=1) < 0.0, -1.0, 1.0)[:, None]
         number, last, count = after, new, count + len(row)
-    lonely = (beads.next < 0).all(axis=1) & (far < STRAYS * step)
+    lonely = (chain.next < 0).all(axis=1) & (far < STRAYS * step)
     pairs, string = np.concatenate(chords), np.concatenate(points)
     gone_with = np.isin(_string_of(pairs, len(string)), np.flatnonzero(lonely))
     branches = concat(pairs[~gone_with[pairs[:, 0]]])
@@ -438,7 +439,7 @@ def _polylines(equations: SingularEquations, beads: _SpuriousLoops, step: float)
 
 
 def _string_of(pairs: Ints, count: int) -> Ints:
-    """(count,) the smallest number of the points that each point hangs together with by pairs."""
+    """(count,) the smallest number of the points that each point is connected to by pairs."""
     return chained(count, pairs[:, 0], pairs[:, 1])
 
 
@@ -514,12 +515,9 @@ def led_into_singular_set(surface: ImplicitSurface, mesh: Mesh, lines: SingularL
 
 
 def led_into_lines(surface: ImplicitSurface, mesh: Mesh, lines: SingularLines) -> tuple[Mesh, Bools]:
-    """The mesh, its vertices near the singular lines of the surface moved there, without the triangles that are then no
-    more than a part of a line; and which vertices (v,) are on such a line.
-
-    Where two sheets cross, polygonised ones turn away from each other and leave a gap; the wings of a cuspidal edge end
-    before it, and polygons go across from one to the other. Now all end on the line. Vertices on the sides of the box
-    stay on them.
+    """The mesh with vertices near singular lines moved onto them, without triangles that become a part of a line; and
+    (v,) which vertices are on such a line. It closes the gap that polygonised sheets leave where they cross, and
+    takes off polygons across the wings of a cuspidal edge. Vertices on sides of the box stay there.
     """
     there = np.zeros(len(mesh.vertices), dtype=np.bool_)
     if not mesh.face_count or not len(lines):

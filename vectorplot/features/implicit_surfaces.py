@@ -149,7 +149,7 @@ ROUNDS = 12
 """Steps of Newton's method for the vertices inside cells."""
 
 FINEST = 192
-"""Cells along the longest side to which a lattice is refined to settle how a surface hangs together."""
+"""Cells along the longest side to which a lattice is refined to settle how a surface is connected."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -236,7 +236,7 @@ def polygonized(surface: ImplicitSurface, cells: int = 64) -> Mesh:
 
 
 def settled_mesh(surface: ImplicitSurface, cells: int = 64) -> tuple[Mesh, tuple[str, ...]]:
-    """The surface polygonised so finely that halving the cells last did not change how it hangs together: the number
+    """The surface polygonised so finely that halving the cells last did not change how it is connected: the number
     of its parts and their holes; and a sentence where that could not be reached.
 
     Errors: as for `polygonized`.
@@ -250,7 +250,7 @@ def settled_from(surface: ImplicitSurface, fine: Mesh, cells: int) -> tuple[Mesh
     while _connection(coarse) != _connection(fine):
         cells *= 2
         if cells > FINEST:
-            return fine, ("implicit surface: finer cells still change how it hangs together (a singular point?)",)
+            return fine, ("implicit surface: finer cells still change how it is connected (a singular point?)",)
         coarse, fine = fine, polygonized(surface, cells)
     return fine, ()
 
@@ -447,11 +447,8 @@ class SpatialCondition(Protocol):
 
 @dataclass(frozen=True, eq=False)
 class ImplicitCentralContour:
-    """g = N.(x - eye), N the unit gradient of F: the surface turns away from the eye (3,). Positive where N points away
-    from it.
-
-    Errors: InputError for an eye that is not three finite numbers.
-    Edge cases: NaN where the gradient of F vanishes.
+    """g = N.(x - eye), N the unit gradient of F, eye (3,): positive where N points away from the eye, NaN where the
+    gradient vanishes. Errors: InputError for an eye that is not three finite numbers.
     Source: Glaeser, section 8.4, equations 25 to 27.
     """
 
@@ -605,21 +602,6 @@ def implicit_unit_normals(surface: ImplicitSurface, points: Floats) -> Floats:
     slopes = surface.gradients(points)
     with np.errstate(invalid="ignore", divide="ignore"):
         return np.asarray(slopes / norm(slopes)[..., None])
-
-
-def sight_line_bending(surface: ImplicitSurface, points: Floats, way: Floats) -> Floats:
-    """(...,) w.H.w / |gradient of F| with H the second derivatives of F and w the part of way (..., 3) in the tangent
-    plane: how fast the surface curves along the line of sight. Zero where that is an asymptotic direction; positive
-    where the surface bends away from the side its gradient points to.
-
-    A contour has a cusp in the image where this vanishes. Source: Glaeser, section 8.4.
-    """
-    slopes, bends = surface.gradients(points), hessians(surface, points)
-    length = np.linalg.norm(slopes, axis=-1, keepdims=True)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        unit = slopes / length
-        tangential = way - dot(unit, way)[..., None] * unit
-        return np.asarray(np.einsum("...i,...ij,...j->...", tangential, bends, tangential) / length[..., 0])
 
 
 def _turning(surface: ImplicitSurface, points: Floats, way: Floats) -> tuple[Floats, Floats]:

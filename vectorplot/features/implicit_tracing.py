@@ -390,13 +390,10 @@ THINNED = 0.3
 
 @dataclass(frozen=True, eq=False)
 class ImplicitTracing:
-    """How curves on an implicit surface are traced.
-
-    cells: along the longest side of the box, of the lattice on which the surface is polygonised; mesh: the surface
-    polygonised already (see `implicit_mesh`), for several families of curves; resolution: the part of the box down to
-    which triangles are cut where the curve is not clear; tolerance: points are put in until chords stay within this
-    distance of the true curve; picture: takes points (k, 3) to where the tolerance is measured, (k, 2) or (k, 3), for
-    example millimetres on a page; budget: how much work it may be.
+    """How curves on an implicit surface are traced. cells: along the longest side of the box, of the polygonising
+    lattice; mesh: the surface polygonised already (see `implicit_mesh`); resolution: part of the box down to which
+    unclear triangles are cut; tolerance: of chords; picture: maps points (k,3) to where the tolerance is measured,
+    (k,2) or (k,3), such as mm on a page; budget: limits of work.
     """
 
     cells: int = 48
@@ -409,12 +406,9 @@ class ImplicitTracing:
 
 @dataclass(frozen=True, eq=False)
 class ImplicitCurves(NumberedLines):
-    """Polylines on an implicit surface.
-
-    points: (n, 3) in world coordinates; offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,)
-    the last point joins the first, which is not repeated; levels: (m,) the level a curve of a family belongs to;
-    isolated: (i, 3) single points that satisfy the condition; nodes: (k, 3) where curves cross; doubts: A sentence for
-    each thing that could not be decided.
+    """Polylines on an implicit surface. points (n,3): in the world; offsets (m+1,); closed (m,): the last point joins
+    the first, which is not repeated; levels (m,): of a family; isolated (i,3): single points of the condition; nodes
+    (k,3): where curves cross; doubts: a sentence for each undecided thing.
     """
 
     points: Floats = field(metadata=EACH_POINT)

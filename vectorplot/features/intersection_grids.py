@@ -62,21 +62,10 @@ def finer_grids(columns: int, rows: int) -> list[tuple[int, int]]:
     return [(columns, rows), *finer]
 
 
-def surface_tessellation(surface: Surface, columns: int, rows: int) -> Tessellation:
-    """A surface as the triangles of an uneven grid of columns times rows cells.
-
-    Source: Glaeser, section 8.4 (polygonised surfaces).
-    """
-    nodes = grid_nodes(surface, columns, rows)
-    domain = surface.domain
-    ends = np.array([domain.u_start, domain.u_end, domain.v_start, domain.v_end])[:, None]
-    return nodes.tessellation(cell_corners(columns, rows), np.arange(columns * rows), ends)
-
-
 @dataclass(frozen=True, eq=False)
 class GridNodes:
     """The points (n,) of an uneven grid on a surface, or of one grid after the other: places (n,d) and points (n,3);
-    numbers (n,): on seams and at poles several are one point; normals (n,3): as of `average_normals`; open_ways: the
+    numbers (n,): on seams and at poles several are one point; normals (n,3): see `average_normals`; open_ways: the
     axes, 0 for u and 1 for v, in which the domains are not closed."""
 
     places: Floats
@@ -109,7 +98,7 @@ class GridNodes:
 def grid_nodes(surface: Surface, columns: int, rows: int) -> GridNodes:
     """The points of a grid of columns times rows cells.
 
-    Errors: as of `surface_tessellation`.
+    Errors: see `surface_tessellation`.
     """
     _check(columns, rows)
     domain = surface.domain

@@ -42,18 +42,18 @@ MOST_STEPS = 40
 class Bound:
     """What holds the points of two patches besides lying on both.
 
-    normal, origin (k,3): they stay in this plane; a normal of zero: none. rail_one, rail_two (k,): the line they stay
-    on, FREE: none.
+    normal, origin (k,3): they stay in this plane; a normal of zero: none. constraint_one, constraint_two (k,): the line
+    they stay on, FREE: none.
     """
 
     normal: Floats
     origin: Floats
-    rail_one: Ints
-    rail_two: Ints
+    constraint_one: Ints
+    constraint_two: Ints
 
     def of(self, which: Ints) -> Bound:
         """That of some of the points."""
-        return Bound(self.normal[which], self.origin[which], self.rail_one[which], self.rail_two[which])
+        return Bound(self.normal[which], self.origin[which], self.constraint_one[which], self.constraint_two[which])
 
 
 def in_planes(normal: Floats, origin: Floats) -> Bound:
@@ -81,14 +81,13 @@ class Meetings:
 
 
 def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Bound, zero: float | Floats) -> Meetings:
-    """The places near given ones at which the patches meet; zero, or zero (k,): how far apart the points may be.
-
-    Newton's method: the point of both tangent planes that is nearest to the middle of the two points, or lies in the
-    given plane, or on the given line; both places are moved towards it. This is the step of minimum norm.
+    """The places near given ones where the patches meet; zero or zero (k,): how far apart the points may be. Newton's
+    method with steps of minimum norm: both places move towards the point of both tangent planes nearest to the
+    middle, or in the given plane or on the given line.
     Source: Glaeser, section 8.4; Barnhill and Kersey, A marching method for parametric surface/surface intersection
     (1990).
     """
-    a, b = one.on_constraints(at_one, bound.rail_one), two.on_constraints(at_two, bound.rail_two)
+    a, b = one.on_constraints(at_one, bound.constraint_one), two.on_constraints(at_two, bound.constraint_two)
     met = np.zeros(len(a), dtype=np.bool_)
     zero = np.broadcast_to(np.asarray(zero, dtype=np.float64), len(a))
     active = np.arange(len(a))
@@ -106,15 +105,17 @@ def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Boun
         met[active] = close
         moving = np.flatnonzero(good & ~done)
         active = active[moving]
-        a[active] = one.on_constraints(one.moved(a[active], steps[0, moving]), bound.rail_one[active])
-        b[active] = two.on_constraints(two.moved(b[active], steps[1, moving]), bound.rail_two[active])
+        a[active] = one.on_constraints(one.moved(a[active], steps[0, moving]), bound.constraint_one[active])
+        b[active] = two.on_constraints(two.moved(b[active], steps[1, moving]), bound.constraint_two[active])
     p, q = one.points(a), two.points(b)
     d = np.sqrt(((p - q) ** 2).sum(axis=1))
     return Meetings(a, b, np.asarray(np.isfinite(d) & (d <= 4.0 * zero), dtype=np.bool_))
 
 
 def _is_held(bound: Bound) -> Bools:
-    return np.asarray(bound.normal.any(axis=1) | (bound.rail_one != FREE) | (bound.rail_two != FREE), dtype=np.bool_)
+    return np.asarray(
+        bound.normal.any(axis=1) | (bound.constraint_one != FREE) | (bound.constraint_two != FREE), dtype=np.bool_
+    )
 
 
 def _steps(one: Patch, two: Patch, a: Floats, b: Floats, points: tuple[Floats, Floats], bound: Bound) -> Floats:
@@ -126,7 +127,10 @@ def _steps(one: Patch, two: Patch, a: Floats, b: Floats, points: tuple[Floats, F
     origin = middle.copy()
     in_plane = bound.normal.any(axis=1)
     held[in_plane], origin[in_plane] = bound.normal[in_plane], bound.origin[in_plane]
-    for patch, at, normal, point, constraints in ((one, a, n, p, bound.rail_one), (two, b, m, q, bound.rail_two)):
+    for patch, at, normal, point, constraints in (
+        (one, a, n, p, bound.constraint_one),
+        (two, b, m, q, bound.constraint_two),
+    ):
         on = np.flatnonzero(constraints != FREE)
         if len(on):
             held[on] = cross(normal[on], patch.along_constraints(at[on], constraints[on]))
@@ -160,13 +164,11 @@ STRAYED = 0.75
 
 @dataclass(frozen=True, eq=False)
 class DoubleCurves(NumberedLines):
-    """Polylines on two surfaces, or on two patches of one: each point known by its parameters on both, and in space.
-
-    points: (n, 3) in world coordinates; one, two: (n, 2) parameters u, v on both: along a curve they run on over seams,
-    beyond the domain; offsets: (m+1,) curve i has the points offsets[i] to offsets[i+1]; closed: (m,) the last point
-    joins the first, which is not repeated; nodes: (k, 3) points where curves cross because the surfaces touch there;
-    isolated: (i, 3) points where they touch and no curve passes; touching: (t, 3) points of lines along which they
-    touch; doubts: A sentence for each thing that could not be decided.
+    """Polylines on two surfaces, or on two patches of one, known by their parameters on both and in space. points
+    (n,3): in the world; one, two (n,2): u, v, running on over seams; offsets (m+1,); closed (m,): the last point
+    joins the first, which is not repeated; nodes (k,3): where curves cross because the surfaces touch; isolated
+    (i,3): where they only touch; touching (t,3): points of lines along which they touch; doubts: a sentence for each
+    undecided thing.
     """
 
     points: Floats = field(metadata=EACH_POINT)

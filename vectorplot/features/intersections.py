@@ -152,7 +152,7 @@ TINY = 0.25
 TURNED_BACK = -0.7
 """Cosine of the directions of two chords below which a trace turns back."""
 
-CROWDED = 0.1
+DENSE = 0.1
 """Part of the chord on one side of a point below which that on the other is too short."""
 
 ONE_PLACE = 0.5
@@ -228,7 +228,9 @@ def _refined(one: Patch, two: Patch, found: Piercings, zero: Floats) -> tuple[Fl
     """Places on both true patches, and which of them are near the triangles they come from, across one another."""
     count = len(found.one)
     none, number = np.zeros((count, 3)), one.numbers(found.one)
-    moved = meetings(one, two, found.one, found.two, Bound(none, none, found.rail_one, found.rail_two), zero[number])
+    moved = meetings(
+        one, two, found.one, found.two, Bound(none, none, found.constraint_one, found.constraint_two), zero[number]
+    )
     good = moved.met
     with np.errstate(invalid="ignore"):
         # Measured in space: near a pole a parameter may run far.
@@ -266,7 +268,7 @@ def _running_on(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
 
 
 def without_slips(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
-    """The traces without their zigzags and crowds of points."""
+    """The traces without their zigzags and dense points."""
     if not traces:
         return []
     whole = put_together(traces, (traces[0].one.shape[1], traces[0].two.shape[1]))
@@ -274,7 +276,7 @@ def without_slips(one: Patch, two: Patch, traces: list[Course]) -> list[Course]:
     result, ends = [], np.flatnonzero(whole.last)[:-1] + 1
     for trace, own, flat in zip(traces, np.split(points, ends), np.split(shallow, ends), strict=True):
         kept = _without_zigzags(own, flat)
-        kept = kept[_uncrowded(own[kept])]
+        kept = kept[_without_dense_points(own[kept])]
         result.append(trace if len(kept) == len(trace) else Course(trace.one[kept], trace.two[kept], trace.closed))
     return result
 
@@ -300,7 +302,7 @@ def _without_zigzags(points: Floats, shallow: Bools) -> Ints:
     return kept
 
 
-def _uncrowded(points: Floats) -> Bools:
+def _without_dense_points(points: Floats) -> Bools:
     """The points (n,3) of a trace without inner ones that are much nearer to one neighbour than to the other: where an
     edge of one tessellation passes close to an edge of the other."""
     kept = np.ones(len(points), dtype=np.bool_)
@@ -308,10 +310,10 @@ def _uncrowded(points: Floats) -> Bools:
     length = np.sqrt((chord * chord).sum(axis=1))
     if len(length) < 4:
         return kept
-    crowded = np.minimum(length[1:], length[:-1]) < CROWDED * np.maximum(length[1:], length[:-1])
+    dense = np.minimum(length[1:], length[:-1]) < DENSE * np.maximum(length[1:], length[:-1])
     # Of two that are near to each other one stays.
-    crowded[1:] &= ~crowded[:-1]
-    kept[1:-1] = ~crowded
+    dense[1:] &= ~dense[:-1]
+    kept[1:-1] = ~dense
     return kept
 
 
@@ -554,44 +556,13 @@ GridPair = tuple[SurfaceGrids, SurfaceGrids]
 
 
 def surface_intersection(one: Surface, two: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
-    """The curves in which two surfaces meet.
-
-    Parameters
-    ----------
-    one, two : Surface
-        The surfaces.
-    tracing : Tracing
-        columns and rows of the grids that both are polygonised by; tolerance (a thousandth of the smaller extent where
-        None) and picture.
-
-    Returns
-    -------
-    DoubleCurves
-        Polylines, each point known by its parameters on both surfaces, and in space.
-
-    Raises
-    ------
-    InputError
-        For a grid that is too coarse.
-
-    Notes
-    -----
-    Closed curves smaller than a cell are found by the place inside them where the tangent planes are parallel: to any
-    size, but one of them for each pair of triangles. Where triangles cannot tell curves from one another the grids are
-    refined (up to 2^17 cells); what is left then is a doubt. Edge cases: where surfaces touch in a point it is
-    isolated, or a node if curves cross there; where they touch along a line its points are touching, with a doubt;
-    where they coincide in an area there is a doubt and no curve. Curves end at the last whole cell before a hole.
-
-    Source: Glaeser, section 8.4 (face-face sections); Patrikalakis and Maekawa, Shape interrogation, chapter 5.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> ball, pipe = surfaces.Sphere(1.0), surfaces.Cylinder(radius=0.6, bottom=-2, top=2)
-    >>> curves = features.surface_intersection(ball, pipe, tracing=features.Tracing(columns=15, rows=15))
-    >>> len(curves), bool(np.allclose(np.abs(curves.points[:, 2]), 0.8))
-    (2, True)
+    """The curves in which two surfaces meet, with parameters on both. tracing: columns and rows of both grids;
+    tolerance, a thousandth of the smaller extent where None; picture. Loops smaller than a cell are found at places
+    of parallel tangent planes, one for each pair of triangles. Grids are refined (to 2^17 cells) where triangles
+    cannot separate curves; what is left is a doubt. Curves end at the last whole cell before a hole.
+    Edge cases: a touching point is isolated, or a node where curves cross; along a line it is touching, with a doubt;
+    coincident areas give a doubt and no curve. Source: Glaeser, section 8.4; Patrikalakis and Maekawa, Shape
+    interrogation, chapter 5. Errors: InputError for a grid that is too coarse.
     """
     (found,) = intersections_of_grids([(SurfaceGrids(one), SurfaceGrids(two))], tracing)
     return found
@@ -650,41 +621,12 @@ has thousands of them, a few chords each; beside an isolated double point there 
 
 
 def self_intersections(surface: Surface, *, tracing: Tracing = DEFAULT) -> DoubleCurves:
-    """The curves in which a surface meets itself: its double curves.
-
-    Parameters
-    ----------
-    surface : Surface
-        Seams and poles are no double curves.
-    tracing : Tracing
-        As of `surface_intersection`.
-
-    Returns
-    -------
-    DoubleCurves
-        Polylines, each point known by its two places on the surface, and in space.
-
-    Raises
-    ------
-    InputError
-        For a grid that is too coarse.
-
-    Notes
-    -----
-    Edge cases: of more curves than the budget allows there is none, with a doubt. A double curve ends exactly in a
-    pinch point, or in a swallowtail; where the surface passes through a point in all directions (the axis of a spindle
-    torus, the apex of a double cone) that point is isolated. Loops that are smaller than three cells are not found.
-
-    Source: Glaeser, section 8.4 (self-intersections by face-face sections of the polygonised surface).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> loop = surfaces.surface_of_function(lambda u, v: (u**2, u**3 - u, v), surfaces.Domain(-1.5, 1.5, 0, 1))
-    >>> curves = features.self_intersections(loop, tracing=features.Tracing(columns=20, rows=5))
-    >>> len(curves), bool(np.allclose(curves.points[:, :2], (1.0, 0.0)))
-    (1, True)
+    """The curves in which a surface meets itself, with both places of each point; seams and poles are none; tracing:
+    see `surface_intersection`. A double curve ends exactly in a pinch point or swallowtail; points that the surface
+    passes in all directions (the axis of a spindle torus, an apex) are isolated. Loops below three cells are not
+    found.
+    Edge cases: beyond the budget there is no curve and a doubt. Source: Glaeser, section 8.4. Errors: InputError for a
+    grid that is too coarse.
     """
     patch = SurfacePatch(surface, tracing.columns, tracing.rows)
     own = patch.tessellation

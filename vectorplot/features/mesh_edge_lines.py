@@ -45,12 +45,9 @@ class Edges:
 
 @dataclass(frozen=True, eq=False)
 class Faces:
-    """What the edges of a mesh are told from.
-
-    points: (3, v) coordinates of the vertices: of a picture, in the axes of the camera; corners: (c,) vertex indices of
-    all faces one after the other; offsets: (f+1,) face i has the corners offsets[i] to offsets[i+1]; inner: (c,) marks
-    the diagonals of polygons that were cut: the edges that begin at these corners; facing: (f,) 1, -1 or 0 as a face
-    shows its outside, its inside or its edge.
+    """What the edges of a mesh are told from. points (3,v): of a picture, in the camera's axes; corners (c,), offsets
+    (f+1,): as in Mesh; inner (c,): corners whose edges are diagonals of cut polygons; facing (f,): 1, -1 or 0 as a
+    face shows its outside, inside or edge.
     """
 
     points: Floats

@@ -51,21 +51,17 @@ UNKNOWN = 7
 
 
 def mesh_bending(faces: FaceTriangles) -> Bending:
-    """How a mesh bends at its vertices, as of noisy_bending."""
+    """How a mesh bends at its vertices, see noisy_bending."""
     return noisy_bending(faces, np.ones(len(faces.mesh.vertices)))[0]
 
 
 def noisy_bending(faces: FaceTriangles, trust: Floats) -> tuple[Bending, Floats]:
-    """How a mesh bends at its vertices, whose normals count as much as they are trusted (n,), and by how much (n,)
-    curvatures may be wrong there.
-
-    Over the tangent plane of a vertex the surface is taken for one of third order, whose slopes are those of the
-    normals at the vertices up to two edges away, by least squares; what these leave open is taken for zero.
-    Error: on a mesh of a smooth surface curvatures are off by the square of the edges, their derivatives by the edges.
-    By how much is what the fit leaves of the slopes, and what rounding may do to them, over the distance of neighbours;
-    infinite where there are no more slopes than unknowns.
-    Edge cases: not a number at vertices without faces.
-    Source: Goldfeather, Interrante (2004), section 3.
+    """How a mesh bends at its vertices, whose normals count as far as they are trusted (n,), and how wrong (n,)
+    curvatures may be. Over each tangent plane a surface of third order is fitted to the normals up to two edges away
+    by least squares; what they leave open is zero.
+    Error: on a mesh of a smooth surface curvatures are off by the square of the edges, derivatives by the edges;
+    estimated from the residual and rounding over the neighbours' distance, infinite with fewer slopes than unknowns.
+    Edge cases: NaN at vertices without faces. Source: Goldfeather, Interrante (2004), section 3.
     """
     mesh = faces.mesh
     normals = smooth_normals(mesh.vertices, faces.triangles)

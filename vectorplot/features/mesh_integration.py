@@ -13,7 +13,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import positive
 from vectorplot.errors import InputError
 from vectorplot.features.mesh_lines import NO_FACE, MeshCurves, all_mesh_curves, without_inner
-from vectorplot.features.surface_integration import USUAL_LENGTH
+from vectorplot.features.surface_integration import DEFAULT_LENGTH
 from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.geometry import ragged
@@ -39,14 +39,11 @@ NO_SIDE = -1
 
 @dataclass(frozen=True, eq=False)
 class MeshSides:
-    """Plane convex faces, and their sides: side c (one of all) runs from corner c of its face to the next one.
-
-    mesh: of convex faces alone, those that are present; source (f,): the face of the given mesh that each is (a part
-    of); along, inwards (c,3): unit vectors of the sides, and at right angles to them in the faces, into these; lengths
-    (c,); before, after (c,): the sides next to each in its face; across (c,): the same side seen from the other face,
-    NO_SIDE at borders, where more than two faces meet, and where two do not agree which side is outside; at_vertex
-    (c,), vertex_offsets (v+1,): the sides that begin at each vertex; slack (c,): what cosines with a side may be wrong
-    by; extent; rounding: what points may be wrong by.
+    """Plane convex faces and their sides: side c runs from corner c of its face to the next. source (f,): the given
+    face; along, inwards (c,3): unit vectors along the side and into the face; lengths (c,); before, after (c,):
+    neighbouring sides; across (c,): the same side in the other face, NO_SIDE at borders, where more than two faces
+    meet or orientations differ; at_vertex (c,), vertex_offsets (v+1,): sides that begin at a vertex; slack (c,):
+    error of cosines with a side; extent; rounding: error of points.
     """
 
     mesh: Mesh
@@ -264,7 +261,7 @@ class FaceFieldFlow:
 def face_field_flow(sides: MeshSides, given: BentFaces, field: TangentField) -> FaceFieldFlow:
     """The flow of a field with one direction a face, that at its barycentre.
 
-    Errors: InputError for fields that need parameters, and as of FaceFieldFlow.
+    Errors: InputError for fields that need parameters, and as in FaceFieldFlow.
     """
     # Parts of a face that is not plane have planes of their own.
     centres = face_barycentres(given.mesh)[sides.source]
@@ -397,12 +394,10 @@ def mesh_traces(
     length: Floats | float,
     beside: float = 0.0,
 ) -> MeshTraces:
-    """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it; length: of
-    all, or (k,) of each. beside: those that come back so near to where they have been do not run on for many rounds;
-    all do where it is zero.
-
-    A line ends where the flow does not lead on, where it is as long as it may be, and where it comes back to where it
-    left its first face, into the same face in the same direction: it is closed then.
+    """Lines from points (k,3) in faces (k,) along directions (k,3), with a flow or (way: -1) against it, up to length
+    (or (k,)). beside: lines that return so near to their track do not run on for many rounds; 0 for all to do. A
+    line ends where the flow does, at its length, or closed where it returns to the exit of its first face, into the
+    same face in the same direction.
     """
     count = len(face)
     nowhere = np.full(count, NO_SIDE)
@@ -564,47 +559,13 @@ def mesh_geodesics(
     length: float | None = None,
     both_ways: bool = False,
 ) -> MeshCurves:
-    """The straightest lines of a mesh from given points in given directions.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        On which they run; open or closed.
-    faces : (k,) array_like of int
-        In which faces they begin; or one of them.
-    points : (k, 3) array_like of float, optional
-        Where in these faces; at the barycentres where None.
-    directions : (k, 3) array_like of float
-        Of any length; what is at right angles to the face does not count. Or one for all.
-    length : float, optional
-        How long they are at most, in world units; ten times the extent of the mesh where None.
-    both_ways : bool
-        Whether they run backwards from the start as well.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines with the number of the start as level: straight lines where the faces they run across are unfolded
-        into a plane.
-
-    Raises
-    ------
-    InputError
-        As of `mesh_integral_curves`; for directions that are not finite, or without length in their face.
-
-    Notes
-    -----
-    At a vertex there is as much angle between the faces to their left as to their right. They are shortest near by,
-    unless they run through a vertex. Ends and closed lines as of `mesh_integral_curves`.
-
-    Source: Polthier and Schmies, Straightest geodesics on polyhedral surfaces, 1998.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> hexagon = features.mesh_geodesics(geometry.box((2, 2, 2)), 0, (1.5, 0.0, 0.5), (1.0, 0.0, 1.0))
-    >>> hexagon.closed.tolist(), sorted(hexagon.faces.tolist())
-    ([True], [0, 1, 2, 3, 4, 5])
+    """The straightest lines of a mesh, with the number of the start as level: straight where their faces are unfolded
+    into a plane, with equal angles on both sides at a vertex; shortest near by unless they pass a vertex. faces (k,)
+    or one; points (k,3): starts, barycentres where None; directions (k,3) or one: of any length, the part across the
+    face ignored; length: at most, ten times the extent where None; both_ways: backwards too. Ends and closed lines:
+    see `mesh_integral_curves`.
+    Source: Polthier and Schmies, Straightest geodesics on polyhedral surfaces, 1998. Errors: see
+    `mesh_integral_curves`; directions not finite, or without length in their face.
     """
     sides = mesh_sides(mesh)
     face, own = starts_in_faces("geodesics", mesh, sides, faces, points)
@@ -665,8 +626,8 @@ def led_curves(
     both_ways: bool,
     beside: float = 0.0,
 ) -> MeshCurves:
-    """The lines of a flow as curves, both ways joined; beside: as of mesh_traces."""
-    longest = USUAL_LENGTH * sides.extent if length is None else positive("integral curves: length", length)
+    """The lines of a flow as curves, both ways joined; beside: see mesh_traces."""
+    longest = DEFAULT_LENGTH * sides.extent if length is None else positive("integral curves: length", length)
     count = len(face)
     if not count:
         return all_mesh_curves([])

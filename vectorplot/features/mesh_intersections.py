@@ -75,14 +75,10 @@ def face_intersections(faces: Faces, part: Ints, tolerance: float) -> Intersecti
 
 
 def self_intersections_of_parts(faces: Faces, part: Ints, tolerance: float) -> Intersections:
-    """The segments in which convex faces of the same part pierce each other, as face_intersections for those of
-    different ones.
-
-    Where two faces pierce each other, each reaches to both sides of the other one; where an edge lies in another face,
-    its two faces lie on different sides of that; and where two edges lie in one place, their faces alternate about it.
-    So neighbours, and what touches only, do not count. Source: Glaeser, section 8.4; patches as in Volino and Magnenat
-    Thalmann, Efficient self-collision detection on smoothly discretized surface animations using geometrical shape
-    regularity (1994).
+    """The segments in which convex faces of one part pierce each other; see face_intersections for different parts. Of
+    piercing faces each reaches to both sides of the other; an edge in a face has its two faces on different sides;
+    edges in one place have alternating faces. So neighbours and mere contact do not count.
+    Source: Glaeser, section 8.4; patches as in Volino and Magnenat Thalmann, Efficient self-collision detection (1994).
     """
     one, two = _pairs_within_parts(faces, part, tolerance)
     normals = _normals_of(faces, one, two)
@@ -121,7 +117,7 @@ def self_intersections_of_parts(faces: Faces, part: Ints, tolerance: float) -> I
 def _over_planes(
     faces: Faces, normals: Floats, which: Ints, planes: Ints, tolerance: float
 ) -> tuple[Floats, Floats, NDArray[np.int8]]:
-    """As of _reach, over the planes of other faces."""
+    """See _reach, over the planes of other faces."""
     origin = faces.points.take(faces.corners[faces.offsets[planes]], axis=1)
     return _reach(faces, which, normals.take(planes, axis=1), origin, tolerance)
 
@@ -224,7 +220,7 @@ def _pairs_in_groups(low: Floats, high: Floats, group: Ints, face: Ints) -> tupl
 
 
 def _patches(faces: Faces, part: Ints, low: Floats, high: Floats, face: Ints) -> Ints:
-    """(f,) a patch of every one of some faces, -1 of the others: those of a part in a cell of a grid that hang together
+    """(f,) a patch of every one of some faces, -1 of the others: those of a part in a cell of a grid that are connected
     by vertices."""
     middle = (low.take(face, axis=1) + high.take(face, axis=1)) / 2.0
     size = (high - low).take(face, axis=1)

@@ -51,12 +51,9 @@ class LevelSegments:
 
 
 def level_segments(triangles: Ints, values: Floats) -> LevelSegments:
-    """The segments in triangles (t,3) of vertex indices whose corners have values (n,) of different signs; of several
-    curves, with values (c,n), those of one after those of the other.
-
-    An edge is one for all its triangles, and so is the crossing on it. Zero counts as positive: a curve through a
-    vertex or along an edge is met once, in one triangle of those around it.
-    Edge cases: triangles with a value that is not a number have none.
+    """The segments in triangles (t,3) whose corners have values (n,) of different signs; of several curves with values
+    (c,n), one after the other. An edge, and the crossing on it, is one for all its triangles. Zero counts as
+    positive, so a curve through a vertex or along an edge is met once. Edge cases: none where a value is NaN.
     """
     negative = (values[..., triangles] < 0.0).reshape(-1, 3)
     count = negative.sum(axis=1)
@@ -249,41 +246,12 @@ def _faces_between(start: Ints, end: Ints, pairs: Ints, face: Ints, count: int) 
 
 
 def mesh_plane_sections(mesh: Mesh, normal: ArrayLike, offsets: ArrayLike) -> MeshCurves:
-    """The sections of a mesh with the parallel planes n.x = d, n the unit normal.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        Whose faces are cut.
-    normal : (3,) array_like of float
-        Of any length.
-    offsets : (k,) array_like of float
-        d, in world units; or one of them.
-
-    Returns
-    -------
-    MeshCurves
-        Polylines with d as level; they close where the mesh does. Every point lies on an edge (or the fold of a polygon
-        that is not plane) and in the plane.
-
-    Raises
-    ------
-    InputError
-        For a normal without length, offsets that are not finite.
-
-    Notes
-    -----
-    Edge cases: a vertex in the plane counts as above it, but on a border that lies in the plane with the mesh above:
-    such borders are sections as well. A face in the plane gives its outline where the mesh goes on below.
-
-    Source: Glaeser, section 9.3, example 3, figure 7.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> curves = features.mesh_plane_sections(geometry.box((2, 2, 2)), (1, 0, 0), [0.5, 1.5])
-    >>> curves.levels.tolist(), curves.closed.tolist(), set(curves[0][:, 0].tolist())
-    ([0.5, 1.5], [True, True], {0.5})
+    """The sections of a mesh with the parallel planes n.x = d: polylines with d as level, closed where the mesh is;
+    every point lies on an edge (or the fold of a polygon not plane) and in the plane. normal (3,): of any length;
+    offsets (k,) or one: d.
+    Edge cases: a vertex in the plane counts as above, except on a border in the plane with the mesh above it, which is
+    a section too; a face in the plane gives its outline where the mesh goes on below. Source: Glaeser, section 9.3,
+    example 3, figure 7. Errors: InputError for a normal without length, offsets not finite.
     """
     n = normalize(vector("plane sections: normal", normal))
     levels = _finite("plane sections: offsets", offsets)
@@ -387,16 +355,6 @@ def mesh_contour_across_faces(mesh: Mesh, eye: ArrayLike) -> MeshCurves:
     """
     place = vector("contour: eye", eye)
     return _across_faces(mesh, lambda points, normals: _towards(points, place, normals), np.zeros(1))
-
-
-def mesh_parallel_contour_across_faces(mesh: Mesh, direction: ArrayLike) -> MeshCurves:
-    """The curves across the faces of a mesh on which N.d = 0, for an eye at infinity.
-
-    direction: (3,) d, of any length, towards the eye.
-    Source: Glaeser, section 9.3, example 1.
-    """
-    d = normalize(vector("contour: direction", direction))
-    return _across_faces(mesh, lambda points, normals: np.asarray(matmul(normals, d)), np.zeros(1))
 
 
 def vertex_normals(mesh: Mesh) -> Floats:
@@ -523,6 +481,6 @@ def face_frames(mesh: Mesh, faces: Ints) -> tuple[Floats, Floats, Floats]:
 
 
 def pattern_outline(mesh: Mesh, face: int, points: Floats) -> Floats:
-    """(k,3) the points (k,2) given in a face's own coordinates, in space. Errors: as of face_frames."""
+    """(k,3) the points (k,2) given in a face's own coordinates, in space. Errors: see face_frames."""
     origin, along, left = face_frames(mesh, np.array([face]))
     return np.asarray(origin + points[:, :1] * along + points[:, 1:] * left, dtype=np.float64)

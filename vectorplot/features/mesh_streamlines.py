@@ -305,11 +305,11 @@ GROUP = 1 << 14
 """So many places of curves are compared with each other at a time."""
 
 
-def combed(shape: StreamlineMesh) -> MeshCurves:
+def placed_streamlines(shape: StreamlineMesh) -> MeshCurves:
     """Curves of its field that cover a mesh evenly.
 
     Errors: InputError for a distance of less than a five-hundredth of the extent of the mesh.
-    Source: as of evenly_spaced_curves.
+    Source: see evenly_spaced_curves.
     """
     apart, size = shape.apart, shape.extent
     if size > MOST_LINES * apart:
@@ -487,7 +487,7 @@ def _boxes(where: Floats, starts: Ints) -> tuple[Floats, Floats]:
 
 
 def _kept(found: PlacedCurves, lines: Ints, free: Bools, apart: float) -> Ints:
-    """(s,3) which of some lines to keep, and their first and last places, as of taken_in_turn. What is near on a mesh
+    """(s,3) which of some lines to keep, and their first and last places, see taken_in_turn. What is near on a mesh
     is so along it: the normals of thin shapes' two sides tell them apart."""
     first, last = (ends[lines] for ends in found.reached(free))
     at = ragged.ranges(first, np.maximum(last - first + 1, 0))
@@ -527,5 +527,5 @@ def evenly_spaced_on_faces(
         return none
     flow = face_field_flow(sides, bent, field)
     across = face_field_flow(sides, bent, TurnedField(field, 0.5 * np.pi))
-    result = combed(StreamlineMesh(bent, field, apart, sides, flow, across, longest))
+    result = placed_streamlines(StreamlineMesh(bent, field, apart, sides, flow, across, longest))
     return replace(result, levels=np.zeros(len(result)))

@@ -32,40 +32,11 @@ class MeshPlaces(NamedTuple):
 
 
 def nearest_on_mesh(mesh: Mesh, points: ArrayLike, directions: ArrayLike | None = None) -> MeshPlaces:
-    """The nearest place of a mesh to each point.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        With a face that is present.
-    points : (k, 3) array_like of float
-        In world coordinates; or one of them.
-    directions : (k, 3) array_like of float, optional
-        Of the faces that meet at the place, on an edge or in a vertex, the one into which this leads is chosen; the
-        first one where None.
-
-    Returns
-    -------
-    MeshPlaces
-        k of them.
-
-    Raises
-    ------
-    InputError
-        For a mesh without faces, points or directions that are not three finite numbers each.
-
-    Notes
-    -----
-    Error: rounding. Of faces that are equally near, to a part of the extent of the mesh, the first one counts.
-
-    Source: Ericson, Real-time collision detection, section 5.1.5.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> places = features.nearest_on_mesh(geometry.box((2, 2, 2)), (1.0, 1.0, 1.5))
-    >>> places.faces.tolist(), places.distances.tolist()
-    ([5], [0.5])
+    """The nearest place of a mesh to each of points (k,3), exact to rounding. directions (k,3): on an edge or in a
+    vertex the face that it leads into is chosen, the first one where None. Of equally near faces, to a part of the
+    extent, the first counts.
+    Source: Ericson, Real-time collision detection, section 5.1.5. Errors: InputError for a mesh without faces, or
+    points and directions that are not three finite numbers.
     """
     at = _rows("points", points)
     ways = None if directions is None else np.broadcast_to(_rows("directions", directions), at.shape)

@@ -57,40 +57,10 @@ MOST_LOOKS, FEW_LINES = 32, 8
 
 
 def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
-    """The lines u = const. that divide the domain into columns, and v = const. into rows, evenly; without borders.
-
-    Parameters
-    ----------
-    surface : Surface
-        On which they run.
-    columns, rows : int
-        Parts of the ranges of u and v; for 0 there are no lines. A closed direction has as many lines as parts, an open
-        one one less.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines with the constant parameter as level; first those of u.
-
-    Raises
-    ------
-    InputError
-        For fewer than 0 columns or rows.
-
-    Notes
-    -----
-    Edge cases: as for `u_lines`.
-
-    Source: Glaeser, section 8.2.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> curves = features.parameter_lines(surfaces.Cylinder(bottom=0, top=3), columns=8, rows=3)
-    >>> len(curves), curves.levels[8:].tolist(), curves.closed[8:].tolist()
-    (10, [1.0, 2.0], [True, True])
+    """The lines u = const. that divide the domain into columns, and v = const. into rows, evenly, without borders; the
+    constant parameter as level, first those of u. For 0 there are none; a closed direction has as many lines as
+    parts, an open one one less. Edge cases: see `u_lines`.
+    Source: Glaeser, section 8.2. Errors: InputError for fewer than 0 columns or rows.
     """
     return parameter_lines_of_each([surface], [(columns, rows)], tracing=tracing)[0]
 
@@ -98,7 +68,7 @@ def parameter_lines(surface: Surface, columns: int, rows: int, *, tracing: Traci
 def parameter_lines_of_each(
     surfaces: Sequence[Surface], counts: Sequence[tuple[int, int]], *, tracing: Tracing = DEFAULT
 ) -> list[SurfaceCurves]:
-    """As of `parameter_lines` for many surfaces, each with its own columns and rows: those of placed surfaces are
+    """See `parameter_lines` for many surfaces, each with its own columns and rows: those of placed surfaces are
     traced at once."""
     values: list[tuple[Floats, Floats]] = []
     for surface, (columns, rows) in zip(surfaces, counts, strict=True):
@@ -138,28 +108,9 @@ def v_lines(surface: Surface, values: ArrayLike, *, tracing: Tracing = DEFAULT) 
 def borders(surface: Surface, *, tracing: Tracing = DEFAULT) -> SurfaceCurves:
     """The lines at which a surface ends: ends of its domain, but not where it closes nor poles, and rims of its holes.
 
-    Parameters
-    ----------
-    surface : Surface
-        On which they run.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        As of `u_lines` and `v_lines`.
-
-    Notes
-    -----
+    surface: on which they run; tracing: its tolerance, picture and budget count; result: see `u_lines` and `v_lines`.
     Rims are where the points of the surface are not finite any more, and where it is cut off because it runs to
     infinity; their level is 0. Edge cases: holes smaller than half a cell of the tracing's grid may be missed.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> len(features.borders(surfaces.Cylinder())), len(features.borders(surfaces.Paraboloid()))
-    (2, 1)
     """
     return together([domain_borders(surface, tracing), hole_rims(surface, tracing)])
 
@@ -339,12 +290,10 @@ HALVINGS = 50
 def surface_path(
     surface: Surface, path: Callable[[Floats], Floats], start: float, end: float, *, tracing: Tracing = DEFAULT
 ) -> SurfaceCurves:
-    """The curve on a surface whose parameters are path(t): (n,2), u and v, for t (n,) from start to end.
-
-    It may run over the seams of a closed surface, any number of times; where it leaves an open one, or comes to a hole,
-    it is interrupted. Of tracing, tolerance and picture count: chords stay within the tolerance, in picture where there
-    is one. A path that comes back to its start, up to whole periods, is closed.
-    Edge cases: a path that is a single point is none. Source: Glaeser, section 8.2, equation 9.
+    """The curve on a surface with parameters path(t): (n,2), for t (n,) from start to end; over seams any number of
+    times, interrupted outside the domain and in holes, closed if it returns up to whole periods. Of tracing,
+    tolerance and picture count. Edge cases: a single point is no curve.
+    Source: Glaeser, section 8.2, equation 9.
     """
     size = extent(surface)[0]
     if size == 0.0:

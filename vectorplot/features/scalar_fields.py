@@ -43,12 +43,9 @@ Gradients = Callable[[Floats, Floats, Ints], tuple[Floats, Floats]]
 
 @dataclass(frozen=True, eq=False)
 class ScalarFields:
-    """Functions f(u, v), one or many, over domains that are closed in the same directions, with their gradients if
-    these are known.
-
-    A point is a row of u, v and the number of the function. start and size (s,2): where the ranges of u and v begin,
-    and their lengths; low and high (s,2): the smallest and largest u and v where f is evaluated: nearer to a border it
-    has the values next to it.
+    """Functions f(u, v) over domains closed in the same directions, with gradients if known; a point is u, v and the
+    number of the function. start, size (s,2): the ranges; low, high (s,2): where f is evaluated, nearer to a border
+    it has the values next to it.
     """
 
     f: Functions
@@ -178,12 +175,9 @@ def in_units(field: ScalarFields, unit: Floats) -> ScalarFields:
 
 
 def without_poles(field: ScalarFields, values: Floats) -> tuple[ScalarFields, Floats]:
-    """The fields without their poles, and their values (s, columns+1, rows+1) on grids over the domains; values: those
-    that `on_grid` gives.
-
-    Edge cases: a border all along which f is zero or not defined is a pole of the parametrisation (there the normal of
-    a surface vanishes), it gets the values next to it. A single point where f is not defined, such as sin(r) / r at
-    r = 0, gets the value next to it.
+    """The fields without their poles, and values (s, columns+1, rows+1), those of `on_grid`. Edge cases: a border where
+    f is zero or undefined all along is a pole of the parametrisation and gets the values next to it; so does a
+    single undefined point, such as sin(r) / r at 0.
     """
     w, columns, rows = values.copy(), values.shape[1] - 1, values.shape[2] - 1
     low, high = field.low.copy(), field.high.copy()
@@ -312,13 +306,10 @@ def zero_by_newton(
 def zero_by_bisection(
     f: Callable[[Floats], Floats], low: ArrayLike, high: ArrayLike, *, tolerance: float = NEWTON_SETTLED
 ) -> Floats:
-    """Where f changes its sign between low and high (...), to tolerance times the length of the bracket.
-
-    Not done by `chord_refinement.bisected`, which asks for some of the brackets at a time.
-
-    f works entry by entry on arrays of that shape. Edge cases: NaN where f has the same sign at both ends; a zero at
-    an end is that end.
-    Source: Glaeser, section 8.4; erratum G8-13.
+    """Where f, entry by entry on (...), changes its sign between low and high, to tolerance times the bracket. Unlike
+    `chord_refinement.bisected` it evaluates all brackets at once.
+    Edge cases: NaN where both ends have one sign; a zero at an end is that end. Source: Glaeser, section 8.4; erratum
+    G8-13.
     """
     a, b = (np.array(x, dtype=np.float64) for x in np.broadcast_arrays(low, high))
     f_low, f_high = f(a), f(b)
@@ -334,13 +325,10 @@ def zero_by_bisection(
 def bracketed_zeros(
     f: Callable[[Floats, Ints], Floats], w0: Floats, w1: Floats, guess: Floats, small: Floats
 ) -> tuple[Floats, Floats]:
-    """Zeros t (k,) within 0 <= t <= 1 and the values there, from values w0, w1 (k,) of different signs at 0 and 1.
-
-    f(t, which) are the values of the functions with the indices which at t. The first try is guess, then the zero of
-    the parabola t(w) through the last three points, the middle of the bracket where that leaves it or where neither
-    the bracket nor f at its ends shrinks, until |f| <= small (k,) or the bracket is used up.
-    Edge cases: zero counts as positive. At a pole or a jump the values stay large; it is for the caller to look.
-    Where f is not defined inside a bracket the value is NaN.
+    """Zeros t (k,) in 0 <= t <= 1 and the values there, from values w0, w1 (k,) of different signs at the ends. f(t,
+    which): values of functions which at t. First guess, then the zero of the parabola t(w) through the last three
+    points, or the middle where that leaves the bracket or stalls, until |f| <= small (k,) or the bracket is used up.
+    Edge cases: zero counts as positive; at a pole or jump the values stay large; NaN where f is undefined inside.
     """
     t, w = np.array(guess, dtype=np.float64), np.full(len(guess), np.nan)
     which: Ints = np.arange(len(t))

@@ -33,13 +33,11 @@ from vectorplot.tolerances import LEAST_DIVISOR, SETTLED_OF_EXTENT, ZERO_OF_EXTE
 
 @dataclass(frozen=True, eq=False)
 class TriangleSides:
-    """The sides of triangles: those of triangle i are 3i, 3i+1 and 3i+2, each from one corner to the next.
-
-    points (v,3); start, end (s,): vertices; lengths (s,); third_x, third_y (s,): where the third corner is, along the
-    side from its start, and across; edge (s,); by_edge (s,), edge_offsets (e+1,): the sides on each edge, of however
-    many triangles; at_vertex (s,), vertex_offsets (v+1,): those that begin at each vertex; passable (v,): whether
-    shortest ways may go through: where more than a whole turn is around, and at borders; step: a typical length; slack:
-    lengths that differ by less are one.
+    """The sides of triangles: those of triangle i are 3i to 3i+2, from one corner to the next. points (v,3); start, end
+    (s,): vertices; lengths (s,); third_x, third_y (s,): the third corner, along the side from its start and across;
+    edge (s,); by_edge (s,), edge_offsets (e+1,): sides on each edge; at_vertex (s,), vertex_offsets (v+1,): sides
+    that begin at a vertex; passable (v,): whether shortest ways may pass, with more than a whole turn around, or at
+    borders; step: a typical length; slack: lengths that differ by less are equal.
     """
 
     points: Floats
@@ -475,39 +473,9 @@ def mesh_shortest_paths(
 def mesh_distances(
     mesh: Mesh, points: ArrayLike, *, budget: Budget = USUAL, done: Callable[[float], None] = unheard
 ) -> Floats:
-    """How far the vertices of a mesh are from the nearest of some places, on the mesh.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        With v vertices.
-    points : (k, 3) array_like of float
-        Points in the world, of which the nearest ones on the mesh count; or one of them.
-    budget : Budget
-        Its windows count.
-    done : callable
-        As of `mesh_shortest_paths`.
-
-    Returns
-    -------
-    (v,) array of float
-        The lengths of the shortest ways; inf where there is none. For `mesh_level_lines`, whose lines then are circles
-        about the places, as far as what is between vertices is linear.
-
-    Raises
-    ------
-    InputError
-        As of `mesh_shortest_paths`.
-
-    Notes
-    -----
-    Exact but for rounding, as `mesh_shortest_paths`.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry
-    >>> (features.mesh_distances(geometry.box((2, 2, 2)), (0, 0, 0)).max() ** 2).round(9).item()
-    20.0
+    """(v,) how far the vertices of a mesh are from the nearest of points (k,3) on it, inf where there is no way; exact
+    but for rounding. Their `mesh_level_lines` are circles about the places. budget: its windows count. Errors: see
+    `mesh_shortest_paths`.
     """
     at = np.atleast_2d(np.asarray(points, dtype=np.float64))
     faces = face_triangles(mesh)

@@ -1,4 +1,4 @@
-"""Integral curves of one field that cover a surface evenly, as if it were combed."""
+"""Integral curves of one field that cover a surface evenly."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, no_curves, together
 from vectorplot.features.surface_integration import (
     DEFAULT,
-    USUAL_LENGTH,
+    DEFAULT_LENGTH,
     Accuracy,
     Courses,
     FieldFlow,
@@ -334,15 +334,15 @@ class Gaps:
             return np.array([np.argmin(norm(points - np.median(points, axis=0)))])
         return widest_first(self.where, self.away, self.ground.apart, AT_ONCE)
 
-    def left_by(self, crowd: SeparationTest, tried: Ints) -> Gaps:
+    def left_by(self, separation: SeparationTest, tried: Ints) -> Gaps:
         """Those that are left now that these places are taken, and some have been tried: a gap that nothing fits into
         is one no more."""
         reach = WIDEST * self.ground.apart
         spent = SeparationTest(self.ground).with_places(self.places[tried], self.where[tried])
-        taken = (each.near(self.places, self.where, reach) for each in (crowd, spent))
+        taken = (each.near(self.places, self.where, reach) for each in (separation, spent))
         kept = np.flatnonzero(~np.logical_or(*taken))
         where = self.where[kept]
-        return replace(self, places=self.places[kept], where=where, away=crowd.away(where))
+        return replace(self, places=self.places[kept], where=where, away=separation.away(where))
 
 
 def widest_first(where: Floats, away: Floats, apart: float, most: int) -> Ints:
@@ -408,17 +408,17 @@ GROUP = 2048
 """Places of curves that are compared with each other at a time; those of one curve may be more."""
 
 
-def uncrowded(lines: PlacesAlong, crowd: SeparationTest) -> tuple[Floats, SeparationTest]:
+def well_separated(lines: PlacesAlong, separation: SeparationTest) -> tuple[Floats, SeparationTest]:
     """(s,3) which of the lines, which begin away from what is taken, to keep, in their order, and from where to where
     along each; and what is taken with them.
 
     Groups of lines are compared with each other, the later ones only as far as those before leave room: where many run
     together they are never compared all at once.
     """
-    ground = crowd.ground
+    ground = separation.ground
     near, wide = NEAREST * ground.apart, WIDEST * ground.apart
     where = ground.where(lines.places)
-    free = ~crowd.near(lines.places, where, near)
+    free = ~separation.near(lines.places, where, near)
     kept, own = [np.zeros((0, 3), dtype=np.intp)], SeparationTest(ground)
     left = np.arange(len(lines.around))
     while len(left):
@@ -430,12 +430,12 @@ def uncrowded(lines: PlacesAlong, crowd: SeparationTest) -> tuple[Floats, Separa
         group, left = np.split(left, [max(1, int(np.searchsorted(count, GROUP, side="right")))])
         at = ragged.ranges(first[group], (last - first + 1)[group])
         free[at] = ~own.near(lines.places[at], where[at], near)
-        found = _taken_in_turn(lines, where, group, free, crowd)
+        found = _taken_in_turn(lines, where, group, free, separation)
         kept.append(found)
         at = ragged.ranges(found[:, 1], found[:, 2] - found[:, 1] + 1)
         own = own.with_places(lines.places[at], where[at])
     line, first, last = np.concatenate(kept).T
-    return np.stack([line, lines.along[first], lines.along[last]], axis=1), crowd.together(own)
+    return np.stack([line, lines.along[first], lines.along[last]], axis=1), separation.together(own)
 
 
 def _long(lines: SampledCurves, first: Ints, last: Ints, apart: float) -> Bools:
@@ -443,10 +443,10 @@ def _long(lines: SampledCurves, first: Ints, last: Ints, apart: float) -> Bools:
     return np.asarray((last >= first) & (lines.along[last] - lines.along[first] >= SHORTEST * apart))
 
 
-def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, crowd: SeparationTest) -> Ints:
+def _taken_in_turn(lines: PlacesAlong, where: Floats, group: Ints, free: Bools, separation: SeparationTest) -> Ints:
     """(s,3) which lines of a group to keep, and their first and last places. free (p,): places that are not beside
     what is taken; those beside themselves are free no more."""
-    ground = crowd.ground
+    ground = separation.ground
     first, last = (ends[group] for ends in lines.reached(free))
     long = _long(lines, first, last, ground.apart)
     group, first, last = group[long], first[long], last[long]
@@ -502,7 +502,7 @@ def taken_in_turn(lines: SampledCurves, group: Ints, free: Bools, pairs: Ints, s
     """(s,3) which curves of a group to keep, one after the other, and their first and last places. free (p,): places
     that are not beside what is taken; those beside curves that are kept, and beside their own, are free no more.
 
-    pairs, seeds: as of beside_each_other.
+    pairs, seeds: see beside_each_other.
     """
     one, two = pairs
     # Of two places of one curve the one that is reached later is beside the other.
@@ -545,7 +545,7 @@ def _span(free: Bools, seed: int, begin: int, end: int) -> tuple[int, int]:
     return low, (seed + int(after[0]) if len(after) else end) - 1
 
 
-# Integral curves of one field that cover a surface evenly, as if it were combed.
+# Integral curves of one field that cover a surface evenly.
 
 DRAWN = Accuracy(INTEGRATED_AS_DRAWN)
 """How well curves are integrated that are only to be drawn."""
@@ -577,49 +577,14 @@ def evenly_spaced_curves(
     accuracy: Accuracy = DRAWN,
     tracing: Tracing = DEFAULT,
 ) -> SurfaceCurves:
-    """Integral curves of a field that cover a surface evenly.
-
-    Parameters
-    ----------
-    surface : Surface
-        With points, partials and second partials.
-    field : TangentField
-        What they follow.
-    apart : float
-        About how far neighbours are from each other, in world units: half of it at least, where they run together; and
-        mostly less than twice, where they run apart, as gaps are filled a few times only.
-    accuracy : Accuracy
-        How well they are integrated.
-    tracing : Tracing
-        Its tolerance, picture and budget count.
-
-    Returns
-    -------
-    SurfaceCurves
-        Polylines. A curve ends where it comes too near to another one, or to itself.
-
-    Raises
-    ------
-    InputError
-        For a shape without parameters, a distance that is not positive, or less than a five-hundredth of the extent of
-        the surface.
-
-    Notes
-    -----
-    The first curves begin along one at right angles to them, so that they are evenly apart there; then gaps are filled
-    in the same way, the widest ones first. Distances are measured in space, between places of one sheet: the two sides
-    of a thin shape, and the turns of a spiral one, do not keep each other's curves away. Which curves there are does
-    not depend on tolerances and pictures.
-
-    Source: Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density (1997), for what even means;
-    Mebarki, Alliez and Devillers, Farthest point seeding for efficient placement of streamlines (2005), for gaps.
-
-    Examples
-    --------
-    >>> from vectorplot import features, surfaces
-    >>> curves = features.evenly_spaced_curves(surfaces.Cylinder(bottom=0, top=3), features.loxodromes(0.5), 0.5)
-    >>> len(curves) > 5
-    True
+    """Integral curves of a field that cover a surface evenly. apart: target distance in world units, at least half of
+    it where curves run together and mostly below twice where they diverge. The first curves begin along one at right
+    angles to them, then gaps are filled, widest first; a curve ends too near to another or itself. Distances are in
+    space, but two sides of a thin shape do not keep each other's curves away; the choice of curves does not depend
+    on tolerances and pictures.
+    Source: Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density (1997); Mebarki, Alliez and
+    Devillers, Farthest point seeding (2005), for gaps. Errors: InputError for a shape without parameters, a distance
+    not positive, or below a five-hundredth of the extent.
     """
     check_parametrised(surface)
     positive("evenly spaced curves: distance", apart)
@@ -633,17 +598,17 @@ def evenly_spaced_curves(
         )
     ground = Ground(surface, charts(surface), apart)
     flow = FieldFlow(surface, ground.charts, field)
-    gaps, crowd = gaps_all_over(ground, field), SeparationTest(ground)
+    gaps, separation = gaps_all_over(ground, field), SeparationTest(ground)
     found: list[SurfaceCurves] = []
     for _ in range(ROUNDS):
         widest = gaps.widest()
         if not len(widest):
             break
-        seeds = _seeds(flow, gaps.places[widest], crowd, size)
-        runs = _both_ways(flow, seeds, USUAL_LENGTH * size[0], size, accuracy, crowd, NEAREST)
-        kept, crowd = _without_dense_groups(runs, seeds, crowd)
+        seeds = _seeds(flow, gaps.places[widest], separation, size)
+        runs = _both_ways(flow, seeds, DEFAULT_LENGTH * size[0], size, accuracy, separation, NEAREST)
+        kept, separation = _without_dense_groups(runs, seeds, separation)
         found.append(drawn(kept, 2, size[0], tracing))
-        gaps = gaps.left_by(crowd, widest)
+        gaps = gaps.left_by(separation, widest)
     result = together([no_curves(), *found])
     return replace(result, levels=np.zeros(len(result)))
 
@@ -654,7 +619,7 @@ def _both_ways(
     longest: float,
     size: tuple[float, float],
     accuracy: Accuracy,
-    crowd: SeparationTest,
+    separation: SeparationTest,
     reach: float,
 ) -> Courses:
     """The traces from u and v (k,2) along the field and against it, until they are within a part, reach, of the
@@ -662,21 +627,21 @@ def _both_ways(
     tangents = flow.field.tangents(Sites(flow.surface, *flow.charts.inside(starts)))[0]
 
     def beside(places: Floats) -> Bools:
-        return crowd.near(places, crowd.ground.where(places), reach * crowd.ground.apart)
+        return separation.near(places, separation.ground.where(places), reach * separation.ground.apart)
 
-    until = Until(beside if crowd.groups else None, crowd.ground.apart)
+    until = Until(beside if separation.groups else None, separation.ground.apart)
     return traces_from(flow, starts, tangents, longest, 2, size, accuracy, until)
 
 
-def _seeds(flow: FieldFlow, gaps: Floats, crowd: SeparationTest, size: tuple[float, float]) -> Floats:
+def _seeds(flow: FieldFlow, gaps: Floats, separation: SeparationTest, size: tuple[float, float]) -> Floats:
     """u and v (k,2) of places where curves begin: in the gaps, evenly across the field, the distance apart."""
-    ground = crowd.ground
+    ground = separation.ground
     apart = ground.apart
     across = FieldFlow(flow.surface, flow.charts, TurnedField(flow.field, 0.5 * np.pi))
-    runs = _both_ways(across, gaps, LONGEST_ACROSS * size[0], size, ACROSS, crowd, WIDEST)
+    runs = _both_ways(across, gaps, LONGEST_ACROSS * size[0], size, ACROSS, separation, WIDEST)
     curves = _that_run(runs)
     lines = places_along(runs, curves, apart / SAMPLES)
-    free = ~crowd.near(lines.places, ground.where(lines.places), WIDEST * apart)
+    free = ~separation.near(lines.places, ground.where(lines.places), WIDEST * apart)
     along, sizes = _evenly(lines, *lines.reached(free), apart)
     own = np.repeat(curves, sizes)
     row = np.where((along < 0.0) | (runs.lengths[own] == 0.0), own + len(gaps), own)
@@ -718,24 +683,24 @@ def _evenly(lines: PlacesAlong, first: Ints, last: Ints, apart: float) -> tuple[
     return np.clip(along, low[own], high[own]), sizes
 
 
-def _without_dense_groups(runs: Courses, places: Floats, crowd: SeparationTest) -> tuple[Courses, SeparationTest]:
+def _without_dense_groups(runs: Courses, places: Floats, separation: SeparationTest) -> tuple[Courses, SeparationTest]:
     """The curves from u and v (k,2), one after the other, as far as they are not too near what is taken, to those
     before, and to themselves; and what is taken with them."""
-    ground = crowd.ground
+    ground = separation.ground
     there, back = ways_both(runs)
     left = _that_run(runs)
     spans = [np.zeros((0, 3))]
     while len(left):
         # As many as have few enough places, of those that do not begin beside what is taken by now.
         seeds = places[left]
-        left = left[~crowd.near(seeds, ground.where(seeds), WIDEST * ground.apart)]
+        left = left[~separation.near(seeds, ground.where(seeds), WIDEST * ground.apart)]
         count = SAMPLES * np.cumsum((there + back)[left]) / ground.apart
         own, left = np.split(left, [max(1, int(np.searchsorted(count, PLACES_AT_ONCE)))])
-        found, crowd = uncrowded(places_along(runs, own, ground.apart / SAMPLES), crowd)
+        found, separation = well_separated(places_along(runs, own, ground.apart / SAMPLES), separation)
         found[:, 0] = own[found[:, 0].astype(np.intp)]
         spans.append(found)
     line, first, last = np.concatenate(spans).T
     line = line.astype(np.intp)
     whole = runs.closed[line] & (last - first >= runs.lengths[line])
     lengths = np.concatenate([np.where(whole, runs.lengths[line], last), np.where(whole, 0.0, -first)])
-    return runs.take(np.concatenate([line, line + len(there)])).up_to(lengths), crowd
+    return runs.take(np.concatenate([line, line + len(there)])).up_to(lengths), separation

@@ -67,12 +67,10 @@ Rates = Callable[[Floats], Floats]
 
 @dataclass(frozen=True, eq=False)
 class Steps(Elements):
-    """Steps from states start (k,d): the one by which each leads on, move (k,d); error (k,d): what it differs from that
-    of one order less; rates (2,k,d) at both ends, times the length of the step; bend (k,d): the rest of what is
-    between.
-
-    Source: Dormand and Prince, A family of embedded Runge-Kutta formulae (1980); Hairer, Norsett and Wanner, Solving
-    ordinary differential equations I, section II.6, for what is between.
+    """Steps from states start (k,d) by move (k,d); error (k,d): difference from the step of one order less; rates
+    (2,k,d): at both ends, times the step's length; bend (k,d): the rest of the dense output.
+    Source: Dormand and Prince (1980); Hairer, Norsett and Wanner, Solving ordinary differential equations I, section
+    II.6.
     """
 
     start: Floats
@@ -281,12 +279,13 @@ class IntegrationSteps:
 class Courses:
     """The ways of points over a surface, those of each point in the order in which they follow each other.
 
-    leaps, steps (s,); offsets (m+1,): point i has the steps offsets[i] to offsets[i+1]; closed (m,): whether it came
-    back to its start; stalled, spent (m,): whether it ended where no step succeeds, or for want of steps.
+    strides, steps (s,): integration steps and what is between their ends; offsets (m+1,): point i has the steps
+    offsets[i] to offsets[i+1]; closed (m,): whether it came back to its start; stalled, spent (m,): whether it ended
+    where no step succeeds, or for want of steps.
     """
 
     flow: Flow
-    leaps: IntegrationSteps
+    strides: IntegrationSteps
     steps: Steps
     offsets: Ints
     closed: Bools
@@ -295,24 +294,28 @@ class Courses:
 
     def states(self, step: Ints, part: Floats) -> Floats:
         """(k,d) the states at parts (k,) of what counts of steps (k,)."""
-        return self.steps.take(step).at(part * self.leaps.part[step])
+        return self.steps.take(step).at(part * self.strides.part[step])
 
     def places(self, step: Ints, part: Floats) -> Floats:
         """(k,2) u and v there, running on over seams."""
-        leaps, steps = self.leaps, self.steps.take(step)
-        to = part * leaps.part[step]
-        return running_on(self.flow.charts, leaps.chart[step], steps, steps.at(to), leaps.before[step], to)
+        strides, steps = self.strides, self.steps.take(step)
+        to = part * strides.part[step]
+        return running_on(self.flow.charts, strides.chart[step], steps, steps.at(to), strides.before[step], to)
 
     def points(self, step: Ints, part: Floats) -> Floats:
         """(k,3) points there."""
         charts = self.flow.charts
-        found = charts.parameters(self.leaps.chart[step], self.states(step, part)[:, :2])
+        found = charts.parameters(self.strides.chart[step], self.states(step, part)[:, :2])
         return self.flow.surface.points(*charts.within(found))
 
     def directions(self, step: Ints, part: Floats) -> Floats:
         """(k,2) how u and v grow there by the length of the ways: as the flow leads at these places, and not only as
         what is between the ends of steps does; NaN at poles."""
-        charts, chart, to = self.flow.charts, self.leaps.chart[step], part * self.leaps.part[step]
+        charts, chart, to = (
+            self.flow.charts,
+            self.strides.chart[step],
+            part * self.strides.part[step],
+        )
         steps = self.steps.take(step)
         states = steps.at(to)
         u, v = charts.inside(charts.parameters(chart, states[:, :2]))
@@ -332,7 +335,7 @@ class Courses:
     @cached_property
     def ends(self) -> Floats:
         """(s,) how long each way is up to the end of each step."""
-        total = np.cumsum(self.leaps.length)
+        total = np.cumsum(self.strides.length)
         before = np.concatenate([[0.0], total])[self.offsets[:-1]]
         return np.asarray(total - np.repeat(before, np.diff(self.offsets)))
 
@@ -346,10 +349,10 @@ class Courses:
         """The steps, and the parts of them (k,), at lengths (k,) along the ways of points (k,) that have steps."""
         # The ways one after the other, each as long as the longest one: one ascending row of numbers.
         long = self.lengths.max(initial=0.0)
-        every = self.ends + long * self.leaps.row
+        every = self.ends + long * self.strides.row
         step = np.searchsorted(every, along + long * row)
         step = np.clip(step, self.offsets[row], self.offsets[row + 1] - 1)
-        length = self.leaps.length[step]
+        length = self.strides.length[step]
         with np.errstate(all="ignore"):
             part = (along - self.ends[step] + length) / length
         return step, np.clip(np.nan_to_num(part), 0.0, 1.0)
@@ -361,32 +364,38 @@ class Courses:
             np.concatenate(each)
             for each in zip(*((np.diff(p.offsets), p.closed, p.stalled, p.spent) for p in parts), strict=True)
         )
-        leaps = replace(records.joined([part.leaps for part in parts]), row=ragged.owner(sizes))
+        strides = replace(records.joined([part.strides for part in parts]), row=ragged.owner(sizes))
         steps = records.joined([part.steps for part in parts])
-        return cls(parts[0].flow, leaps, steps, ragged.offsets(sizes), closed, stalled, spent)
+        return cls(parts[0].flow, strides, steps, ragged.offsets(sizes), closed, stalled, spent)
 
     def take(self, rows: Ints) -> Courses:
         """The ways of some of the points."""
         which, offsets = ragged.take(self.offsets, rows)
-        leaps = replace(records.take(self.leaps, which), row=ragged.owner(np.diff(offsets)))
+        strides = replace(records.take(self.strides, which), row=ragged.owner(np.diff(offsets)))
         return Courses(
-            self.flow, leaps, self.steps.take(which), offsets, self.closed[rows], self.stalled[rows], self.spent[rows]
+            self.flow,
+            strides,
+            self.steps.take(which),
+            offsets,
+            self.closed[rows],
+            self.stalled[rows],
+            self.spent[rows],
         )
 
     def up_to(self, lengths: Floats) -> Courses:
         """The ways up to lengths (m,) along them; those that are cut are not closed."""
-        begins = self.ends - self.leaps.length
+        begins = self.ends - self.strides.length
         left = np.repeat(lengths, np.diff(self.offsets)) - begins
         kept = np.flatnonzero(left > 0.0)
-        leaps = records.take(self.leaps, kept)
-        length = np.minimum(leaps.length, left[kept])
+        strides = records.take(self.strides, kept)
+        length = np.minimum(strides.length, left[kept])
         with np.errstate(all="ignore"):
-            part = leaps.part * np.where(leaps.length > 0.0, length / leaps.length, 1.0)
-        counts = np.bincount(leaps.row, minlength=len(lengths))
+            part = strides.part * np.where(strides.length > 0.0, length / strides.length, 1.0)
+        counts = np.bincount(strides.row, minlength=len(lengths))
         cut = lengths < self.lengths
         return Courses(
             self.flow,
-            replace(leaps, part=part, length=length),
+            replace(strides, part=part, length=length),
             self.steps.take(kept),
             ragged.offsets(counts),
             self.closed & ~cut,
@@ -497,12 +506,11 @@ def traces(
     accuracy: Accuracy = USUAL,
     until: Until = NOTHING_NEAR,
 ) -> Courses:
-    """The traces of points from u and v (m,2) along unit tangents (m,3), as long as lengths (m,) say at most.
-
-    way (m,): -1 where they run against the field; size, large: the extent of the surface and its largest coordinate.
-    They end at borders, where they close, where no step succeeds, and at what else is said.
-    Source: Glaeser, section 9.4; errata G9-13 and G9-14: here steps have the length that their error allows, and a
-    curve closes only after it has been away.
+    """The traces of points from u, v (m,2) along unit tangents (m,3), up to lengths (m,); way (m,): -1 against the
+    field; size, large: the extent and the largest coordinate. They end at borders, where they close, where no step
+    succeeds, and by until.
+    Source: Glaeser, section 9.4; errata G9-13 and G9-14: steps follow their error, and a curve closes only after it has
+    been away.
     """
     charts = flow.charts
     shortest = max(STALLED_OF_EXTENT, accuracy.error) * size
@@ -532,7 +540,7 @@ def traces(
         found, new, there = flow.rates(now.chart, states, now.tangents, way[now.which])
         return found
 
-    leaps: list[IntegrationSteps] = []
+    strides: list[IntegrationSteps] = []
     found: list[Steps] = []
     now = records.take(now, all_finite(now.rates) & (now.left > 0.0))
     while len(now.which):
@@ -559,8 +567,8 @@ def traces(
         part[back] = share
         closed[now.which[back]] = True
         length = step * part
-        leap = IntegrationSteps(now.which, now.chart, part, length, now.places)
-        leaps.append(_those(leap, good))
+        stride = IntegrationSteps(now.which, now.chart, part, length, now.places)
+        strides.append(_those(stride, good))
         found.append(_those(tried, good))
 
         finished = out
@@ -581,11 +589,11 @@ def traces(
             ends = _either(good, ends, replace(now, step=following, done=used))
         now = _renewed(flow, _those(ends, ~(finished | stuck | worn)), way)
     order, offsets = np.zeros(0, dtype=np.intp), np.zeros(count + 1, dtype=np.intp)
-    if not leaps:
+    if not strides:
         none = IntegrationSteps(order, order, np.zeros(0), np.zeros(0), np.zeros((0, 2)))
         empty = states[:0]
         return Courses(flow, none, Steps(*[empty] * 6), offsets, closed, stalled, spent)
-    every = records.joined(leaps)
+    every = records.joined(strides)
     order = np.argsort(every.row, kind="stable")
     offsets = ragged.offsets(np.bincount(every.row, minlength=count))
     return Courses(flow, records.take(every, order), records.joined(found).take(order), offsets, closed, stalled, spent)
@@ -693,7 +701,7 @@ def _renewed(flow: Flow, now: _Points, way: Floats) -> _Points:
 
 DEFAULT = Tracing()
 
-USUAL_LENGTH = 10.0
+DEFAULT_LENGTH = 10.0
 """Times the extent of its surface that a curve is long at most where nothing else is said, to each side."""
 
 ROUNDS = 12
@@ -802,7 +810,7 @@ def geodesics(
     Raises
     ------
     InputError
-        As of `integral_curves`; for angles that are not finite.
+        See `integral_curves`; for angles that are not finite.
 
     Notes
     -----
@@ -836,11 +844,11 @@ def curves_from(
     accuracy: Accuracy,
     tracing: Tracing,
 ) -> SurfaceCurves:
-    """The curves of a flow from u and v (k,2) along tangents (k,3); what else is said as of integral_curves."""
+    """The curves of a flow from u and v (k,2) along tangents (k,3); what else is said as in integral_curves."""
     size, large = extent(flow.surface)
     if size == 0.0 or not len(starts):
         return no_curves()
-    longest = USUAL_LENGTH * size if length is None else positive("integral curves: length", length)
+    longest = DEFAULT_LENGTH * size if length is None else positive("integral curves: length", length)
     sides = 2 if both_ways else 1
     return drawn(traces_from(flow, starts, tangents, longest, sides, (size, large), accuracy), sides, size, tracing)
 
@@ -856,7 +864,7 @@ def traces_from(
     until: Until = NOTHING_NEAR,
 ) -> Courses:
     """The traces of a flow from u and v (k,2) along tangents (k,3), and, where there are two sides, as many more the
-    other way. extent_: as of the surface; until: as of traces."""
+    other way. extent_: of the surface; until: see traces."""
     way = np.repeat([1.0, -1.0][:sides], len(starts))
     return traces(
         flow,
@@ -871,7 +879,7 @@ def traces_from(
 
 
 def starts_of(surface: Surface, starts: ArrayLike, what: str = "integral curves: start") -> Floats:
-    """(k,2) the parameters that curves are to begin with. Errors: InputError as of `integral_curves`."""
+    """(k,2) the parameters that curves are to begin with. Errors: InputError as in `integral_curves`."""
     check_parametrised(surface)
     at = np.atleast_2d(np.asarray(starts, dtype=np.float64))
     d = surface.domain

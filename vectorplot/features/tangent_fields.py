@@ -24,25 +24,10 @@ UP: Vector = (0.0, 0.0, 1.0)
 
 
 class TangentField(Protocol):
-    """What every field of directions on a surface can do.
-
-    Notes
-    -----
-    A protocol: whatever has these members is a field, of this package or of a user. directed says whether a direction
-    and its opposite differ: curves of a field that is not directed go on in the sense they came with. sites are those
-    of a surface, or of the faces of a mesh. tangents(sites) are (j, k, 3): j unit tangent vectors at each of k sites,
-    the first one of the field's own, NaN where it has no direction. Where j > 1 a curve goes on along the one that is
-    nearest to the way it came.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> def first(field, sites):
-    ...     return (field.tangents(sites)[0, 0] + 0.0).round(9).tolist()
-    >>> sites = features.Sites(surfaces.Sphere(), np.array([0.0]), np.array([0.0]))
-    >>> first(features.SteepestSlope(), sites)
-    [0.0, 0.0, 1.0]
+    """A field of directions on a surface: a protocol, for users' own too. directed: whether a direction and its
+    opposite differ; curves of an undirected field keep their sense. tangents(sites): (j,k,3), j unit tangents at
+    each of k sites of a surface or of faces, the field's own first, NaN where there is none; where j > 1 a curve
+    follows the one nearest to its direction so far.
     """
 
     @property
@@ -222,25 +207,9 @@ class VectorField:
 class ParameterField:
     """The directions on a surface that rates of change of its parameters belong to.
 
-    Parameters
-    ----------
-    function : callable
-        Takes parameters u, v (k,) to rates (k, 2) of u and v, of any size.
-
-    Notes
-    -----
+    function: takes parameters u, v (k,) to rates (k, 2) of u and v, of any size.
     Edge cases: no direction where both vanish or one is not finite.
-
     Source: Glaeser, section 9.4, equations 18 and 19.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> field = features.ParameterField(lambda u, v: np.stack([np.ones_like(u), 0.0 * v], axis=1))
-    >>> sites = features.Sites(surfaces.Sphere(), np.array([0.0]), np.array([0.5]))
-    >>> (field.tangents(sites).round(9) + 0.0).tolist()
-    [[[0.0, 1.0, 0.0]]]
     """
 
     function: Callable[[Floats, Floats], Floats]
@@ -520,34 +489,11 @@ def _principal_on_surface(sites: Sites) -> Principal:
 
 @dataclass(frozen=True)
 class IsophoteDirections:
-    """The directions of isophotes: along them the angle between the normals and a light is constant.
-
-    Parameters
-    ----------
-    light : (float, float, float)
-        The point in world coordinates, or the direction that parallel rays come from.
-    parallel : bool
-        Whether its rays are parallel.
-
-    Raises
-    ------
-    InputError
-        For a light that is not three finite numbers, parallel light without a direction.
-
-    Notes
-    -----
-    To the left of an isophote, seen from the tips of the normals, the cosine of that angle grows. Edge cases: no
-    direction where it does not change at all, as in the brightest point, and nowhere in a plane in parallel light.
-
-    Source: Glaeser, sections 8.4, equation 28, and 9.4.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, surfaces
-    >>> sites = features.Sites(surfaces.Cylinder(), np.array([0.0]), np.array([0.5]))
-    >>> np.abs(features.IsophoteDirections((1.0, 1.0, 0.0)).tangents(sites)).round(9).tolist()
-    [[[0.0, 0.0, 1.0]]]
+    """The directions of isophotes, along which the angle between normals and a light is constant. light: a point in the
+    world, or for parallel rays the direction they come from. To the left, seen from the tips of the normals, the
+    cosine grows.
+    Edge cases: none where it does not change, as in the brightest point, and in a plane in parallel light. Source:
+    Glaeser, sections 8.4, equation 28, and 9.4. Errors: InputError for a light not finite, or without direction.
     """
 
     light: Vector

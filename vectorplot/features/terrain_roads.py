@@ -104,7 +104,7 @@ def _onward(face: Ints, directions: Floats, first: Ints) -> Onward:
 
 # Roads of constant slope between two places of a terrain.
 
-USUAL_LONGEST = 6.0
+DEFAULT_LONGEST = 6.0
 """Times the distance of its ends that a road is long, at most."""
 
 TRIED = 160
@@ -124,48 +124,13 @@ SIDES = (1.0, -1.0)
 
 
 def roads(mesh: Mesh, start: ArrayLike, end: ArrayLike, *, longest: float | None = None) -> MeshCurves:
-    """The roads of constant slope between two places of a terrain.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        Of triangles, none above another.
-    start, end : (2,) array_like of float
-        x and y of both.
-    longest : float, optional
-        How long roads are at most, in world units; six times the distance of the ends where None.
-
-    Returns
-    -------
-    MeshCurves
-        Two roads or one, from the start to the end: the shortest one that bears to the left of the steepest way up all
-        along, and the shortest one to its right. Their levels are their slopes, the angles with the horizontal plane,
-        negative downwards.
-
-    Raises
-    ------
-    InputError
-        For places beside the terrain, both in one or of one height (the road would be a level line), and where there is
-        no such road: one would have to be steeper than the ground somewhere, to leave the terrain, to turn, or to be
-        longer.
-
-    Notes
-    -----
-    In each triangle a road of a given slope has two directions; a road keeps to one of them, as a generalised helix
-    does. Which slope leads to the end is found by trying slopes, and then finer ones between those that pass the end on
-    different sides. In narrow ridges and valleys, where that direction leads back over an edge, a road ends.
-
-    Source: Glaeser, sections 9.4, equations 20 to 23, and 9.5, example 1.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, scene, surfaces
-    >>> x, y = np.meshgrid(np.linspace(-4, 4, 33), np.linspace(-4, 4, 33), indexing="ij")
-    >>> hill = scene.terrain_mesh(surfaces.terrain(4 - np.hypot(x, y), (-4, 4), (-4, 4)))
-    >>> both = features.roads(hill, (3.0, 0.1), (0.2, 1.0))
-    >>> [round(float(slope)) for slope in np.degrees(both.levels)]
-    [12, 32]
+    """The roads of constant slope between two places of a terrain: the shortest that keeps to the left of the steepest
+    way up, and the shortest to its right, with slopes (angles, negative downwards) as levels. start, end (2,): x and
+    y; longest: in world units, six times the distance where None. In each triangle a road of given slope has two
+    directions and keeps to one, as a generalised helix; the slope is found by sampling, then by refining where the
+    end is passed on different sides. A road ends in a narrow ridge or valley that leads back over an edge.
+    Source: Glaeser, sections 9.4, equations 20 to 23, and 9.5, example 1. Errors: InputError for places beside the
+    terrain, equal or of one height, and without such a road.
     """
     faces, points = places_on_terrain(mesh, np.array([start, end], dtype=np.float64), "road")
     extent = float(np.ptp(mesh.bounds, axis=0).max())
@@ -175,7 +140,7 @@ def roads(mesh: Mesh, start: ArrayLike, end: ArrayLike, *, longest: float | None
         raise InputError("road: both ends are in one place")
     if abs(rise) <= ZERO_OF_EXTENT * extent:
         raise InputError("road: both ends are of one height: the road would be a level line")
-    most = USUAL_LONGEST * distance if longest is None else positive("road: longest", longest)
+    most = DEFAULT_LONGEST * distance if longest is None else positive("road: longest", longest)
     order = [0, 1] if rise > 0.0 else [1, 0]
     search = _Search(hillsides_of(mesh), faces[order], points[order], extent)
     found = [road for side in SIDES if (road := search.shortest(side, most)) is not None]

@@ -261,7 +261,7 @@ def _cross(a: Floats, b: Floats) -> Floats:
 
 # Roads with hairpin bends between two places of a terrain.
 
-USUAL_RADIUS = 1.0 / 30.0
+DEFAULT_RADIUS = 1.0 / 30.0
 """Part of the distance of its ends that the bends of a road have as radius."""
 
 GENTLER = (1.0, 0.97, 0.94, 0.9, 0.85, 0.8)
@@ -358,7 +358,7 @@ def serpentine(
         raise InputError("serpentine: both ends are of one height: the road would be a level line")
     if not 0.0 < number("serpentine: slope", slope) < 0.5 * np.pi:
         raise InputError(f"serpentine: slope {np.degrees(slope):g}, expected an angle between 0 and 90 degrees")
-    turn = USUAL_RADIUS * distance if radius is None else positive("serpentine: radius", radius)
+    turn = DEFAULT_RADIUS * distance if radius is None else positive("serpentine: radius", radius)
     widest = distance if width is None else positive("serpentine: width", width)
     order = [0, 1] if rise > 0.0 else [1, 0]
     hills, ground = hillsides_of(mesh), Ground(mesh)

@@ -168,41 +168,12 @@ def water_courses(mesh: Mesh, places: ArrayLike, *, length: float | None = None)
 
 
 def watersheds(mesh: Mesh) -> MeshCurves:
-    """The lines on a terrain that part waters: from the saddles up to the summits.
-
-    Parameters
-    ----------
-    mesh : Mesh
-        Of triangles, none above another.
-
-    Returns
-    -------
-    MeshCurves
-        From each saddle one line for each of the rising ground beside it, two mostly, with the number of the vertex as
-        level. They end on summits, on plains, and at borders.
-
-    Raises
-    ------
-    InputError
-        For a mesh of other faces.
-
-    Notes
-    -----
-    A saddle is a vertex around which the ground rises and falls more than once each; of vertices of one height the
-    earlier counts as lower, but no line leaves along level ground. A line leaves it along the steepest edge of the
-    rising ground and, from the middle of that on, goes up where it is steepest.
-
+    """The lines on a terrain that part waters: from each saddle one for each rising sector (mostly two), up to summits,
+    plains and borders, with the vertex as level. A saddle has ground that rises and falls more than once around it;
+    of equal heights the earlier vertex counts as lower, but no line leaves along level ground. A line leaves along
+    the steepest edge of the sector and then climbs where it is steepest.
     Source: Cayley, On contour and slope lines (1859); Maxwell, On hills and dales (1870); Banchoff, Critical points and
-    curvature for embedded polyhedra (1967), for vertices.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, scene, surfaces
-    >>> x, y = np.meshgrid(np.linspace(-2, 2, 33), np.linspace(-1, 1, 17), indexing="ij")
-    >>> ridge = features.watersheds(scene.terrain_mesh(surfaces.terrain(x**2 - x**4 / 4 - y**2)))
-    >>> len(ridge), sorted(round(float(line[-1, 0])) for line in ridge)  # of the array, whose steps are 1
-    (2, [5, 27])
+    curvature for embedded polyhedra (1967). Errors: InputError for faces that are no triangles or lie above others.
     """
     return _from_saddles(mesh, 1.0)
 
@@ -210,32 +181,9 @@ def watersheds(mesh: Mesh) -> MeshCurves:
 def valley_lines(mesh: Mesh) -> MeshCurves:
     """The lines of a terrain along which waters gather: from the saddles down to the pits.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Of triangles, none above another.
-
-    Returns
-    -------
-    MeshCurves
-        As of `watersheds`, for the falling ground.
-
-    Raises
-    ------
-    InputError
-        For a mesh of other faces.
-
-    Notes
-    -----
-    Source: as of `watersheds`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import features, scene, surfaces
-    >>> x, y = np.meshgrid(np.linspace(-2, 2, 33), np.linspace(-1, 1, 17), indexing="ij")
-    >>> len(features.valley_lines(scene.terrain_mesh(surfaces.terrain(x**2 - x**4 / 4 - y**2))))
-    2
+    mesh: of triangles, none above another; result: see `watersheds`, for the falling ground.
+    Source: see `watersheds`.
+    Errors: for a mesh of other faces.
     """
     return _from_saddles(mesh, -1.0)
 
@@ -329,7 +277,7 @@ def _branches(mesh: Mesh, sign: float) -> tuple[Ints, Ints, Ints]:
     row = np.flatnonzero((inner & (changes > 2.0))[here] & (above_one | above_two))
     if not len(row):
         return (np.zeros(0, dtype=np.intp),) * 3
-    # Nodes: the rising ends of the edges at saddles; those of one triangle hang together.
+    # Nodes: the rising ends of the edges at saddles; those of one triangle are connected.
     ends = np.stack([here[row] * count + one[row], here[row] * count + two[row]], axis=1)
     rising = np.stack([above_one[row], above_two[row]], axis=1)
     key, node = np.unique(ends[rising], return_inverse=True)

@@ -38,7 +38,7 @@ from vectorplot.features.implicit_surfaces import BOXED, onto_surface, polygoniz
 from vectorplot.features.intersection_grids import UNEVEN, seam_numbers
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import USUAL as USUAL_BUDGET
+from vectorplot.geometry.budget import USUAL as DEFAULT_BUDGET
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
@@ -540,18 +540,13 @@ class Facets:
     sharp: Bools
 
 
-def facets(shape: Surface | ImplicitSurface, criterion: Criterion, most: int = USUAL_BUDGET.facets) -> Facets:
-    """Triangles of a smooth surface as fine as the criterion says, every vertex on the surface.
-
-    Triangles turn as u to v does; those of an implicit surface are counter-clockwise from where F > 0. Vertices on
-    seams and at poles are one; neighbours of different sizes share their vertices.
-    Error: the criterion is kept at LOOKS of every side, and where it crosses a fold; what is smaller may be missed, and
-    where it calls for more than most triangles it is not kept. Sides that lead into a hole end at its rim, and those
-    along a rim follow it; cuspidal edges lie on sides, up to their chords.
-    Errors: InputError for what is no smooth surface.
-    Edge cases: triangles in holes, those without area, those beneath which the surface jumps, and, of surfaces with
-    borders, those that fold over in a plane part, where their neighbours lie over them, are left out.
-    Source: Glaeser, section 8.4 (polygonised surfaces).
+def facets(shape: Surface | ImplicitSurface, criterion: Criterion, most: int = DEFAULT_BUDGET.facets) -> Facets:
+    """Triangles of a smooth surface as fine as the criterion, every vertex on the surface; oriented as u to v, or
+    counter-clockwise seen from F > 0. Vertices on seams and at poles are one; neighbours of different sizes share
+    vertices. The criterion is kept at LOOKS of every side and where it crosses a fold, unless that takes more than
+    most triangles. Sides into a hole end at its rim; cuspidal edges lie on sides, up to their chords.
+    Edge cases: triangles in holes, without area, across jumps, and folded over in a plane part of a surface with
+    borders are left out. Source: Glaeser, section 8.4. Errors: InputError for what is no smooth surface.
     """
     if is_parametrised(shape):
         surface: Surface = standard_forms([shape])[0]
@@ -684,7 +679,7 @@ def facets_of_all(shapes: Sequence[Any], criterion: Callable[[int], Criterion], 
 
     criterion: how fine those of a shape have to be, by its number; most: triangles of each. What is no surface of a
     family, such as a user's own function, is divided alone.
-    Errors: as of facets.
+    Errors: see facets.
     """
     made: dict[int, Facets] = {}
     families: dict[Hashable, list[int]] = {}

@@ -38,15 +38,15 @@ APART_ROUNDING = 4.0 * ULP
 class Piercings:
     """Where edges of one tessellation pierce triangles of the other.
 
-    one, two (n,d): the places on both; rail_one, rail_two (n,): what the points must stay on, FREE where nothing;
-    size (n,): of the larger triangle there; twin (n,): a number that a point and the same point with both sides
-    exchanged have in common. pairs (s,2) of points and triangles (s,2): the segments in which two triangles meet.
+    one, two (n,d): the places on both; constraint_one, constraint_two (n,): what the points must stay on, FREE if
+    nothing; size (n,): of the larger triangle there; twin (n,): a number that a point and the same point with both
+    sides exchanged have in common. pairs (s,2) of points and triangles (s,2): the segments in which two triangles meet.
     """
 
     one: Floats
     two: Floats
-    rail_one: Ints
-    rail_two: Ints
+    constraint_one: Ints
+    constraint_two: Ints
     size: Floats
     twin: Ints
     pairs: Ints
@@ -123,12 +123,10 @@ def overlapping_of_each(low: list[Floats], high: list[Floats], numbers: list[Int
 
 
 def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
-    """The segments in which pairs of triangles meet, joined where an edge of one pierces a triangle of the other.
-
-    Every sign is that of one determinant, taken with the ends of an edge in one order: both triangles at the edge get
-    the same answer, and what lies on a plane or a line counts as above it. So segments fit without gaps.
-    Edge cases: coplanar triangles do not meet.
-    Source: Glaeser, section 8.4; the determinants are those of Guigue and Devillers (2003).
+    """The segments in which pairs of triangles meet, joined where an edge of one pierces a triangle of the other. Every
+    sign is one determinant with the ends of an edge in one order, so both triangles at the edge agree and segments
+    fit; what lies on a plane or line counts as above. Edge cases: coplanar triangles do not meet.
+    Source: Glaeser, section 8.4; determinants of Guigue and Devillers (2003).
     """
     origin = one.points[one.triangles[:1, 0]].reshape(-1, 3)[:1] if len(one.triangles) else np.zeros((1, 3))
     tables = [_empty(one, two)]
@@ -140,7 +138,7 @@ def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
     side, edge, twin = _unpacked(key.ravel()[first], one, two)
     size = np.fmax(*(_sizes(own)[triangles[first, k]] for k, own in ((0, one), (1, two))))
     # The tables have two rows a segment: its ends.
-    constraints = [np.where(side == k, _rail(own, edge), FREE) for k, own in ((0, one), (1, two))]
+    constraints = [np.where(side == k, _constraint(own, edge), FREE) for k, own in ((0, one), (1, two))]
     return Piercings(
         place_one[first],
         place_two[first],
@@ -161,7 +159,7 @@ def _sizes(own: Tessellation) -> Floats:
 Table = tuple[Ints, Floats, Floats, Ints]
 
 
-def _rail(own: Tessellation, edge: Ints) -> Ints:
+def _constraint(own: Tessellation, edge: Ints) -> Ints:
     return (
         own.constraints[np.minimum(edge, len(own.constraints) - 1)]
         if len(own.constraints)
@@ -461,7 +459,7 @@ class _Pass:
         return _Pass(one.points(a), two.points(b), frames, slopes, bends)
 
     def steps(self) -> tuple[Floats, Floats]:
-        """(2,k,3) the way of both points to where the height is stationary, as of parabolas; its length (k,)."""
+        """(2,k,3) the way of both points to where the height is stationary, see parabolas; its length (k,)."""
         axes = self.frames[:, :2]
         half = 0.5 * np.einsum("kij,kj->ki", axes, self.q - self.p)
         # Both patches seen from the point between: the first lies at -half, the second at +half.

@@ -297,7 +297,7 @@ def _odd(lattice: Lattice, cells: Cells, level: int, noise: Floats) -> Bools:
 
 
 def _at_nodes(d: Floats, axis: int) -> Floats:
-    """Slopes at three nodes in a row from the two differences between them, as of the parabola through them."""
+    """Slopes at three nodes in a row from the two differences between them, those of the parabola through them."""
     first, second = np.take(d, 0, axis=axis), np.take(d, 1, axis=axis)
     slopes = [1.5 * first - 0.5 * second, (first + second) / 2.0, 1.5 * second - 0.5 * first]
     return np.stack(slopes, axis=axis)

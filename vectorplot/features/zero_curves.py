@@ -77,8 +77,8 @@ line that it touches, fewer stay odd."""
 
 
 def without_unresolved(subdivision: Subdivision, traced: Segments) -> tuple[Subdivision, Segments, Floats]:
-    """The subdivision without the odd cells of tangles, the segments without those inside them, and (s,) the part of
-    each domain that tangles cover.
+    """The subdivision without the ambiguous cells of unresolved regions, the segments without those inside them, and
+    (s,) the part of each domain that these cover.
 
     A tangle is the opening of the odd cells of the last level by a square. Across seams it does not go on.
     Source: Serra, Image Analysis and Mathematical Morphology, 1982, chapter II (opening).
@@ -135,26 +135,26 @@ EVERYWHERE = "f is zero all over its domain, which is no curve"
 
 
 def doubts_of_one(
-    flat: int, cells: int, found: Sequence[int], complete: bool, unsure: int, enough: bool, tangled: float
+    flat: int, cells: int, found: Sequence[int], complete: bool, unsure: int, enough: bool, left_out: float
 ) -> tuple[str, ...]:
     """What could not be decided of one function, a sentence each; flat: cells, of so many, in which it is
     zero; found: a row of the counts of what was found."""
-    poles, missed, beads, touching = found
-    line = touching - beads
+    poles, missed, spurious, touching = found
+    line = touching - spurious
     texts = [
         (flat == cells, EVERYWHERE),
         (0 < flat < cells, f"f is zero all over {flat} cells: only the border towards negative values is a curve"),
         (poles > 0, f"{JUMPS} at {poles} places: poles or jumps, not part of the curve"),
         (
-            tangled > 0.0,
-            f"curves that wind more finely than the resolution are left out in {100.0 * tangled:.1g} % of the domain",
+            left_out > 0.0,
+            f"curves that wind more finely than the resolution are left out in {100.0 * left_out:.1g} % of the domain",
         ),
         (not complete, unresolved("branches of a curve are too small or too many")),
         (not enough, unresolved("curves are off by more than the tolerance")),
         (unsure > 0, f"{unsure} chords may be off by more than the tolerance: the curve was not found beside them"),
         (missed > 0, "closed branches smaller than the resolution are missing: ask for a finer one"),
         (
-            beads > 0,
+            spurious > 0,
             "branches nearer to each other than the resolution are given as points of them; ask for a finer one",
         ),
         (line > 0, f"{ALONG_A_LINE}: points of it are given, no curve"),
@@ -448,11 +448,11 @@ class FoundBranches:
     touching: Floats
     poles: Ints
     missed: Floats
-    beads: Floats
+    spurious: Floats
 
     def counts(self, count: int) -> Ints:
         """(count, 4) of each function: the changes of sign, the small branches, these places, and all that touch."""
-        sorts = (self.missed, self.beads, self.touching)
+        sorts = (self.missed, self.spurious, self.touching)
         each = (np.bincount(number(points), minlength=count) for points in sorts)
         return np.stack([self.poles, *each], axis=1)
 
@@ -469,7 +469,7 @@ def found_branches(subdivision: Subdivision, traced: Segments, scale: Floats) ->
     own = cell[number(single)]
     joined = joined_at_nodes(field, traced.points, traced.pairs, single, doubles.radii[~line, None] * own)
     lines, dots = without_repeats(_polylines(field, joined.points, joined.segments), field.size)
-    lines, beads = _without_spurious_loops(field, lines, cell, touching)
+    lines, spurious = _without_spurious_loops(field, lines, cell, touching)
     # A point beside a curve, or one of a line that goes over into a curve, is not alone; what went round it and shrank
     # to it does not count.
     apart = np.where(doubles.flat[~line], FAR_APART, 3.0)[:, None] * own
@@ -486,10 +486,10 @@ def found_branches(subdivision: Subdivision, traced: Segments, scale: Floats) ->
         lines,
         single[joined.meets > 0],
         np.concatenate([single[alone], dots[~dotted]]),
-        np.concatenate([free(touching, lines.points, 1.5), dots[dotted], beads]),
+        np.concatenate([free(touching, lines.points, 1.5), dots[dotted], spurious]),
         traced.poles,
         free(doubles.ovals, traced.points, 2.0),
-        beads,
+        spurious,
     )
 
 
@@ -521,13 +521,13 @@ def _without_spurious_loops(
     middles = np.stack([*(total / (last - first + 1)[thin] for total in sums), whose[thin]], axis=1)
     middles = field.wrapped(middles)
     near = within(field, middles, middles, FAR_APART * cell[whose[thin]])[0]
-    crowded = (np.bincount(near, minlength=len(thin)) > 1) | (area[thin] < 1.0)
+    dense = (np.bincount(near, minlength=len(thin)) > 1) | (area[thin] < 1.0)
     counted = np.concatenate([whose[thin], number(touching)])
-    marked = np.concatenate([crowded, np.ones(len(touching), dtype=np.bool_)])
-    crowded &= in_dense_groups(counted, marked)[: len(thin)]
+    marked = np.concatenate([dense, np.ones(len(touching), dtype=np.bool_)])
+    dense &= in_dense_groups(counted, marked)[: len(thin)]
     gone = np.zeros(len(first), dtype=np.bool_)
-    gone[thin[crowded]] = True
-    return lines.take(~gone[path]), middles[crowded]
+    gone[thin[dense]] = True
+    return lines.take(~gone[path]), middles[dense]
 
 
 def _polylines(field: ScalarFields, points: Floats, segments: Ints) -> Traces:
@@ -587,12 +587,10 @@ def ends_meet(field: ScalarFields, first: Floats, last: Floats) -> Bools:
 
 @dataclass(frozen=True, eq=False)
 class ZeroManifold:
-    """The curve f(u, v) = 0 over a domain, with all its branches.
-
-    points: (p, 2) parameters u, v; offsets: (b+1,) branch i has the points offsets[i] to offsets[i+1]; closed: (b,) the
-    last point of the branch joins the first, which is not repeated; turns: (b, 2) the periods that a closed branch has
-    run through when it is back at its start; nodes: (n, 2) where branches meet; isolated: (i, 2) single points where f
-    is zero but does not change its sign; grid: (columns+1, rows+1, 3) u, v and f.
+    """The curve f(u, v) = 0 over a domain, with all branches. points (p,2): u, v; offsets (b+1,); closed (b,): the last
+    point joins the first, which is not repeated; turns (b,2): periods that a closed branch has run through; nodes
+    (n,2): where branches meet; isolated (i,2): zeros without a change of sign; grid (columns+1, rows+1, 3): u, v and
+    f.
     Source: Glaeser, section 8.4, figures 11 and 12; errata G8-08 to G8-14.
     """
 
@@ -719,7 +717,7 @@ def zero_manifolds(
     """The curves f(u, v) = 0 of many functions, each over a domain of its own, all traced at once.
 
     values: (s, columns+1, rows+1) those of f on the grids, where they are known already.
-    Source: as of `zero_manifold_of_f_uv`.
+    Source: see `zero_manifold_of_f_uv`.
     """
     for domain in domains:
         check_grid(domain, columns, rows, resolution)
@@ -736,7 +734,7 @@ def zero_manifolds(
     # Along the border of an area where f is zero slopes say nothing.
     subdivision = subdivided(lattice, odd & ~beside(flat, field.closed), GRID_NOISE * scale, budget.cells)
     traced = crossing_segments(lattice, triangles_near(subdivision, w, near), scale, zero)
-    subdivision, traced, tangled = without_unresolved(subdivision, traced)
+    subdivision, traced, left_out = without_unresolved(subdivision, traced)
     found = found_branches(subdivision, traced, scale)
     holes: Bools = np.asarray(np.isnan(w).any(axis=(1, 2)))
     lines = found.lines if not holes.any() else led_to_holes(field, found.lines, holes, lattice.cell(), zero)
@@ -754,7 +752,7 @@ def zero_manifolds(
             subdivision.complete.tolist(),
             unsure.tolist(),
             enough.tolist(),
-            tangled.tolist(),
+            left_out.tolist(),
             strict=True,
         )
     ]

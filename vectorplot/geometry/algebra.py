@@ -120,12 +120,8 @@ def inverse_matrix(matrices: ArrayLike) -> Floats:
 
 
 def banded_solution(bands: Floats, right: Floats) -> Floats:
-    """The solution x (n,m) of equations with n unknowns whose entries lie near the diagonal.
-
-    bands (n, 2b + 1) holds the entries of row i in columns i - b to i + b, right (n,m) the right sides. NaN or infinity
-    where the equations are singular.
-
-    Source: elimination with row pivoting, Golub and Van Loan, Matrix Computations, section 4.3.
+    """The solution (n,m) of equations with bands (n, 2b+1), row i in columns i-b to i+b, and right sides (n,m); NaN or
+    infinity where they are singular. Source: row pivoting, Golub and Van Loan, Matrix Computations, section 4.3.
     """
     count, width = bands.shape
     reach = width // 2

@@ -19,7 +19,7 @@ PAIRS_AT_ONCE = 1 << 18
 """Pairs of boxes, or of what is in them, handled at once."""
 
 
-CROWDED = 4
+DENSE = 4
 """Where more than so many intervals on the sweep's axis overlap each box, on the average, boxes are looked at in
 strips."""
 
@@ -75,8 +75,8 @@ def _sweep(
     begin, end = np.searchsorted(starts, low[axis], side=side), np.searchsorted(starts, high[axis], side="right")
     rest = [k for k in range(3) if k != axis]
     i, strip, thing, place = np.arange(len(begin)), np.zeros(len(begin), dtype=np.intp), order, np.arange(len(order))
-    crowded = int(np.maximum(end - begin, 0).sum()) > CROWDED * (len(begin) + len(order))
-    strips = [_strips(k, low, high, other_low, other_high) for k in rest] if crowded else []
+    dense = int(np.maximum(end - begin, 0).sum()) > DENSE * (len(begin) + len(order))
+    strips = [_strips(k, low, high, other_low, other_high) for k in rest] if dense else []
     across = max(strips, key=lambda those: those.count, default=ONE_STRIP)
     first, other_first = (across.first(edge[across.axis]) for edge in (low, other_low))
     if across.count > 1:

@@ -27,37 +27,11 @@ HOW = "a larger budget may do (--budget)"
 
 @dataclass(frozen=True)
 class Budget:
-    """Limits of the work on the smooth surfaces of a picture, and on shortest ways: with them every picture ends.
-
-    Parameters
-    ----------
-    cells : int
-        Of one size that the domain of a surface is cut into around one family of curves.
-    triangles : int
-        That an implicit surface is cut into around one.
-    points : int
-        That the curves of one are refined to.
-    pairs : int
-        Of two chords, of a chord and a triangle, or of a sight line and a triangle, that come near each other in the
-        image and are looked at closely.
-    facets : int
-        Triangles that a surface is painted or rendered by.
-    pieces : int
-        That faces which pierce one another are cut into to be painted in order.
-    windows : int
-        That the shortest ways on a mesh from one place are looked for through.
-
-    Notes
-    -----
-    What a budget does not do for is left out, and a doubt or an InputWarning says so.
-
-    Examples
-    --------
-    >>> from vectorplot import features, geometry, surfaces
-    >>> tracing = features.Tracing(tolerance=1e-9, budget=geometry.Budget(points=100))
-    >>> curves = features.contour(surfaces.Sphere(), (4, 0, 0), tracing=tracing)
-    >>> len(curves), len(curves.doubts)
-    (1, 1)
+    """Limits of the work on smooth surfaces and shortest paths, so that every picture ends; what they leave undone is
+    reported. cells: of a domain around one family of curves; triangles: of an implicit surface around one; points:
+    that its curves are refined to; pairs: of chords, chords and triangles, or sight lines and triangles that are
+    close in the image; facets: triangles to paint or render; pieces: that piercing faces are cut into; windows: that
+    shortest paths of one place are searched through.
     """
 
     cells: int = 1 << 13
@@ -150,13 +124,11 @@ def threads(count: int | None) -> Iterator[None]:
 
 
 def mapped(function: Callable[[T], R], chunks: Iterable[T]) -> Iterator[R]:
-    """What a function makes of each chunk, in their order, on as many threads as are allowed.
-
-    Chunks are asked for on the thread that takes the results, a few ahead of these: memory does not grow with their
-    number. What the function raises comes out where its result would; then, or when nobody takes the rest, chunks that
-    have not begun are never done. What is mapped within a chunk has one thread, and those that are idle by then: so the
-    last and largest one of a few is shared too.
-    Edge cases: without chunks nothing; a single one is done where it is asked for.
+    """What a function makes of each chunk, in order, on as many threads as are allowed. Chunks are taken on the calling
+    thread, a few ahead of the results, so memory does not grow with their number. Exceptions are raised where the
+    result would come; then, or when nobody takes the rest, chunks not begun are dropped. What is mapped within a
+    chunk has one thread, and those idle by then.
+    Edge cases: a single chunk is done on the calling thread.
     """
     count, chunks = _THREADS.get()(), iter(chunks)
     first = list(islice(chunks, 2)) if count > 1 else []

@@ -51,30 +51,9 @@ def diagonal_field_of_vision_deg(focal_length_mm: float) -> float:
 def focal_length_mm(fov_deg: float) -> float:
     """The focal length of a miniature camera with some angle over the height of the picture.
 
-    Parameters
-    ----------
-    fov_deg : float
-        In degrees.
-
-    Returns
-    -------
-    float
-        In mm.
-
-    Raises
-    ------
-    InputError
-        For an angle that is not between 0 and 180 degrees.
-
-    Notes
-    -----
+    fov_deg: in degrees; result: in mm.
     Source: Glaeser, section 2.2 and its table; errata G2-03, G2-15.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> round(geometry.focal_length_mm(26.991), 2)
-    50.0
+    Errors: for an angle that is not between 0 and 180 degrees.
     """
     if not 0.0 < fov_deg < 180.0:
         raise InputError(f"field of vision {fov_deg:g} must lie between 0 and 180 degrees")
@@ -267,7 +246,7 @@ class Camera:
         target : (float, float, float)
             In world coordinates.
         fov_deg, parallel, height : optional
-            As of Camera.
+            See Camera.
 
         Returns
         -------
@@ -313,7 +292,7 @@ class Camera:
         eye, target : (float, float, float)
             In world coordinates.
         twist_deg : float
-            As of Camera.
+            See Camera.
 
         Returns
         -------

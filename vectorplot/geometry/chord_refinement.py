@@ -103,12 +103,10 @@ def refined(
     share: Ints | None = None,
     near: Between | None = None,
 ) -> Refined:
-    """The polylines with points of their curves put in until chords deviate from these by no more than the tolerance,
-    measured in the image, or there are most points; both one for all or one for each (m,).
-
-    share (m,): polylines with the same number have most points together; where None all have. near: points that are
-    off the curve by a small part of what chords are, if they are found in less time; they tell which chords will do.
-    Where the curve is not found beside a chord, or has no finite image (behind an eye), refinement ends.
+    """The polylines with points of their curves added until chords deviate by no more than tolerance in the image, or
+    there are most points; both one or (m,). share (m,): polylines of one number have most together; near: a cheaper
+    approximation of between, to judge chords by. Refinement ends where the curve is not found or has no finite
+    image.
     """
     points, last = lines.points, lines.last
     count = int(last.sum())
@@ -160,7 +158,7 @@ def _probed(
     between: Between, image: Image, points: Floats, images: Floats, first: Ints
 ) -> tuple[Floats, Bools, Floats, Floats, Floats]:
     """Of the chords from points first (k,) to the next ones: the probes (j,k,c) of their curves, whether (k,) all of
-    them are found, their images (j,k,d), and as of `deviation` how far these are from the chord, and its length."""
+    them are found, their images (j,k,d), and as in `deviation` how far these are from the chord, and its length."""
     a, b = points[first], points[first + 1]
     starts, ends = (np.concatenate([x] * len(PROBES)) for x in (a, b))
     places, on = between(starts, ends, np.repeat(PROBES, len(first)))

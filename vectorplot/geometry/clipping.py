@@ -54,20 +54,8 @@ class Window:
     def of_size(cls, width: float, height: float) -> Window:
         """The whole window, from (0, 0) to (width, height).
 
-        Parameters
-        ----------
-        width, height : float
-            Both positive.
-
-        Returns
-        -------
-        Window
-            With min_x and min_y 0.
-
-        Raises
-        ------
-        InputError
-            Where it is empty.
+        width, height: both positive; result: with min_x and min_y 0.
+        Errors: where it is empty.
         """
         return cls(0.0, width, 0.0, height)
 
@@ -271,15 +259,7 @@ class Polygons:
     def of(cls, *polygons: ArrayLike) -> Polygons:
         """The polygons given as arrays of corners.
 
-        Parameters
-        ----------
-        polygons : (k, columns) array_like of float
-            One for each, all of as many columns.
-
-        Returns
-        -------
-        Polygons
-            In the same order.
+        polygons (k,columns): one for each, all of as many columns; result: in the same order.
         """
         arrays = [np.asarray(p, dtype=np.float64) for p in polygons]
         return cls(np.concatenate(arrays), ragged.offsets([len(a) for a in arrays]))

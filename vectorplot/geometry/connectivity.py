@@ -27,13 +27,11 @@ def faces_are_closed(vertices: int, corners: Ints, offsets: Ints) -> bool:
 
 
 def unbalanced_vertices(vertices: int, corners: Ints, offsets: Ints) -> Bools:
-    """(vertices,) those that do not have an edge going out for every edge coming in: ends of boundaries, of edges with
-    an odd number of faces, and of edges between faces wound in opposite senses. None: the faces are closed and
-    oriented.
-
-    No sort: every edge adds a random number of its other end, going out, and takes it away, coming in. The numbers have
-    LABEL_BITS bits, so that sums over 2^13 edges are exact; an unbalanced vertex passes for a balanced one with a
-    probability of about 2^-40, and both ends of an edge do so with 2^-80.
+    """(vertices,) vertices without an outgoing edge for every incoming one: ends of boundaries, of edges with an odd
+    number of faces, and of edges between faces of opposite orientation. None: the faces are closed and oriented.
+    No sort: every edge adds a random number of its other end, outgoing, and subtracts it, incoming. LABEL_BITS bits
+    keep sums over 2^13 edges exact; an unbalanced vertex passes with a probability of 2^-40, both ends of an edge with
+    2^-80.
     """
     if faces_are_closed(vertices, corners, offsets):
         return np.zeros(vertices, dtype=np.bool_)
@@ -94,7 +92,7 @@ def scrambled(numbers: NDArray[np.uint64]) -> NDArray[np.uint64]:
     return mixed ^ (mixed >> np.uint64(31))
 
 
-# The pieces that faces make: what hangs together.
+# The pieces that faces make: what is connected.
 
 
 def pieces_of_faces(vertices: int, corners: Ints, offsets: Ints) -> tuple[int, Ints]:
@@ -188,14 +186,10 @@ class Branches:
 
 
 def concat(edges: ArrayLike) -> Branches:
-    """The branches, open or closed, that edges (e, 2) of vertex indices form when joined end to end, each edge used
-    once.
-
-    A branch runs forward along the edge of it that is listed first, a closed one starts there; branches come in the
-    order of these edges. At a vertex where more than two edges meet they are joined in pairs, in the order of the
-    list, heads to tails as far as possible.
-    Edge cases: edges from a vertex to itself are left out.
-    Source: Glaeser, sections 6.1 and 8.4; erratum G8-11.
+    """The branches, open or closed, that edges (e,2) of vertices form end to end, each edge used once. A branch runs
+    forward along its edge listed first, where a closed one starts; branches come in that order. Where more than two
+    edges meet they are paired in the order of the list, heads to tails as far as possible.
+    Edge cases: edges from a vertex to itself are left out. Source: Glaeser, sections 6.1 and 8.4; erratum G8-11.
     """
     pairs = np.asarray(edges, dtype=np.intp).reshape(-1, 2)
     pairs = pairs[pairs[:, 0] != pairs[:, 1]]

@@ -12,12 +12,12 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
-from vectorplot.exact.predicates import orient2d
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.predicates import orient2d
 from vectorplot.geometry.vectors import norm
 from vectorplot.tolerances import FOLDED_ANGLE_SQUARED, LEAST_DIVISOR, ROUNDING, ZERO_OF_EXTENT
 
@@ -169,11 +169,9 @@ def convex_hull(points: ArrayLike) -> Ints:
 
 
 def convex_hulls(points: Floats, offsets: Ints) -> tuple[Ints, Ints]:
-    """The convex hulls of many sets of points: set i has the points offsets[i] to offsets[i+1] of points (n, 2 or more
-    columns). Returns the corners of all hulls (h,), as indices into points, and their offsets; each as of convex_hull.
-
-    All sets are worked on at once: round by round the point that is farthest outside each side becomes a corner. On
-    which side a point lies is decided exactly.
+    """The convex hulls of sets of points (n, 2 or more), set i offsets[i] to offsets[i+1]: corners (h,) and their
+    offsets, see convex_hull. Round by round the point farthest outside each side becomes a corner; sides are decided
+    exactly.
     Source: Bykat, Convex hull of a finite set of points in two dimensions (1978); Glaeser, section 6.1.
     """
     p = np.ascontiguousarray(points[:, :2], dtype=np.float64)
@@ -347,13 +345,11 @@ class ConvexFaces:
 
 
 def convex_faces(points: Floats, corners: Ints, offsets: Ints, tolerance: float) -> ConvexFaces:
-    """Faces with every polygon that is not planar and convex cut into triangles.
-
-    points (3,v); a polygon is planar where no corner is further than tolerance from its mean plane. Quadrilaterals are
-    cut along a diagonal that folds neither triangle over (the shorter one if both do), larger polygons by a constrained
-    Delaunay triangulation in their mean plane.
-    Edge cases: a hole that a bridge of no width joins to the border stays a hole; a polygon that crosses itself is cut
-    as a fan and reported by an InputWarning.
+    """Faces with every polygon that is not planar and convex cut into triangles. points (3,v); planar: no corner
+    further than tolerance from the mean plane. Quadrilaterals are cut along a diagonal that folds neither triangle
+    (the shorter if both do), others by a constrained Delaunay triangulation in the mean plane.
+    Edge cases: a hole joined to the border by a bridge without width stays a hole; a polygon that crosses itself is cut
+    as a fan, with an InputWarning.
     """
     sizes = np.diff(offsets)
     faces = np.arange(len(sizes))

@@ -113,7 +113,7 @@ class Mesh(Movable["Mesh"]):
         faces : iterable of sequences of int
             The corners of every face, counter-clockwise seen from outside.
         present : (f,) array_like of bool, optional
-            As of Mesh.
+            See Mesh.
 
         Returns
         -------

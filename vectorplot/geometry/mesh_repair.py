@@ -1,4 +1,4 @@
-"""Meshes as they come in files, mended: seams, orientation, faces without area, parts that need no mending."""
+"""Meshes as they come in files, repaired: seams, orientation, faces without area, parts that need no mending."""
 
 from __future__ import annotations
 
@@ -142,7 +142,7 @@ def _squares(points: Floats, corners: Ints, offsets: Ints, scale: float) -> tupl
     return dot(vector, vector), np.maximum.reduceat(dot(arms, arms), offsets[:-1])
 
 
-# Meshes as they come in files, mended: welded, without degenerate faces, consistently wound; and what there was.
+# Meshes as they come in files, repaired: welded, without degenerate faces, consistently wound; and what there was.
 
 __all__ = [
     "Mending",
@@ -205,12 +205,9 @@ def _many(count: int, one: str, many: str) -> str:
 
 @dataclass(frozen=True)
 class MeshReport:
-    """What a mesh is like.
-
-    vertices, faces, edges: how many there are; boundary_edges: edges of one face only; nonmanifold_edges: edges of more
-    than two faces; components: pieces that hang together; closed: no boundary edge; oriented: neighbours agree about
-    the outside; convex: closed, oriented and convex within 1e-9 of its extent; bounds: ((float, float, float), (float,
-    float, float)) smallest and largest coordinates.
+    """What a mesh is like. vertices, faces, edges: counts; boundary_edges: of one face; nonmanifold_edges: of more than
+    two; components: connected pieces; closed: no boundary edge; oriented: neighbours agree about the outside;
+    convex: closed, oriented and convex within 1e-9 of the extent; bounds: smallest and largest coordinates.
     """
 
     vertices: int
@@ -228,28 +225,8 @@ class MeshReport:
 def mesh_report(mesh: Mesh) -> MeshReport:
     """The report on a mesh, in one sort of its edges.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        Any.
-
-    Returns
-    -------
-    MeshReport
-        Counts of faces and edges, and whether it bounds a body.
-
-    Notes
-    -----
+    mesh: any; result: counts of faces and edges, and whether it bounds a body.
     Edge cases: a mesh without faces is closed and not convex.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> triangle = vp.Mesh.from_triangles([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-    >>> report = geometry.mesh_report(triangle)
-    >>> report.boundary_edges, report.closed, report.components
-    (3, False, 1)
     """
     uses = edge_uses(mesh)
     number, _ = components(mesh, uses) if mesh.face_count else (0, None)
@@ -325,7 +302,7 @@ def repaired(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
     Returns
     -------
     Mesh
-        What cannot be mended (open, non-manifold, one-sided) is kept.
+        What cannot be repaired (open, non-manifold, one-sided) is kept.
     Mending
         What was done, and what is left, in numbers.
 
@@ -360,26 +337,7 @@ def repaired(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:
 def welded(mesh: Mesh) -> tuple[Mesh, int]:
     """The mesh with equal vertices made one, and how many were lost.
 
-    Parameters
-    ----------
-    mesh : Mesh
-        With vertices that may stand several times.
-
-    Returns
-    -------
-    Mesh
-        With the same faces.
-    int
-        How many vertices it has less.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> corners = [(0, 0, 0), (1, 0, 0), (0, 1, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0)]
-    >>> mesh, lost = geometry.welded(vp.Mesh.from_triangles(corners, [(0, 1, 2), (3, 4, 5)]))
-    >>> len(mesh.vertices), lost
-    (4, 2)
+    mesh: with vertices that may stand several times; result: with the same faces; how many vertices it has less.
     """
     first, number = distinct_points(mesh.vertices)
     return Mesh(mesh.vertices[first] + 0.0, number[mesh.corners], mesh.offsets, mesh.present), len(number) - len(first)
@@ -443,7 +401,7 @@ def _with_own_vertices(mesh: Mesh, piece: Ints, shared: Ints) -> Mesh:
     """The mesh in which different pieces (f,) have no vertices in common but those that are shared (edges of several
     pieces end there).
 
-    Pieces that touch in a point do not hang together: where else they pierce each other an intersection is drawn.
+    Pieces that touch in a point are not connected: where else they pierce each other an intersection is drawn.
     """
     of = piece[mesh.corner_face]
     owner = np.zeros(len(mesh.vertices), dtype=np.intp)
@@ -482,12 +440,9 @@ FEW_COPIES = 8
 
 
 def joined_seams(meshes: Sequence[Mesh]) -> tuple[Mesh, ...]:
-    """The meshes with the boundary edges of each that coincide exactly made one edge, and boundary edges without length
-    one vertex.
-
-    Vertices stay, and faces keep their numbers: corners name one of several vertices in one place. A face that is left
-    with fewer than three corners is no longer present. Meshes without seams are returned themselves.
-    Edge cases: vertices in one place that no common edge joins stay apart; so do closed meshes that touch.
+    """The meshes with coinciding boundary edges made one, and those without length one vertex. Vertices and face
+    numbers stay; a face of fewer than three corners is no longer present; meshes without seams are returned
+    themselves. Edge cases: vertices that no common edge joins, and closed meshes that touch, stay apart.
     """
     asked = _perhaps_open(meshes)
     result = list(meshes)
@@ -591,13 +546,10 @@ def _without_stutter(mesh: Mesh) -> Mesh:
 
 
 def sound_parts(mesh: Mesh, part: Ints, count: int, precision: float) -> tuple[Bools, Ints]:
-    """(p,) which parts of a mesh mesh_repair.mended would leave as they are, each by itself, and (p,) how many boundary
-    edges each part has.
-
-    part (f,): the part of each face, of count ones, which have no vertices in common. All are looked at together, so
-    that the price is that of one mesh. Parts may touch. A few that only may need mending count as unsound too: those
-    with points that are close together by the largest coordinate of all parts, and closed pieces without a volume.
-    precision: as of mended.
+    """(p,) which of count parts of a mesh `repaired` would leave unchanged, and (p,) their boundary edges. part (f,):
+    of each face; parts have no vertices in common but may touch, and are tested together at the cost of one mesh.
+    precision: see repaired. A few that need no repair count as unsound too: those with points close by the largest
+    coordinate of all parts, and closed ones without volume.
     """
     unsound = np.zeros(count, dtype=np.bool_)
     of_corner = part[mesh.corner_face]

@@ -108,7 +108,7 @@ def crossings_of(
 def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tolerance: float) -> Parts:
     """What the planes leave of the polygons of pairs: those that nothing cuts keep every digit.
 
-    Arguments as of crossings_of. Edge cases: parts narrower than the tolerance are left out.
+    Arguments as in crossings_of. Edge cases: parts narrower than the tolerance are left out.
     Source: Hodgman and Sutherland; Glaeser, section 6.2.
     """
     found = [_no_parts()]
@@ -293,7 +293,7 @@ def inside_convex(
     Parameters
     ----------
     points, offsets, clip_points, clip_offsets, tolerance : array and float
-        As of clipped_by_convex.
+        See clipped_by_convex.
 
     Returns
     -------

@@ -217,15 +217,7 @@ class CoordinateSystem:
     def of_image(cls, camera: Camera) -> CoordinateSystem:
         """A camera's system, in which images are measured in world units in the image plane.
 
-        Parameters
-        ----------
-        camera : Camera
-            The eye.
-
-        Returns
-        -------
-        CoordinateSystem
-            With the target as the origin.
+        camera: the eye; result: with the target as the origin.
         """
         return cls(np.array(camera.target), camera.axes.T, INFINITE if camera.parallel else camera.distance)
 
@@ -233,28 +225,10 @@ class CoordinateSystem:
     def of_screen(cls, camera: Camera, window: PixelWindow, enlarge: float = 1.0) -> CoordinateSystem:
         """A camera's system, in which images are measured in pixels: the field of vision fills the window's height.
 
-        Parameters
-        ----------
-        camera : Camera
-            The eye.
-        window : PixelWindow
-            The screen.
-        enlarge : float
-            A zoom about the middle that leaves the field of vision, and so the perspective, as it is.
-
-        Returns
-        -------
-        CoordinateSystem
-            With the target in the middle of the window.
-
-        Raises
-        ------
-        InputError
-            For an enlargement that is not positive and finite.
-
-        Notes
-        -----
+        camera: the eye; window: the screen; enlarge: a zoom about the middle that leaves the field of vision, and so
+        the perspective, as it is; result: with the target in the middle of the window.
         Source: Glaeser, sections 2.3, equations 11 to 14, and 2.4; errata G2-02, G2-03, G2-06.
+        Errors: for an enlargement that is not positive and finite.
         """
         if not 0.0 < enlarge < np.inf:
             raise InputError(f"an enlargement by {enlarge:g} leaves no picture")
@@ -268,26 +242,9 @@ class CoordinateSystem:
     def of_light(cls, position: ArrayLike, target: ArrayLike = (0.0, 0.0, 0.0)) -> CoordinateSystem:
         """The system of a lamp: a camera without twist, whose images are shadows in the plane through the target.
 
-        Parameters
-        ----------
-        position : (3,) array_like of float
-            Of the lamp, in the world.
-        target : (3,) array_like of float
-            What it shines at.
-
-        Returns
-        -------
-        CoordinateSystem
-            A central projection.
-
-        Raises
-        ------
-        InputError
-            For a lamp in the target.
-
-        Notes
-        -----
+        position (3,): of the lamp, in the world; target (3,): what it shines at; result: a central projection.
         Source: Glaeser, section 2.4.
+        Errors: for a lamp in the target.
         """
         ray = np.asarray(position, dtype=np.float64) - np.asarray(target, dtype=np.float64)
         return cls(np.asarray(target, dtype=np.float64), look_rotation(ray), float(length(ray)))
@@ -296,22 +253,9 @@ class CoordinateSystem:
     def of_parallel_light(cls, direction: ArrayLike, target: ArrayLike = (0.0, 0.0, 0.0)) -> CoordinateSystem:
         """The system of parallel rays, such as sunlight.
 
-        Parameters
-        ----------
-        direction : (3,) array_like of float
-            Where they come from, of any length but zero.
-        target : (3,) array_like of float
-            The origin.
-
-        Returns
-        -------
-        CoordinateSystem
-            A parallel projection.
-
-        Raises
-        ------
-        InputError
-            For a direction without length.
+        direction (3,): where they come from, of any length but zero; target (3,): the origin; result: a parallel
+        projection.
+        Errors: for a direction without length.
         """
         return cls(np.asarray(target, dtype=np.float64), look_rotation(direction))
 
@@ -330,54 +274,23 @@ class CoordinateSystem:
     def rotated(self, points: ArrayLike) -> Floats:
         """World points with the target as the origin and the eye on the z-axis, not yet projected.
 
-        Parameters
-        ----------
-        points : (..., 3) array_like of float
-            In the world.
-
-        Returns
-        -------
-        (..., 3) array of float
-            In world units.
+        points (...,3): in the world; result: (...,3) in world units.
         """
         return np.asarray(matmul(np.asarray(points, dtype=np.float64) - self.target, self.rotation))
 
     def forbidden(self, points: ArrayLike) -> Bools:
         """Which world points lie on or behind the neutral plane through the eye: they have no image.
 
-        Parameters
-        ----------
-        points : (..., 3) array_like of float
-            In the world.
-
-        Returns
-        -------
-        (...) array of bool
-            All False in a parallel projection.
+        points (...,3): in the world; result: (...) all False in a parallel projection.
         """
         return np.asarray(self.rotated(points)[..., 2] >= self.distance)
 
     def from_world(self, points: ArrayLike) -> Floats:
         """World points in this system.
 
-        Parameters
-        ----------
-        points : (..., 3) array_like of float
-            In the world.
-
-        Returns
-        -------
-        (..., 3) array of float
-            Image x and y, and depth.
-
-        Raises
-        ------
-        InputError
-            For forbidden points: clip them first.
-
-        Notes
-        -----
+        points (...,3): in the world; result: (...,3) image x and y, and depth.
         Source: Glaeser, section 2.4 (world to screen, world to light).
+        Errors: for forbidden points: clip them first.
         """
         images = project(self.rotated(points), self.distance)
         images[..., :2] = np.array(self.middle) + images[..., :2] * np.array(self.scale)
@@ -386,20 +299,8 @@ class CoordinateSystem:
     def to_world(self, points: ArrayLike) -> Floats:
         """Points of this system in the world.
 
-        Parameters
-        ----------
-        points : (..., 3) array_like of float
-            Image x and y, and depth.
-
-        Returns
-        -------
-        (..., 3) array of float
-            In the world.
-
-        Raises
-        ------
-        InputError
-            For depths on or behind the neutral plane.
+        points (...,3): image x and y, and depth; result: (...,3) in the world.
+        Errors: for depths on or behind the neutral plane.
         """
         images = np.array(points, dtype=np.float64)
         images[..., :2] = (images[..., :2] - np.array(self.middle)) / np.array(self.scale)
@@ -408,19 +309,8 @@ class CoordinateSystem:
     def homogeneous(self, points: ArrayLike) -> Floats:
         """World points after T2, in homogeneous coordinates of pixels x, y and depth z*.
 
-        Parameters
-        ----------
-        points : (..., 3) array_like of float
-            In the world.
-
-        Returns
-        -------
-        (..., 4) array of float
-            The last component is positive in front of the neutral plane. Every point has them, forbidden ones too: clip
-            here.
-
-        Notes
-        -----
+        points (...,3): in the world; result: (...,4) the last component is positive in front of the neutral plane.
+        Every point has them, forbidden ones too: clip here.
         The depth is z / (d - z); in a parallel projection z itself.
         """
         right, up, back = self.rotation.T
@@ -445,12 +335,10 @@ FARTHEST_OFF_AXIS_DEG = 60.0
 
 @dataclass(frozen=True, eq=False)
 class Projection:
-    """How a camera sees a scene: axes x right, y up, z towards the eye, the scene in the unit box.
-
-    eye: (3,) for a parallel projection None: then every ray runs along +z; target: (3,) where the camera looks; near:
-    the smallest depth that is drawn; picture_height: of the camera's picture in the image plane; tolerance: what counts
-    as distance zero; centre: (3,) the middle of the scene, in the world: the origin of the projection's coordinates;
-    axes: (3, 3) unit rows right, up and back, in the world.
+    """How a camera sees a scene: axes x right, y up, z towards the eye, the scene in the unit box. eye (3,), None for a
+    parallel projection along z; target (3,); near: the smallest depth drawn; picture_height: in the image plane;
+    tolerance: what counts as distance zero; centre (3,): the origin, in the world; axes (3,3): unit rows right, up
+    and back, in the world.
     Source: Glaeser, sections 2.1 and 2.4.
     """
 
@@ -506,7 +394,7 @@ class Projection:
 
     @cached_property
     def image_from_world(self) -> Floats:
-        """(3,4) homogeneous image coordinates, as of image but in world units, from world points (x,y,z,1)."""
+        """(3,4) homogeneous image coordinates, see image but in world units, from world points (x,y,z,1)."""
         rotation = np.zeros((4, 4))
         rotation[:3, :3] = self.axes / self.scale
         rotation[:3, 3] = matmul(-self.axes, self.centre / self.scale)
@@ -541,39 +429,10 @@ class Projection:
 
 
 def projection_of(camera: Camera, bounds: Floats) -> Projection:
-    """A camera's projection of a box, normalised so that no later decision depends on its size or place.
-
-    Parameters
-    ----------
-    camera : Camera
-        Where the eye is, and how it looks.
-    bounds : (2, 3) array of float
-        Smallest and largest coordinates of the scene.
-
-    Returns
-    -------
-    Projection
-        With its origin in the middle of the box.
-
-    Raises
-    ------
-    InputError
-        Where this is so small, or the eye so far away, that its coordinates have no digits left; or so large beside the
-        distance from the eye to its target that these are one.
-
-    Notes
-    -----
-    Edge cases: a box without extent takes the camera's distance, or height, for its size.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry
-    >>> bounds = np.array([(0.0, 0.0, 0.0), (8.0, 4.0, 2.0)])
-    >>> projection = geometry.projection_of(vp.Camera((4, 2, 21), (4, 2, 1), up=(0, 1, 0)), bounds)
-    >>> projection.centre.tolist(), projection.scale, projection.eye.tolist(), projection.distance
-    ([4.0, 2.0, 1.0], 4.0, [0.0, 0.0, 5.0], 5.0)
+    """A camera's projection of the box bounds (2,3), normalised about its middle so that no later decision depends on
+    size or place.
+    Edge cases: a box without extent takes the camera's distance, or height, for its size. Errors: InputError where that
+    is so small, or the eye so far, that coordinates have no digits left; or so large that eye and target are one.
     """
     low, high = bounds
     # What is out of range by overflow is told below.

@@ -100,27 +100,8 @@ def _about_coordinate_axis(angle: ArrayLike, axis: int) -> Floats:
 def inverse_rotation(rotation: ArrayLike) -> Floats:
     """The rotations back: the transposed matrices.
 
-    Parameters
-    ----------
-    rotation : (..., 3, 3) array_like of float
-        Orthogonal.
-
-    Returns
-    -------
-    (..., 3, 3) array of float
-        Their inverses.
-
-    Notes
-    -----
+    rotation (...,3,3): orthogonal; result: (...,3,3) their inverses.
     Source: Glaeser, equation 1.26.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> rotation = geometry.rotation_about((1, 2, 3), 0.7)
-    >>> np.allclose(rotation @ geometry.inverse_rotation(rotation), np.eye(3))
-    True
     """
     return np.swapaxes(np.asarray(rotation, dtype=np.float64), -1, -2)
 
@@ -236,11 +217,9 @@ def rotated_about_line(points: ArrayLike, on_line: ArrayLike, axis: ArrayLike, a
 
 
 def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
-    """The rotations that carry centres onto the positive z-axis, horizontal lines staying horizontal but for a twist.
-
-    centres: (..., 3) eyes or lamps, with the target as the origin; twist: (...) in radians; result: (..., 3, 3)
-    Z(-gamma) X(-beta) Z(-alpha), acts on points as rows: points @ rotation.
-    Edge cases: for a centre above or below the origin the azimuth is 0.
+    """(...,3,3) the rotations (points @ rotation) that carry centres (...,3) onto the positive z-axis, Z(-gamma)
+    X(-beta) Z(-alpha), with horizontals kept but for the twist (...) in radians. Edge cases: above or below the
+    origin the azimuth is 0.
     Source: Glaeser, sections 2.1, equations 1 to 4, and 2.4.
     """
     spherical = spherical_coordinates(normalize(centres))
@@ -251,31 +230,10 @@ def look_rotation(centres: ArrayLike, twist: ArrayLike = 0.0) -> Floats:
 
 
 def euler_angles(axes: ArrayLike) -> tuple[float, float, float]:
-    """The angles alpha, beta, gamma of Z(alpha) X(beta) Z(gamma) for a frame, in radians.
-
-    Parameters
-    ----------
-    axes : (3, 3) array_like of float
-        Unit rows right, up, back.
-
-    Returns
-    -------
-    (float, float, float)
-        -pi < alpha <= pi, 0 <= beta <= pi, -pi/2 < gamma <= 3 pi/2 (a quarter turn more than the azimuth of the eye).
-
-    Notes
-    -----
-    Edge cases: where beta is 0 or pi, gamma is pi/2, so that an upright view has the azimuth 0.
-
+    """The angles alpha, beta, gamma of Z(alpha) X(beta) Z(gamma) for a frame of unit rows right, up, back (3,3): -pi <
+    alpha <= pi, 0 <= beta <= pi, -pi/2 < gamma <= 3 pi/2 (a quarter turn more than the eye's azimuth). Edge cases:
+    where beta is 0 or pi, gamma is pi/2, so an upright view has azimuth 0.
     Source: Glaeser, section 2.1, equations 9 and 10; erratum G2-01.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> axes = geometry.rotation_z(0.1) @ geometry.rotation_x(0.2) @ geometry.rotation_z(0.3)
-    >>> np.allclose(geometry.euler_angles(axes), (0.1, 0.2, 0.3))
-    True
     """
     m = np.asarray(axes, dtype=np.float64)
     sine = float(np.hypot(m[2, 0], m[2, 1]))

@@ -115,21 +115,7 @@ def largest_component(vectors: ArrayLike) -> Floats:
 def length(vectors: ArrayLike) -> Floats:
     """The lengths of vectors, without overflow or underflow on the way.
 
-    Parameters
-    ----------
-    vectors : (..., k) array_like of float
-        In the plane, in space, or of any dimension.
-
-    Returns
-    -------
-    (...) array of float
-        Not negative.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.length([(3, 4), (0, 0)]).tolist()
-    [5.0, 0.0]
+    vectors (...,k): in the plane, in space, or of any dimension; result: (...) not negative.
     """
     v = np.asarray(vectors, dtype=np.float64)
     largest = largest_component(v)
@@ -138,35 +124,10 @@ def length(vectors: ArrayLike) -> Floats:
 
 
 def normalize(vectors: ArrayLike, *, magnitude: ArrayLike = 0.0) -> Floats:
-    """Unit vectors of the same directions.
-
-    Parameters
-    ----------
-    vectors : (..., k) array_like of float
-        Of any length but zero.
-    magnitude : (...) array_like of float
-        The largest coordinate the vectors were made of; a difference of points that is no longer than their rounding
-        has no direction.
-
-    Returns
-    -------
-    (..., k) array of float
-        Of length 1.
-
-    Raises
-    ------
-    InputError
-        For a vector without length, or of a length that is not finite.
-
-    Notes
-    -----
-    Source: Glaeser, section 1.2, equations 11 and 12; errata G1-03, G1-06.
-
-    Examples
-    --------
-    >>> from vectorplot import geometry
-    >>> geometry.normalize((3, 4)).round(9).tolist()
-    [0.6, 0.8]
+    """Unit vectors of the directions of vectors (...,k). magnitude (...): the largest coordinate they were made of: a
+    difference no longer than rounding has no direction.
+    Source: Glaeser, section 1.2, equations 11 and 12; errata G1-03, G1-06. Errors: InputError for vectors without
+    length or not finite.
     """
     v = np.asarray(vectors, dtype=np.float64)
     long = length(v)
@@ -218,35 +179,8 @@ def translated(points: ArrayLike, vector: ArrayLike) -> Floats:
 
 
 def angle(a: ArrayLike, b: ArrayLike) -> Floats:
-    """The angles between directions, in radians.
-
-    Parameters
-    ----------
-    a, b : (..., 2 or 3) array_like of float
-        Of any length but zero.
-
-    Returns
-    -------
-    (...) array of float
-        0 to pi.
-
-    Raises
-    ------
-    InputError
-        For a vector without length.
-
-    Notes
-    -----
-    Accurate for tiny and for straight angles, where the cosine alone has lost its digits.
-
-    Source: Glaeser, section 1.2, equations 14 and 15.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import geometry
-    >>> np.degrees(geometry.angle((1, 0), [(5, 5), (0, 1), (-2, 0)])).round(9).tolist()
-    [45.0, 90.0, 180.0]
+    """(...) the angles 0 to pi between directions (..., 2 or 3), accurate for tiny and straight ones. Source: Glaeser,
+    section 1.2, equations 14 and 15. Errors: InputError for a vector without length.
     """
     a, b = normalize(a), normalize(b)
     sine = np.abs(cross(a, b)) if a.shape[-1] == 2 else length(cross(a, b))
@@ -254,12 +188,8 @@ def angle(a: ArrayLike, b: ArrayLike) -> Floats:
 
 
 def spherical_coordinates(points: ArrayLike) -> Floats:
-    """Distance from the origin, azimuth and elevation of points in space, angles in radians.
-
-    points: (..., 3) in space; result: (..., 3) distance, azimuth from the x-axis (-pi to pi), elevation above the
-    xy-plane (-pi/2 to pi/2).
-    Edge cases: on the z-axis the azimuth is 0; the origin is (0, 0, 0).
-    Source: Glaeser, section 2.4.
+    """(...,3) distance, azimuth from x (-pi to pi) and elevation above the xy-plane of points (...,3). Edge cases: on
+    the z-axis the azimuth is 0; the origin is (0, 0, 0). Source: Glaeser, section 2.4.
     """
     p = np.asarray(points, dtype=np.float64)
     across = length(p[..., :2])

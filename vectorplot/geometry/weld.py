@@ -30,12 +30,9 @@ _MULTIPLIERS = np.array(
 
 
 def distinct_points(points: NDArray[np.floating[Any]]) -> tuple[Ints, Ints]:
-    """The distinct among points (n,3) float32 or float64: (m,) the position of one of each kind in ascending order, and
-    (n,) for every point the number of its kind.
-
-    Points are equal when all coordinates are; -0 equals 0. Exact, whatever the hashes do: every point is compared with
-    the one that stands for it, and what shares a slot with a different point goes into a round with another hash.
-    Errors: none. Edge cases: a point with a NaN equals itself or nothing.
+    """The distinct among points (n,3): (m,) the position of one of each, ascending, and (n,) the number of each point's
+    kind. Equal when all coordinates are, -0 and 0 too; a point with NaN equals itself or nothing. Exact whatever the
+    hashes: every point is compared with its representative, and collisions go into another round.
     """
     position = np.dtype(np.int32 if len(points) < 2**31 else np.int64)
     stand_in = np.zeros(len(points), dtype=position)
@@ -127,7 +124,7 @@ def close_points(points: Floats, tolerance: float) -> Ints:
     """(n,) for every point the smallest position among the points it is chained to by steps of at most tolerance.
 
     Points are sorted along a direction in general position, so that only neighbours in that order are compared, and of
-    these none that has only points of its own chain about it: a crowd within the tolerance costs a few rounds.
+    these none that has only points of its own chain about it: a dense group within the tolerance costs a few rounds.
     """
     heights = matmul(points, np.array([0.5773, 0.6132, 0.5393]))
     order = np.argsort(heights, kind="stable")

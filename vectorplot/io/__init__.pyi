@@ -1,4 +1,3 @@
-from .anything import scene_of
 from .molecules import Molecule, molecule_scene, read_molecule
 from .scene_language import parse_scene
 from .terrain_files import read_terrain
@@ -9,5 +8,4 @@ __all__ = [
     "parse_scene",
     "read_molecule",
     "read_terrain",
-    "scene_of",
 ]

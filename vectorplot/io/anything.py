@@ -109,45 +109,13 @@ CURVE_HINT = "; vectorplot.curves.spline_curve(points, AkimaSpline()) is the cur
 
 
 def scene_of(shown: object) -> Scene:
-    """The scene that something with a shape is, or makes up.
-
-    Parameters
-    ----------
-    shown : Scene, path, Item, Mesh, surface, curve, mesh of another library, arrays, or several of these
-        A path is read as by `vp.read`. Shapes become gray items named after what they are. A mesh of another library is
-        known by what it has: vertices and faces, as those of trimesh, or points and cells, as those of meshio, whose
-        volumes show their outer faces. Arrays of vertices (n, 3) and of faces (f, k) are a pair. A Terrain, or an array
-        of heights (m, n), is drawn with its level lines; heights of an array that would be a plain, or needles, over
-        steps of 1 are drawn higher or lower, as those of files. A list or a tuple is all of what is in it, a mapping
-        names it.
-
-    Returns
-    -------
-    Scene
-        Of several scenes all items and lights; camera, page, background and title are those of the first one that has
-        any.
-
-    Raises
-    ------
-    TypeError
-        For anything else, in one sentence.
-    InputError
-        As `vp.read`, for meshes that make no sense, and for a drawing.
-
-    Warns
-    -----
-    InputWarning
-        What was mended of a mesh of another library, or of arrays, as of files; how heights were scaled.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import io, surfaces
-    >>> corners = np.array([(0, 0, 0), (1, 0, 0), (0, 1, 0), (0, 0, 1)])
-    >>> triangles = np.array([(0, 2, 1), (0, 1, 3), (1, 2, 3), (0, 3, 2)])
-    >>> scene = io.scene_of([surfaces.Torus(3, 1), (corners, triangles)])
-    >>> [item.name for item in scene.items]
-    ['torus', 'mesh']
+    """The scene of anything with a shape: a path, read as by `vp.read`; shapes, as gray items named after what they
+    are; a mesh of another library, known by vertices and faces or by points and cells, whose volumes show their
+    outer faces; arrays of vertices (n,3) and faces (f,k); a Terrain or heights (m,n), with level lines, extreme
+    heights of arrays scaled as in files; a list of these, or a mapping that names them. Camera, page, background and
+    title are the first that any has.
+    Errors: TypeError for anything else; as `vp.read`, for meshes that make no sense, and for a drawing. Warns
+    InputWarning: what was repaired of other meshes and of arrays; how heights were scaled.
     """
     return _scene_of(shown, ())
 
@@ -219,7 +187,7 @@ def _item(shown: Any) -> Item | None:
         corners, offsets = faces_of_cells(shown.cells)
         points, of_cells = np.asarray(shown.points), getattr(shown, "cell_data", {})
         at_faces = {name: values_of_faces(shown.cells, values) for name, values in of_cells.items()}
-        mesh = _mended(points, corners, offsets)
+        mesh = _repaired(points, corners, offsets)
         return Item("mesh", mesh, fields=_fields(points, corners, offsets, getattr(shown, "point_data", {}), at_faces))
     if hasattr(shown, "vertices") and hasattr(shown, "faces"):
         mesh = _from_arrays(shown.vertices, shown.faces)
@@ -253,14 +221,14 @@ def _from_arrays(vertices: Any, faces: Any) -> Mesh:
     """The mesh of vertices (n,3) and of faces, an array (f,k) or lists of indices."""
     places = np.asarray(vertices)
     if isinstance(faces, np.ndarray) and faces.ndim == 2:
-        return _mended(places, whole_numbers(faces).ravel(), np.arange(0, faces.size + 1, max(faces.shape[1], 1)))
+        return _repaired(places, whole_numbers(faces).ravel(), np.arange(0, faces.size + 1, max(faces.shape[1], 1)))
     lists = [np.asarray(face).ravel() for face in faces]
     corners = np.concatenate([np.zeros(0, dtype=np.intp), *lists])
-    return _mended(places, whole_numbers(corners), ragged.offsets([len(face) for face in lists]))
+    return _repaired(places, whole_numbers(corners), ragged.offsets([len(face) for face in lists]))
 
 
-def _mended(vertices: np.ndarray[Any, Any], corners: Ints, offsets: Ints) -> Mesh:
-    """The mesh, welded where it is open and turned outwards; an InputWarning says what was mended."""
+def _repaired(vertices: np.ndarray[Any, Any], corners: Ints, offsets: Ints) -> Mesh:
+    """The mesh, welded where it is open and turned outwards; an InputWarning says what was repaired."""
     if vertices.ndim == 2 and vertices.shape[1] == 2:
         vertices = np.column_stack([vertices, np.zeros(len(vertices))])
     mesh = Mesh(np.asarray(vertices, dtype=np.float64), np.asarray(corners, dtype=np.intp), offsets)

@@ -35,11 +35,10 @@ _OF_COLOURS = ("KHR_texture_", "KHR_materials_", "EXT_texture_", "MSFT_texture_"
 
 
 def read_glb(path: Path) -> MeshFile:
-    """The triangles of a glb file, a part for every node with a mesh, turned from y up (glTF) to z up.
-
-    Nothing outside the file is opened, whatever it says, and nothing in it is unpacked. Errors: InputError for a
-    truncated file, data in other files or in addresses (data:), sizes that the file does not hold, compressed or sparse
-    data, coordinates that are not finite, indices out of range, more than MAX_TRIANGLES.
+    """The triangles of a glb file, a part for every node with a mesh, turned from y up (glTF) to z up. Nothing outside
+    the file is opened and nothing in it unpacked. Errors: InputError for truncated files, data elsewhere or in
+    addresses (data:), impossible sizes, compressed or sparse data, coordinates not finite, indices out of range,
+    more than MAX_TRIANGLES.
     Source: Khronos, glTF 2.0 specification, sections 3 and 4.
     """
     name = shown(path)

@@ -26,7 +26,6 @@ from vectorplot.io.scene_item import (
 from vectorplot.io.scene_statements import CAMERA_WORDS
 from vectorplot.io.scene_words import (
     COMMENTS,
-    FOREIGN_COMMENTS,
     FORM_WORDS,
     INTEGRAL_WORDS,
     ITEM_WORDS,
@@ -34,6 +33,7 @@ from vectorplot.io.scene_words import (
     SCENE_WORDS,
     SOLID_WORDS,
     TERRAIN_WORDS,
+    UNSUPPORTED_COMMENTS,
     Words,
 )
 from vectorplot.io.surface_line_words import (
@@ -215,7 +215,7 @@ def _read_named_material(reader: ItemCursor, draft: Draft) -> None:
 
 
 def read_face_look(reader: ItemCursor, draft: Draft) -> FaceLook | None:
-    """The look of a face, in words as of items: a colour, a material and its numbers, opacity; None where none stands
+    """The look of a face, in words as in items: a colour, a material and its numbers, opacity; None where none stands
     here."""
     own = Draft(draft.name, draft.index)
     own.owner = f"{draft.owner}a face: "
@@ -688,7 +688,7 @@ class ItemReader(ItemCursor):
         name = words[self.at]
         if name in handlers or name == "," or self.source.is_number(self.at):
             self.fail(f"expected the name of an item, got {self.source.shown(self.at)}")
-        if name.startswith(FOREIGN_COMMENTS):
+        if name.startswith(UNSUPPORTED_COMMENTS):
             self.fail(f"{COMMENTS}, not with {name[: 1 + (name[0] == '/')]!r}")
         if name in CAMERA_WORDS and (words[self.at + 1] in VIEWS or self.source.is_number(self.at + 1)):
             self.fail(f"'{name}' is said of the camera: expected 'camera {name} {words[self.at + 1]}'")

@@ -51,11 +51,9 @@ def padded(data: bytes) -> Bytes:
 
 
 def decimals(text: Bytes, starts: Ints, ends: Ints) -> Floats:
-    """(n,) the numbers written in text[starts:ends], rounded correctly.
-
-    Up to 8 digits before the point and 19 after it, less than 2^53 in all, are a quotient of two exact doubles, rounded
-    once; less than 2^63 in all, one of long doubles; everything else goes through Python's own conversion.
-    Errors: NumeralError for a word that is no decimal number, and for one that is not finite.
+    """(n,) the numbers in text[starts:ends], correctly rounded: up to 8 digits before and 19 after the point, below
+    2^53 together, as a quotient of two exact doubles; below 2^63 of long doubles; others by Python. Errors:
+    NumeralError for a word that is no finite decimal number.
     Source: Clinger, How to read floating point numbers accurately, section 4 (the fast case).
     """
     words = text.view(np.uint64)

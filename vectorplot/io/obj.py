@@ -29,14 +29,11 @@ class _Found:
 
 
 def read_obj(path: Path) -> MeshFile:
-    """The polygons of an OBJ file; a part for every object (o).
-
-    Materials (usemtl) of the libraries (mtllib) beside it give faces their looks.
-    Faces of the forms v, v/vt, v//vn, v/vt/vn, with indices from 1 or negative ones that count back from the last
-    vertex read; comments; lines continued by a backslash. z is not turned: the format does not say which way is up.
-    Errors: InputError with the line for a word that is no number, a coordinate that is not finite, an index out of
-    range, a face of fewer than three corners; without faces.
-    Source: Wavefront, Advanced Visualizer manual, appendix B1.
+    """The polygons of an OBJ file, a part for every object (o), with looks of materials (usemtl, mtllib). Reads faces
+    v, v/vt, v//vn, v/vt/vn with indices from 1 or negative ones from the end, comments, and continued lines. z is
+    not turned: the format does not define up.
+    Errors: InputError with the line for a word that is no number, a coordinate not finite, an index out of range, a
+    face of fewer than three corners; without faces. Source: Wavefront, Advanced Visualizer manual, appendix B1.
     """
     text = _with_joined_lines(text_file(path))
     found = _Found()

@@ -304,12 +304,9 @@ _INDICES = ("vertex_indices", "vertex_index")
 
 
 def read_ply(path: Path) -> MeshFile:
-    """The polygons of a PLY file.
-
-    Errors: InputError with the line, or face and byte, for bad numbers, coordinates that are not finite, indices out of
-    range; for a truncated file, counts that the file cannot hold, unknown types, no faces. Edge cases: polygons of one
-    or two corners are left out.
-    Source: Turk, The PLY polygon file format (1994).
+    """The polygons of a PLY file; those of one or two corners are left out. Errors: InputError with the line, or face
+    and byte, for bad numbers, coordinates not finite, indices out of range; truncated files, impossible counts,
+    unknown types, no faces. Source: Turk, The PLY polygon file format (1994).
     """
     text = TextFile(shown(path), file_bytes(path))
     header = read_header(text)

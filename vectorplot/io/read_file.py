@@ -101,17 +101,11 @@ SCENE_SUFFIXES = (".scene", ".txt")
 
 
 def read(path: str | os.PathLike[str], *, exaggeration: float | None = None) -> Scene:
-    """The scene in a file: a mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif), a terrain (asc, xyz) or a text
-    in the scene language (any other suffix).
-
-    exaggeration: what heights of a terrain are multiplied with; those much smaller or larger than the terrain is wide
-    are made 1, 2 or 5 times a power of ten higher where None, which an InputWarning says.
-
-    A mesh file gives one item named after the file, or one for every object (OBJ) or node (glb) if there are several.
-    Meshes are mended (see mesh_repair.mended); what was mended, and what could not be, is said in one InputWarning a
-    file.
-    Errors: InputError, one line with the file, the line where there is one, and the cause; a file of another kind is
-    named as such.
+    """The scene in a file: a mesh (obj, stl, ply, off, glb), a molecule (xyz, pdb, cif), a terrain (asc, xyz), or the
+    scene language (any other suffix). exaggeration: factor of a terrain's heights; where None, extreme heights are
+    scaled by 1, 2 or 5 times a power of ten, with an InputWarning. A mesh file gives one item, or one for each
+    object or node. Meshes are repaired (see mesh_repair.repaired), reported in one InputWarning a file.
+    Errors: InputError, one line with file, line and cause; a file of another kind is named as such.
     """
     path = Path(path)
     check_file(path)
@@ -175,7 +169,7 @@ def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
     in data/, as it is and with the suffix .scene; of the name ``-`` the one in the scene language on
     standard input, in which names of files are relative to the folder that one is in.
 
-    Errors: InputError as of read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
+    Errors: InputError as in read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
     """
     if name != STANDARD_INPUT:
         with suppress(InputError):

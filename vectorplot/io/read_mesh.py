@@ -1,4 +1,4 @@
-"""A mesh file -> a scene of its mended parts."""
+"""A mesh file -> a scene of its repaired parts."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ MESH_SUFFIXES = (".obj", ".off", ".ply", ".stl", ".glb")
 
 
 def mesh_scene(path: Path) -> Scene:
-    """The items of a file with one of MESH_SUFFIXES, mended; an InputWarning says what was mended.
+    """The items of a file with one of MESH_SUFFIXES, repaired; an InputWarning says what was repaired.
 
     Errors: InputError with the file.
     """
@@ -42,7 +42,7 @@ def mesh_scene(path: Path) -> Scene:
 
 
 def whole_mesh(path: Path) -> tuple[Mesh, Fields | None, FaceLooks | None]:
-    """All parts of a mesh file in one mesh, its fields, and looks of its faces. Errors, warnings: as of mesh_scene."""
+    """All parts of a mesh file in one mesh, its fields, and looks of its faces. Errors, warnings: see mesh_scene."""
     items = mesh_scene(path).items
     meshes = [item.mesh for item in items]
     if len(meshes) == 1:
@@ -95,7 +95,7 @@ def _mesh_reader(suffix: str) -> Callable[[Path], MeshFile] | None:
 
 def _mesh_scene(path: Path, content: MeshFile) -> Scene:
     check_range(content.mesh.bounds)
-    parts, mending = _mended_parts(path.stem, content)
+    parts, mending = _repaired_parts(path.stem, content)
     items = tuple(_item(name, mesh, content) for name, mesh in parts if mesh.face_count)
     if not items:
         raise InputError(f"no face with an area ({mending})", file=shown(path))
@@ -120,8 +120,8 @@ def _item(name: str, mesh: Mesh, content: MeshFile) -> Item:
     return replace(item, face_looks=FaceLooks(mesh, kept, own.ravel() - int(used[0] < 0))) if kept else item
 
 
-def _mended_parts(stem: str, content: MeshFile) -> tuple[list[tuple[str, Mesh]], Mending]:
-    """The parts by name, mended, and the sum of what was done to them."""
+def _repaired_parts(stem: str, content: MeshFile) -> tuple[list[tuple[str, Mesh]], Mending]:
+    """The parts by name, repaired, and the sum of what was done to them."""
     if len(content.names) == 1 or _share_vertices(content.mesh, content.first_faces):
         # Objects that share vertices are one body: taken apart, their seams would be borders.
         name = content.names[0] if len(content.names) == 1 else stem

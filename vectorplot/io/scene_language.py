@@ -62,7 +62,7 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
 
 
 def _text(file: Path, name: str) -> str:
-    """The text in a file that messages call so. Errors as of read_scene."""
+    """The text in a file that messages call so. Errors as in read_scene."""
     try:
         if file.stat().st_size > MAX_FILE_BYTES:
             raise InputError(f"larger than {MAX_FILE_BYTES >> 20} MiB: this is no scene file", file=name)

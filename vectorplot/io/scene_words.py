@@ -77,7 +77,7 @@ SCENE_WORDS = (
 FORMULA = re.compile(r"\$[^$]*\$")
 """What is between dollars: a formula of TeX, whose words begin with backslashes."""
 
-FOREIGN_COMMENTS = ("//", "/*", ";", "%")
+UNSUPPORTED_COMMENTS = ("//", "/*", ";", "%")
 """What comments begin with in other languages."""
 
 COMMENTS = "comments begin with #"
@@ -149,7 +149,7 @@ class Words:
     def shown(self, index: int) -> str:
         """A word as messages quote it, and what is wrong with it where it begins a comment elsewhere."""
         word = self.words[index]
-        hint = f" ({COMMENTS})" if word.startswith(FOREIGN_COMMENTS) else ""
+        hint = f" ({COMMENTS})" if word.startswith(UNSUPPORTED_COMMENTS) else ""
         return "the end of the file" if not word else word[:40] if word[0] == '"' else f"'{word[:40]}'{hint}"
 
     def misspelled(self, start: int, index: int, known: Collection[str]) -> str | None:

@@ -479,7 +479,7 @@ def _item(item: Item, lights: tuple[Light, ...]) -> str:
         words.append(f"group {_name(item.group)}")
     if item.hatch is not None:
         words.append(hatch_text(item.hatch))
-    lines = item.usual_lines if item.lines is None else item.lines
+    lines = item.default_lines if item.lines is None else item.lines
     if lines is not None:
         words.append(f"lines {', '.join(lines) or 'none'}")
     return " ".join(words) + _shape(item, lights) + _edges(item) + _face_looks(item) + _patterns(item.patterns)

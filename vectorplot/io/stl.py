@@ -21,11 +21,9 @@ _PIECE = 1 << 15
 
 
 def read_stl(path: Path) -> MeshFile:
-    """The triangles of an STL file with equal points made one vertex; normals and attributes are passed over.
-
-    A file is binary when its size is the one its count of triangles asks for, or when it does not look like text.
-    Errors: InputError with the line, or triangle and byte, for bad numbers and coordinates that are not finite; for a
-    truncated file and counts that the file cannot hold.
+    """The triangles of an STL file with equal points made one vertex; normals and attributes are ignored. Binary if its
+    size fits its count, or it does not look like text. Errors: InputError with the line, or triangle and byte, for
+    bad numbers and coordinates not finite; truncated files and impossible counts.
     Source: 3D Systems, StereoLithography Interface Specification.
     """
     size = check_file(path)

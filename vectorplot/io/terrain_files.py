@@ -332,7 +332,7 @@ def read_terrain(path: str | os.PathLike[str]) -> Terrain:
 def holds_points(path: Path) -> bool:
     """Whether a file with the suffix of molecules holds points instead: x, y and z in its first line.
 
-    Errors: InputError where that line is a count, as of a molecule, and points without symbols follow.
+    Errors: InputError where that line is a count, as in molecules, and points without symbols follow.
     """
     beginning = file_beginning(path)
     lines = beginning.split(b"\n")
@@ -391,7 +391,7 @@ def scene_of_array(heights: Floats) -> Scene:
     """The scene of an array of heights (m,n), a step of 1 between them; what was made higher or lower is said in an
     InputWarning.
 
-    Errors: InputError as of `terrain` and `terrain_scene`.
+    Errors: InputError as in `terrain` and `terrain_scene`.
     """
     land = terrain(np.ma.asarray(heights))
     factor = default_exaggeration(land)

@@ -48,7 +48,7 @@ def hatched_in_place(
     tolerance_mm: float,
     budget: float,
 ) -> Paths:
-    """The strokes in what is seen of a scene's faces, as they come. hatch and all else as of draw."""
+    """The strokes in what is seen of a scene's faces, as they come. hatch and all else as in draw."""
     from vectorplot.pictures.hatching import hatched
 
     pipeline = shapes.pipeline
@@ -112,7 +112,7 @@ def draw(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is drawn, as of `io.scene_of`.
+        What is drawn, see `io.scene_of`.
     camera : Camera or str, optional
         Or the name of a main view, such as "front" or "iso"; where None that of the scene, else default_camera.
     page : Page or str, optional
@@ -190,7 +190,7 @@ def draw(
     Raises
     ------
     InputError
-        As of `io.scene_of`.
+        See `io.scene_of`.
         For unknown words and layers, impossible cameras, and widths and angles out of range; for a tolerance or a
         budget that is not finite and positive; for hidden lines, a halo, a hatching, a depth cue or layers other than
         by kind in a wireframe, which has colours of its own.
@@ -236,8 +236,8 @@ def draw(
     kinds = line_kinds((DRAWN if chosen.look == "plain" else WIRES) if lines is None else lines)
     sheet = page_of(page, given, width, fit)
     paper = Paper(sheet, fit, pen_scale(sheet) if scale_pens else 1.0)
-    subject = prepared_scene(given, camera, paper, explain, progress, depth_cue=depth_cue)
-    seen, bar = subject.scene, subject.bar
+    prepared = prepared_scene(given, camera, paper, explain, progress, depth_cue=depth_cue)
+    seen, bar = prepared.scene, prepared.bar
     sheet, strip = left_of_bar(sheet, bar)
     rules = (*chosen.rules, *own, *asked)
     finish = OutputStyle(
@@ -259,18 +259,18 @@ def draw(
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
     smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in seen.items)
     pipeline = Pipeline(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
-    view = pipeline.run("look", look, seen, subject.camera)
+    view = pipeline.run("look", look, seen, prepared.camera)
     faces = pipeline.run("faces", project_faces, view)
     shapes = traceable(pipeline, seen, view, faces, kinds, crease_angle_deg, allowed)
     placed = placed_lines(shapes, sheet, fit, tolerance_mm, allowed)
-    placement = subject.around(placed.placement, view, sheet)
+    placement = prepared.around(placed.placement, view, sheet)
     strokes = replace(placed, placement=placement).with_halo(halo_mm).strokes()
     for stage in ("visible lines", "counted lines"):
         pipeline.measured(stage, "mm", lambda: view.tolerance * placement.scale)
     pipeline.measured("curves", "mm", chord_error_mm, strokes)
     labels = None
     if pipeline.calls_for("labels"):
-        beside = (subject.anchors, strokes, hidden, finish.look, text)
+        beside = (prepared.anchors, strokes, hidden, finish.look, text)
         labels = pipeline.run("labels", labels_in_place, seen, view, faces, placement, *beside)
         strokes = labels.interrupted(strokes, placement.page_from_world)
     hatches = Paths.empty()

@@ -19,11 +19,9 @@ TURNED = float(np.cos(np.radians(60.0)))
 
 
 def facet_error(facets: FacetedScene, view: View, placement: Placement) -> float | None:
-    """How far the sides of triangles are from the surfaces in whose place they are, at most, on the page in mm (in
-    pixels, where that is its unit): in the middle of each side, from the cubic that lies in the true tangent planes at
-    its ends. None without such triangles on the page.
-
-    Error: of the fourth power of a side's length, where what is measured is of the second.
+    """How far the sides of triangles are at most from the surfaces they stand for, on the page in mm (or pixels): at
+    the middle of each side, from the cubic in the true tangent planes at its ends; None without such triangles.
+    Error: of fourth order in the side's length, what is measured of second.
     Source: Vlachos, Peters, Boyd, Mitchell, Curved PN triangles (2001), boundary curves.
     """
     return _side_error(facets, view, placement, np.arange(len(view.corners)))

@@ -106,7 +106,7 @@ class Film:
         Raises
         ------
         InputError
-            As of `vp.save_frames` and of the verb.
+            See `vp.save_frames` and the verb.
         OSError
             Where a file cannot be written; it names the path.
 
@@ -143,7 +143,7 @@ class Film:
         Raises
         ------
         InputError
-            As of `Animation.scene`.
+            See `Animation.scene`.
 
         Examples
         --------
@@ -176,7 +176,7 @@ class Film:
         Raises
         ------
         InputError
-            As of `Animation.scene` and of the verb.
+            See `Animation.scene` and the verb.
 
         Examples
         --------
@@ -231,9 +231,9 @@ def animate(
     camera : Camera or str, optional
         For all frames, in place of those of the scenes; or the name of a main view.
     page : Page or str, optional
-        As of draw; where None that of the first scene, else A4.
+        See draw; where None that of the first scene, else A4.
     width : float or str, optional
-        As of draw.
+        See draw.
     size : (int, int)
         Columns and rows of frames of pixels.
     fit : bool
@@ -252,7 +252,7 @@ def animate(
     Raises
     ------
     InputError
-        For another mode or view, as of `Animation.scene`, and, when frames are made, as of the verb.
+        For another mode or view, see `Animation.scene`, and, when frames are made, see the verb.
 
     Notes
     -----

@@ -27,10 +27,9 @@ from vectorplot.drawing.hatching import (
 )
 from vectorplot.drawing.strokes import concatenated
 from vectorplot.effects.shadow_casters import FacePlanes, light_system
-from vectorplot.exact import intervals
 from vectorplot.features.edge_splitting import Allowed, Criterion
 from vectorplot.features.nearest import feet_on_triangles
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import overlapping_boxes
 from vectorplot.geometry.budget import Budget, unheard, workers

@@ -334,11 +334,11 @@ class OutputStyle:
         hatch: Hatching | Stippling | None,
         page: Page,
     ) -> tuple[Layer, ...]:
-        """Strokes of a scene, and those that hatch its faces, in layers with their pens; hatch: as of draw."""
+        """Strokes of a scene, and those that hatch its faces, in layers with their pens; hatch: see draw."""
         if self.look == "plain":
             found = pipeline.run("layers", _line_layers, scene, view, strokes, hatches, hatch, self.layers, self.rules)
         else:
-            from vectorplot.effects.wireframe import wire_layers
+            from vectorplot.effects.depth_cues import wire_layers
 
             scene = scene if self.background is None else replace(scene, background=self.background)
             found = pipeline.run("layers", wire_layers, scene, view, strokes, page, self.look)
@@ -426,7 +426,7 @@ def labels_in_place(
 ) -> SceneLabels:
     """The labels of a scene where a picture of it has its place on the page, and the numbers of its level lines.
 
-    anchors: what they name in the scene as it was given; strokes: of the picture; hidden, style, text: as of draw; mm:
+    anchors: what they name in the scene as it was given; strokes: of the picture; hidden, style, text: see draw; mm:
     how long a millimetre is in units of the page.
     """
     from vectorplot.drawing.labels import labels_on_page, level_numbers, seen_labels, with_letters
@@ -512,7 +512,7 @@ def behind_balls(pipeline: Pipeline, view: View, forms: ClosedForms | None, line
 def seen_parts(pipeline: Pipeline, view: View, faces: ProjectedFaces, solid: Bools, lines: Lines) -> Visibility:
     """The visible parts of lines, all their parts counted, or whole lines, as the plan has it."""
     if pipeline.calls_for("all lines"):
-        from vectorplot.effects.wireframe import all_lines
+        from vectorplot.effects.depth_cues import all_lines
 
         return pipeline.run("all lines", all_lines, lines)
     over = lines.kind == LineKind.CENTRE
@@ -699,7 +699,7 @@ def places_beside_faces(
     seen of the other curves of a scene where lines of some kinds are drawn on top.
 
     view: of the scene, surfaces as triangles; faces: its faces in the image, where they are known; page, fit: of the
-    picture; tolerance_mm: as of draw. Curves that reach too far to be fitted are there as a whole.
+    picture; tolerance_mm: see draw. Curves that reach too far to be fitted are there as a whole.
     """
     notes = annotation_points(scene)
     curves = [is_curve(item.shape) and not is_annotation(item) for item in scene.items]
@@ -765,7 +765,7 @@ OUTLINES = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
 @dataclass(frozen=True, eq=False)
 class LineOverlay:
     """How the lines of a scene come to be on a picture of its faces. view: of the latter, surfaces as triangles; faces:
-    its faces in the image, where they are known; all else as of draw, in the units of the placement's page."""
+    its faces in the image, where they are known; all else as in draw, in the units of the placement's page."""
 
     scene: Scene
     view: View

@@ -2,20 +2,30 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
 
-from vectorplot.drawing.drawing import Drawing, Layer, Paths
+from vectorplot.arrays import Bools, Floats
+from vectorplot.drawing.drawing import NO_CURVE, Drawing, Layer, Paths
+from vectorplot.drawing.labels import NO_ITEM
 from vectorplot.drawing.layers import shown_items
+from vectorplot.drawing.letters import lettered
 from vectorplot.drawing.pen_layers import line_list, sorted_layers
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
-from vectorplot.effects.panoramas import eye_of, panorama_on_page
+from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError
+from vectorplot.features.terrain_water import places_on_terrain
+from vectorplot.geometry import ragged
+from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import threads_of
-from vectorplot.geometry.camera import Camera, Panorama
+from vectorplot.geometry.camera import MOST_STRIPS, Camera, Panorama
+from vectorplot.geometry.elementary import arctan, arctan2, tan
+from vectorplot.geometry.mesh import TRIANGLE, Mesh
+from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.lines import OutputStyle, lines_in_place
 from vectorplot.pictures.options import check_options
@@ -25,9 +35,10 @@ from vectorplot.pictures.prepared_scene import with_face_looks
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.exploded import shown_apart
 from vectorplot.scene.page import Page
-from vectorplot.scene.placement import field_of_vision, page_of
+from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture, page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import look, without_seams
+from vectorplot.tolerances import LEAST_DIVISOR
 from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
@@ -61,16 +72,16 @@ def panorama(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        As of `draw`.
+        See `draw`.
     place : Panorama or sequence of float
         From where, and which part of the round; or only the eye, or x and y on a terrain.
-    page, width, lines, crease_angle_deg : as of draw
+    page, width, lines, crease_angle_deg : see draw
         Items' own lines come first, as there.
-    style, pens, dashes, background, layers, unplotted : as of draw
+    style, pens, dashes, background, layers, unplotted : see draw
         Of a style that shows hidden lines none of them are here.
-    curves, tolerance_mm, title, frame, longest_mm : as of draw
+    curves, tolerance_mm, title, frame, longest_mm : see draw
         Lines of smooth surfaces leave as curves, straight ones, which are none here, as polylines.
-    budget, jobs, progress, explain : as of draw
+    budget, jobs, progress, explain : see draw
         Progress is told for each quarter of the round.
 
     Returns
@@ -82,7 +93,7 @@ def panorama(
     Raises
     ------
     InputError
-        As of `draw` and `Panorama`; for a place of x and y where there is no terrain, and a wireframe.
+        See `draw` and `Panorama`; for a place of x and y where there is no terrain, and a wireframe.
 
     Notes
     -----
@@ -168,4 +179,303 @@ def _seen_by(
         crease_angle_deg=crease_angle_deg,
         tolerance_mm=tolerance_mm,
         budget=budget,
+    )
+
+
+# The lines that are seen from a place all round, by bearing and elevation.
+
+WIDEST_DEG = 90.0
+"""Of one camera: from its middle to its sides 45 degrees, and no line is larger there than twice."""
+
+
+MOST_HALVINGS = 24
+"""Of a line that passes just above or below the eye."""
+
+
+Trace = Callable[[Camera, Page], Paths]
+"""The visible lines that a camera sees on a page that its picture fills, as straight parts of two points."""
+
+
+def lines_all_round(
+    given: Panorama, eye: Floats, radius_mm: float, trace: Trace, done: Callable[[float], None] | None = None
+) -> Paths:
+    """The lines that are seen, as straight parts of two points: bearings and elevations in radians; parts of lines of
+    the world that are curves there are not divided yet.
+
+    radius_mm: how long a radian is on the page, for what is only drawn as well as it is seen.
+    """
+    first, last = np.radians(given.bearings_deg)
+    count = int(np.ceil(given.width_deg / WIDEST_DEG))
+    half = 0.5 * (last - first) / count
+    steepest = np.radians(max(abs(given.lowest_deg), abs(given.highest_deg)))
+    # A cone of one elevation is highest in the picture at its sides.
+    top, side = float(tan(steepest) / np.cos(half)), float(tan(half))
+    page = Page(2.0 * radius_mm * side, 2.0 * radius_mm * top, 0.0)
+    found, curves = [Paths.empty()], 0
+    for number in range(count):
+        bearing = first + (2 * number + 1) * half
+        ahead = np.array([np.sin(bearing), np.cos(bearing), 0.0])
+        # Far from the origin a unit would be lost in rounding.
+        target = eye + max(1.0, float(np.abs(eye).max())) * ahead
+        camera = Camera(tuple(eye), tuple(target), up=(0.0, 0.0, 1.0), fov_deg=float(np.degrees(2.0 * arctan(top))))
+        seen = trace(camera, page)
+        seen = replace(seen, curve=np.where(seen.curve == NO_CURVE, NO_CURVE, seen.curve + curves))
+        curves = max(curves, int(seen.curve.max(initial=NO_CURVE)) + 1)
+        found.append(_unrolled(seen, eye, ahead, bearing))
+        if done is not None:
+            done((number + 1) / count)
+    return concatenated(tuple(found))
+
+
+def _unrolled(seen: Paths, eye: Floats, ahead: Floats, middle: float) -> Paths:
+    """The strokes of one camera, by bearing and elevation. middle: the bearing ahead."""
+    return replace(
+        seen,
+        points=bearings_and_elevations(seen.points3d - eye, ahead, middle),
+        directions=np.full_like(seen.directions, np.nan),
+        handles=np.full_like(seen.handles, np.nan),
+    )
+
+
+def bearings_and_elevations(ways: Floats, ahead: Floats, middle: float) -> Floats:
+    """(k,2) of ways (k,3) from the eye, of which those ahead have the bearing middle."""
+    right = np.array([ahead[1], -ahead[0], 0.0])
+    level = np.hypot(ways[:, 0], ways[:, 1])
+    bearing = middle + arctan2(matmul(ways, right), matmul(ways, ahead))
+    return np.stack([bearing, arctan2(ways[:, 2], level)], axis=1)
+
+
+def with_chords(lines: Paths, eye: Floats, apart: float) -> Paths:
+    """Lines by bearing and elevation in parts that are so short that none is off its line by more than apart, in
+    radians.
+
+    The parts are halved where one sees their middles, as often as needed.
+    """
+    done = [Paths.empty()]
+    for _ in range(MOST_HALVINGS):
+        if not len(lines):
+            break
+        ways = (lines.points3d - eye).reshape(-1, 2, 3)
+        flat = lines.points.reshape(-1, 2, 2)
+        far = np.linalg.norm(ways, axis=2)
+        share = far[:, 0] / np.maximum(far.sum(axis=1), LEAST_DIVISOR)
+        middle = ways[:, 0] + share[:, None] * (ways[:, 1] - ways[:, 0])
+        seen = _between(middle, flat)
+        off = np.linalg.norm(seen - flat.mean(axis=1), axis=1)
+        fine: Bools = ~(off > apart) | ~np.isfinite(seen).all(axis=1)
+        done.append(chosen(lines, fine))
+        flat, ways, middle, seen = flat[~fine], ways[~fine], middle[~fine], seen[~fine]
+        lines = chosen(lines, np.repeat(np.flatnonzero(~fine), 2))
+        if len(lines):
+            both = np.stack([flat[:, 0], seen, seen, flat[:, 1]], axis=1).reshape(-1, 2)
+            solid = np.stack([ways[:, 0], middle, middle, ways[:, 1]], axis=1).reshape(-1, 3) + eye
+            lines = replace(lines, points=both, points3d=solid)
+    return concatenated((*done, lines))
+
+
+def _between(middle: Floats, flat: Floats) -> Floats:
+    """(k,2) bearing and elevation of ways (k,3) between the ends (k,2,2) of parts: of its bearings the one there."""
+    turn = 2.0 * np.pi
+    bearing = arctan2(middle[:, 0], middle[:, 1])
+    bearing += turn * np.round((flat[:, :, 0].mean(axis=1) - bearing) / turn)
+    return np.stack([bearing, arctan2(middle[:, 2], np.hypot(middle[:, 0], middle[:, 1]))], axis=1)
+
+
+# Where the eye of a panorama is that stands on a terrain.
+
+DEFAULT_ABOVE = 1.0 / 500.0
+"""How high an eye is above a terrain where nothing is said, by the width of the scene."""
+
+
+def eye_of(given: Panorama, scene: Scene) -> Floats:
+    """(3,) the eye of a panorama in a scene: as it is given, or above the highest triangle at its place.
+
+    Errors: InputError where there is no triangle of a polyhedron at the place.
+    """
+    if len(given.place) > 2:
+        return np.array(given.place)
+    heights = []
+    cause = "panorama: nothing to stand on: give the place a height"
+    for item in scene.items:
+        if isinstance(item.shape, Mesh) and item.shape.face_count and (np.diff(item.shape.offsets) == TRIANGLE).all():
+            try:
+                heights.append(places_on_terrain(item.shape, given.place, "panorama")[1][0, 2])
+            except InputError as error:
+                cause = error.cause
+    if not heights:
+        raise InputError(cause)
+    above = DEFAULT_ABOVE * float(np.ptp(scene.bounds, axis=0)[:2].max()) if given.above is None else given.above
+    return np.array([*given.place, max(heights) + above])
+
+
+# A panorama on its page: strips of it, one below the other, each with its bearings.
+
+LETTERS_MM = 2.5
+"""The height of the capitals of bearings."""
+
+
+SCALE_MM = 7.0
+"""What the bearings below a strip take of the page, and the gap to the next one."""
+
+
+TICKS_MM = (1.0, 1.6, 2.2)
+"""Of every fifth degree, of every fifteenth, and of those with a name."""
+
+
+LARGER = 1.25
+"""A panorama is traced again where it comes out so many times larger than it was taken for."""
+
+
+PART_OF_TOLERANCE = 0.4
+"""Chords take so much of the tolerance, or a half where the panorama comes out larger by a quarter."""
+
+
+LEAST_RADIANS = 1.0 / 500.0
+"""What is seen is taken for as high as this at least: of a plain one sees a line."""
+
+
+DEFAULT_RADIANS = 0.2
+"""How high what is seen is taken for before it is known."""
+
+
+WINDS = ("N", "NE", "E", "SE", "S", "SW", "W", "NW")
+"""Every eighth of the round."""
+
+
+@dataclass(frozen=True, eq=False)
+class Strips:
+    """Where a panorama is on the page: each strip begins at left_mm, and its horizon is at horizons_mm (n,); a radian
+    is radius_mm long; low, high: the elevations at the lower and the upper side of strips."""
+
+    page: Page
+    radius_mm: float
+    left_mm: float
+    horizons_mm: Floats
+    low: float
+    high: float
+
+
+def panorama_on_page(
+    given: Panorama,
+    eye: Floats,
+    sheet: Page,
+    tolerance_mm: float,
+    trace: Trace,
+    done: Callable[[float], None] | None = None,
+) -> tuple[Paths, Paths, Placement]:
+    """The lines that are seen from a place all round as strokes on the page, the marks of its bearings, and the place
+    of the flat picture that they are.
+
+    sheet: that the panorama is fitted to, as pictures of cameras are; trace: what a camera sees on a page.
+    """
+    width = float(np.radians(given.width_deg))
+    low, high = np.radians(given.lowest_deg), np.radians(given.highest_deg)
+    radius = _strips(given, sheet, width, 0.0, DEFAULT_RADIANS).radius_mm
+    while True:
+        seen = lines_all_round(given, eye, radius, trace, done)
+        lines = _within(with_chords(seen, eye, PART_OF_TOLERANCE * tolerance_mm / radius), 1, low, high)
+        found = _strips(given, sheet, width, *_extent(lines))
+        if found.radius_mm <= LARGER * radius:
+            break
+        radius = found.radius_mm
+    first, part = float(np.radians(given.bearings_deg[0])), width / len(found.horizons_mm)
+    strokes = [Paths.empty()]
+    for number, horizon in enumerate(found.horizons_mm):
+        start = first + number * part
+        own = _within(lines, 0, start, start + part)
+        points = found.radius_mm * (own.points - (start, 0.0)) + (found.left_mm, horizon)
+        strokes.append(replace(own, points=points))
+    return concatenated(tuple(strokes)), _scales(given, found), _flat(found.page)
+
+
+def _flat(page: Page) -> Placement:
+    """The place of a picture whose world is the page itself."""
+    corner = np.array([page.width_mm, page.height_mm, 0.0])
+    above = projection_of(Camera.view("top", target=tuple((0.5 * corner).tolist())), np.stack([0.0 * corner, corner]))
+    image = above.image_of(above.points_of(np.stack([0.0 * corner, corner])))
+    whole = fitted_picture(above, Page(page.width_mm, page.height_mm, 0.0), image)
+    return replace(whole, page=page)
+
+
+def _extent(lines: Paths) -> tuple[float, float]:
+    """The lowest and the highest elevation of lines, the horizon where there are none."""
+    if not len(lines):
+        return 0.0, LEAST_RADIANS
+    low, high = float(lines.points[:, 1].min()), float(lines.points[:, 1].max())
+    return low, max(high, low + LEAST_RADIANS)
+
+
+def _radius(strips: int, sheet: Page, width: float, height: float) -> float:
+    """How long a radian may be on a sheet."""
+    across, up = sheet.room
+    return min(strips * across / width, max(up / strips - SCALE_MM, 0.0) / height)
+
+
+def _strips(given: Panorama, sheet: Page, width: float, low: float, high: float) -> Strips:
+    """The strips, as many as are asked for, or as many as make the picture largest."""
+    counts = (given.strips,) if given.strips else range(1, MOST_STRIPS + 1)
+    radius, fewest = max((_radius(count, sheet, width, high - low), -count) for count in counts)
+    count = -fewest
+    if not radius > 0.0 or not math.isfinite(radius):
+        radius, count = sheet.room[0] / width, given.strips or 1
+    each = radius * (high - low) + SCALE_MM
+    page = sheet.around(radius * width / count, count * each)
+    left = 0.5 * (page.width_mm - radius * width / count)
+    top = 0.5 * (page.height_mm + count * each)
+    horizons = np.asarray(top - each * np.arange(count) - radius * high, dtype=np.float64)
+    return Strips(page, radius, left, horizons, low, high)
+
+
+def _within(lines: Paths, axis: int, low: float, high: float) -> Paths:
+    """What straight parts of two points have between two values of a coordinate; what lies on the higher one only
+    stays out where it runs along it."""
+    ends = lines.points.reshape(-1, 2, 2)
+    values = ends[:, :, axis]
+    start, rise = values[:, 0], values[:, 1] - values[:, 0]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        at = np.stack([(low - start) / rise, (high - start) / rise], axis=1)
+    level = rise == 0.0
+    inside: Bools = (start >= low) & (start < high)
+    at[level] = np.where(inside[level, None], (0.0, 1.0), (2.0, 2.0))
+    begin = np.clip(at.min(axis=1), 0.0, 1.0)
+    end = np.clip(at.max(axis=1), 0.0, 1.0)
+    kept = np.flatnonzero((end > begin) & (at.min(axis=1) < 1.0) & (at.max(axis=1) > 0.0))
+    share = np.stack([begin, end], axis=1)[kept][:, :, None]
+    parts = chosen(lines, kept)
+    ends, solid = parts.points.reshape(-1, 2, 2), parts.points3d.reshape(-1, 2, 3)
+    points, space = (each[:, :1] + share * (each[:, 1:] - each[:, :1]) for each in (ends, solid))
+    return replace(parts, points=points.reshape(-1, 2), points3d=space.reshape(-1, 3))
+
+
+def _scales(given: Panorama, strips: Strips) -> Paths:
+    """Below each strip a line with a tick every five degrees, and the names of the winds."""
+    first, last = given.bearings_deg
+    count = len(strips.horizons_mm)
+    part = (last - first) / count
+    lines: list[Floats] = []
+    for number, horizon in enumerate(strips.horizons_mm):
+        start = first + number * part
+        foot = horizon + strips.radius_mm * strips.low - 0.5
+        right = strips.left_mm + strips.radius_mm * math.radians(part)
+        lines.append(np.array([(strips.left_mm, foot), (right, foot)]))
+        for degree in range(5 * math.ceil(round(start / 5.0, 6)), math.floor(round(start + part, 6)) + 1, 5):
+            x = strips.left_mm + strips.radius_mm * math.radians(degree - start)
+            named = degree % 45 == 0
+            long = TICKS_MM[2 if named else 1 if degree % 15 == 0 else 0]
+            lines.append(np.array([(x, foot), (x, foot - long)]))
+            if named:
+                name = WINDS[degree // 45 % 8]
+                text = lettered(name, (x, foot - TICKS_MM[2] - 0.8), size_mm=LETTERS_MM, align="centre", level="top")
+                lines += [text.strokes[k] for k in range(len(text.strokes))]
+    total = len(lines)
+    points = np.concatenate([np.zeros((0, 2)), *lines])
+    none = np.zeros(total, dtype=np.intp)
+    return Paths(
+        points,
+        ragged.offsets([len(line) for line in lines]),
+        np.zeros(total, dtype=np.bool_),
+        np.full(total, int(LineKind.LABEL)),
+        none + NO_ITEM,
+        none,
+        np.column_stack([points, np.zeros(len(points))]),
     )

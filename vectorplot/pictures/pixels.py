@@ -173,7 +173,7 @@ def check_lights(lights: Sequence[Light]) -> None:
 @dataclass(frozen=True, eq=False)
 class ShadowMaps:
     """How shadows of some triangles are found: by which way, with what maps, tapered for what is seen (None: not).
-    sides (i,): of items that are closed, as of outer_sides."""
+    sides (i,): of items that are closed, see outer_sides."""
 
     triangles: SceneTriangles
     lights: tuple[Light, ...]

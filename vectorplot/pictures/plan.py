@@ -263,7 +263,7 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
         stages.append(Stage("facets", "smooth surfaces become triangles within the tolerance"))
     stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
     stages.append(Stage("faces", "the faces in the image, and which side they show"))
-    stages.append(Stage("order", "back to front; what pierces or overlaps in circles is cut"))
+    stages.append(Stage("order", "back to front; what pierces or overlaps cyclically is cut"))
     # Mirrors and refracting glass show what nothing else does.
     shows_more = any(item.material.is_mirror or item.material.refraction != 1.0 for item in scene.items)
     of_surfaces = any(not isinstance(item.shape, Mesh) or item.normals is not None for item in scene.items)

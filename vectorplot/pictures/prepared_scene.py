@@ -92,7 +92,7 @@ class PreparedScene:
         return None if self.chart is None else self.chart.bar
 
     def around(self, placement: Placement, view: View, page: Page, mm: float = 1.0) -> Placement:
-        """The place of a picture that fills a page, with room for the numbers of a box, if there is one; mm: as of
+        """The place of a picture that fills a page, with room for the numbers of a box, if there is one; mm: see
         Scaled.around."""
         return placement if self.chart is None else self.chart.around(placement, view, page, mm)
 
@@ -112,7 +112,7 @@ def prepared_scene(
     """What a picture of anything that has a shape is of. paper: what it goes on; lights, exposure, background,
     depth_cue: in place of those of the scene.
 
-    Errors: as of scene_of, camera_of and scaled.
+    Errors: see scene_of, camera_of and scaled.
     """
     given = shown_apart(scene_of(scene))
     chart = _chart_of(given, camera, paper)

@@ -111,9 +111,9 @@ def render(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is shown, as of `io.scene_of`.
+        What is shown, see `io.scene_of`.
     camera : Camera or str, optional
-        As of draw.
+        See draw.
     size : (int, int)
         Columns and rows, in pixels.
     margin_pixels : float, optional
@@ -124,7 +124,7 @@ def render(
     lights : sequence of Light, optional
         In place of those of the scene.
     exposure : float or {"fitted"}, optional
-        As of paint.
+        See paint.
     shadows : {"auto", "none", "buffer", "trapezoid", "perspective", "exact"}
         Of these lights, found with shadow buffers, plain ones or two kinds that show most of what is near the eye, or
         exactly; auto: as the view calls for.
@@ -150,19 +150,19 @@ def render(
     lines : str or iterable of str
         Words of LineKind, or one text with commas between them, drawn over the picture with exact hidden lines.
     style : Style or str, optional
-        As of draw, without wireframes: its pens, dashes and paper.
+        See draw, without wireframes: its pens, dashes and paper.
     pens : str, Pen, mapping or iterable of str, optional
-        As of draw, for lines over the picture, 96 pixels an inch; without them lines are a pixel wide.
+        See draw, for lines over the picture, 96 pixels an inch; without them lines are a pixel wide.
     dashes : str, mapping or iterable of str, optional
-        As of draw, for the same lines.
+        See draw, for the same lines.
     depth_cue : DepthCue or str, optional
-        As of draw, for lines over the picture.
+        See draw, for lines over the picture.
     background : str, optional
         A palette, a plain colour or #rrggbb.
     budget : float
-        As of draw, for lines and triangles.
+        See draw, for lines and triangles.
     jobs : int, optional
-        As of draw.
+        See draw.
     progress : callable, optional
         progress(stage, fraction) is called while it works.
     explain : callable, optional
@@ -178,7 +178,7 @@ def render(
     TypeError
         For what is nothing of that kind.
     InputError
-        As of `io.scene_of`.
+        See `io.scene_of`.
         For unknown words and colours, impossible cameras, and sizes and margins out of range; for a budget that is not
         finite and positive, and for lights without a direction or too far away.
 
@@ -222,22 +222,22 @@ def render(
     given = scene_of(scene)
     chosen = overlaid_pens(given.inks, style, pens, dashes)
     sheet = Paper(raster_page(size, margin_pixels, 1.0 / PIXELS_PER_MM), fit)
-    subject = prepared_scene(
+    prepared = prepared_scene(
         given, camera, sheet, explain, progress, lights=lights, exposure=exposure, depth_cue=depth_cue
     )
-    seen, bar = subject.scene, subject.bar
+    seen, bar = prepared.scene, prepared.bar
     names = tuple(item.name for item in seen.items)
     over = chosen if bar is None else replace(chosen, rules=bar.with_pens(chosen.rules))
     check_targets(over.rules, names)
     check_lights(seen.lights)
     paper = palette(background or over.background or seen.background or BACKGROUND)[-1:]
     whole, size = size, pixels_left_of_bar(size, bar)
-    how, why = chosen_shadows(seen, subject.camera, size, fit) if shadows == "auto" else (shadows, "")
+    how, why = chosen_shadows(seen, prepared.camera, size, fit) if shadows == "auto" else (shadows, "")
     said = accuracy_of_render(FACET_PIXELS, how, texels)
     pipeline = Pipeline(with_accuracy(plan_render(seen, how, bool(kinds), why), said), explain, progress, threads)
     _tell_what_is_missing(pipeline, seen, kinds)
     fine, page = (size[0] * samples, size[1] * samples), raster_page(size, margin_pixels, samples)
-    projection = projection_of(subject.camera, seen.bounds)
+    projection = projection_of(prepared.camera, seen.bounds)
     facets, bodies = FacetedScene.of_meshes(seen), None
     if pipeline.calls_for("facets"):
         shown, criterion = without_coincident(seen), Within(allowed_in_space(seen, projection, page, fit, FACET_PIXELS))
@@ -253,7 +253,7 @@ def render(
         beside = np.concatenate([beside, bodies.outlines(projection)])
     placement = picture_placement(view, page, fit, beside)
     if fit:
-        placement = subject.around(placement, view, page, samples * PIXELS_PER_MM)
+        placement = prepared.around(placement, view, page, samples * PIXELS_PER_MM)
     pipeline.measured("facets", "samples", facet_error, facets, view, placement)
     system = pixel_system(placement)
     (seen, here), sides = exposed_scene(view, seen), outer_sides(view)
@@ -277,14 +277,14 @@ def render(
     if how == "exact":
         picture = replace(picture, points_at_once=EXACT_POINTS_AT_ONCE)
     pixels = pixels_in_bands(pipeline, picture, samples)
-    ruler, found = LineOverlay(seen, view, None, placement, crease_angle_deg, LINE_PIXELS, budget), None
+    overlay, found = LineOverlay(seen, view, None, placement, crease_angle_deg, LINE_PIXELS, budget), None
     if pipeline.calls_for("lines"):
-        found = pipeline.run("lines", ruler.found, kinds, pipeline.fraction("lines"))
+        found = pipeline.run("lines", overlay.found, kinds, pipeline.fraction("lines"))
         found = chain_lines_dashed(found, placement.page_from_world, samples * PIXELS_PER_MM)
     if pipeline.calls_for("labels"):
         from vectorplot.pictures.pixels import with_blanks, with_lines
 
-        labels = pipeline.run("labels", ruler.labels, subject.anchors, found, mm=samples * PIXELS_PER_MM)
+        labels = pipeline.run("labels", overlay.labels, prepared.anchors, found, mm=samples * PIXELS_PER_MM)
         tell_what_leaves_page(labels)
         found = found and labels.interrupted(found, placement.page_from_world)
         letters = scaled_pen(over.letters(Pen(LETTER_PIXELS / PIXELS_PER_MM)), samples * PIXELS_PER_MM)
@@ -295,7 +295,7 @@ def render(
 
         layers = over.layers(long_strokes(found), names, float(samples), samples * PIXELS_PER_MM)
         layers = with_dashes(layers, placement.page_from_world)
-        pixels = with_layers(pixels, ruler.cued(layers, pipeline, seen.depth_cue, paper[0].tolist()))
+        pixels = with_layers(pixels, overlay.cued(layers, pipeline, seen.depth_cue, paper[0].tolist()))
     averages = pipeline.run("average", averaged_light, pixels, samples)
     return Image(pixels_beside_bar(averages, bar, whole, behind), seen.title)
 

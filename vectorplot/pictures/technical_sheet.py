@@ -662,7 +662,7 @@ class _Part:
 
     def shown(self, view: SheetView, factor: float, spacing_mm: float | None) -> Scene:
         """What a view shows: the part, or what a section leaves of it, at a factor of the scale; spacing_mm: of
-        hatches, as of cut."""
+        hatches, see cut."""
         cuts = [section.condition for section in self.sections if section.letter == view.name]
         return (
             cut_scene(cut(self.scene, cuts, spacing_mm=spacing_mm), view.camera, _page_at(factor))
@@ -714,7 +714,7 @@ def technical_sheet(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        What is drawn, as of `io.scene_of`. Dimensions in it are shown in the first view that they are square to, radii
+        What is drawn, see `io.scene_of`. Dimensions in it are shown in the first view that they are square to, radii
         and diameters of bores in one that shows the circle, centre lines in every such view, and leaders that are
         square to none where they look longest.
     views : str or iterable of str
@@ -752,9 +752,9 @@ def technical_sheet(
     author, date, sheet : str
         Letters in the title block.
     crease_angle_deg : float
-        As of draw.
+        See draw.
     progress, explain : callable, optional
-        As of draw, for every view.
+        See draw, for every view.
 
     Returns
     -------
@@ -764,7 +764,7 @@ def technical_sheet(
     Raises
     ------
     InputError
-        As of draw; for views that are unknown, twice or none; for sections that are none, or beside the part; for a
+        See draw; for views that are unknown, twice or none; for sections that are none, or beside the part; for a
         scale that is too large for the page, with the largest that fits; for a page without room, and a title without
         room in its block; for an unknown unit.
 
@@ -888,7 +888,7 @@ MOST = 1000
 DISTANCE = 4.0
 """From the eye to the middle of the scene, in radii of the ball around it."""
 
-USUAL_PAGE = Page(80.0, 80.0, 2.0)
+DEFAULT_PAGE = Page(80.0, 80.0, 2.0)
 
 
 def turntable(
@@ -896,7 +896,7 @@ def turntable(
     count: int = 8,
     *,
     elevation_deg: float = 25.0,
-    page: Page | str = USUAL_PAGE,
+    page: Page | str = DEFAULT_PAGE,
     executor: Submits | None = None,
     **options: Any,
 ) -> tuple[Drawing, ...]:
@@ -905,17 +905,17 @@ def turntable(
     Parameters
     ----------
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
-        As of draw.
+        See draw.
     count : int
         How many, a whole turn in equal steps; 1 to 1000.
     elevation_deg : float
         How high the eye stands above the horizon, -89 to 89 degrees.
     page : Page or str
-        Of each drawing, as of draw.
+        Of each drawing, see draw.
     executor : Executor, optional
-        Whose workers make the drawings, as of `batch.run`; where None, they are made one after another.
+        Whose workers make the drawings, see `batch.run`; where None, they are made one after another.
     options : Any
-        Others as of draw, but for camera and fit.
+        Others as in draw, but for camera and fit.
 
     Returns
     -------
@@ -925,7 +925,7 @@ def turntable(
     Raises
     ------
     InputError
-        For another count or elevation, and as of draw.
+        For another count or elevation, and as in draw.
 
     Examples
     --------

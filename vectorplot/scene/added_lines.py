@@ -16,9 +16,9 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import (
+    DEFAULT_COUNT,
+    DEFAULT_EVERY,
     MAX_LINES,
-    USUAL_COUNT,
-    USUAL_EVERY,
     Section,
     SurfaceLines,
     Vector,
@@ -63,7 +63,7 @@ def with_lines(
     Raises
     ------
     InputError
-        For more than 10000 planes in all, and as of SurfaceLines.
+        For more than 10000 planes in all, and as in SurfaceLines.
 
     Notes
     -----
@@ -127,12 +127,12 @@ def _with(item: Item, added: SurfaceLines) -> Item:
     sections, isophotes = (*own.sections, *reaching), (*own.isophotes, *added.isophotes)
     kinds = line_kinds(added)
     lines, usual = (
-        None if words is None else tuple(dict.fromkeys((*words, *kinds))) for words in (item.lines, item.usual_lines)
+        None if words is None else tuple(dict.fromkeys((*words, *kinds))) for words in (item.lines, item.default_lines)
     )
     smooth = own.smooth_contours or added.smooth_contours
     detail = own.detail * added.detail
     curves = replace(own, sections=sections, isophotes=isophotes, detail=detail, smooth_contours=smooth)
-    return replace(item, curves=curves, lines=lines, usual_lines=usual)
+    return replace(item, curves=curves, lines=lines, default_lines=usual)
 
 
 def _reaching(section: Section, item: Item) -> Section:
@@ -188,7 +188,7 @@ def even_sections(scene: Scene, normal: Vector, count: int) -> Section:
 
 
 def round_sections(
-    scene: Scene, normal: Vector = (0.0, 0.0, 1.0), count: int = USUAL_COUNT, every: int = USUAL_EVERY
+    scene: Scene, normal: Vector = (0.0, 0.0, 1.0), count: int = DEFAULT_COUNT, every: int = DEFAULT_EVERY
 ) -> tuple[Section, ...]:
     """Level lines at round heights through a whole scene, every k-th an index line.
 
@@ -211,7 +211,7 @@ def round_sections(
     Raises
     ------
     InputError
-        As of `round_heights` and `level_sections`, and for a scene without extent along the normal.
+        See `round_heights` and `level_sections`, and for a scene without extent along the normal.
 
     Examples
     --------
@@ -290,10 +290,10 @@ def curve_light(scene: Scene, view: View, item: Item) -> Light:
 
 def with_default_lines(scene: Scene) -> Scene:
     """The scene with the lines that are usual for its items as their own, where they have none of their own."""
-    if all(item.usual_lines is None for item in scene.items):
+    if all(item.default_lines is None for item in scene.items):
         return scene
-    return replace(scene, items=tuple(map(_usual, scene.items)))
+    return replace(scene, items=tuple(map(_with_own_default, scene.items)))
 
 
-def _usual(item: Item) -> Item:
-    return replace(item, lines=item.usual_lines) if item.lines is None else item
+def _with_own_default(item: Item) -> Item:
+    return replace(item, lines=item.default_lines) if item.lines is None else item

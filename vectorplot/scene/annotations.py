@@ -18,7 +18,7 @@ from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, norm, normalize
 from vectorplot.scene.item import Item
-from vectorplot.scene.labels import USUAL_SIZE_MM, Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
+from vectorplot.scene.labels import DEFAULT_SIZE_MM, Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
 from vectorplot.scene.scene import Scene
 
 # Arrows and axes: curves in space, hidden like any others, and labels at them.
@@ -33,7 +33,9 @@ MOST_TICKS = 1000
 """On one axis."""
 
 
-def arrow(start: ArrayLike, end: ArrayLike, text: str = "", *, name: str = "", size_mm: float = USUAL_SIZE_MM) -> Scene:
+def arrow(
+    start: ArrayLike, end: ArrayLike, text: str = "", *, name: str = "", size_mm: float = DEFAULT_SIZE_MM
+) -> Scene:
     """A straight arrow in space, with a text at its tip.
 
     Parameters
@@ -75,7 +77,7 @@ def axes(
     origin: ArrayLike = (0.0, 0.0, 0.0),
     names: Sequence[str] = ("x", "y", "z"),
     ticks: float | None = None,
-    size_mm: float = USUAL_SIZE_MM,
+    size_mm: float = DEFAULT_SIZE_MM,
 ) -> Scene:
     """Three coordinate axes with their names, and numbers at ticks.
 
@@ -180,7 +182,7 @@ def dimension(
     offset: ArrayLike,
     text: str | None = None,
     *,
-    size_mm: float = USUAL_SIZE_MM,
+    size_mm: float = DEFAULT_SIZE_MM,
     gap: float | None = None,
     beyond: float | None = None,
 ) -> Scene:
@@ -249,7 +251,7 @@ def angle(
     radius: float,
     text: str | None = None,
     *,
-    size_mm: float = USUAL_SIZE_MM,
+    size_mm: float = DEFAULT_SIZE_MM,
 ) -> Scene:
     """The arc of an angle, with arrowheads and its measure.
 
@@ -297,7 +299,7 @@ def angle(
     return Scene((item,), labels=(*_heads(item.name, size_mm), label))
 
 
-def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = DEFAULT_SIZE_MM) -> Scene:
     """The dimension of a radius: a line from the centre to a point of the circle, with an arrowhead there.
 
     Parameters
@@ -332,7 +334,9 @@ def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size
     return Scene((item,), labels=(head, Label(said, Along(item.name), item.name, size_mm, "above")))
 
 
-def diameter(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+def diameter(
+    centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size_mm: float = DEFAULT_SIZE_MM
+) -> Scene:
     """The dimension of a diameter: a line across a circle through its centre, with arrowheads.
 
     Parameters
@@ -368,7 +372,7 @@ def diameter(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, si
     return Scene((item,), labels=_measured(item.name, said, size_mm))
 
 
-def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = USUAL_SIZE_MM) -> Scene:
+def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = DEFAULT_SIZE_MM) -> Scene:
     """A line from a text to what it is about, with an arrowhead there.
 
     Parameters

@@ -123,29 +123,11 @@ class Cut:
     ) -> Cut:
         """The cut that a text spells.
 
-        Parameters
-        ----------
-        text : str
-            Conditions with commas between them, such as y = 0, x + 2y - z > 3 or 0 < x < 2: what all of them hold for
-            is taken away; of a plane with = what is on the side of the eye.
-        away, colour, spacing_mm, angle_deg : str, str, float, float, optional
-            What becomes of what is taken away, and how the faces of the cut are coloured and hatched: as of Cut.
-
-        Returns
-        -------
-        Cut
-            With a plane for each sign.
-
-        Raises
-        ------
-        InputError
-            For what is no condition, for one on which x, y and z have no effect, and for numbers out of range.
-
-        Examples
-        --------
-        >>> from vectorplot.scene import Cut
-        >>> [plane.offset for plane in Cut.of("0 < x < 2").planes]
-        [0.0, -2.0]
+        text: conditions with commas between them, such as y = 0, x + 2y - z > 3 or 0 < x < 2: what all of them hold for
+        is taken away; of a plane with = what is on the side of the eye; away, colour, spacing_mm, angle_deg: what
+        becomes of what is taken away, and how the faces of the cut are coloured and hatched: see Cut; result: with a
+        plane for each sign.
+        Errors: for what is no condition, for one on which x, y and z have no effect, and for numbers out of range.
         """
         planes = [plane for condition in text.split(",") for plane in _planes(condition, text)]
         return cls(tuple(planes), away, colour, spacing_mm, angle_deg)
@@ -157,27 +139,8 @@ class Cut:
     def region(self, camera: Camera) -> HalfSpaces:
         """What is taken away, as a camera sees it.
 
-        Parameters
-        ----------
-        camera : Camera
-            Tells on which side of planes with = the eye is.
-
-        Returns
-        -------
-        HalfSpaces
-            The region.
-
-        Raises
-        ------
-        InputError
-            Where a plane with = is seen edge-on.
-
-        Examples
-        --------
-        >>> import vectorplot as vp
-        >>> from vectorplot.scene import Cut
-        >>> Cut.of("y = 0").region(vp.Camera((0, -5, 1))).normals
-        ((-0.0, -1.0, -0.0),)
+        camera: tells on which side of planes with = the eye is; result: the region.
+        Errors: where a plane with = is seen edge-on.
         """
         normals, offsets = [], []
         for plane in self.planes:
@@ -190,22 +153,7 @@ class Cut:
     def transformed(self, matrix: ArrayLike) -> Cut:
         """The cut under a 4x4 matrix acting on columns.
 
-        Parameters
-        ----------
-        matrix : (4, 4) array_like of float
-            Rows 0 to 2: rotation, scale and translation.
-
-        Returns
-        -------
-        Cut
-            In the moved planes.
-
-        Examples
-        --------
-        >>> import numpy as np
-        >>> from vectorplot.scene import Cut
-        >>> Cut.of("z > 2").transformed(np.diag([1.0, 1.0, 3.0, 1.0])).planes[0].offset
-        6.0
+        matrix (4,4): rows 0 to 2: rotation, scale and translation; result: in the moved planes.
         """
         found = HalfSpaces(tuple(p.normal for p in self.planes), tuple(p.offset for p in self.planes))
         moved = found.transformed(np.asarray(matrix, dtype=np.float64))
@@ -297,7 +245,7 @@ AXES = {"x": (1.0, 0.0, 0.0), "y": (0.0, 1.0, 0.0), "z": (0.0, 0.0, 1.0)}
 class Explosion:
     """The parts of a scene are moved apart along an axis, as `vp.exploded` does it, when the scene is shown.
 
-    axis: the first part stays, the others move along it; factor: as of `vp.exploded`.
+    axis: the first part stays, the others move along it; factor: see `vp.exploded`.
     """
 
     axis: str | tuple[float, float, float] = "z"

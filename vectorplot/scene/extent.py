@@ -50,13 +50,12 @@ def check_range(bounds: Floats) -> None:
 
 
 def smooth_bounds(shape: Surface | ImplicitSurface | Curve) -> Floats:
-    """(2,3) smallest and largest coordinates of a smooth surface or a curve; of an implicit surface those of its box.
-
-    Error: less than a thousandth of the extent, as long as bumps are wider than a GRIDth of the domain.
-    Errors: InputError for a surface without a finite point, for one that passes infinity on the grid, for an implicit
-    one whose box has no extent along an axis, be it by rounding, and for what is no surface.
-    Of balls, frusta and parts of balls they are exact.
-    Edge cases: where a surface runs off to infinity between the points of the first grid, it ends with them.
+    """(2,3) smallest and largest coordinates of a smooth surface or curve; of an implicit surface those of its box.
+    Exact for balls, frusta and parts of balls, otherwise within a thousandth of the extent where bumps are wider
+    than a GRIDth of the domain.
+    Edge cases: a surface that runs to infinity between points of the first grid ends with them. Errors: InputError for
+    one without finite points, or that is infinite on the grid; an implicit one whose box has no extent along an axis;
+    no surface.
     """
     found = bounds_of_balls([ball]) if (ball := ball_of(shape)) else None
     if found is None and (body := capped_quadric_of(shape)):
@@ -99,7 +98,7 @@ def _check_spread(points: Floats, what: str) -> None:
 def bounds_of_surfaces(surfaces: Sequence[Surface]) -> Floats:
     """(s,2,3) smallest and largest coordinates of parametrised surfaces, of many at once.
 
-    Errors, error, degenerate behaviour: as of `smooth_bounds`; it does not say which surface an error is about.
+    Errors, error, degenerate behaviour: see `smooth_bounds`; it does not say which surface an error is about.
     """
     result = np.empty((len(surfaces), 2, 3))
     # Those with one domain stand together: their parameters are then the same.

@@ -36,7 +36,8 @@ class FaceLook:
 
     Examples
     --------
-    >>> from vectorplot.scene import FaceLook, Material
+    >>> from vectorplot.scene import FaceLook
+    >>> from vectorplot.scene.material import Material
     >>> FaceLook("red", Material("mirror")).material.is_mirror
     True
     """
@@ -56,7 +57,7 @@ class FaceLooks:
     Parameters
     ----------
     mesh : Mesh
-        As it was when faces got their looks; what is drawn may be mended, cut and divided since.
+        As it was when faces got their looks; what is drawn may be repaired, cut and divided since.
     looks : tuple of FaceLook
         All that there are.
     of_face : (f,) array of int
@@ -79,7 +80,8 @@ class FaceLooks:
     --------
     >>> import vectorplot as vp
     >>> from vectorplot import geometry
-    >>> from vectorplot.scene import FaceLook, FaceLooks, Item
+    >>> from vectorplot.scene import FaceLook, FaceLooks
+    >>> from vectorplot.scene.item import Item
     >>> box = geometry.box((1, 1, 1))
     >>> looks = FaceLooks.of(box, {5: FaceLook("red")})
     >>> looks.at(box).tolist()

@@ -95,7 +95,7 @@ class Stippling:
     dots : int
         How many of them the whole drawing has; 1 to 1,000,000.
     by : {"tone", "colour", "even"}
-        What makes it dark, as of Hatching.
+        What makes it dark, see Hatching.
     width_mm : float
         Of the pen; 0.01 or more.
 

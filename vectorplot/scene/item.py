@@ -152,7 +152,7 @@ class Item(Movable["Item"]):
         Numbers at its vertices and on its faces, by which it can be coloured.
     normals : SurfaceNormals, optional
         Of the smooth surface that a mesh was made of: it is shaded by them.
-    usual_lines : tuple of str, optional
+    default_lines : tuple of str, optional
         The words of the kinds to draw where neither lines nor the drawing say any (None: those of all things).
     drawn_edges : (e, 2, 3) array of float, optional
         The ends of those edges of a polyhedron that are drawn, none of the others (None: all).
@@ -190,7 +190,7 @@ class Item(Movable["Item"]):
     is_cut_face: bool = False
     fields: Fields | None = None
     normals: SurfaceNormals | None = None
-    usual_lines: tuple[str, ...] | None = None
+    default_lines: tuple[str, ...] | None = None
     drawn_edges: Floats | None = None
     added_edges: Floats | None = None
     face_looks: FaceLooks | None = None
@@ -203,8 +203,8 @@ class Item(Movable["Item"]):
             object.__setattr__(self, "shape", completed(self.shape, self.name))
         if self.lines is not None:
             object.__setattr__(self, "lines", line_words(self.lines, OWN_LINE_WORDS))
-        if self.usual_lines is not None:
-            object.__setattr__(self, "usual_lines", line_words(self.usual_lines, OWN_LINE_WORDS))
+        if self.default_lines is not None:
+            object.__setattr__(self, "default_lines", line_words(self.default_lines, OWN_LINE_WORDS))
 
     def transformed(self, matrix: ArrayLike) -> Item:
         """The item under a 4x4 matrix acting on columns, with what lies on it.

@@ -17,7 +17,7 @@ from vectorplot.words import check_word
 TYPE_SIZE = 0.7
 """The height of capitals as a part of the size of type, which is given in points."""
 
-USUAL_SIZE_MM = 3.5
+DEFAULT_SIZE_MM = 3.5
 """The height of capitals where nothing is said."""
 
 PLACES = (
@@ -197,7 +197,7 @@ class Label:
     text: str
     at: tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage | BesidePoint
     name: str = ""
-    size_mm: float = USUAL_SIZE_MM
+    size_mm: float = DEFAULT_SIZE_MM
     place: str = "auto"
     hidden: str | None = None
     mark: str = "none"

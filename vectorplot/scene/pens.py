@@ -33,8 +33,8 @@ FINEST_MM = 0.01
 class PenOverrides:
     """The style, the pens and the dashes that a scene asks for; what `vp.draw` is told comes before them.
 
-    style: the name of a style, or a file that ends in .toml; pens: as of `vp.draw`: kinds of lines, items, or
-    item.kind, and WIDTH, COLOUR or WIDTH:COLOUR; dashes: as of `vp.draw`: the same, and DASH,GAP or none.
+    style: the name of a style, or a file that ends in .toml; pens: see `vp.draw`: kinds of lines, items, or
+    item.kind, and WIDTH, COLOUR or WIDTH:COLOUR; dashes: see `vp.draw`: the same, and DASH,GAP or none.
     """
 
     style: str | None = None
@@ -131,26 +131,8 @@ class DepthCue:
     def read(cls, text: str) -> DepthCue:
         """The depth cue that a text says: width, shade or both, and a number of steps, with commas between them.
 
-        Parameters
-        ----------
-        text : str
-            Such as "width" or "width,shade,8".
-
-        Returns
-        -------
-        DepthCue
-            Of five steps where the text names no number.
-
-        Raises
-        ------
-        InputError
-            For other texts.
-
-        Examples
-        --------
-        >>> from vectorplot.scene import DepthCue
-        >>> DepthCue.read("shade").steps
-        5
+        text: such as "width" or "width,shade,8"; result: of five steps where the text names no number.
+        Errors: for other texts.
         """
         words = [word.strip() for word in text.split(",")]
         try:
@@ -163,7 +145,7 @@ class DepthCue:
 def depth_cue_of(given: DepthCue | str | None) -> DepthCue | None:
     """What is said in place of a scene's own depth cue; None for the word none.
 
-    Errors: InputError as of DepthCue.
+    Errors: InputError as in DepthCue.
     """
     if isinstance(given, str):
         return None if given == "none" else DepthCue.read(given)

@@ -67,30 +67,8 @@ class Placement:
 def field_of_vision(projection: Projection, page: Page, fit: bool) -> Placement:
     """The place of the camera's field of vision, the target in the middle.
 
-    Parameters
-    ----------
-    projection : Projection
-        That of the picture.
-    page : Page
-        The sheet of paper.
-    fit : bool
-        The camera's picture height becomes that of the page inside its margin; otherwise that of the whole page.
-
-    Returns
-    -------
-    Placement
-        Of a picture that ends at the margins.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene
-    >>> camera = vp.Camera((0, -10, 0), parallel=True, height=4.0)
-    >>> front = geometry.projection_of(camera, bounds=np.array([(-1, -1, -1), (1, 1, 1)]))
-    >>> placement = scene.field_of_vision(front, vp.Page(100, 80), fit=True)
-    >>> placement.scale, placement.whole, placement.on_page(np.zeros((2, 1))).tolist()
-    (15.0, False, [[50.0, 40.0]])
+    projection: that of the picture; page: the sheet of paper; fit: the camera's picture height becomes that of the page
+    inside its margin; otherwise that of the whole page; result: of a picture that ends at the margins.
     """
     height_mm = page.height_mm - 2.0 * page.margin_mm if fit else page.height_mm
     return Placement(projection, page, centred(page, projection.picture_height, height_mm), whole=False)
@@ -117,7 +95,7 @@ def fitted_with_room(projection: Projection, page: Page, image: Floats, low_mm: 
     """The place of a picture that fills the page with points (2,n) of the image and with room beside them: rectangles
     from low_mm (2,n) to high_mm (2,n), counted from the points on the page.
 
-    Edge cases: as of fitted_picture; so it is, without the room, where a page has no place for that at all.
+    Edge cases: see fitted_picture; so it is, without the room, where a page has no place for that at all.
     """
     plain = fitted_picture(projection, page, image)
     most = np.array(page.room)
@@ -150,7 +128,7 @@ def _reach(scale: float, image: Floats, low_mm: Floats, high_mm: Floats) -> tupl
 def fitted(page: Page, low: Floats, high: Floats) -> Floats:
     """(3,3) matrix from image to page: the box from low to high (2,) fills the page but for its margin, in the middle.
 
-    Edge cases: as of fitting_scale; the box goes to the middle.
+    Edge cases: see fitting_scale; the box goes to the middle.
     """
     scale = fitting_scale(page, high - low)
     middle = np.array([page.width_mm, page.height_mm]) / 2.0
@@ -319,13 +297,11 @@ def camera_of(camera: Camera | str | None, scene: Scene) -> Camera:
 
 
 def page_of(page: Page | str | None, scene: Scene, width: float | str | None = None, fit: bool = True) -> Page:
-    """The page of a picture: the one given, the sheet of that name or size, landscape where that word follows, or that
-    of the scene, else A4; of "fit" one of the two latter, cut to the picture. With a width, in mm or as a text with its
-    unit, a page as wide, as high as the picture, and with that one's margin.
-
-    fit: the picture is to fill the page.
-    Errors: InputError for another word, for what is no width, and for a page cut to a picture that is not to fill it;
-    TypeError for what is no page.
+    """The page of a picture: the given one, the named sheet or size (landscape on that word), the scene's, or A4;
+    "fit": one of the last two, cut to the picture. width: in mm or with a unit: a page so wide, as high as the
+    picture, with that one's margin. fit: whether the picture fills the page.
+    Errors: InputError for unknown words and widths, and for "fit" where the picture does not fill the page; TypeError
+    for no page.
     """
     sheet = _sheet_of(page, scene)
     if width is not None:

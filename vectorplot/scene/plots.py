@@ -138,7 +138,7 @@ def tube(curve: Curve | ArrayLike, radius: float, colour: str = "gray", name: st
     Returns
     -------
     Item
-        A smooth surface with open ends, as of `surfaces.tube`.
+        A smooth surface with open ends, see `surfaces.tube`.
 
     Raises
     ------

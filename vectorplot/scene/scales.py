@@ -117,7 +117,7 @@ class Fields:
     Parameters
     ----------
     mesh : Mesh
-        As the file has it; what is drawn may be mended, cut and divided since.
+        As the file has it; what is drawn may be repaired, cut and divided since.
     at_vertices : mapping of str to (v,) array of float
         A number for every vertex, linear in the triangles between them; NaN: none.
     on_faces : mapping of str to (f,) array of float
@@ -160,18 +160,9 @@ class Fields:
     def at(self, name: str, points: Floats) -> Floats:
         """The numbers of a field at points of the mesh.
 
-        Parameters
-        ----------
-        name : str
-            One of the names.
-        points : (n, 3) array of float
-            On the mesh, nearly.
-
-        Returns
-        -------
-        (n,) array of float
-            NaN where there is none. Points off the mesh have that of a triangle above or below them, along the axis in
-            which the mesh is thinnest; NaN where there is none of these.
+        name: one of the names; points (n,3): on the mesh, nearly; result: (n,) NaN where there is none. Points off the
+        mesh have that of a triangle above or below them, along the axis in which the mesh is thinnest; NaN where there
+        is none of these.
         """
         values = self.on_faces[name] if self.is_on_faces(name) else self.at_vertices[name]
         result = np.full(len(points), np.nan)

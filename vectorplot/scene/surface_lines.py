@@ -780,15 +780,15 @@ def even_cosines(count: int) -> tuple[float, ...]:
     return tuple((2 * k - count - 1) / (count + 1) for k in range(1, count + 1))
 
 
-USUAL_COUNT = 20
+DEFAULT_COUNT = 20
 """Level lines between the lowest and the highest point, about."""
 
 
-USUAL_EVERY = 5
+DEFAULT_EVERY = 5
 """Which of them are index lines."""
 
 
-def round_heights(low: float, high: float, count: int = USUAL_COUNT) -> tuple[float, ...]:
+def round_heights(low: float, high: float, count: int = DEFAULT_COUNT) -> tuple[float, ...]:
     """Round heights for level lines, evenly spaced between two heights.
 
     Parameters
@@ -834,7 +834,7 @@ def round_heights(low: float, high: float, count: int = USUAL_COUNT) -> tuple[fl
 
 
 def with_index_lines(section: Section, every: int) -> tuple[Section, ...]:
-    """The planes of a section, every k-th of them a section of index lines, as of `level_sections`; these alone are
+    """The planes of a section, every k-th of them a section of index lines, see `level_sections`; these alone are
     numbered, where the section is."""
     if every < 0:
         raise InputError(f"index lines: every {every}, expected 0 or more")

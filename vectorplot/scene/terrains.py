@@ -19,8 +19,8 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import (
+    DEFAULT_EVERY,
     NO_LINES,
-    USUAL_EVERY,
     Section,
     SurfaceLines,
     round_heights,
@@ -34,7 +34,7 @@ from vectorplot.surfaces.terrains import Terrain, exaggerated, terrain
 UP = (0.0, 0.0, 1.0)
 
 
-def level_sections(heights: Sequence[float], every: int = USUAL_EVERY) -> tuple[Section, ...]:
+def level_sections(heights: Sequence[float], every: int = DEFAULT_EVERY) -> tuple[Section, ...]:
     """Level lines, with every k-th of them an index line: of a kind of its own, and heavier.
 
     Parameters
@@ -52,7 +52,7 @@ def level_sections(heights: Sequence[float], every: int = USUAL_EVERY) -> tuple[
     Raises
     ------
     InputError
-        For a number below 0, and as of Section.
+        For a number below 0, and as in Section.
 
     Notes
     -----
@@ -121,7 +121,7 @@ def terrain_scene(
     given: Terrain | ArrayLike,
     *,
     levels: int = 20,
-    every: int = USUAL_EVERY,
+    every: int = DEFAULT_EVERY,
     name: str = "terrain",
     exaggeration: float = 1.0,
 ) -> Scene:
@@ -148,7 +148,7 @@ def terrain_scene(
     Raises
     ------
     InputError
-        As of `terrain_mesh`; for an exaggeration that is not positive and finite.
+        See `terrain_mesh`; for an exaggeration that is not positive and finite.
 
     Examples
     --------
@@ -163,7 +163,7 @@ def terrain_scene(
     drawn = land if exaggeration == 1.0 else exaggerated(land, exaggeration)
     sections = level_sections([exaggeration * height for height in heights], every) if heights else ()
     shape, lines = terrain_mesh(drawn), SurfaceLines(sections=sections)
-    item = Item(name, shape, "green", usual_lines=TERRAIN_LINES, curves=lines)
+    item = Item(name, shape, "green", default_lines=TERRAIN_LINES, curves=lines)
     return Scene((item,), title=name, exaggeration=exaggeration)
 
 

@@ -93,12 +93,9 @@ def _faces(meshes: list[Mesh], first_vertex: Ints) -> tuple[Ints, Ints, Ints]:
 
 @dataclass(frozen=True, eq=False)
 class View(Projection):
-    """A projection, and the faces of all items in its coordinates.
-
-    points: (3, v) the vertices of all items in the view's coordinates; offsets: (f+1,) face i has the corners
-    offsets[i] to offsets[i+1]; inner: (c,) marks the diagonals of faces that are cut: the edges that begin at these
-    corners; face_item: (f,) of which item each face is; occludes: (i,) whether each item hides what is behind it;
-    face_look: (f,) which item each face looks like, where faces have looks of their own (None: the one it is of).
+    """A projection, and the faces of all items in its coordinates. points (3,v); offsets (f+1,); inner (c,): corners
+    whose edges are diagonals of cut faces; face_item (f,); occludes (i,): whether an item hides; face_look (f,): the
+    item each face looks like, None for its own.
     Source: Glaeser, section 3.1 (the pools).
     """
 
@@ -404,7 +401,7 @@ def first_coincident(view: View) -> Ints:
 
 
 def _alike(items: Ints, said: list[NDArray[Any]]) -> tuple[Ints, list[NDArray[Any]], Ints]:
-    """Those items (k,) of which the same is said as of another one, with what is said, and the first one of each."""
+    """Those items (k,) of which the same is said as in another one, with what is said, and the first one of each."""
     order = np.lexsort((items, *said))
     new = np.ones(len(items), dtype=np.bool_)
     new[1:] = np.logical_or.reduce([column[order[1:]] != column[order[:-1]] for column in said])

@@ -70,24 +70,9 @@ class DepthCode:
     def ushort(cls, minimum: float, maximum: float) -> DepthCode:
         """The 16-bit code, from 1000 to 65000; 0 is left for pixels without a depth.
 
-        Parameters
-        ----------
-        minimum, maximum : float
-            The depths that there are.
-
-        Returns
-        -------
-        DepthCode
-            Of 64000 steps.
-
-        Raises
-        ------
-        InputError
-            For an empty range.
-
-        Notes
-        -----
+        minimum, maximum: the depths that there are; result: of 64000 steps.
         Source: Glaeser, section 7.3.
+        Errors: for an empty range.
         """
         return cls(minimum, maximum, 1000.0, 64000.0)
 
@@ -95,22 +80,8 @@ class DepthCode:
     def fine(cls, minimum: float, maximum: float, bits: int) -> DepthCode:
         """The finest code of so many bits.
 
-        Parameters
-        ----------
-        minimum, maximum : float
-            The depths that there are.
-        bits : int
-            Codes are less than 2^bits.
-
-        Returns
-        -------
-        DepthCode
-            From the code 2 on.
-
-        Raises
-        ------
-        InputError
-            For an empty range.
+        minimum, maximum: the depths that there are; bits: codes are less than 2^bits; result: from the code 2 on.
+        Errors: for an empty range.
         """
         return cls(minimum, maximum, 2.0, float((1 << bits) - 5))
 
@@ -122,20 +93,8 @@ class DepthCode:
     def scaled(self, depth: ArrayLike) -> Floats:
         """The codes of depths before they are cut off.
 
-        Parameters
-        ----------
-        depth : (...) array_like of float
-            From minimum to maximum.
-
-        Returns
-        -------
-        (...) array of float
-            From first to first + steps.
-
-        Raises
-        ------
-        InputError
-            For depths outside the range: clip first.
+        depth (...): from minimum to maximum; result: (...) from first to first + steps.
+        Errors: for depths outside the range: clip first.
         """
         d = np.asarray(depth, dtype=np.float64)
         if d.size and not (d.min() >= self.minimum and d.max() <= self.maximum):
@@ -145,15 +104,7 @@ class DepthCode:
     def of_any(self, depth: ArrayLike) -> Floats:
         """The codes of depths before they are cut off, outside the range too.
 
-        Parameters
-        ----------
-        depth : (...) array_like of float
-            Any.
-
-        Returns
-        -------
-        (...) array of float
-            Below first and above first + steps for those outside the range.
+        depth (...): any; result: (...) below first and above first + steps for those outside the range.
         """
         d = np.asarray(depth, dtype=np.float64)
         size = self.maximum - self.minimum
@@ -168,35 +119,15 @@ class DepthCode:
     def code(self, depth: ArrayLike) -> NDArray[np.int64]:
         """The codes of depths.
 
-        Parameters
-        ----------
-        depth : (...) array_like of float
-            From minimum to maximum.
-
-        Returns
-        -------
-        (...) array of int64
-            From first to first + steps.
-
-        Raises
-        ------
-        InputError
-            For depths outside the range: clip first.
+        depth (...): from minimum to maximum; result: (...) from first to first + steps.
+        Errors: for depths outside the range: clip first.
         """
         return self.scaled(depth).astype(np.int64)
 
     def depth(self, code: ArrayLike) -> Floats:
         """The depths of codes, right to one step.
 
-        Parameters
-        ----------
-        code : (...) array_like of int
-            From first to first + steps.
-
-        Returns
-        -------
-        (...) array of float
-            From minimum to maximum.
+        code (...): from first to first + steps; result: (...) from minimum to maximum.
         """
         return np.asarray(self.minimum + (np.asarray(code, dtype=np.float64) - self.first) * self.step)
 
@@ -235,12 +166,10 @@ TILE, SMALL_TILE = 64, 16
 
 @dataclass(frozen=True, eq=False)
 class Task:
-    """Triangles to be covered.
-
-    grid (2, n) subpixels; beside (2, n): how far beside these the points are, in subpixels; depths (n,) codes not yet
-    cut off; corners (t, 3); sheet (t,): the plane of slopes (3, k) that has the codes of a triangle, -1 for none: code
-    at the first column and row, and how it grows with column and row. So triangles in one plane have the same codes;
-    first, last: the smallest and the largest of all.
+    """Triangles to be covered. grid (2,n): subpixels; beside (2,n): how far the points are beside these; depths (n,):
+    codes before clipping; corners (t,3); sheet (t,): the plane of slopes (3,k) with the codes of a triangle (at the
+    first column and row, and their growth), -1 for none, so coplanar triangles have the same codes; first, last:
+    smallest and largest of all.
     """
 
     grid: NDArray[np.int32]

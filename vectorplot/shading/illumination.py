@@ -44,12 +44,10 @@ SHADOW_SHARE = 0.5
 
 @dataclass(frozen=True)
 class Finish:
-    """What a material makes of light: diffuse * cos^exponent(alpha) + highlight * weight(alpha) * cos^sharpness(beta).
-
-    exponent: of the cosine of the angle alpha between normal and light, positive; diffuse: how much a matt surface
-    sends back, not negative; highlight: 0: no highlight at all; sharpness: of the cosine of the angle beta between
-    reflected ray and eye, positive; weight: A constant, or measured pairs of an angle in radians and a value, joined by
-    a cubic spline.
+    """What a material makes of light: diffuse * cos^exponent(alpha) + highlight * weight(alpha) * cos^sharpness(beta);
+    alpha between normal and light, beta between reflected ray and eye. exponent, sharpness: positive; diffuse: not
+    negative; highlight: 0 for none; weight: a constant, or measured pairs of an angle in radians and a value, joined
+    by a cubic spline.
     Source: Glaeser, sections 4.5 (equation 2), 8.5 (equations 31 and 32).
     """
 
@@ -197,35 +195,9 @@ def reflected(normals: ArrayLike, to_light: ArrayLike) -> Floats:
 
 
 def brightness(cos_alpha: ArrayLike, cos_beta: ArrayLike, finish: Finish) -> Floats:
-    """What a surface sends to the eye of one light of intensity 1.
-
-    Parameters
-    ----------
-    cos_alpha : (...) array_like of float
-        Of the angle between normal and light.
-    cos_beta : (...) array_like of float
-        Of the angle between reflected ray and eye.
-    finish : Finish
-        What the material makes of light.
-
-    Returns
-    -------
-    (...) array of float
-        1 and more is as bright as can be.
-
-    Notes
-    -----
-    Highlights are only where the light falls on the outer side and the reflected ray runs towards the eye.
-
-    Source: Glaeser, section 8.5, equation 31; erratum G8-16.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import FINISHES, brightness
-    >>> brightness([1.0, 0.5], [1.0, 0.5], FINISHES["shiny"]).round(6).tolist()
-    [1.3, 0.25]
-    >>> brightness([1.0, 0.5], [1.0, 0.5], FINISHES["normal"]).tolist()
-    [1.0, 0.5]
+    """(...) what a surface sends to the eye of one light of intensity 1, 1 and more being the brightest. cos_alpha:
+    between normal and light; cos_beta: between reflected ray and eye. Highlights only where light falls on the outer
+    side and the reflected ray runs towards the eye. Source: Glaeser, section 8.5, equation 31; erratum G8-16.
     """
     alpha = np.clip(np.asarray(cos_alpha, dtype=np.float64), -1.0, 1.0)
     beta = np.clip(np.asarray(cos_beta, dtype=np.float64), -1.0, 1.0)
@@ -263,20 +235,6 @@ def intensities(lights: Sequence[Light]) -> Floats:
     return given
 
 
-def light_shares(
-    points: ArrayLike, normals: ArrayLike, eye: ArrayLike, lights: Sequence[Light], finish: Finish
-) -> Floats:
-    """(l, n) the brightness that each light of intensity 1 gives to points (n, 3) with unit normals (n, 3).
-
-    eye: (x, y, z, 1), or (x, y, z, 0) for parallel rays to that direction. For hollow bodies turn the normals by
-    facing.
-    Source: Glaeser, sections 4.5 and 8.5.
-    """
-    p, n = np.asarray(points, dtype=np.float64), np.asarray(normals, dtype=np.float64)
-    alpha, beta = light_cosines(p, n, eye if finish.highlight else None, lights)
-    return np.array([brightness(*cosines, finish) for cosines in zip(alpha, beta, strict=True)]).reshape(alpha.shape)
-
-
 def light_cosines(
     points: Floats, normals: Floats, eye: ArrayLike | None, lights: Sequence[Light]
 ) -> tuple[Floats, Floats]:
@@ -307,33 +265,8 @@ def distance_factor(light_distance: float, depth: ArrayLike, nearest: float) -> 
 
 
 def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
-    """What ambient light adds to shades: from 0 at the smallest depth of the screen to 0.2 at the largest.
-
-    Parameters
-    ----------
-    depth : (...) array_like of float
-        Larger = closer to the eye.
-    minimum : float
-        The smallest depth.
-    total : float
-        The depth of the scene.
-
-    Returns
-    -------
-    (...) array of float
-        0 to 0.2.
-
-    Notes
-    -----
-    Edge cases: a scene without depth gets all of it.
-
-    Source: Glaeser, section 4.5, equation 5, figure 6.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import depth_cue
-    >>> depth_cue([0.0, 5.0, 10.0], minimum=0.0, total=10.0).round(6).tolist()
-    [0.0, 0.1, 0.2]
+    """(...) 0 to 0.2: what ambient light adds to shades at depths (larger = closer) from minimum on, over total; all of
+    it in a scene without depth. Source: Glaeser, section 4.5, equation 5, figure 6.
     """
     z = np.asarray(depth, dtype=np.float64)
     share = (z - minimum) / total if total > 0.0 else np.ones(z.shape)
@@ -341,35 +274,10 @@ def depth_cue(depth: ArrayLike, minimum: float, total: float) -> Floats:
 
 
 def shades(shares: ArrayLike, intensity: ArrayLike, cue: ArrayLike = 0.0) -> Floats:
-    """How bright points are in the light of all lights together.
-
-    Parameters
-    ----------
-    shares : (l, n) array_like of float
-        What each light gives to each point, as of brightness.
-    intensity : (l,) or (l, 3) array_like of float
-        Of the lights; of their red, green and blue in coloured light.
-    cue : (n,) array_like of float or float
-        What ambient light adds, as of depth_cue.
-
-    Returns
-    -------
-    (n,) or (3, n) array of float
-        0 to 1; of red, green and blue in coloured light.
-
-    Notes
-    -----
-    The sum of the shares takes four fifths of the palette, and is cut off there; then comes the cue.
-
+    """(n,) or, in coloured light, (3,n) how bright points are in all lights together, 0 to 1. shares (l,n): of each
+    light, see brightness; intensity (l,) or (l,3); cue (n,): of ambient light, see depth_cue. The sum of shares
+    fills four fifths of the palette, and is cut off there; then comes the cue.
     Source: Glaeser, section 4.5, equations 3, 5 and 7; erratum G4-08.
-
-    Examples
-    --------
-    >>> from vectorplot.shading import shades
-    >>> shades([[0.5, 1.0], [0.2, 0.3]], [1.0, 0.5]).round(6).tolist()
-    [0.48, 0.8]
-    >>> shades([[0.5, 1.0]], [1.0], cue=[0.2, 0.1]).round(6).tolist()
-    [0.6, 0.9]
     """
     total = matmul(np.asarray(intensity, dtype=np.float64).T, np.asarray(shares, dtype=np.float64))
     return np.asarray(np.clip(DIRECT_SHARE * np.minimum(total, 1.0) + np.asarray(cue), 0.0, 1.0))
@@ -493,14 +401,11 @@ def shadow_shades(
     dimmed: ArrayLike = -1,
     step: ArrayLike = 1,
 ) -> Floats:
-    """(n,) shades 0 to 1 of points in shadows: those of points in the light, less half of what each light that does
-    not get there would give. Where no light gets, half of the face's shade is left, and the cue.
-
-    shares (l,n), intensity (l,) or (l,3), which makes (3,n) shades, and cue as of shades, with the cue at
-    the depth of each point, so that large shadows vary with it; lacking (n,): bit k for light k, as of Decals; dimmed
-    (n,): a light that gets there in part, as in a border, or -1; step (n,): how far into the border, 1 to LEVELS - 1.
-    Edge cases: points that no light reaches anyway keep their shade.
-    Source: Glaeser, section 6.3; decision D-5.
+    """(n,) or (3,n) shades of points in shadows: half of what each absent light would give is taken away; without any
+    light half of the face's shade is left, and the cue. shares, intensity, cue: see shades; lacking (n,): bit k for
+    light k, see Decals; dimmed (n,): a light that is partly there, or -1; step (n,): how far into the border, 1 to
+    LEVELS - 1.
+    Edge cases: points that no light would reach keep their shade. Source: Glaeser, section 6.3; decision D-5.
     """
     strength = np.asarray(intensity, dtype=np.float64)
     if strength.ndim == 2:

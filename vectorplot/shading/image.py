@@ -205,7 +205,7 @@ def _means(p: NDArray[Any], samples: int, meaning: Floats | None) -> Floats:
 def averaged_light(picture: Bytes, samples: int) -> Bytes:
     """(rows, columns, 3) uint8 the pixels of the mean light of squares of samples x samples pixels of a finer picture.
 
-    Pixels of one colour keep it. Errors: as of averaged.
+    Pixels of one colour keep it. Errors: see averaged.
     """
     if samples == 1:
         return picture

@@ -137,7 +137,7 @@ class Lighting:
     lights, and for each which points it does not reach (none: it reaches all); eye: (x, y, z, 1), or (x, y, z, 0) for
     parallel rays to there; reach: of each light, how far it goes before it fades; palette (i,), finish (i,) of every
     item, in palettes (k, 256, 3) and finishes; depths: the limits of what is brighter because it is near; receives
-    (i,): items that shadows fall on; clear: what throws coloured ones.
+    (i,): items that shadows fall on; clear: what casts coloured ones.
     """
 
     lights: tuple[Light, ...]

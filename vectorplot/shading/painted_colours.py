@@ -43,8 +43,8 @@ POINTS_AT_ONCE = 1 << 16
 
 @dataclass(frozen=True, eq=False)
 class Lighting:
-    """What colours are made of: items and lights of the view, the latter as of view_lights; normals (3,c) at the
-    corners of the faces of the view, as of painted_normals; plane (f,) as of plane_numbers; size: shades of each
+    """What colours are made of: items and lights of the view, the latter as in view_lights; normals (3,c) at the
+    corners of the faces of the view, see painted_normals; plane (f,) as in plane_numbers; size: shades of each
     palette; doubles: of lights in mirrors, where such light falls; ambient: what ambient light adds everywhere, where
     None more to what is nearer to the eye; smooth_size: shades on smooth surfaces, where None without steps."""
 
@@ -187,12 +187,10 @@ def painted_normals(
     plane: Ints,
     crease_angle_deg: float,
 ) -> Floats:
-    """(3,c) unit normals at the corners of the faces of a view, outwards; NaN at those of faces that have one shade.
-
-    lights: in the view's coordinates, none where every plane shall have one shade; given and crease angle as of
-    view_normals: the same normals as in pictures of pixels; plane (f,) as of plane_numbers: the faces of a region are
-    shaded alike. Regions of one normal have one shade unless the light on them varies by more than VARIED, as on a
-    floor below a lamp, or they are LARGE, as a floor under all of a scene, whatever the light.
+    """(3,c) unit normals at the corners of faces, outwards; NaN where a face has one shade. lights: in the view's
+    coordinates, none where every plane has one shade; given, crease angle: see view_normals; plane (f,): see
+    plane_numbers, faces of a region are shaded alike. A region of one normal has one shade unless its light varies
+    by more than VARIED, or it is LARGE.
     Source: Glaeser, section 4.6.
     """
     found = at_corners(view, view_normals(view, given, crease_angle_deg))

@@ -209,32 +209,10 @@ def shaded_colours(names: Sequence[str], which: Ints, shade: ArrayLike, count: i
 class ColourMap:
     """The entries of a device's colour table: palettes one after the other, and what belongs to others before them.
 
-    Parameters
-    ----------
-    entries : (m, 3) array of uint8
-        Red, green and blue.
-    parents : tuple of str
-        The palettes that are in use, in their order.
-    size : int
-        How many shades each has.
-    offset : int
-        The first entry of the first palette.
-
-    Raises
-    ------
-    InputError
-        From entry: for a palette that is not in the map.
-
-    Notes
-    -----
+    entries (m,3): red, green and blue; parents: the palettes that are in use, in their order; size: how many shades
+    each has; offset: the first entry of the first palette.
     Source: Glaeser, section 4.3.
-
-    Examples
-    --------
-    >>> from vectorplot import shading
-    >>> colours = shading.colour_map(["blue"], colours=64, offset=16)
-    >>> colours.size, colours.entry("blue", [0.0, 1.0]).tolist(), colours.background
-    (48, [16, 63], (0, 0, 0))
+    Errors: from entry: for a palette that is not in the map.
     """
 
     entries: Colours
@@ -245,22 +223,9 @@ class ColourMap:
     def entry(self, name: str, shade: ArrayLike) -> Ints:
         """The entries for shades of a palette; halves lie in their parents.
 
-        Parameters
-        ----------
-        name : str
-            A palette of the map, or its half as light... or dark... .
-        shade : (...) array_like of float
-            0 to 1.
-
-        Returns
-        -------
-        (...) array of int
-            Numbers in entries.
-
-        Raises
-        ------
-        InputError
-            For a palette that is not in the map.
+        name: a palette of the map, or its half as light... or dark... ; shade (...): 0 to 1; result: (...) numbers in
+        entries.
+        Errors: for a palette that is not in the map.
         """
         parent, half = parent_and_half(name)
         if parent not in self.parents:

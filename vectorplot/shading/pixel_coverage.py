@@ -271,11 +271,9 @@ def whole_pixels(points: ArrayLike) -> NDArray[np.int64]:
 
 
 def line_pixels(start: ArrayLike, end: ArrayLike, columns: int, rows: int) -> Iterator[LinePixels]:
-    """The pixels of lines (n, 2 or more) within a raster, in portions; row 0 and column 0 are its first ones.
-
-    A line has max(|dx|, |dy|) + 1 pixels, both ends among them, and none is further from it than half a pixel. It has
-    the same pixels from either end, and the same where a part of it lies outside.
-    Edge cases: a line without length is one pixel.
+    """The pixels of lines (n, 2 or more) within a raster, in portions: max(|dx|, |dy|) + 1 for each, both ends among
+    them, none further than half a pixel away, the same from either end and where a part lies outside. Edge cases: a
+    line without length is one pixel.
     Source: Glaeser, section 4.6 (Bresenham); erratum G4-09.
     """
     p, q = whole_pixels(start), whole_pixels(end)
@@ -343,13 +341,11 @@ class PolygonPixels:
 
 
 def polygon_pixels(polygons: Polygons, columns: int, rows: int) -> Iterator[PolygonPixels]:
-    """The pixels whose centres lie in polygons (x, y and further columns), in portions.
-
-    The further columns, shades or colours, are interpolated linearly along the edges and along the scan lines. Polygons
-    need not be convex: a centre is inside when the scan line has crossed an odd number of edges.
-    Errors: InputError for corners that are not finite or beyond the guard band.
-    Edge cases: a polygon without area has no pixels, see with_specks_grown.
-    Source: Glaeser, section 4.6, figure 7 (filling, Gouraud shading); errata G4-10 to G4-13.
+    """The pixels whose centres lie in polygons (x, y and further columns), in portions. Further columns, shades or
+    colours, are interpolated linearly along edges and scan lines. Polygons need not be convex: inside is an odd
+    number of crossings.
+    Edge cases: none without area, see with_specks_grown. Errors: InputError for corners not finite or beyond the guard
+    band. Source: Glaeser, section 4.6, figure 7; errata G4-10 to G4-13.
     """
     for spans in _spans(polygons, columns, rows):
         length = spans.last - spans.first

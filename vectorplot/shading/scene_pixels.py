@@ -40,13 +40,11 @@ MOST_MIRRORS = 32
 
 @dataclass(frozen=True, eq=False)
 class Picture:
-    """What a picture is made of.
-
-    system: view coordinates to pixels; homogeneous (n, 4): the triangles' points there; screen: the triangles there;
-    opacity (i,) and mirror (i,) of every item; outer_side (i,): 1 and -1 for those of which only the outside is seen,
-    wound as it should be or inside out, 0 for others; coplanar: faces in one plane; background (3,); points_at_once: so
-    many points are shaded together; every (i,): of each transparent item one of so many pixels is set, 0 where all are
-    blended, and a pixel is door samples wide; bodies: opaque round bodies, of which there are no triangles.
+    """What a picture is made of. system: view coordinates to pixels; homogeneous (n,4): the triangles' points there;
+    screen: the triangles; opacity, mirror (i,): of items; outer_side (i,): 1 and -1 for items of which only the
+    outside is seen, wound right or inside out, 0 for others; coplanar: faces in one plane; background (3,);
+    points_at_once: shaded together; every (i,): a transparent item sets one of so many pixels, 0 to blend all; door:
+    samples across such a pixel; bodies: opaque round bodies, of which there are no triangles.
     """
 
     triangles: SceneTriangles

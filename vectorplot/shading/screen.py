@@ -34,26 +34,9 @@ LARGEST_RASTER_PIXELS = 1 << 27
 class ScreenTriangles:
     """Triangles in pixels, all of them in front of the near plane and inside the guard band.
 
-    Parameters
-    ----------
-    points : (p, 3) array of float
-        Column, row and depth after T2: z / (d - z), in a parallel projection z.
-    corners : (t, 3) array of int
-        Into points.
-    source : (t,) array of int
-        The triangle each is a part of.
-    sheet : (t,) array of int, optional
-        The plane that it shares with others, -1 for none; None: none shares any.
-    slopes : (3, k) array of float, optional
-        The depth of each such plane at column 0 and row 0, and how it grows with these.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import ScreenTriangles
-    >>> points = np.array([(0.0, 0.0, 0.5), (9.0, 0.0, 0.5), (0.0, 9.0, 0.5)])
-    >>> len(ScreenTriangles(points, corners=np.array([(0, 1, 2)]), source=np.array([0])))
-    1
+    points (p,3): column, row and depth after T2: z / (d - z), in a parallel projection z; corners (t,3): into points;
+    source (t,): the triangle each is a part of; sheet (t,): the plane that it shares with others, -1 for none; None:
+    none shares any; slopes (3,k): the depth of each such plane at column 0 and row 0, and how it grows with these.
     """
 
     points: Floats
@@ -316,7 +299,7 @@ class SceneTriangles:
 
 
 def scene_triangles(view: View, normals: Sequence[TrueNormals | None], crease_angle_deg: float) -> SceneTriangles:
-    """The faces of a view; normals and crease angle as of view_normals."""
+    """The faces of a view; normals and crease angle as in view_normals."""
     fans, face = ragged.fans(view.offsets)
     points = np.ascontiguousarray(view.points.T)
     corner_normals = view_normals(view, normals, crease_angle_deg)

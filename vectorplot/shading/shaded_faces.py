@@ -45,17 +45,14 @@ from vectorplot.visibility.projected_faces import newell
 # Shades of the faces of a view, and of their corners: what each light gives, and all of them together.
 
 HEADLIGHT = Light(UPPER_LEFT, parallel=True, intensity=1.0)
-"""The light of a view of a scene without lights, in the view's coordinates; it throws no shadows."""
+"""The light of a view of a scene without lights, in the view's coordinates; it casts no shadows."""
 
 
 @dataclass(frozen=True, eq=False)
 class Shades:
-    """How bright n points are in the light of l lights.
-
-    shares: (l, n) what a light of intensity 1 gives, 1 and more being as bright as can be; matt: (l, n) the same
-    without highlights; backlit: (l, n) whether a light shines on their far side; intensity: (l,) of the lights, or of
-    their red, green and blue where one of them is coloured; cue: (n,) what is added because they are near the eye.
-    Source: Glaeser, sections 4.5 and 8.5.
+    """How bright n points are in the light of l lights. shares (l,n): of a light of intensity 1; matt (l,n): without
+    highlights; backlit (l,n): light on the far side; intensity (l,) or of red, green and blue; cue (n,): of being
+    near the eye. Source: Glaeser, sections 4.5 and 8.5.
     """
 
     shares: Floats
@@ -148,7 +145,7 @@ def face_shades(view: View, items: Sequence[Item], lights: Sequence[Light]) -> S
     items : sequence of Item
         Of the view's scene.
     lights : sequence of Light
-        In the view's coordinates, as of view_lights.
+        In the view's coordinates, see view_lights.
 
     Returns
     -------
@@ -181,20 +178,8 @@ def face_shades(view: View, items: Sequence[Item], lights: Sequence[Light]) -> S
     return decal_shades(view, items, lights, face_middles(view), np.arange(view.face_count))
 
 
-def corner_shades(view: View, items: Sequence[Item], lights: Sequence[Light], normals: Floats) -> Shades:
-    """The shades at the corners (c,) of all faces of a view, for smooth shading; arguments as of face_shades.
-
-    normals (3,c): of the surface at every corner, in the view's coordinates, outwards; those of a face that shows its
-    inside are turned round with it, so that no corner beside a contour is lit from the wrong side.
-    """
-    points = view.points[:, view.corners]
-    face = ragged.owner(view.face_sizes)
-    inside = shows_inside(view)[face]
-    return point_shades(view, items, lights, points.T, np.where(inside, -normals, normals).T, view.shown_item[face])
-
-
 def decal_shades(view: View, items: Sequence[Item], lights: Sequence[Light], points: Floats, face: Ints) -> Shades:
-    """The shades of points (3,n) that lie on some faces (n,) of a view; arguments as of face_shades."""
+    """The shades of points (3,n) that lie on some faces (n,) of a view; arguments as in face_shades."""
     normals = face_normals(view)[:, face]
     outer = facing(normals.T, towards(points.T, view_eye(view)))
     return point_shades(view, items, lights, points.T, outer, view.shown_item[face])
@@ -203,7 +188,7 @@ def decal_shades(view: View, items: Sequence[Item], lights: Sequence[Light], poi
 def point_shades(
     view: View, items: Sequence[Item], lights: Sequence[Light], points: Floats, normals: Floats, item: Ints
 ) -> Shades:
-    """The shades of points (n,3) with unit normals (n,3), of surfaces of items (n,); the others as of face_shades."""
+    """The shades of points (n,3) with unit normals (n,3), of surfaces of items (n,); the others as in face_shades."""
     eye = view_eye(view)
     own_finish = [finish_of(some.material) for some in items]
     finishes = list(dict.fromkeys(own_finish))
@@ -392,7 +377,7 @@ class CornerNormals:
 
 
 def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle_deg: float) -> CornerNormals:
-    """The normals at the corners of the triangles (t, 3) that the faces of a view make, as of ragged.fans.
+    """The normals at the corners of the triangles (t, 3) that the faces of a view make, see ragged.fans.
 
     normals: for every item those of its true surface, None where its faces are flat or, where they meet at less than
     the crease angle, look round.
@@ -414,7 +399,7 @@ def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle
 
 
 def at_corners(view: View, normals: CornerNormals) -> Floats:
-    """(3, c) the normals, as of view_normals, at the corners of the faces of a view."""
+    """(3, c) the normals, see view_normals, at the corners of the faces of a view."""
     place, _ = ragged.fans(view.offsets)
     found = np.zeros((3, len(view.corners)))
     found[:, place.ravel()] = normals.normals[normals.index.ravel()].T
@@ -452,13 +437,11 @@ def corner_normals(
     on_edge: Bools | None = None,
     own: Floats | None = None,
 ) -> CornerNormals:
-    """The normals at the corners of triangles (t, 3) of points (n, 3).
-
-    Each is the mean, by area, of the normals of those triangles around the vertex that differ from its own by no more
-    than the crease angle. given (n, 3), known (n,): vertices of true surfaces have their true normals; on_edge (n,):
-    those of them on sharp edges that of one side, for the triangles there. own (t, 3): the unit normals of the plane
-    faces that triangles are parts of, where they are not faces themselves.
-    Edge cases: triangles without area have no say; alone they get the normals of their faces, or zeros.
+    """The normals at the corners of triangles (t,3) of points (n,3): the area-weighted mean of those around the vertex
+    within the crease angle of its own. given (n,3), known (n,): true normals of true surfaces; on_edge (n,): on a
+    sharp edge, where the true normal is for one side; own (t,3): unit normals of the faces that triangles are parts
+    of.
+    Edge cases: triangles without area do not count; alone they get their faces' normals, or zeros.
     """
     faces = mesh_face_normals(points, triangles)
     if own is None:
@@ -522,12 +505,9 @@ def _with_creases(
 
 
 def plane_numbers(view: View) -> Ints:
-    """(f,) the number of the region that each face of a view is a part of: of the faces of one item that lie in one
-    plane, and hang together by edges of two faces.
-
-    A corner may be off the plane by FLAT_OF_EXTENT; where a region would be bent more than that, as on surfaces of very
-    small faces, only what is flat within the tolerance of the view is taken together.
-    Edge cases: faces wound against each other, and those without area, stand alone.
+    """(f,) the number of the region of each face: faces of one item in one plane, connected by edges of two faces. A
+    corner may be off by FLAT_OF_EXTENT; where that would bend a region more, only what is flat within the view's
+    tolerance is taken together. Edge cases: faces wound against each other, or without area, stand alone.
     """
     count = view.face_count
     number = np.arange(count)
@@ -634,7 +614,7 @@ class ExposedLight(Light):
 
 
 def exposed_scene(view: View, scene: Scene) -> tuple[Scene, tuple[Light, ...]]:
-    """A scene with lights as its exposure has them, and these in the view: at least one, as of view_lights.
+    """A scene with lights as its exposure has them, and these in the view: at least one, see view_lights.
 
     view: of the scene, surfaces as triangles. A fitted exposure is such that the brightest of the faces that are seen,
     wherever shadows fall, just reaches the end of the lights' part of the palette. Edge cases: in the dark it is 1.

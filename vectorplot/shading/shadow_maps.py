@@ -15,7 +15,6 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.algebra import determinant, inverse_matrix, linear_solution, matmul
 from vectorplot.geometry.budget import mapped, slices
-from vectorplot.geometry.elementary import power
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import cross, norm
 from vectorplot.scene.light import Light
@@ -35,220 +34,7 @@ from vectorplot.shading.trapezoids import (
     taper_of_focus,
     tapered_map,
 )
-from vectorplot.tolerances import INFINITE, LEAST_DIVISOR, MAP_BIAS, NEAR_OF_DISTANCE, PARALLEL_SINE, ZERO_OF_EXTENT
-
-# Matrices that carry a trapezoid, or any convex quadrilateral, onto the square from -1 to 1.
-#
-# Three ways to the same map: step by step with as few operations as can be (Ressler), as a product of eight simple
-# matrices (Martin and Tan), and for any quadrilateral (Heckbert). Corners are (4, 2), counter-clockwise.
-
-LARGEST_SHIFT = 1e4
-"""Sides that meet farther away than this, in widths, run parallel: the map is affine."""
-
-HALF_TURN = np.diag([-1.0, -1.0, 1.0])
-
-
-@dataclass(frozen=True, eq=False)
-class SquareMap:
-    """The map of a trapezoid onto the square from -1 to 1.
-
-    matrix: (3, 3) first corner to (-1, -1), second to (1, -1), third to (1, 1), fourth to (-1, 1); shift: d, how far
-    the meeting point of the sides was moved; stretch: u.
-    Source: Ressler, sections 4 and 5.
-    """
-
-    matrix: Floats
-    shift: float
-    stretch: float
-
-
-def square_map(corners: ArrayLike) -> SquareMap:
-    """The map of a trapezoid whose first and second corner are the ends of its top line onto the square from -1 to 1.
-
-    Parameters
-    ----------
-    corners : (4, 2) array_like of float
-        Counter-clockwise, as bounding_trapezoid gives them.
-
-    Returns
-    -------
-    SquareMap
-        Its matrix (3, 3) brings the corners to (-1, -1), (1, -1), (1, 1) and (-1, 1).
-
-    Raises
-    ------
-    InputError
-        For corners that are not finite, or without area.
-
-    Notes
-    -----
-    A trapezoid whose base is the shorter one is turned by half a turn before and after.
-
-    Edge cases: for parallel sides the affine map of the rectangle between first and third corner.
-
-    Source: Ressler, sections 4 and 5, equations 20 to 42; errata N-03, N-05, N-06.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import square_map
-    >>> corners = np.array([(-1, 0), (1, 0), (3, 4), (-3, 4)])
-    >>> images = np.column_stack([corners, np.ones(4)]) @ square_map(corners).matrix.T
-    >>> (images[:, :2] / images[:, 2:]).round(6).tolist()
-    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-    """
-    p = _checked(corners)
-    if _length(p[1] - p[0]) > _length(p[3] - p[2]):
-        turned = square_map_of_wide_base(p[[2, 3, 0, 1]])
-        return SquareMap(matmul(HALF_TURN, turned.matrix), turned.shift, turned.stretch)
-    return square_map_of_wide_base(p)
-
-
-def square_map_of_wide_base(p: Floats) -> SquareMap:
-    """The map of a trapezoid (4, 2) whose base is not shorter than its top line."""
-    y_a, x_a = (p[1] - p[0]) / _length(p[1] - p[0]) * (1.0, -1.0)
-    m = np.eye(3)
-    # Equation 23: first corner to the origin, top line along x.
-    m[0] = y_a, -x_a, x_a * p[0, 1] - y_a * p[0, 0]
-    m[1] = x_a, y_a, -(x_a * p[0, 0] + y_a * p[0, 1])
-    x_c3, y_c3 = matmul(m[:2, :2], p[3]) + m[:2, 2]
-    m[0] -= x_c3 / y_c3 * m[1]  # 27: the left side upright
-    x_d1, x_d2 = matmul(m[0, :2], p[1]) + m[0, 2], matmul(m[0, :2], p[2]) + m[0, 2]
-    widening = x_d2 - x_d1
-    if not abs(y_c3) < LARGEST_SHIFT * widening:
-        return SquareMap(_affine(m, x_d2, y_c3), np.inf, np.inf)
-    d = x_d1 * y_c3 / widening
-    m[1, 2] += d  # 30: the meeting point of the sides into the origin
-    s_x, s_y = 2.0 / x_d2, 1.0 / (y_c3 + d)
-    u = 2.0 * s_y * d / (1.0 - s_y * d)
-    m[2] = s_y * m[1]  # 38: perspective, scaling and shift in one
-    m[1] = (u + 1.0) * m[2] - (0.0, 0.0, u)
-    m[0] = s_x * m[0] - m[2]
-    return SquareMap(m, float(d), float(u))
-
-
-def _affine(m: Floats, width: float, height: float) -> Floats:
-    """Equations 41 and 42."""
-    result = np.eye(3)
-    result[0] = 2.0 / width * m[0] - (0.0, 0.0, 1.0)
-    result[1] = 2.0 / height * m[1] - (0.0, 0.0, 1.0)
-    return result
-
-
-def recipe_factors(corners: ArrayLike) -> tuple[Floats, ...]:
-    """The eight matrices (4, 4) T1, R, T2, H, S1, N, T3, S2, in the order in which they act, for a trapezoid whose
-    first two corners are the ends of its base and whose third and fourth are those of its top line.
-
-    Their product maps the corners to (-1, -1), (1, -1), (1, 1), (-1, 1) in x and y; z is what z / w is.
-    Errors: InputError for parallel sides. Source: Martin and Tan, recipe, steps 1 to 8; errata R-01, R-02, R-03.
-    """
-    t = _checked(corners)
-    points = np.column_stack([t, np.ones(4), np.ones(4)])
-    meeting = np.array([*_meeting_point(t), 1.0, 1.0])
-    factors: list[Floats] = []
-    total = np.eye(4)
-
-    def act(matrix: Floats) -> None:
-        nonlocal total
-        factors.append(matrix)
-        total = matmul(matrix, total)
-
-    act(_moved(-(t[2] + t[3]) / 2.0))
-    x_u, y_u = (t[2] - t[3]) / _length(t[2] - t[3])
-    act(_planar([[x_u, y_u], [y_u, -x_u]]))
-    act(_moved(-(matmul(total, meeting))[:2]))
-    middle = matmul(total, points[2] + points[3]) / 2.0
-    act(_planar([[1.0, -middle[0] / middle[1]], [0.0, 1.0]]))
-    corner = matmul(total, points[2])
-    act(_planar([[1.0 / corner[0], 0.0], [0.0, 1.0 / corner[1]]]))
-    perspective = np.eye(4)
-    perspective[1, 3], perspective[3] = 1.0, (0.0, 1.0, 0.0, 0.0)
-    act(perspective)
-    base, top = matmul(total, points[0]), matmul(total, points[2])
-    act(_moved(np.array([0.0, -(base[1] / base[3] + top[1] / top[3]) / 2.0])))
-    base = matmul(total, points[0])
-    act(_planar([[1.0, 0.0], [0.0, -base[3] / base[1]]]))
-    return tuple(factors)
-
-
-def recipe_matrix(corners: ArrayLike) -> Floats:
-    """The map of a trapezoid onto the square from -1 to 1 as the product of eight simple matrices.
-
-    Parameters
-    ----------
-    corners : (4, 2) array_like of float
-        First the ends of its base, then those of its top line.
-
-    Returns
-    -------
-    (4, 4) array of float
-        Brings the corners to (-1, -1), (1, -1), (1, 1) and (-1, 1) in x and y; z is what z / w is.
-
-    Raises
-    ------
-    InputError
-        For corners that are not finite, or without area, and for parallel sides.
-
-    Notes
-    -----
-    Source: Martin and Tan, recipe, steps 1 to 8; errata R-01, R-02, R-03.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import recipe_matrix
-    >>> corners = np.array([(-3, 0), (3, 0), (1, 4), (-1, 4)])
-    >>> images = np.column_stack([corners, np.zeros(4), np.ones(4)]) @ recipe_matrix(corners).T
-    >>> (images[:, :2] / images[:, 3:]).round(6).tolist()
-    [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]]
-    """
-    total = np.eye(4)
-    for factor in recipe_factors(corners):
-        total = matmul(factor, total)
-    return total
-
-
-def recipe_map(corners: ArrayLike) -> Floats:
-    """(3, 3) the same map as recipe_matrix, up to a factor, for x, y and w alone: one row after the other.
-
-    Errors: InputError for parallel sides. Source: Martin and Tan, recipe, optimised code; errata R-03, R-04.
-    """
-    t = _checked(corners)
-    h = np.column_stack([t, np.ones(4)])
-    a, b = (t[2] - t[3]) / 2.0
-    meeting = _meeting_point(t)
-    m = np.array([[a, b, 0.0], [b, -a, 0.0], [0.0, 0.0, 1.0]])
-    m[:2, 2] = matmul(-m[:2, :2], meeting)
-    (x2, y2), (x3, y3) = matmul(m[:2], h[2]), matmul(m[:2], h[3])
-    m[0] -= m[1] * (x2 + x3) / (y2 + y3)
-    m[:2] /= (matmul(m[:2], h[2]))[:, None]
-    m[2] = m[1]
-    m[1, 2] += 1.0
-    base, top = matmul(m, h[0]), matmul(m, h[2])
-    m[1] -= m[2] * (base[1] / base[2] + top[1] / top[2]) / 2.0
-    base = matmul(m, h[0])
-    m[1] *= -base[2] / base[1]
-    return m
-
-
-def quadrilateral_map(corners: ArrayLike) -> Floats:
-    """(3, 3) the map of any convex quadrilateral: its corners, one after the other, to (-1, -1), (1, -1), (1, 1) and
-    (-1, 1). Errors: InputError for three corners on a line.
-
-    Source: Heckbert, Fundamentals of texture mapping and image warping, section 2.2.3.
-    """
-    p = _checked(corners)
-    s = p[0] - p[1] + p[2] - p[3]
-    u, v = p[1] - p[2], p[3] - p[2]
-    turn = u[0] * v[1] - u[1] * v[0]
-    if not abs(turn) > PARALLEL_SINE * _length(u) * _length(v):
-        raise InputError("a quadrilateral with three corners on a line has no map onto a square")
-    g, h = (s[0] * v[1] - s[1] * v[0]) / turn, (u[0] * s[1] - u[1] * s[0]) / turn
-    unit = np.eye(3)
-    unit[:2, 0], unit[:2, 1], unit[:2, 2] = p[1] - p[0] + g * p[1], p[3] - p[0] + h * p[3], p[0]
-    unit[2, :2] = g, h
-    square = np.array([[2.0, 0.0, -1.0], [0.0, 2.0, -1.0], [0.0, 0.0, 1.0]])
-    return np.asarray(matmul(square, inverse_matrix(unit)))
+from vectorplot.tolerances import INFINITE, LEAST_DIVISOR, MAP_BIAS, NEAR_OF_DISTANCE, ZERO_OF_EXTENT
 
 
 def four_by_four(matrix: ArrayLike) -> Floats:
@@ -256,61 +42,6 @@ def four_by_four(matrix: ArrayLike) -> Floats:
     m = np.asarray(matrix, dtype=np.float64)
     result = np.eye(4)
     result[np.ix_([0, 1, 3], [0, 1, 3])] = m
-    return result
-
-
-def column_major(matrix: ArrayLike) -> Floats:
-    """(16,) a matrix (3, 3) as four_by_four, column after column, as OpenGL takes it.
-
-    Source: Martin and Tan, recipe."""
-    return np.asarray(four_by_four(matrix).T.ravel())
-
-
-def depth_row(nearest: float, farthest: float) -> Floats:
-    """(4,) the row for z that carries eye coordinates z = -nearest to -1 and z = -farthest to 1, before the division.
-
-    Errors: InputError unless nearest < farthest. Source: Ressler, equation 15; erratum N-07.
-    """
-    if not nearest < farthest:
-        raise InputError(f"depths from {nearest:g} to {farthest:g} are no range")
-    size = nearest - farthest
-    return np.array([0.0, 0.0, 2.0 / size, (nearest + farthest) / size])
-
-
-def _checked(corners: ArrayLike) -> Floats:
-    p = np.asarray(corners, dtype=np.float64)
-    if p.shape != (4, 2) or not np.isfinite(p).all():
-        raise InputError("a quadrilateral needs four corners with two finite coordinates each")
-    diagonals = p[2] - p[0], p[3] - p[1]
-    turn = diagonals[0][0] * diagonals[1][1] - diagonals[0][1] * diagonals[1][0]
-    if not abs(turn) > PARALLEL_SINE * _length(diagonals[0]) * _length(diagonals[1]):
-        raise InputError("a quadrilateral without area has no map onto a square")
-    return p
-
-
-def _meeting_point(t: Floats) -> Floats:
-    """(2,) where the sides meet. Errors: InputError where they run parallel."""
-    one, two = t[3] - t[0], t[2] - t[1]
-    turn = one[0] * two[1] - one[1] * two[0]
-    if not abs(turn) > PARALLEL_SINE * _length(one) * _length(two):
-        raise InputError("a trapezoid with parallel sides is a rectangle: its map is affine")
-    arm = t[1] - t[0]
-    return np.asarray(t[0] + (arm[0] * two[1] - arm[1] * two[0]) / turn * one)
-
-
-def _length(arm: Floats) -> float:
-    return float(np.hypot(arm[0], arm[1]))
-
-
-def _moved(by: Floats) -> Floats:
-    result = np.eye(4)
-    result[:2, 3] = by
-    return result
-
-
-def _planar(rows: ArrayLike) -> Floats:
-    result = np.eye(4)
-    result[:2, :2] = rows
     return result
 
 
@@ -338,12 +69,9 @@ POINTS_AT_ONCE = 1 << 17
 
 @dataclass(frozen=True, eq=False)
 class ShadowMap:
-    """The depths that a lamp sees.
-
-    system: the lamp's; texel_from_light: (3, 3) from (x, y, 1) of its image plane to column, row and weight; code:
-    (rows, columns) 0 where the lamp sees nothing; depth_code: what the codes mean; biased: whether depths are compared
-    with a margin, against faces that shade themselves.
-    Source: Glaeser, section 8.6; Martin and Tan, recipe, polygon offset.
+    """The depths that a lamp sees. system: the lamp's; texel_from_light (3,3): from (x, y, 1) of its image plane to
+    column, row and weight; code (rows,columns): 0 for nothing; depth_code; biased: whether depths are compared with
+    a margin. Source: Glaeser, section 8.6; Martin and Tan, recipe, polygon offset.
     """
 
     system: CoordinateSystem
@@ -409,13 +137,9 @@ def trapezoid_frame(system: CoordinateSystem, region: SeenRegion, line: float) -
 
 
 def perspective_frame(system: CoordinateSystem, region: SeenRegion) -> Floats | None:
-    """(3, 3) the map of a lamp's image plane to that in which the lamp sees the space after the camera's perspective,
-    and from there onto the square from -1 to 1; None where that sees no side of what the camera sees.
-
-    After the perspective the region is a cube, and all that the camera shows of equal size is so. The lamp, moved by
-    the perspective too, looks at the middle of the cube. Its rays stay rays: so from image plane to image plane it is a
-    projective map, whatever stands outside of the picture, and depths may be the lamp's own.
-    Edge cases: None for a lamp amid the cube, or with a taper that leaves no digits.
+    """(3,3) the map of a lamp's image plane to the square from -1 to 1 in which the lamp sees the space after the
+    camera's perspective; None where it sees no side of what the camera sees, stands amid that cube, or the taper
+    leaves no digits. Rays stay rays under the perspective, so it is projective, and depths may be the lamp's own.
     Source: Stamminger and Drettakis, Perspective shadow maps, 2002, sections 3 and 4.
     """
     picture, images = region.picture, light_plane(system, region.points)
@@ -500,22 +224,6 @@ def shadow_map(
     depth_code = _code(depth, bits)
     code[seen] = depth_code.code(depth)
     return ShadowMap(system, matrix, code, depth_code, biased)
-
-
-def vertices_with_own_depth(system: CoordinateSystem, texel_from_light: Floats, points: ArrayLike) -> Floats:
-    """(n, 4) homogeneous points in texels whose depth, after division, is that of the lamp's own space.
-
-    Right at the vertices (n, 3) only: within a triangle such depths are not interpolated linearly, and bend. Good for
-    meshes much finer than the map; shadow_map corrects every texel instead.
-    Errors: InputError for points behind the lamp.
-    Source: Martin and Tan, recipe, polygon offset without fragment programs.
-    """
-    h = system.homogeneous(points)
-    if not (h[:, 3] > 0.0).all():
-        raise InputError("a point on or behind the neutral plane of the lamp has no image")
-    texels = matmul(h, four_by_four(texel_from_light).T)
-    texels[:, 2] = h[:, 2] / h[:, 3] * texels[:, 3]
-    return np.asarray(texels)
 
 
 def _own_depth(inverse: Floats, seen: Bools, depth: ArrayLike) -> Floats:
@@ -607,42 +315,6 @@ def slopes(system: CoordinateSystem, points: Floats, normals: Floats) -> tuple[F
     facing = np.where(np.abs(facing) > tiny, facing, tiny)
     with np.errstate(over="ignore"):
         return np.asarray(-n[:, 0] / facing), np.asarray(-n[:, 1] / facing)
-
-
-def texels_per_unit(found: ShadowMap, points: ArrayLike) -> Floats:
-    """How many texels there are on a unit of area of the lamp's image plane.
-
-    Parameters
-    ----------
-    found : ShadowMap
-        The map.
-    points : (n, 3) array_like of float
-        In the world.
-
-    Returns
-    -------
-    (n,) array of float
-        Where the points have their images.
-
-    Raises
-    ------
-    InputError
-        For points on or behind the neutral plane of the lamp.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import shading
-    >>> roof, corners = [(-1, -1, 2), (1, -1, 2), (1, 1, 2), (-1, 1, 2)], np.array([(0, 1, 2), (0, 2, 3)])
-    >>> (found,) = shading.shadow_buffer(vp.Light((0, 0, 1), parallel=True), roof, corners, size=8).maps
-    >>> shading.texels_per_unit(found, [(0, 0, 0)]).round(6).tolist()
-    [9.0]
-    """
-    p = light_plane(found.system, points)
-    m = found.texel_from_light
-    weight = matmul(p, m[2, :2]) + m[2, 2]
-    return np.asarray(np.abs(determinant(m)) / power(np.abs(weight), 3))
 
 
 # Shadow buffers: for every light of a scene the maps of what it sees.
@@ -798,7 +470,7 @@ def _focus_share(system: CoordinateSystem, frame: Floats, region: SeenRegion) ->
 def shape_of(frame: Floats, size: int) -> tuple[int, int]:
     """Columns and rows of a map of about size x size texels that are square in the middle of what it shows.
 
-    frame (3, 3): as of shadow_map. No side is longer than four times the other.
+    frame (3, 3): see shadow_map. No side is longer than four times the other.
     Source: Martin and Tan, recipe, tips (textures that are no squares).
     """
     ends = np.array([[-1.0, 1.0, 0.0, 0.0], [0.0, 0.0, -1.0, 1.0], np.ones(4)])

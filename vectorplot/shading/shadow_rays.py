@@ -101,7 +101,7 @@ def _blocked(
     triangles = screen_triangles(light, corners, near=LAMP_OF_EXTENT)
     cells, sides = _sorted_into_cells(places, side), _Sides.of(triangles)
     planes = _Planes.of(system, v[corners], ZERO_OF_EXTENT * size)
-    for tri, point in _candidates(cells, triangles, places):
+    for tri, point in _candidates(cells, triangles):
         source = triangles.source[tri]
         one = (triangle[here[point]] != source) & ~result[here[point]]
         tri, point, source = tri[one], point[one], source[one]
@@ -148,7 +148,7 @@ def _sorted_into_cells(places: Floats, side: int) -> _Cells:
     return _Cells(side, order, starts, deepest)
 
 
-def _candidates(cells: _Cells, triangles: ScreenTriangles, places: Floats) -> Iterator[tuple[Ints, Ints]]:
+def _candidates(cells: _Cells, triangles: ScreenTriangles) -> Iterator[tuple[Ints, Ints]]:
     """Pairs of a triangle and a point in a cell that the triangle's box touches and that reaches behind it."""
     # Each coordinate of each corner lies in one piece: flat (2, 3, t).
     corner = triangles.points.T[:, triangles.corners.T]

@@ -15,13 +15,12 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.convex_polygons import convex_hull
 from vectorplot.tolerances import ZERO_OF_EXTENT
 
 FOCUS_LINE = 0.8
 """Part of the map, from the top line on, that shows what is nearer than the focus."""
 
-LARGEST_ETA = 1000.0
-"""In lengths of the trapezoid: where its sides meet farther away than this, it is a rectangle."""
 
 LARGEST_TAPER = 1e4
 """How many times wider than the top line the base may be."""
@@ -123,145 +122,10 @@ def focus_distance(axis: Axis, points: ArrayLike) -> float:
     return float(np.max(axis.along(p))) - axis.top
 
 
-def eta_of_focus(length: float, focus: float, line: float = FOCUS_LINE) -> float:
-    """How far before the top line the sides meet, so that what lies at the distance focus behind it comes onto the
-    focus line of the map.
-
-    Infinite where the focus lies at that line already, or behind it: then the map is a rectangle.
-    Errors: InputError unless focus, length and line are positive and the line lies within the map.
-    Source: Ressler, section 2; formula of Martin and Tan as derived in erratum N-02.
-    """
-    if not (0.0 < focus < np.inf and 0.0 < length < np.inf and 0.0 < line < 1.0):
-        raise InputError(f"a focus at {focus:g} of {length:g}, on the line {line:g}, is out of range")
-    gap = line * length - focus
-    return (1.0 - line) * length * focus / gap if gap > 0.0 else np.inf
-
-
-def side_directions(points: ArrayLike, axis: Axis, eta: float) -> tuple[Floats, Floats]:
-    """Unit vectors (2,) from the meeting point of the sides, eta before the top line, to the leftmost and to the
-    rightmost of points (n, 2), found by their sines. Source: Ressler, equations 6 to 10."""
-    q = axis.origin + (axis.top - eta) * axis.direction
-    arm = np.asarray(points, dtype=np.float64) - q
-    unit = arm / np.hypot(*arm.T)[:, None]
-    sine = matmul(unit, axis.left)
-    return unit[sine.argmax()], unit[sine.argmin()]
-
-
-def trapezoid(points: ArrayLike, axis: Axis, eta: float) -> Floats:
-    """The trapezoid around points in the lamp's image plane whose sides meet so far before its top line.
-
-    Parameters
-    ----------
-    points : (n, 2) array_like of float
-        Images of what the eye sees.
-    axis : Axis
-        The line of sight, with the top and the base line.
-    eta : float
-        How far before the top line the sides meet, along the axis.
-
-    Returns
-    -------
-    (4, 2) array of float
-        The corners: top left, top right, base right, base left, counter-clockwise.
-
-    Raises
-    ------
-    InputError
-        For an eta that is not positive and finite.
-
-    Notes
-    -----
-    Source: Ressler, equations 11 to 14.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import line_of_sight, trapezoid
-    >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
-    >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
-    >>> bool(np.allclose(trapezoid(frustum, axis, eta=2.0), frustum))
-    True
-    """
-    if not 0.0 < eta < np.inf:
-        raise InputError(f"the sides of a trapezoid cannot meet {eta:g} before its top line")
-    left, right = side_directions(points, axis, eta)
-    q = axis.origin + (axis.top - eta) * axis.direction
-    far = eta + axis.length
-    reach = [(eta, left), (eta, right), (far, right), (far, left)]
-    return np.stack([q + t / (matmul(u, axis.direction)) * u for t, u in reach])
-
-
-def widths(points: ArrayLike, axis: Axis) -> tuple[float, float]:
-    """How far points (n, 2) lie to the left and, negative, to the right of the line of sight at most.
-
-    Source: Ressler, equations 16 and 17; erratum N-01.
-    """
-    d = axis.across(points)
-    return float(d.max()), float(d.min())
-
-
-def rectangle(points: ArrayLike, axis: Axis) -> Floats:
-    """(4, 2) the corners of the rectangle along the axis, in the order of trapezoid.
-
-    Source: Ressler, equations 16 to 19; erratum N-01.
-    """
-    left, right = widths(points, axis)
-    places = [(axis.top, left), (axis.top, right), (axis.base, right), (axis.base, left)]
-    return np.stack([axis.origin + t * axis.direction + d * axis.left for t, d in places])
-
-
-def bounding_trapezoid(points: ArrayLike, axis: Axis, focus: float, line: float = FOCUS_LINE) -> Floats:
-    """The trapezoid around points in the lamp's image plane of which most of the map shows what is near the eye.
-
-    Parameters
-    ----------
-    points : (n, 2) array_like of float
-        Images of what the eye sees.
-    axis : Axis
-        The line of sight, with the top and the base line.
-    focus : float
-        How far behind the top line the focus lies.
-    line : float
-        The part of the map, from the top line on, that shows what is nearer than the focus.
-
-    Returns
-    -------
-    (4, 2) array of float
-        The corners: top left, top right, base right, base left, counter-clockwise.
-
-    Raises
-    ------
-    InputError
-        Unless the focus is positive and the line lies within the map.
-
-    Notes
-    -----
-    Edge cases: where its sides all but run parallel (duelling frusta), the rectangle.
-
-    Source: Ressler, section 3.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import bounding_trapezoid, line_of_sight
-    >>> frustum = [(-1, 0), (1, 0), (3, 4), (-3, 4)]
-    >>> axis = line_of_sight(frustum, near=(0, 0), far=(0, 4))
-    >>> bool(np.allclose(bounding_trapezoid(frustum, axis, focus=16 / 7), frustum))
-    True
-    >>> rectangle = [(-3, 0), (3, 0), (3, 4), (-3, 4)]
-    >>> bool(np.allclose(bounding_trapezoid(frustum, axis, focus=3.2), rectangle))
-    True
-    """
-    eta = eta_of_focus(axis.length, focus, line)
-    return rectangle(points, axis) if eta > LARGEST_ETA * axis.length else trapezoid(points, axis, eta)
-
-
 def taper_of_focus(axis: Axis, focus: float, line: float = FOCUS_LINE) -> float:
-    """The length of the trapezoid against eta: 0 for a rectangle, and no pole in between.
-
-    It fades to 0 as the centre of the near plane moves from the top line to the middle of the frustum: so the map goes
-    over to the rectangle without a jump when eye and lamp begin to look at each other.
-    Edge cases: a focus on or before the top line takes the largest taper; a frustum without length has none.
+    """The length of the trapezoid over eta, 0 for a rectangle, without poles; it fades to 0 as the centre of the near
+    plane moves from the top line to the middle of the frustum, where eye and lamp begin to face each other. Edge
+    cases: a focus on or before the top line takes the largest taper; a frustum without length has none.
     Source: after Ressler, section 2, and erratum N-02.
     """
     if not axis.length > 0.0:
@@ -273,11 +137,10 @@ def taper_of_focus(axis: Axis, focus: float, line: float = FOCUS_LINE) -> float:
 
 
 def tapered_map(points: ArrayLike, axis: Axis, taper: float) -> Floats:
-    """(3, 3) the projective map of the trapezoid around points (n, 2) onto the square from -1 to 1: top line to y = -1.
-
-    With tau = 0 on the top line and 1 on the base, its last row is 1 + taper tau. Up to a factor it is the matrix of
-    the trapezoid's corners; and it has neither pole nor branch where the trapezoid becomes a rectangle.
-    Edge cases: points on a line get a square of a billionth of their extent across, a single point one of size 1.
+    """(3,3) the projective map of the trapezoid around points (n,2) onto the square from -1 to 1, top line to y = -1;
+    its last row is 1 + taper tau, tau from 0 on the top line to 1 on the base, so there is no pole where it becomes
+    a rectangle. Edge cases: points on a line get a billionth of their extent across, a single point a square of size
+    1.
     Source: after Ressler, sections 4 and 5.
     """
     p = np.asarray(points, dtype=np.float64)
@@ -311,27 +174,9 @@ def projective_images(matrix: Floats, points: ArrayLike) -> Floats:
 def focus_area(matrix: Floats, focus_points: ArrayLike) -> float:
     """The area that the convex hull of points (n, 2) has in the map, as part of it. Edge cases: 0 on a line."""
     p = projective_images(matrix, focus_points)
-    hull = convex_hull(p)
+    hull = p[convex_hull(p)]
     after = np.roll(hull, -1, axis=0)
     return float((hull[:, 0] * after[:, 1] - hull[:, 1] * after[:, 0]).sum()) / 8.0
-
-
-def convex_hull(points: Floats) -> Floats:
-    """(h, 2) the corners of the convex hull of a few points (n, 2), counter-clockwise (for frusta, not for meshes)."""
-    order = points[np.lexsort((points[:, 1], points[:, 0]))].tolist()
-    chains: list[list[list[float]]] = []
-    for run in (order, order[::-1]):
-        chain: list[list[float]] = []
-        for x, y in run:
-            while len(chain) > 1 and _turn(chain[-2], chain[-1], x, y) <= 0.0:
-                chain.pop()
-            chain.append([x, y])
-        chains.append(chain[:-1])
-    return np.array(chains[0] + chains[1] or order[:1])
-
-
-def _turn(a: list[float], b: list[float], x: float, y: float) -> float:
-    return (b[0] - a[0]) * (y - a[1]) - (b[1] - a[1]) * (x - a[0])
 
 
 def searched_line(points: ArrayLike, axis: Axis, focus: float, focus_points: ArrayLike) -> float:
@@ -349,40 +194,10 @@ def searched_line(points: ArrayLike, axis: Axis, focus: float, focus_points: Arr
 
 
 def adapted_size(size: int, share: float, wanted: float, largest: int) -> int:
-    """The side of a map that is larger where what is in focus has too small a part of it.
-
-    Parameters
-    ----------
-    size : int
-        The side of the map in texels, 1 or more.
-    share : float
-        The part of the map that is in focus, not negative.
-    wanted : float
-        The part of a map of side ``size`` whose texels it should get, more than 0, up to 1.
-    largest : int
-        The largest side.
-
-    Returns
-    -------
-    int
-        Never smaller than size nor larger than largest, and without jumps.
-
-    Raises
-    ------
-    InputError
-        For numbers out of range.
-
-    Notes
-    -----
-    Source: Martin and Tan, recipe, tips (texture size that follows the focus area).
-
-    Examples
-    --------
-    >>> from vectorplot import shading
-    >>> shading.adapted_size(1000, share=0.2, wanted=0.8, largest=4000)
-    2000
-    >>> shading.adapted_size(1000, share=0.9, wanted=0.8, largest=4000)
-    1000
+    """The side of a map, between size and largest, without jumps, larger where the focus has too small a part of it.
+    size: in texels; share: part of the map in focus; wanted: the part of a map of side size whose texels it should
+    get, over 0 up to 1.
+    Source: Martin and Tan, recipe, tips. Errors: InputError for numbers out of range.
     """
     if not (0.0 <= share and 0.0 < wanted <= 1.0 and 1 <= size <= largest):
         raise InputError(f"a map of {size} texels for a share of {share:g} of {wanted:g} is out of range")

@@ -1,11 +1,10 @@
-from .algebraic import AlgebraicSurface, first_form, gaussian_curvature, implicitized, mean_curvature
+from .algebraic import first_form, gaussian_curvature, implicitized, mean_curvature, parametrised
 from .capped_bodies import Capped, Frustum, rod
 from .function_surface import surface_of_function
-from .graphs import Disc, Graph, PolygonRegion, graph, graph_over_disc
+from .graphs import Disc, PolygonRegion, graph, graph_over_disc
 from .implicit import implicit_of_function
 from .inversion import inverted
 from .minimal import helicoid_to_catenoid, minimal_spiral_surface
-from .of_equations import parametrised
 from .placed_surface import PlacedSurface
 from .quadrics import (
     Cone,
@@ -13,35 +12,21 @@ from .quadrics import (
     Ellipsoid,
     HyperbolicParaboloid,
     Hyperboloid,
-    HyperboloidSheet,
     Paraboloid,
     Quadric,
     Sphere,
-    implicit_cone,
     implicit_cylinder,
-    implicit_ellipsoid,
-    implicit_plane,
     implicit_sphere,
 )
 from .splines import SplineSurface, landscape, nurbs_surface, spline_surface
 from .stacked import unit_normals
-from .surface import Domain, ImplicitSurface, Surface
-from .swept import (
-    Screw,
-    Translation,
-    helical_surface,
-    revolution_surface,
-    rotoidal_surface,
-    spiral_surface,
-    translation_surface,
-    tube,
-)
+from .surface import Domain
+from .swept import helical_surface, revolution_surface, rotoidal_surface, spiral_surface, translation_surface
 from .terrains import Terrain, densified_terrain, exaggerated, terrain, terrain_of_points, thinned_terrain
 from .tori import ImplicitCyclide, ImplicitTorus, ImplicitTorusByDistance, Torus, dupin_cyclide
 from .trimmed import TrimmedSurface
 
 __all__ = [
-    "AlgebraicSurface",
     "Capped",
     "Cone",
     "Cylinder",
@@ -49,25 +34,19 @@ __all__ = [
     "Domain",
     "Ellipsoid",
     "Frustum",
-    "Graph",
     "HyperbolicParaboloid",
     "Hyperboloid",
-    "HyperboloidSheet",
     "ImplicitCyclide",
-    "ImplicitSurface",
     "ImplicitTorus",
     "ImplicitTorusByDistance",
     "Paraboloid",
     "PlacedSurface",
     "PolygonRegion",
     "Quadric",
-    "Screw",
     "Sphere",
     "SplineSurface",
-    "Surface",
     "Terrain",
     "Torus",
-    "Translation",
     "TrimmedSurface",
     "densified_terrain",
     "dupin_cyclide",
@@ -78,11 +57,8 @@ __all__ = [
     "graph_over_disc",
     "helical_surface",
     "helicoid_to_catenoid",
-    "implicit_cone",
     "implicit_cylinder",
-    "implicit_ellipsoid",
     "implicit_of_function",
-    "implicit_plane",
     "implicit_sphere",
     "implicitized",
     "inverted",
@@ -101,6 +77,5 @@ __all__ = [
     "terrain_of_points",
     "thinned_terrain",
     "translation_surface",
-    "tube",
     "unit_normals",
 ]

@@ -177,7 +177,7 @@ def _check_seams(surface: FunctionSurface) -> None:
 
 
 def completed(surface: Surface, name: str) -> Surface:
-    """A surface of a user's own class, with the derivatives that it lacks, as of surface_of_function.
+    """A surface of a user's own class, with the derivatives that it lacks, see surface_of_function.
 
     Errors: InputError, with the name, for members that are missing or of a wrong shape, and for derivatives that are
     not those of its points.

@@ -148,30 +148,9 @@ class PolygonRegion:
 
 @dataclass(frozen=True, eq=False)
 class Graph(MovableSurface):
-    """The points (u, v, f(u, v)) above a rectangle or a region, normals upwards.
-
-    Parameters
-    ----------
-    domain : Domain
-        The rectangle, or the one around the region.
-    heights : NumericFunction
-        f; NaN outside the region.
-    slopes : tuple of NumericFunction
-        The derivatives by u and by v, or empty: they are found from the heights.
-    jets : tuple of NumericFunction
-        f, f_u, f_v at once, and these with f_uu, f_uv, f_vv, each with its own holes; or empty.
-
-    Notes
-    -----
-    Made by `graph`.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> hill = surfaces.graph(lambda x, y: 4.0 - x * x - y * y, surfaces.Domain(-1, 1, -1, 1))
-    >>> isinstance(hill, surfaces.Graph), hill.points(np.array(1.0), np.array(0.0)).tolist()
-    (True, [1.0, 0.0, 3.0])
+    """The points (u, v, f(u, v)) above a rectangle or a region, normals upwards, made by `graph`. domain: the rectangle
+    (around the region); heights: f, NaN outside; slopes: derivatives, or empty; jets: f, f_u, f_v at once, and these
+    with second derivatives, each with its own holes, or empty.
     """
 
     domain: Domain
@@ -353,13 +332,13 @@ def graph_over_disc(
     Parameters
     ----------
     function : callable
-        As of `graph`.
+        See `graph`.
     disc : Disc
         Its border is the circle itself; u = 0 is a pole.
     hole : float
         The radius of a concentric hole, less than that of the disc.
     slopes : sequence of callables
-        As of `graph`: the derivatives by x and by y.
+        See `graph`: the derivatives by x and by y.
 
     Returns
     -------
@@ -369,7 +348,7 @@ def graph_over_disc(
     Raises
     ------
     InputError
-        As of `graph`, and unless the hole is smaller than the disc.
+        See `graph`, and unless the hole is smaller than the disc.
 
     Warns
     -----
@@ -378,7 +357,7 @@ def graph_over_disc(
 
     Notes
     -----
-    Edge cases: as of `graph`.
+    Edge cases: see `graph`.
 
     Examples
     --------

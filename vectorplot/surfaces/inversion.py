@@ -9,9 +9,8 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Floats
 from vectorplot.curves.curve import positive, vector
-from vectorplot.surfaces.placed_surface import MovableImplicit, MovableSurface
-from vectorplot.surfaces.quadrics import checked_box
-from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
+from vectorplot.surfaces.placed_surface import MovableSurface
+from vectorplot.surfaces.surface import Domain, Surface
 
 
 def inverted(points: ArrayLike, centre: ArrayLike, radius: float) -> Floats:
@@ -65,7 +64,7 @@ class InvertedSurface(MovableSurface):
     """A parametrised surface inverted in a sphere.
 
     surface: what is inverted; centre: (3,) of the sphere, in world units; radius: of the sphere, positive.
-    Source: as of inverted.
+    Source: see inverted.
     """
 
     surface: Surface
@@ -113,39 +112,6 @@ class InvertedSurface(MovableSurface):
         with np.errstate(divide="ignore", invalid="ignore"):
             along = 8.0 * pa * pb / (n * n * n) - 2.0 * (_dot(a, b) + _dot(q, ab)) / n**2
             return np.asarray(self.radius**2 * (ab / n - 2.0 * (pb * a + pa * b) / n**2 + along * q))
-
-
-@dataclass(frozen=True, eq=False)
-class InvertedImplicit(MovableImplicit):
-    """An implicit surface inverted in a sphere, the zeros of F(inverse of x), within a box.
-
-    surface: F; centre: (3,) of the sphere, in world units; radius: of the sphere, positive; box: (2, 3) the smallest
-    and the largest coordinates of the part that is looked at.
-    Edge cases: at the centre of the sphere it is NaN.
-    Source: as of inverted.
-    """
-
-    surface: ImplicitSurface
-    centre: ArrayLike
-    radius: float
-    box: Floats
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "centre", vector("inversion: centre", self.centre))
-        object.__setattr__(self, "box", checked_box(self.box))
-        positive("inversion: radius", self.radius)
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) F."""
-        return self.surface.values(inverted(points, self.centre, self.radius))
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients."""
-        q = points - np.asarray(self.centre)
-        slopes = self.surface.gradients(inverted(points, self.centre, self.radius))
-        n = _square(q)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            return np.asarray(self.radius**2 * (slopes / n - 2.0 * _dot(q, slopes) / n**2 * q))
 
 
 def _dot(a: Floats, b: Floats) -> Floats:

@@ -108,32 +108,9 @@ def checked_box(box: ArrayLike) -> Floats:
 def implicit_plane(point: ArrayLike, normal: ArrayLike, box: ArrayLike) -> Quadric:
     """The plane through a point, within a box.
 
-    Parameters
-    ----------
-    point : (3,) array_like of float
-        In world units.
-    normal : (3,) array_like of float
-        Of any length.
-    box : (2, 3) array_like of float
-        The smallest and the largest coordinates.
-
-    Returns
-    -------
-    Quadric
-        F is the distance, positive on the normal's side.
-
-    Raises
-    ------
-    InputError
-        For a normal without length, a point that is not three finite numbers, an empty box.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> floor = surfaces.implicit_plane((0, 0, 1), (0, 0, 5), box=[(-9, -9, -9), (9, 9, 9)])
-    >>> float(floor.values(np.array([3.0, 4.0, 3.0])))
-    2.0
+    point (3,): in world units; normal (3,): of any length; box (2,3): the smallest and the largest coordinates; result:
+    F is the distance, positive on the normal's side.
+    Errors: for a normal without length, a point that is not three finite numbers, an empty box.
     """
     n = normalize(vector("plane: normal", normal))
     return Quadric([*[0.0] * 6, *n, 0.0], checked_box(box), point)
@@ -142,30 +119,9 @@ def implicit_plane(point: ArrayLike, normal: ArrayLike, box: ArrayLike) -> Quadr
 def implicit_ellipsoid(semi_axes: ArrayLike, centre: ArrayLike = (0.0, 0.0, 0.0)) -> Quadric:
     """The ellipsoid x^2/a^2 + y^2/b^2 + z^2/c^2 = 1 about a centre.
 
-    Parameters
-    ----------
-    semi_axes : (3,) array_like of float
-        a, b and c, positive, in world units.
-    centre : (3,) array_like of float
-        In world units.
-
-    Returns
-    -------
-    Quadric
-        F is negative inside; the box has a tenth of the semi-axes around.
-
-    Raises
-    ------
-    InputError
-        For semi-axes that are not positive, a centre that is not three finite numbers.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> egg = surfaces.implicit_ellipsoid((1, 1, 2), centre=(0, 0, 2))
-    >>> egg.values(np.array([(0.0, 0.0, 2.0), (0.0, 0.0, 4.0)])).tolist()
-    [-1.0, 0.0]
+    semi_axes (3,): a, b and c, positive, in world units; centre (3,): in world units; result: F is negative inside; the
+    box has a tenth of the semi-axes around.
+    Errors: for semi-axes that are not positive, a centre that is not three finite numbers.
     """
     axes, middle = vector("ellipsoid: semi-axes", semi_axes), vector("ellipsoid: centre", centre)
     if not (axes > 0.0).all():
@@ -248,37 +204,8 @@ def implicit_cylinder(radius: float, point: ArrayLike, axis: ArrayLike, box: Arr
 
 
 def implicit_cone(half_angle: float, apex: ArrayLike, axis: ArrayLike, box: ArrayLike) -> Quadric:
-    """The double cone whose rulings enclose the half angle with the axis, within a box.
-
-    Parameters
-    ----------
-    half_angle : float
-        In radians, between 0 and pi/2.
-    apex : (3,) array_like of float
-        In world units.
-    axis : (3,) array_like of float
-        Of any length.
-    box : (2, 3) array_like of float
-        The smallest and the largest coordinates.
-
-    Returns
-    -------
-    Quadric
-        F is negative inside.
-
-    Raises
-    ------
-    InputError
-        For an angle that is not between 0 and pi/2, an axis without length, an apex that is not three finite numbers,
-        an empty box.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> cone = surfaces.implicit_cone(np.pi / 4, (0, 0, 0), (0, 0, 1), box=[(-2, -2, -2), (2, 2, 2)])
-    >>> cone.values(np.array([(0.0, 0.0, 1.0), (1.0, 0.0, 1.0), (1.0, 0.0, 0.0)])).round(9).tolist() == [-0.5, 0.0, 0.5]
-    True
+    """The double cone whose rulings enclose half_angle (0 to pi/2) with the axis, within a box (2,3); F is negative
+    inside. Errors: InputError for other angles, an axis without length, an apex not finite, an empty box.
     """
     if not 0.0 < half_angle < 0.5 * np.pi:
         raise InputError(f"cone: a half angle of {half_angle:g} is not between 0 and pi/2")
@@ -748,33 +675,9 @@ class Hyperboloid(OnSemiAxes):
 
 @dataclass(frozen=True, eq=False)
 class HyperboloidSheet(OnSemiAxes):
-    """The upper sheet of x^2/a^2 + y^2/b^2 - z^2/c^2 = -1, from its lowest point z = c up to the height top.
-
-    Parameters
-    ----------
-    semi_axes : (3,) array_like of float
-        a, b and c, positive, in world units.
-    top : float
-        A height above the centre, more than c.
-    centre : (3,) array_like of float
-        In world units.
-
-    Raises
-    ------
-    InputError
-        For semi-axes that are not positive, a top not above c, a centre that is not three finite numbers.
-
-    Notes
-    -----
-    (a p cos u, b p sin u, c cosh v) with p = sinh v; v = 0 is a pole. Normals point out of the bowl, downwards.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.surfaces import HyperboloidSheet
-    >>> bowl = HyperboloidSheet((1, 1, 2), top=5)
-    >>> bowl.points(np.array(0.0), np.array(0.0)).tolist()
-    [0.0, 0.0, 2.0]
+    """The upper sheet of x^2/a^2 + y^2/b^2 - z^2/c^2 = -1 about a centre, from z = c up to top: (a p cos u, b p sin u,
+    c cosh v), p = sinh v; v = 0 is a pole; normals point out of the bowl, downwards. Errors: InputError for
+    semi-axes not positive, a top not above c, a centre not finite.
     """
 
     semi_axes: ArrayLike = (1.0, 1.0, 1.0)

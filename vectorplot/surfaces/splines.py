@@ -51,7 +51,7 @@ class SplineSurface(MovableSurface):
         The control points, in world units: u runs along the first index, v along the second. Those of a closed
         direction come again.
     knots_u, knots_v : (m + order_u,), (n + order_v,) array_like of float
-        As of a SplineCurve of that order.
+        That of a SplineCurve of that order.
     order_u, order_v : int
         One more than the degrees of its polynomials, 2 to 32.
     weights : (m, n) array_like of float, optional
@@ -158,27 +158,8 @@ class SplineSurface(MovableSurface):
     def with_knots(self, u: ArrayLike = (), v: ArrayLike = ()) -> SplineSurface:
         """The same surface with more knots, and so with more control points.
 
-        Parameters
-        ----------
-        u, v : (k,) array_like of float
-            Inside the domain; a value may come several times.
-
-        Returns
-        -------
-        SplineSurface
-            Its points and derivatives are the same.
-
-        Raises
-        ------
-        InputError
-            For values outside of the domain, and more of one than make an edge.
-
-        Examples
-        --------
-        >>> from vectorplot import surfaces
-        >>> square = surfaces.nurbs_surface([[(0, 0, 0), (0, 1, 0)], [(1, 0, 0), (1, 1, 0)]], orders=(2, 2))
-        >>> square.with_knots(u=[0.5]).controls[1].tolist()
-        [[0.5, 0.0, 0.0], [0.5, 1.0, 0.0]]
+        u, v (k,): inside the domain; a value may come several times; result: its points and derivatives are the same.
+        Errors: for values outside of the domain, and more of one than make an edge.
         """
         knots = []
         for basis, values, name in zip(self.bases, (u, v), "uv", strict=True):
@@ -191,27 +172,9 @@ class SplineSurface(MovableSurface):
     def part(self, u: Pair, v: Pair) -> SplineSurface:
         """The surface over a part of its domain, open, by itself.
 
-        Parameters
-        ----------
-        u, v : (float, float)
-            First and last parameter, within the domain.
-
-        Returns
-        -------
-        SplineSurface
-            Its border lines are drawn by its outer control points.
-
-        Raises
-        ------
-        InputError
-            For empty ranges, and such as leave the domain.
-
-        Examples
-        --------
-        >>> from vectorplot import surfaces
-        >>> square = surfaces.nurbs_surface([[(0, 0, 0), (0, 1, 0)], [(1, 0, 0), (1, 1, 0)]], orders=(2, 2))
-        >>> square.part((0.5, 1.0), (0.0, 1.0)).controls[0].tolist()
-        [[0.5, 0.0, 0.0], [0.5, 1.0, 0.0]]
+        u, v (float,float): first and last parameter, within the domain; result: its border lines are drawn by its outer
+        control points.
+        Errors: for empty ranges, and such as leave the domain.
         """
         knots = []
         for basis, (low, high), name in zip(self.bases, (u, v), "uv", strict=True):
@@ -226,23 +189,9 @@ class SplineSurface(MovableSurface):
     def bezier_patches(self) -> tuple[Floats, Floats]:
         """The Bézier patches that the surface consists of, and the weights of their control points.
 
-        Returns
-        -------
-        (k, l, order_u, order_v, 3) array of float
-            The control points of the patches between neighbouring breaks.
-        (k, l, order_u, order_v) array of float
-            Their weights, 1 where the surface has none.
-
-        Notes
-        -----
+        result: (k,l,order_u,order_v,3) the control points of the patches between neighbouring breaks;
+        (k,l,order_u,order_v) their weights, 1 where the surface has none.
         Source: Piegl and Tiller, The NURBS book, section 5.3.
-
-        Examples
-        --------
-        >>> from vectorplot import surfaces
-        >>> square = surfaces.nurbs_surface([[(0, 0, 0), (0, 1, 0)], [(1, 0, 0), (1, 1, 0)]], orders=(2, 2))
-        >>> square.bezier_patches()[0].shape
-        (1, 1, 2, 2, 3)
         """
         knots, at = [], []
         for basis in self.bases:
@@ -312,7 +261,7 @@ def spline_surface(grid: ArrayLike, u: SplineKind | None = None, v: SplineKind |
         In world units: u runs along the first index, v along the second. Without the first line again at the end where
         a kind is closed.
     u, v : SplineKind, optional
-        As of `spline_curve`: AkimaSpline, CubicSpline, InterpolatingSpline, ApproximatingSpline or BSpline; where u is
+        See `spline_curve`: AkimaSpline, CubicSpline, InterpolatingSpline, ApproximatingSpline or BSpline; where u is
         None the cubic B-spline, where v is None the kind of u.
 
     Returns
@@ -374,7 +323,7 @@ def nurbs_surface(
     knots : pair of array_like of float, optional
         Along u and along v; where None those of `BSpline`.
     closed : (bool, bool)
-        As of `nurbs_curve`, along u and along v.
+        See `nurbs_curve`, along u and along v.
 
     Returns
     -------
@@ -384,7 +333,7 @@ def nurbs_surface(
     Raises
     ------
     InputError
-        As of `SplineSurface`.
+        See `SplineSurface`.
 
     Notes
     -----

@@ -319,14 +319,14 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
 
 
 def tangent_planes(surface: Surface, u: Floats, v: Floats) -> tuple[FirstJets, Floats]:
-    """Points and derivatives by u and by v, and unit normals as of `unit_normals`, each (..., 3), at parameters u, v
+    """Points and derivatives by u and by v, and unit normals as in `unit_normals`, each (..., 3), at parameters u, v
     (...)."""
     points, along_u, along_v = first_jets(surface, u, v)
     return (points, along_u, along_v), unit_normals_of(surface, u, v, (along_u, along_v))
 
 
 def points_and_normals(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats]:
-    """Points, and unit normals as of `unit_normals`, each (..., 3)."""
+    """Points, and unit normals as in `unit_normals`, each (..., 3)."""
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
     (points, _, _), normals = tangent_planes(surface, u, v)
     return points, normals
@@ -513,7 +513,7 @@ def _jumping_sides(surfaces: StackedSurfaces, ends: tuple[Floats, Floats], lengt
     result = np.zeros(lengths.shape, dtype=np.bool_)
     lengths = lengths.reshape(len(lengths), -1)
     long = np.nan_to_num(lengths)
-    surface, side = np.nonzero(long > LONG * _usual(lengths)[:, None])
+    surface, side = np.nonzero(long > LONG * _typical(lengths)[:, None])
     if not len(side):
         return result
     # The longest of each surface.
@@ -527,7 +527,7 @@ def _jumping_sides(surfaces: StackedSurfaces, ends: tuple[Floats, Floats], lengt
     return result
 
 
-def _usual(lengths: Floats) -> Floats:
+def _typical(lengths: Floats) -> Floats:
     """(s,) the medians of lengths (s,k) that are positive and finite; infinite where there are none."""
     known = np.isfinite(lengths) & (lengths > 0.0)
     ordered, count = np.sort(np.where(known, lengths, np.inf), axis=1), known.sum(axis=1)

@@ -69,21 +69,10 @@ class Domain:
 class Surface(Protocol):
     """What every parametrised surface x(u, v) can do.
 
-    Notes
-    -----
     A protocol: whatever has these members is a surface, of this package or of a user. domain says where it is defined;
     points(u, v) are (..., 3) in world units, NaN where the surface has a hole; partials are the two derivatives by u
     and by v, second_partials the three by u twice, by u and v, by v twice, (..., 3) each. All functions take arrays u,
     v of one shape (...) and are vectorised. The normal is x_u cross x_v.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> def north_pole(surface: surfaces.Surface) -> list[float]:
-    ...     return surface.points(np.array(surface.domain.u_start), np.array(surface.domain.v_end)).round(9).tolist()
-    >>> north_pole(surfaces.Sphere(2.0)) == [0.0, 0.0, 2.0]
-    True
     """
 
     @property
@@ -107,21 +96,9 @@ class Surface(Protocol):
 class ImplicitSurface(Protocol):
     """What every surface F(x, y, z) = 0 within a box can do.
 
-    Notes
-    -----
     A protocol: whatever has these members is an implicit surface, of this package or of a user. box is (2, 3), the
     smallest and the largest coordinates of the part that is looked at, in world units; values(points) is F (...) at
     points (..., 3), whose sign tells the sides; gradients(points) are (..., 3).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import surfaces
-    >>> def is_inside(surface: surfaces.ImplicitSurface, point: tuple[float, float, float]) -> bool:
-    ...     return bool(surface.values(np.array(point)) < 0.0)
-    >>> ball = surfaces.implicit_sphere(1.0)
-    >>> is_inside(ball, (0.5, 0.5, 0.5)), is_inside(ball, (1.0, 1.0, 1.0))
-    (True, False)
     """
 
     @property

@@ -72,24 +72,9 @@ def _quarter(p: Floats) -> Floats:
 class Translation:
     """Moving along a curve.
 
-    Parameters
-    ----------
-    path : Curve
-        Its parameter is v.
-
-    Notes
-    -----
+    path: its parameter is v.
     It repeats where the path is a loop.
-
     Source: Glaeser, section 8.2, equation 10.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves, surfaces
-    >>> shift = surfaces.Translation(curves.Line((0, 0, 0), (0, 0, 1)))
-    >>> shift.moved(np.array([1.0, 2.0, 3.0]), 1.0, np.array(4.0)).tolist()
-    [1.0, 2.0, 7.0]
     """
 
     path: Curve
@@ -115,23 +100,9 @@ class Translation:
 class Screw:
     """Turning about the z-axis by v and rising along it by rise v; without a rise, a rotation.
 
-    Parameters
-    ----------
-    rise : float
-        World units a radian.
-
-    Notes
-    -----
+    rise: world units a radian.
     It repeats after whole turns where there is no rise.
-
     Source: Glaeser, section 8.2, equations 11 and 12.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.surfaces import Screw
-    >>> Screw(rise=2.0).repeats(0.0, 2.0 * np.pi), Screw().repeats(0.0, 2.0 * np.pi)
-    (False, True)
     """
 
     rise: float = 0.0
@@ -520,40 +491,12 @@ SMOOTH = 6
 
 
 def tube(curve: Curve | ArrayLike, radius: float) -> Swept:
-    """The tube about a curve: circles of one radius, across it and about its points.
-
-    Parameters
-    ----------
-    curve : Curve or (n, 3) array_like of float
-        In the middle; a smooth loop gives a ring. Of points the cubic spline through them, a loop where the last is the
-        first one.
-    radius : float
-        In world units; where the curve bends more than that, the tube pierces itself.
-
-    Returns
-    -------
-    Swept
-        u is the angle in the circle in radians, v the parameter of the curve; normals outwards, ends open. Derivatives
-        are exact where the curve's are, but that by v twice, which is to about 1e-12.
-
-    Raises
-    ------
-    InputError
-        For a radius that is not positive and finite, and a curve that stands still or has gaps.
-
-    Notes
-    -----
-    Source: Wang, Juettler, Zheng and Liu, Computation of rotation minimizing frames, 2008, section 4 (double
-    reflection).
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import curves, surfaces
-    >>> ring = surfaces.tube(curves.Circle(radius=3.0), 1.0)
-    >>> box = ring.points(*np.meshgrid(*ring.domain.grid(64, 64)))
-    >>> box.max(axis=(0, 1)).round(9).tolist()
-    [4.0, 4.0, 1.0]
+    """The tube of a radius about a curve, or about points (by a cubic spline, closed where the last point is the
+    first): u the angle in radians, v the curve's parameter; normals outwards, ends open, a closed curve gives a
+    ring. It pierces itself where the curve bends more. Derivatives are exact where the curve's are, the second by v
+    to 1e-12.
+    Source: Wang, Juettler, Zheng and Liu, Computation of rotation minimizing frames, 2008, section 4. Errors:
+    InputError for a radius not positive and finite, a curve that stands still or has gaps.
     """
     if not 0.0 < radius < np.inf:
         raise InputError(f"a tube with a radius of {radius:g}: expected a positive, finite number")

@@ -121,7 +121,7 @@ def terrain(heights: ArrayLike, x: Pair | None = None, y: Pair | None = None) ->
     Raises
     ------
     InputError
-        As of `Terrain`; for empty ranges.
+        See `Terrain`; for empty ranges.
 
     Notes
     -----
@@ -179,7 +179,7 @@ def terrain_of_points(
     Raises
     ------
     InputError
-        As of `grid_of_scattered`.
+        See `grid_of_scattered`.
 
     Notes
     -----

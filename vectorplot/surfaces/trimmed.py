@@ -234,11 +234,8 @@ def _trimmed(part: SmoothPart, whole: TrimmedSurface) -> SmoothPart | None:
 
 def covered_once(surface: Surface) -> Surface:
     """The surface over a part of its domain that covers it once, closed: itself, unless it runs along itself again, as
-    what a circle sweeps does that is run through four times.
-
-    In each direction it is compared with itself a full turn on, and a half, a third, ... of the domain on.
-    Edge cases: a surface that comes back mirrored, as a Möbius strip does, stays as it is, and so does one that repeats
-    itself after another way.
+    what a circle swept several times does. Compared with itself a full turn, a half, a third, ... of the domain on.
+    Edge cases: a surface that comes back mirrored (Möbius strip), or repeats otherwise, stays.
     """
     if is_embedded(surface):
         return surface

@@ -495,7 +495,8 @@ def assert_on_both(points: Curves, a: AnySurface, b: AnySurface, tolerance: floa
 
     Examples
     --------
-    >>> from vectorplot.surfaces import implicit_plane, implicit_sphere
+    >>> from vectorplot.surfaces import implicit_sphere
+    >>> from vectorplot.surfaces.quadrics import implicit_plane
     >>> from vectorplot.testing import assert_on_both
     >>> equator = [(1, 0, 0), (0.6, 0.8, 0), (0, 1, 0)]
     >>> plane = implicit_plane((0, 0, 0), (0, 0, 1), box=[(-1, -1, -1), (1, 1, 1)])
@@ -870,13 +871,11 @@ class _Ends(NamedTuple):
 
 
 def assert_chords(lines: list[Floats], surface: Surface, field: TangentField, tolerance: float) -> None:
-    """Nothing, where every chord of polylines (n,3) on a surface runs as the field does: off it by no more than the
-    field turns along it, and an angle.
-
-    A chord is a mean of the directions in which its curve runs: where these turn one way it is nearer to those at both
-    ends than they are to each other; where they turn there and back, nearer than the one in the middle. Points may be
-    off the surface by the tolerance times its extent, and chords by as much of their length. Ends without a direction
-    are not looked at.
+    """That every chord of polylines (n,3) on a surface follows the field: off it by no more than the field turns along
+    the chord, and an angle. A chord is a mean of the directions of its curve: where they turn one way it is nearer
+    to both ends' than these are to each other; where they turn back, nearer than the middle's. Points may be off the
+    surface by tolerance times its extent, chords by as much of their length.
+    Edge cases: ends without a direction are ignored.
     """
     begin = np.concatenate([line[:-1] for line in lines])
     chords = np.concatenate([np.diff(line, axis=0) for line in lines])

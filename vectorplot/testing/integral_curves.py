@@ -109,7 +109,7 @@ class _Segments:
 
 def assert_mesh_integral_curve(points: Curves, mesh: Mesh, field: TangentField, tolerance: float) -> None:
     """Nothing, where every segment of curves has the direction of its face, or follows an edge that both sides lead to,
-    or both away from. Errors: as of assert_integral_curve."""
+    or both away from. Errors: see assert_integral_curve."""
     own = _segments(points, mesh, tolerance)
     flow = face_field_flow(own.sides, BentFaces(mesh), field)
     candidates = flow.candidates[:, own.face]
@@ -135,7 +135,7 @@ def assert_mesh_integral_curve(points: Curves, mesh: Mesh, field: TangentField, 
 def assert_mesh_geodesic(points: Curves, mesh: Mesh, tolerance: float) -> None:
     """Nothing, where curves are straight on unfolded faces, and turn no more than they must at vertices.
 
-    Errors: as of assert_geodesic.
+    Errors: see assert_geodesic.
     """
     own = _segments(points, mesh, tolerance)
     pair = np.flatnonzero(own.line[1:] == own.line[:-1])

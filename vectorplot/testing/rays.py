@@ -448,12 +448,10 @@ class Feet(NamedTuple):
 
 def nearest_places(surface: Surface, points: Floats, near: Floats | float = 0.0) -> Feet:
     """The places of a surface where the distance from points (n,3) is smallest, as far as a grid of starts finds them.
-
-    near (n,): how far points may be from the surface. Points that stay further away, and further than FOOT_OF_EXTENT of
-    the extent, are tried again from a finer grid.
-    Error: parameters of points on the surface are good to rounding; of points at a distance d to about 1e-8 d.
-    Edge cases: holes are never a place; at a pole one of its parameters is arbitrary.
-    Errors: InputError for a surface that is nowhere finite.
+    near (n,): expected distance; points farther, and farther than FOOT_OF_EXTENT, are tried again from a finer grid.
+    Error: parameters to rounding for points on the surface, about 1e-8 d at distance d.
+    Edge cases: holes are no places; at a pole one parameter is arbitrary. Errors: InputError for a surface that is
+    nowhere finite.
     """
     feet = _from_grid(surface, points, CELLS[0])
     for again in (_from_finer_grid, _from_around):

@@ -1,31 +1,8 @@
 from .device import DepthCueing, Device
 from .field_steps import euler_curves, runge_kutta_curves
-from .framebuffer import (
-    Framebuffer,
-    cleared,
-    depth_planes,
-    erasing_edges,
-    interleaved,
-    pixel_colours,
-    points_visible,
-    swapped_buffers,
-    visible_line_pixels,
-    with_colour,
-    with_lines,
-    with_pixels,
-    with_polygons,
-    with_smooth_polygons,
-)
-from .intersections import Plane, line_and_line, line_and_plane, polygons_common_segment, segments
-from .object_orders import (
-    cyclic_overlap_report,
-    cyclic_overlaps,
-    demands,
-    grouped_order,
-    object_order,
-    priorities,
-    view_objects,
-)
+from .framebuffer import Framebuffer, erasing_edges, interleaved, swapped_buffers, with_polygons, with_smooth_polygons
+from .intersections import Plane, polygons_common_segment
+from .object_orders import cyclic_overlap_report, cyclic_overlaps, demands, grouped_order, priorities, view_objects
 from .orders import (
     Position,
     graph_order,
@@ -34,23 +11,11 @@ from .orders import (
     relative_position,
     ring_order,
     sliced_meridian,
-    sphere_order,
 )
-from .polyhedra import body_record, spatial_hull
+from .polyhedra import body_record, convex_revolution_parts, spatial_hull
 from .separating_planes import Surroundings, own_box, separations, spheres_power
-from .viewing import (
-    Frustum,
-    ViewVolume,
-    basis_of_gaze,
-    camera_matrix,
-    changed_coordinates,
-    homogeneous,
-    pixel_matrix,
-    segments_to_pixels,
-    transformed,
-    viewport,
-    window_transform,
-)
+from .trapezoid_maps import bounding_trapezoid, square_map, texels_per_unit
+from .viewing import Frustum, changed_coordinates
 
 __all__ = [
     "DepthCueing",
@@ -60,52 +25,34 @@ __all__ = [
     "Plane",
     "Position",
     "Surroundings",
-    "ViewVolume",
-    "basis_of_gaze",
     "body_record",
-    "camera_matrix",
+    "bounding_trapezoid",
     "changed_coordinates",
-    "cleared",
+    "convex_revolution_parts",
     "cyclic_overlap_report",
     "cyclic_overlaps",
     "demands",
-    "depth_planes",
     "erasing_edges",
     "euler_curves",
     "graph_order",
     "graph_triangles",
     "grouped_order",
-    "homogeneous",
     "in_convex_polygon",
     "interleaved",
-    "line_and_line",
-    "line_and_plane",
-    "object_order",
     "own_box",
-    "pixel_colours",
-    "pixel_matrix",
-    "points_visible",
     "polygons_common_segment",
     "priorities",
     "relative_position",
     "ring_order",
     "runge_kutta_curves",
-    "segments",
-    "segments_to_pixels",
     "separations",
     "sliced_meridian",
     "spatial_hull",
-    "sphere_order",
     "spheres_power",
+    "square_map",
     "swapped_buffers",
-    "transformed",
+    "texels_per_unit",
     "view_objects",
-    "viewport",
-    "visible_line_pixels",
-    "window_transform",
-    "with_colour",
-    "with_lines",
-    "with_pixels",
     "with_polygons",
     "with_smooth_polygons",
 ]

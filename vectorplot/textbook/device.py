@@ -60,15 +60,7 @@ class DepthCueing:
     def numbers(self, depth: ArrayLike) -> Ints:
         """The colour numbers of depths, linear between the limits.
 
-        Parameters
-        ----------
-        depth : (...) array_like of float
-            They grow towards the eye.
-
-        Returns
-        -------
-        (...) array of int
-            Of the nearest whole numbers.
+        depth (...): they grow towards the eye; result: (...) of the nearest whole numbers.
         """
         near = np.interp(np.asarray(depth, dtype=np.float64), (self.farthest, self.nearest), (0.0, 1.0))
         return np.rint(self.first + near * (self.last - self.first)).astype(np.intp)
@@ -133,20 +125,8 @@ class Device:
     def opened(self, columns: int, rows: int) -> Device:
         """The device with an open window, all of the colour number 0.
 
-        Parameters
-        ----------
-        columns, rows : int
-            The size in pixels.
-
-        Returns
-        -------
-        Device
-            After that.
-
-        Raises
-        ------
-        InputError
-            For a raster too large or without pixels.
+        columns, rows: the size in pixels; result: after that.
+        Errors: for a raster too large or without pixels.
         """
         return replace(self, window=Framebuffer.of_numbers(columns, rows))
 
@@ -157,20 +137,8 @@ class Device:
     def cleared(self, number: int) -> Device:
         """The device with the drawn page in one colour.
 
-        Parameters
-        ----------
-        number : int
-            Of the colour, 0 to 255.
-
-        Returns
-        -------
-        Device
-            After that.
-
-        Raises
-        ------
-        InputError
-            For another number, and without a window.
+        number: of the colour, 0 to 255; result: after that.
+        Errors: for another number, and without a window.
         """
         return replace(self, window=framebuffer.cleared(self.frame, number))
 
@@ -181,42 +149,16 @@ class Device:
     def with_rgb(self, number: int, red: int, green: int, blue: int) -> Device:
         """The device with a new colour under a number.
 
-        Parameters
-        ----------
-        number : int
-            0 to 255.
-        red, green, blue : int
-            0 to 255.
-
-        Returns
-        -------
-        Device
-            After that.
-
-        Raises
-        ------
-        InputError
-            For other numbers, and without a window.
+        number: 0 to 255; red, green, blue: 0 to 255; result: after that.
+        Errors: for other numbers, and without a window.
         """
         return replace(self, window=framebuffer.with_colour(self.frame, number, red, green, blue))
 
     def with_colour(self, number: int) -> Device:
         """The device drawing with a colour number from here on.
 
-        Parameters
-        ----------
-        number : int
-            0 to 255.
-
-        Returns
-        -------
-        Device
-            After that.
-
-        Raises
-        ------
-        InputError
-            For another number.
+        number: 0 to 255; result: after that.
+        Errors: for another number.
         """
         _check_number(number)
         return replace(self, colour=int(number))
@@ -224,90 +166,38 @@ class Device:
     def with_depth_cueing(self, cueing: DepthCueing | None) -> Device:
         """The device shading lines by their depths from here on.
 
-        Parameters
-        ----------
-        cueing : DepthCueing, optional
-            The depths and their colour numbers; None: no longer.
-
-        Returns
-        -------
-        Device
-            After that.
+        cueing: the depths and their colour numbers; None: no longer; result: after that.
         """
         return replace(self, cueing=cueing)
 
     def pixel(self, column: int, row: int) -> int:
         """The colour number of a pixel on the drawn page.
 
-        Parameters
-        ----------
-        column, row : int
-            Within the window.
-
-        Returns
-        -------
-        int
-            0 to 255.
-
-        Raises
-        ------
-        InputError
-            For a pixel outside the window, and without one.
+        column, row: within the window; result: 0 to 255.
+        Errors: for a pixel outside the window, and without one.
         """
         return int(framebuffer.pixel_colours(self.frame, [(column, row)])[0, 0])
 
     def with_pixel(self, column: int, row: int) -> Device:
         """The device with a pixel in the current colour.
 
-        Parameters
-        ----------
-        column, row : int
-            One outside the window is left out.
-
-        Returns
-        -------
-        Device
-            After that.
-
-        Raises
-        ------
-        InputError
-            Without a window.
+        column, row: one outside the window is left out; result: after that.
+        Errors: without a window.
         """
         return replace(self, window=framebuffer.with_pixels(self.frame, [(column, row)], self.colour))
 
     def moved(self, point: ArrayLike) -> Device:
         """The device with the start of a polyline at a point.
 
-        Parameters
-        ----------
-        point : (2 or more,) array_like of float
-            Column and row, whole or not.
-
-        Returns
-        -------
-        Device
-            After that.
+        point (2 or more,): column and row, whole or not; result: after that.
         """
         return replace(self, position=_place(point))
 
     def drawn(self, point: ArrayLike) -> Device:
         """The device with a line from the current position to a point, which is the next position.
 
-        Parameters
-        ----------
-        point : (2 or more,) array_like of float
-            Column and row, whole or not, and a depth.
-
-        Returns
-        -------
-        Device
-            After that.
-
-        Raises
-        ------
-        InputError
-            Without a window, and before a first move; for ends without a depth while lines are shaded by it.
+        point (2 or more,): column and row, whole or not, and a depth; result: after that.
+        Errors: without a window, and before a first move; for ends without a depth while lines are shaded by it.
         """
         start, end = self._start(), _place(point)
         if self.cueing is not None:
@@ -317,20 +207,8 @@ class Device:
     def rubber_band(self, point: ArrayLike) -> Device:
         """As drawn, but by exclusive or: the same again erases it.
 
-        Parameters
-        ----------
-        point : (2 or more,) array_like of float
-            Column and row, whole or not.
-
-        Returns
-        -------
-        Device
-            After that.
-
-        Raises
-        ------
-        InputError
-            Without a window, and before a first move.
+        point (2 or more,): column and row, whole or not; result: after that.
+        Errors: without a window, and before a first move.
         """
         start, end = self._start(), _place(point)
         return replace(
@@ -340,35 +218,15 @@ class Device:
     def moved_area(self, point: ArrayLike) -> Device:
         """The device with the first corner of a polygon.
 
-        Parameters
-        ----------
-        point : (2 or more,) array_like of float
-            Column and row, whole or not.
-
-        Returns
-        -------
-        Device
-            After that.
+        point (2 or more,): column and row, whole or not; result: after that.
         """
         return replace(self, area=(_plane(point),))
 
     def drawn_area(self, point: ArrayLike) -> Device:
         """The device with the next corner of the polygon.
 
-        Parameters
-        ----------
-        point : (2 or more,) array_like of float
-            Column and row, whole or not.
-
-        Returns
-        -------
-        Device
-            After that.
-
-        Raises
-        ------
-        InputError
-            Before a first corner.
+        point (2 or more,): column and row, whole or not; result: after that.
+        Errors: before a first corner.
         """
         if not self.area:
             raise InputError("an area needs a first corner")

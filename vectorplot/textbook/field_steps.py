@@ -88,7 +88,7 @@ def runge_kutta_curves(surface: Surface, field: TangentField, starts: ArrayLike,
     Returns
     -------
     (k, steps + 1, 2) array of float
-        u and v, as of `euler_curves`.
+        u and v, see `euler_curves`.
 
     Raises
     ------

@@ -61,7 +61,8 @@ class Framebuffer:
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, swapped_buffers, with_pixels
+    >>> from vectorplot.textbook import Framebuffer, swapped_buffers
+    >>> from vectorplot.textbook.framebuffer import with_pixels
     >>> frame = with_pixels(Framebuffer.of_rgb(4, 2), [(1, 0)], (255, 0, 0))
     >>> frame.picture()[0, 1].tolist(), swapped_buffers(frame).picture()[0, 1].tolist()
     ([0, 0, 0], [255, 0, 0])
@@ -75,20 +76,8 @@ class Framebuffer:
     def of_numbers(cls, columns: int, rows: int) -> Framebuffer:
         """Pages of colour numbers, all 0.
 
-        Parameters
-        ----------
-        columns, rows : int
-            The size in pixels.
-
-        Returns
-        -------
-        Framebuffer
-            Its colours are 256 grays.
-
-        Raises
-        ------
-        InputError
-            For a raster too large or without pixels.
+        columns, rows: the size in pixels; result: its colours are 256 grays.
+        Errors: for a raster too large or without pixels.
         """
         columns, rows = raster_size(columns, rows)
         return cls(np.zeros((2, rows, columns, 1), dtype=np.uint8), GRAYS)
@@ -97,20 +86,8 @@ class Framebuffer:
     def of_rgb(cls, columns: int, rows: int) -> Framebuffer:
         """Pages of red, green and blue, all black.
 
-        Parameters
-        ----------
-        columns, rows : int
-            The size in pixels.
-
-        Returns
-        -------
-        Framebuffer
-            Without a colour table.
-
-        Raises
-        ------
-        InputError
-            For a raster too large or without pixels.
+        columns, rows: the size in pixels; result: without a colour table.
+        Errors: for a raster too large or without pixels.
         """
         columns, rows = raster_size(columns, rows)
         return cls(np.zeros((2, rows, columns, 3), dtype=np.uint8), None)
@@ -133,15 +110,7 @@ class Framebuffer:
     def picture(self, page: int | None = None) -> Bytes:
         """Red, green and blue of a page.
 
-        Parameters
-        ----------
-        page : int, optional
-            0 or 1; the page that is shown where None.
-
-        Returns
-        -------
-        (rows, columns, 3) array of uint8
-            Row 0 on top.
+        page: 0 or 1; the page that is shown where None; result: (rows,columns,3) row 0 on top.
         """
         pixels = self.pages[self.shown if page is None else page]
         return np.asarray(pixels if self.colours is None else self.colours[pixels[..., 0]])
@@ -155,30 +124,8 @@ class Framebuffer:
 def with_colour(frame: Framebuffer, number: int, red: int, green: int, blue: int) -> Framebuffer:
     """The framebuffer with another colour in its table, which all pixels of that number take at once.
 
-    Parameters
-    ----------
-    frame : Framebuffer
-        As it is.
-    number : int
-        0 to 255.
-    red, green, blue : int
-        0 to 255.
-
-    Returns
-    -------
-    Framebuffer
-        With the same pages.
-
-    Raises
-    ------
-    InputError
-        For numbers and components outside 0 to 255, and without a colour table.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import Framebuffer, with_colour
-    >>> with_colour(Framebuffer.of_numbers(4, 2), 0, 255, 0, 0).picture()[0, 0].tolist()
-    [255, 0, 0]
+    number: 0 to 255; red, green, blue: 0 to 255; result: with the same pages.
+    Errors: for numbers and components outside 0 to 255, and without a colour table.
     """
     if frame.colours is None or not 0 <= number <= 255 or not all(0 <= c <= 255 for c in (red, green, blue)):
         raise InputError(f"colour {number}: {red}, {green}, {blue} does not fit into the colour table")
@@ -202,7 +149,8 @@ def swapped_buffers(frame: Framebuffer) -> Framebuffer:
 
     Examples
     --------
-    >>> from vectorplot.textbook import Framebuffer, cleared, swapped_buffers
+    >>> from vectorplot.textbook import Framebuffer, swapped_buffers
+    >>> from vectorplot.textbook.framebuffer import cleared
     >>> frame = cleared(Framebuffer.of_numbers(4, 2), 9)
     >>> frame.picture().max().item(), swapped_buffers(frame).picture().min().item()
     (0, 9)
@@ -213,28 +161,9 @@ def swapped_buffers(frame: Framebuffer) -> Framebuffer:
 def cleared(frame: Framebuffer, colour: Colour) -> Framebuffer:
     """The framebuffer with the drawn page in one colour.
 
-    Parameters
-    ----------
-    frame : Framebuffer
-        As it is.
-    colour : int or (int, int, int)
-        A number, or red, green and blue, as the pages hold them; 0 to 255.
-
-    Returns
-    -------
-    Framebuffer
-        The page that is shown is as it was.
-
-    Raises
-    ------
-    InputError
-        For what is no colour of the pages.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import Framebuffer, cleared, pixel_colours
-    >>> pixel_colours(cleared(Framebuffer.of_rgb(4, 2), (0, 0, 255)), [(3, 1)]).tolist()
-    [[0, 0, 255]]
+    colour: a number, or red, green and blue, as the pages hold them; 0 to 255; result: the page that is shown is as it
+    was.
+    Errors: for what is no colour of the pages.
     """
     pages = frame.pages.copy()
     pages[frame.drawn] = value_of(frame, colour)
@@ -244,29 +173,8 @@ def cleared(frame: Framebuffer, colour: Colour) -> Framebuffer:
 def pixel_colours(frame: Framebuffer, points: ArrayLike) -> Bytes:
     """What stands on the drawn page at some points.
 
-    Parameters
-    ----------
-    frame : Framebuffer
-        What is asked.
-    points : (n, 2) array_like of float
-        Column and row; the nearest pixel counts.
-
-    Returns
-    -------
-    (n, k) array of uint8
-        Numbers, or red, green and blue.
-
-    Raises
-    ------
-    InputError
-        For points outside the raster, or not finite.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import Framebuffer, pixel_colours, with_pixels
-    >>> frame = with_pixels(Framebuffer.of_numbers(4, 2), [(0, 0), (3, 1)], [5, 6])
-    >>> pixel_colours(frame, [(0, 0), (2.7, 1.2)]).tolist()
-    [[5], [6]]
+    points (n,2): column and row; the nearest pixel counts; result: (n,k) numbers, or red, green and blue.
+    Errors: for points outside the raster, or not finite.
     """
     column, row = whole_pixels(points).T
     if not ((column >= 0) & (column < frame.columns) & (row >= 0) & (row < frame.rows)).all():
@@ -277,31 +185,9 @@ def pixel_colours(frame: Framebuffer, points: ArrayLike) -> Bytes:
 def with_pixels(frame: Framebuffer, points: ArrayLike, colours: ArrayLike) -> Framebuffer:
     """The framebuffer with pixels at points in one colour or in n.
 
-    Parameters
-    ----------
-    frame : Framebuffer
-        As it is.
-    points : (n, 2) array_like of float
-        Column and row; those outside the raster are left out.
-    colours : (k,) or (n, k) array_like of int
-        As the pages hold them; a number alone where k = 1.
-
-    Returns
-    -------
-    Framebuffer
-        With a new drawn page.
-
-    Raises
-    ------
-    InputError
-        For what is no colour of the pages, for points that are not finite or too far away.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import Framebuffer, with_pixels
-    >>> frame = with_pixels(Framebuffer.of_numbers(4, 2), [(0, 0), (3, 1), (9, 9)], 7)
-    >>> frame.pages[frame.drawn, ..., 0].tolist()
-    [[7, 0, 0, 0], [0, 0, 0, 7]]
+    points (n,2): column and row; those outside the raster are left out; colours (k,) or (n,k): as the pages hold them;
+    a number alone where k = 1; result: with a new drawn page.
+    Errors: for what is no colour of the pages, for points that are not finite or too far away.
     """
     column, row = whole_pixels(points).T
     inside = np.flatnonzero((column >= 0) & (column < frame.columns) & (row >= 0) & (row < frame.rows))
@@ -333,40 +219,10 @@ def values_of(frame: Framebuffer, colours: ArrayLike, count: int) -> Bytes:
 
 
 def with_lines(frame: Framebuffer, start: ArrayLike, end: ArrayLike, colours: ArrayLike) -> Framebuffer:
-    """The framebuffer with lines in one colour or in n; later lines lie over earlier ones.
-
-    Parameters
-    ----------
-    frame : Framebuffer
-        As it is.
-    start, end : (n, 2 or more) array_like of float
-        Column and row; lines are cut off at the raster.
-    colours : (k,) or (n, k) array_like of int
-        As the pages hold them; a number alone where k = 1.
-
-    Returns
-    -------
-    Framebuffer
-        With a new drawn page.
-
-    Raises
-    ------
-    InputError
-        For what is no colour of the pages, for points that are not finite or too far away, and for other numbers of
-        ends than of starts.
-
-    Notes
-    -----
-    Edge cases: a line without length is one pixel.
-
-    Source: Glaeser, section 4.6 (Bresenham); erratum G4-09.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import Framebuffer, with_lines
-    >>> frame = with_lines(Framebuffer.of_numbers(6, 3), [(0, 0)], [(5, 2)], 1)
-    >>> frame.pages[frame.drawn, ..., 0].tolist()
-    [[1, 1, 0, 0, 0, 0], [0, 0, 1, 1, 0, 0], [0, 0, 0, 0, 1, 1]]
+    """The framebuffer with lines start to end (n,2 or more: column, row) in one colour (k,) or in n (n,k), later over
+    earlier, cut off at the raster. Edge cases: a line without length is one pixel.
+    Source: Glaeser, section 4.6 (Bresenham); erratum G4-09. Errors: InputError for other colours, points not finite or
+    too far, and different numbers of ends.
     """
     values = values_of(frame, colours, len(np.atleast_2d(np.asarray(start))))
     pages = frame.pages.copy()
@@ -491,41 +347,10 @@ STEPS = 2.0
 
 
 def points_visible(buffer: DepthBuffer, points: ArrayLike) -> Bools:
-    """Which points nothing in a depth buffer hides.
-
-    Parameters
-    ----------
-    buffer : DepthBuffer
-        Of all that may hide them.
-    points : (n, 3) array_like of float
-        Column, row and depth after T2.
-
-    Returns
-    -------
-    (n,) array of bool
-        Points outside the raster are not visible.
-
-    Raises
-    ------
-    InputError
-        For points that are not finite.
-
-    Notes
-    -----
-    A point is compared with the plane of the triangle in its pixel, at its own place; the tolerance is what snapping
-    moves that plane, and a step of the code.
-
-    Source: Glaeser, section 7.3.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import ScreenTriangles, depth_buffer
-    >>> from vectorplot.textbook import points_visible
-    >>> corners = np.array([(-1.0, -1.0, 0.5), (9.0, -1.0, 0.5), (-1.0, 9.0, 0.5)])
-    >>> buffer = depth_buffer(ScreenTriangles(corners, np.array([(0, 1, 2)]), np.array([0])), 8, 8)
-    >>> points_visible(buffer, [(1, 1, 0.4), (1, 1, 0.6), (7, 7, 0.4), (9, 1, 0.6)]).tolist()
-    [False, True, True, False]
+    """(n,) which points (n,3: column, row, depth after T2) nothing in a depth buffer hides; none outside the raster.
+    Compared with the plane of the triangle in the pixel, within what snapping moves that plane and a step of the
+    code.
+    Source: Glaeser, section 7.3. Errors: InputError for points not finite.
     """
     p = np.asarray(points, dtype=np.float64).reshape(-1, 3)
     if not np.isfinite(p).all():
@@ -563,45 +388,10 @@ def _plane_depth(corners: Floats, at: Floats) -> tuple[Floats, Floats]:
 
 
 def visible_line_pixels(buffer: DepthBuffer, start: ArrayLike, end: ArrayLike) -> tuple[Ints, Ints, Ints]:
-    """The pixels of lines that are not hidden.
-
-    Parameters
-    ----------
-    buffer : DepthBuffer
-        Of all that may hide them.
-    start, end : (n, 3) array_like of float
-        Column, row and depth after T2. Clip the lines at the near plane first.
-
-    Returns
-    -------
-    (p,) array of int
-        Columns.
-    (p,) array of int
-        Rows.
-    (p,) array of int
-        Lines.
-
-    Raises
-    ------
-    InputError
-        For points that are not finite, or too far away.
-
-    Notes
-    -----
-    Depths run linearly between the ends, as T2 keeps lines straight.
-
-    Source: Glaeser, section 7.3 (hidden lines on the screen); erratum G7-07.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.shading import ScreenTriangles, depth_buffer
-    >>> from vectorplot.textbook import visible_line_pixels
-    >>> corners = np.array([(-1.0, -1.0, 0.5), (5.0, -1.0, 0.5), (-1.0, 5.0, 0.5)])
-    >>> buffer = depth_buffer(ScreenTriangles(corners, np.array([(0, 1, 2)]), np.array([0])), 8, 2)
-    >>> columns, rows, lines = visible_line_pixels(buffer, [(0, 0, 0.2)], [(7, 0, 0.2)])
-    >>> columns.tolist(), rows.tolist()
-    ([4, 5, 6, 7], [0, 0, 0, 0])
+    """Columns, rows and lines (p,) of the visible pixels of lines start to end (n,3: column, row, depth after T2),
+    clipped at the near plane before; depths run linearly between the ends, as T2 keeps lines straight.
+    Source: Glaeser, section 7.3 (hidden lines on the screen); erratum G7-07. Errors: InputError for points not finite
+    or too far.
     """
     p, q = (np.asarray(x, dtype=np.float64).reshape(-1, 3) for x in (start, end))
     rows, columns = buffer.code.shape
@@ -621,29 +411,10 @@ def visible_line_pixels(buffer: DepthBuffer, start: ArrayLike, end: ArrayLike) -
 def depth_planes(polygons: Polygons) -> Floats:
     """The planes a, b, c of polygons in the image: depth = a column + b row + c.
 
-    Parameters
-    ----------
-    polygons : Polygons
-        Columns of their points: column, row and depth; n polygons.
-
-    Returns
-    -------
-    (n, 3) array of float
-        NaN for polygons all of whose corners lie on a line, seen from the eye: those cover no pixel.
-
-    Notes
-    -----
+    polygons: columns of their points: column, row and depth; n polygons; result: (n,3) NaN for polygons all of whose
+    corners lie on a line, seen from the eye: those cover no pixel.
     They go through the first three corners that do not lie on a line.
-
     Source: Glaeser, section 7.3; erratum G7-05.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.geometry import Polygons
-    >>> from vectorplot.textbook import depth_planes
-    >>> depth_planes(Polygons.of(np.array([(0.0, 0.0, 5.0), (4.0, 0.0, 9.0), (0.0, 4.0, 13.0)]))).tolist()
-    [[1.0, 2.0, 5.0]]
     """
     points, offsets = polygons.points, polygons.offsets
     planes = np.full((len(polygons), 3), np.nan)
@@ -681,7 +452,7 @@ def _first(wanted: Bools, starts: Ints) -> Ints:
 class Erased:
     """A sequence of fills in the colour of the paper and of edges, which leaves the lines that one sees.
 
-    start, end: (3, e) the edges in the image, as of ImageFaces; first: (n+1,) after the polygon k of the painted faces
+    start, end: (3, e) the edges in the image, see ImageFaces; first: (n+1,) after the polygon k of the painted faces
     is filled, the edges first[k] to first[k+1] are drawn.
     """
 
@@ -784,7 +555,7 @@ def interleaved(painted: ImageFaces, erased: Erased) -> list[tuple[Floats, Float
     painted : ImageFaces
         The polygons, back to front.
     erased : Erased
-        As of erasing_edges.
+        See erasing_edges.
 
     Returns
     -------

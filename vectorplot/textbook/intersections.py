@@ -60,20 +60,9 @@ class Plane:
     def through(cls, p: ArrayLike, q: ArrayLike, r: ArrayLike) -> Plane:
         """The planes through three points each.
 
-        Parameters
-        ----------
-        p, q, r : (..., 3) array_like of float
-            They run counter-clockwise seen from the normal's tip.
-
-        Returns
-        -------
-        Plane
-            As many as there are triples of points.
-
-        Raises
-        ------
-        InputError
-            For three points on a line.
+        p, q, r (...,3): they run counter-clockwise seen from the normal's tip; result: as many as there are triples of
+        points.
+        Errors: for three points on a line.
         """
         p, q, r = (np.asarray(x, dtype=np.float64) for x in (p, q, r))
         u, v = q - p, r - p
@@ -88,22 +77,9 @@ class Plane:
     def of_equation(cls, normal: ArrayLike, constant: ArrayLike) -> Plane:
         """The planes n.x = c.
 
-        Parameters
-        ----------
-        normal : (..., 3) array_like of float
-            Of any length but zero.
-        constant : (...) array_like of float
-            The c of each plane.
-
-        Returns
-        -------
-        Plane
-            With the point that is nearest to the origin.
-
-        Raises
-        ------
-        InputError
-            For a normal without length.
+        normal (...,3): of any length but zero; constant (...): the c of each plane; result: with the point that is
+        nearest to the origin.
+        Errors: for a normal without length.
         """
         n = np.asarray(normal, dtype=np.float64)
         squared = dot(n, n)
@@ -119,33 +95,15 @@ class Plane:
     def distance(self, points: ArrayLike) -> Floats:
         """Signed distances of points.
 
-        Parameters
-        ----------
-        points : (..., 3) array_like of float
-            In space.
-
-        Returns
-        -------
-        (...) array of float
-            Positive on the normal's side.
+        points (...,3): in space; result: (...) positive on the normal's side.
         """
         return np.asarray(dot(self.normal, np.asarray(points, dtype=np.float64) - self.point) / length(self.normal))
 
     def side(self, points: ArrayLike) -> NDArray[np.int8]:
         """The sides of the planes that points lie on.
 
-        Parameters
-        ----------
-        points : (..., 3) array_like of float
-            In space.
-
-        Returns
-        -------
-        (...) array of int8
-            1 on the normal's side, -1 on the other; a point in the plane counts as 1.
-
-        Notes
-        -----
+        points (...,3): in space; result: (...) 1 on the normal's side, -1 on the other; a point in the plane counts as
+        1.
         In the plane means: as near as rounding can tell. Exact signs for three given points: orient3d.
         """
         arm = np.asarray(points, dtype=np.float64) - self.point
@@ -171,31 +129,10 @@ class LineCut:
 def line_and_plane(start: ArrayLike, direction: ArrayLike, plane: Plane) -> LineCut:
     """The points where lines start + t * direction pierce planes.
 
-    Parameters
-    ----------
-    start, direction : (..., 3) array_like of float
-        A point and a direction of each line.
-    plane : Plane
-        One for all lines, or one for each.
-
-    Returns
-    -------
-    LineCut
-        The points, and their parameters t.
-
-    Notes
-    -----
+    start, direction (...,3): a point and a direction of each line; plane: one for all lines, or one for each; result:
+    the points, and their parameters t.
     Edge cases: for lines that are parallel to the plane see LineCut.
-
     Source: Glaeser, section 1.3, equation 16; erratum G1-03.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import Plane, line_and_plane
-    >>> plane = Plane.through((0, 0, 2), (1, 0, 2), (0, 1, 2))
-    >>> cut = line_and_plane((1, 1, 0), (0, 0, 1), plane)
-    >>> cut.point.tolist(), cut.parameter.item()
-    ([1.0, 1.0, 2.0], 2.0)
     """
     a, d = np.asarray(start, dtype=np.float64), np.asarray(direction, dtype=np.float64)
     arm = plane.point - a
@@ -207,35 +144,10 @@ def line_and_plane(start: ArrayLike, direction: ArrayLike, plane: Plane) -> Line
 
 
 def line_and_line(a: ArrayLike, d: ArrayLike, b: ArrayLike, e: ArrayLike) -> LineCut:
-    """The points where lines a + t * d meet the coplanar lines b + s * e, in the plane or in space.
-
-    Parameters
-    ----------
-    a, d : (..., 2 or 3) array_like of float
-        A point and a direction of each line that is cut.
-    b, e : (..., 2 or 3) array_like of float
-        A point and a direction of the other line.
-
-    Returns
-    -------
-    LineCut
-        The points, and their parameters t.
-
-    Notes
-    -----
-    In space the equation is read along d x e, so lines in any plane will do, upright ones too. Of two skew lines it is
-    the point of the first that is nearest to the second.
-
-    Edge cases: for parallel lines see LineCut.
-
-    Source: Glaeser, section 1.3, equations 17 to 20; erratum G1-01.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import line_and_line
-    >>> cut = line_and_line((0, 0), (1, 1), (4, 0), (0, 1))
-    >>> cut.point.tolist(), cut.parameter.item(), cut.parallel.item()
-    ([4.0, 4.0], 4.0, False)
+    """The points where lines a + t d meet the coplanar lines b + s e, in the plane or in space (..., 2 or 3), with t.
+    In space the equation is read along d x e, so upright planes will do; of skew lines it is the point of the first
+    nearest to the second.
+    Edge cases: parallel lines, see LineCut. Source: Glaeser, section 1.3, equations 17 to 20; erratum G1-01.
     """
     a, d, b, e = (np.asarray(x, dtype=np.float64) for x in (a, d, b, e))
     arm = b - a
@@ -263,38 +175,9 @@ def _cut(a: Floats, d: Floats, above: Floats, below: Floats, parallel: Bools, wi
 
 
 def segments(p1: ArrayLike, q1: ArrayLike, p2: ArrayLike, q2: ArrayLike) -> tuple[Floats, Floats, Bools]:
-    """The parameters of the points where the lines of two segments meet, and whether they do.
-
-    Parameters
-    ----------
-    p1, q1 : (..., 2 or 3) array_like of float
-        The ends of the first segment.
-    p2, q2 : (..., 2 or 3) array_like of float
-        The ends of the second segment.
-
-    Returns
-    -------
-    (...) array of float
-        The parameter on the first segment, 0 at p1 and 1 at q1.
-    (...) array of float
-        That on the second.
-    (...) array of bool
-        Whether there is one such point.
-
-    Notes
-    -----
-    The segments themselves cross where both parameters lie in [0, 1].
-
-    Edge cases: where the lines are parallel, or identical, the flag is False and both parameters are infinite.
-
-    Source: Glaeser, section 1.3 (segments).
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import segments
-    >>> t1, t2, meet = segments((0, 0), (4, 4), (0, 2), (2, 0))
-    >>> t1.item(), t2.item(), meet.item()
-    (0.25, 0.5, True)
+    """Parameters (...) on the lines of segments p1 q1 and p2 q2 (..., 2 or 3) where they meet, 0 at p and 1 at q, and
+    whether they do; the segments cross where both lie in [0, 1].
+    Edge cases: parallel or identical lines give False and infinite parameters. Source: Glaeser, section 1.3.
     """
     p1, q1, p2, q2 = (np.asarray(x, dtype=np.float64) for x in (p1, q1, p2, q2))
     first = line_and_line(p1, q1 - p1, p2, q2 - p2)

@@ -37,7 +37,7 @@ from vectorplot.visibility.projected_faces import project_faces
 class Objects:
     """Items, or groups of them, as an eye or a lamp sees them.
 
-    view: as of scene.look; faces: those drawn; owner: (n,) the object of each face, -1 for none; box: (6, k) smallest
+    view: see scene.look; faces: those drawn; owner: (n,) the object of each face, -1 for none; box: (6, k) smallest
     and largest x, y and height of each object in the image; around: boxes and spheres in the view.
     """
 
@@ -57,7 +57,7 @@ def view_objects(view: View, object_of: ArrayLike | None = None) -> Objects:
     Parameters
     ----------
     view : View
-        As of scene.look; the view of a lamp makes the system of a lamp: there in front means nearer to the lamp.
+        See scene.look; the view of a lamp makes the system of a lamp: there in front means nearer to the lamp.
     object_of : (i,) array_like of int, optional
         The object that each item belongs to, from 0 on, or -1 for none; every item is an object where None.
 
@@ -106,12 +106,10 @@ def _mesh(view: View, items: Ints) -> Mesh:
 
 
 def which_first(objects: Objects, first: Ints, second: Ints, *, critical: bool = False) -> Codes:
-    """(p,) codes of pairs of objects, as of face_relations: APART where neither hides anything of the other, IN_FRONT
-    where the first has to be drawn later, BEHIND where the second has, STRADDLING where both would have to.
-
-    Boxes in the image that do not overlap decide nothing; then depths that do not, spheres and planes that keep apart;
-    what is left open the outlines of the faces decide. critical: always the outlines, so that no priority is given
-    where nothing overlaps.
+    """(p,) codes of pairs of objects, see face_relations: APART where neither hides the other, IN_FRONT where the first
+    is drawn later, BEHIND where the second is, STRADDLING where both would have to. Decided by boxes in the image,
+    depths, spheres and separating planes, then by outlines of faces; critical: by outlines only, so that nothing
+    without overlap has a priority.
     Source: Glaeser, section 5.5; errata G5-02, G5-03, G5-05.
     """
     box = objects.box
@@ -167,7 +165,7 @@ def priorities(objects: Objects, subset: ArrayLike | None = None, *, critical: b
     Parameters
     ----------
     objects : Objects
-        As of view_objects.
+        See view_objects.
     subset : (k,) array_like of int, optional
         Some of the objects; all of them where None.
     critical : bool
@@ -213,7 +211,7 @@ def demands(table: Codes) -> tuple[Ints, Ints]:
     Parameters
     ----------
     table : (k, k) array of int8
-        As of priorities.
+        See priorities.
 
     Returns
     -------
@@ -224,7 +222,8 @@ def demands(table: Codes) -> tuple[Ints, Ints]:
     --------
     >>> import numpy as np
     >>> from vectorplot import textbook
-    >>> from vectorplot.visibility import APART, BEHIND, IN_FRONT
+    >>> from vectorplot.visibility import APART
+    >>> from vectorplot.visibility.painter.priority_tests import BEHIND, IN_FRONT
     >>> before, after = textbook.demands(np.array([[APART, IN_FRONT], [BEHIND, APART]]))
     >>> before.tolist(), after.tolist()
     ([1], [0])
@@ -280,7 +279,7 @@ def _some(points: Floats, offsets: Ints, which: Ints) -> tuple[Floats, Ints]:
 class ObjectOrder:
     """An order of whole objects, and the cycles that have none.
 
-    order: (n,) objects back to front; cycles: the objects that lie on one another in circles, circle by circle;
+    order: (n,) objects back to front; cycles: the objects that overlap cyclically, cycle by cycle;
     critical: whether the second, slower pass was needed; undone: groups that had to be taken apart.
     """
 
@@ -291,7 +290,7 @@ class ObjectOrder:
 
 
 def cyclic_overlaps(count: int, before: Ints, after: Ints) -> tuple[Ints, ...]:
-    """The sets of objects, of two or more, that lie on one another in circles.
+    """The sets of objects, of two or more, that overlap cyclically.
 
     Parameters
     ----------
@@ -329,7 +328,7 @@ def cyclic_overlap_report(cycles: Sequence[Ints], names: Sequence[str]) -> tuple
     Parameters
     ----------
     cycles : sequence of arrays of int
-        As of cyclic_overlaps.
+        See cyclic_overlaps.
     names : sequence of str
         Of all objects.
 
@@ -353,40 +352,10 @@ def cyclic_overlap_report(cycles: Sequence[Ints], names: Sequence[str]) -> tuple
 
 
 def object_order(view: View, names: Sequence[str]) -> ObjectOrder:
-    """The items of a view as whole objects, back to front.
-
-    Parameters
-    ----------
-    view : View
-        As of scene.look.
-    names : sequence of str
-        Of the items, for the warning.
-
-    Returns
-    -------
-    ObjectOrder
-        By quick decisions; if these make a cycle, by the outlines of all pairs; a cycle that stays is left as it is.
-
-    Warns
-    -----
-    InputWarning
-        Where a cycle stays: it names its objects.
-
-    Notes
-    -----
+    """The items of a view as whole objects, back to front: by quick decisions, by outlines of all pairs where these
+    make a cycle; a cycle that stays is left, and an InputWarning names its objects (names: of the items).
     painters_order cuts such cycles instead.
-
-    Source: Glaeser, section 5.6 (mikado, two passes); erratum G5-04.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, textbook
-    >>> above = geometry.box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 2))
-    >>> boxes = (vp.Item("high", above), vp.Item("low", geometry.box((1, 1, 1))))
-    >>> view = scene.look(vp.Scene(boxes), vp.Camera((2, 3, 9)))
-    >>> textbook.object_order(view, ["high", "low"]).order.tolist()
-    [1, 0]
+    Source: Glaeser, section 5.6 (two passes); erratum G5-04.
     """
     objects = view_objects(view)
     for critical in (False, True):
@@ -415,7 +384,7 @@ def grouped_order(count: int, before: Ints, after: Ints, group: Ints) -> ObjectO
     Returns
     -------
     ObjectOrder
-        Groups are ordered as wholes, then the objects in each. What is in circles is reported as cycles.
+        Groups are ordered as wholes, then the objects in each. What overlaps cyclically is reported as cycles.
 
     Raises
     ------

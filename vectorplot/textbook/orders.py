@@ -433,42 +433,10 @@ def _entered(line: Floats, order: int, eye: Floats) -> Bools:
 
 
 def sphere_order(view: View, faces: ImageFaces, bodies: Bodies) -> Ints | None:
-    """Convex bodies back to front, by falling power of the eye with respect to the spheres around them.
-
-    Parameters
-    ----------
-    view : View
-        What the bodies are seen in.
-    faces : ImageFaces
-        What can be seen, in the image.
-    bodies : Bodies
-        As of convex_bodies, b of them.
-
-    Returns
-    -------
-    (b,) array of int, or None
-        Numbers of bodies; None where that order is wrong.
-
-    Notes
-    -----
-    It is right for bodies whose spheres are disjoint; pairs whose spheres are not, and whose boxes overlap in the
-    image, are compared as they are.
-
+    """(b,) numbers of convex bodies (see convex_bodies) back to front, by falling power of the eye to their spheres;
+    None where that is wrong. Right for disjoint spheres; other pairs whose image boxes overlap are compared
+    directly.
     Source: Glaeser, section 5.5, figure 9; erratum G5-03.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot.geometry import box
-    >>> from vectorplot.scene import look
-    >>> from vectorplot.textbook import sphere_order
-    >>> from vectorplot.visibility import convex_bodies, painters_order
-    >>> near = box((1, 1, 1), placement=(1, 0, 0, 0, 0, 1, 0, -5, 0, 0, 1, 0))
-    >>> view = look(vp.Scene((vp.Item("near", near), vp.Item("far", box((1, 1, 1))))), vp.Camera((2, -20, 3)))
-    >>> faces = painters_order(view).faces
-    >>> sphere_order(view, faces, convex_bodies(view, faces, np.arange(2))).tolist()
-    [1, 0]
     """
     eye = np.array([0.0, 0.0, 1.0, 0.0]) if view.eye is None else view.eye
     power = spheres_power(bodies.sphere.T, eye)

@@ -80,7 +80,7 @@ class Surroundings:
     Parameters
     ----------
     boxes : (n, 8, 3) array of float
-        As of own_box, turned or not.
+        See own_box, turned or not.
     spheres : (n, 4) array of float
         Centre and radius.
     points : (v, 3) array of float
@@ -118,22 +118,8 @@ class Surroundings:
     def of(cls, shapes: Sequence[Mesh], boxes: Sequence[ArrayLike] | None = None) -> Surroundings:
         """What is around meshes.
 
-        Parameters
-        ----------
-        shapes : sequence of Mesh
-            n of them.
-        boxes : sequence of (8, 3) array_like of float, optional
-            Their own boxes, if these are known.
-
-        Returns
-        -------
-        Surroundings
-            In the same order.
-
-        Raises
-        ------
-        InputError
-            For a mesh without vertices.
+        shapes: n of them; boxes: their own boxes, if these are known; result: in the same order.
+        Errors: for a mesh without vertices.
         """
         around = [own_box(s.vertices) if boxes is None else np.asarray(boxes[k]) for k, s in enumerate(shapes)]
         middles = [box.mean(axis=0) for box in around]

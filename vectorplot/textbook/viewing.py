@@ -41,29 +41,9 @@ def basis_of(vector: ArrayLike, other: ArrayLike | None = None) -> Floats:
 def basis_of_gaze(gaze: ArrayLike, up: ArrayLike) -> Floats:
     """The frame of rows u right, v up, w against the gaze.
 
-    Parameters
-    ----------
-    gaze : (3,) array_like of float
-        The direction one looks in.
-    up : (3,) array_like of float
-        What is upwards in the picture, not along the gaze.
-
-    Returns
-    -------
-    (3, 3) array of float
-        Its rows are unit vectors.
-
-    Raises
-    ------
-    InputError
-        For vectors without length, or collinear ones.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.textbook import basis_of_gaze
-    >>> np.allclose(basis_of_gaze(gaze=(0, 5, 0), up=(0, 0, 1)), [(1, 0, 0), (0, 0, 1), (0, -1, 0)])
-    True
+    gaze (3,): the direction one looks in; up (3,): what is upwards in the picture, not along the gaze; result: (3,3)
+    its rows are unit vectors.
+    Errors: for vectors without length, or collinear ones.
     """
     return basis_of(-np.asarray(gaze, dtype=np.float64), up)
 
@@ -223,15 +203,7 @@ class Frustum:
     def contains(self, points: ArrayLike) -> Bools:
         """Which world points lie inside or on the border.
 
-        Parameters
-        ----------
-        points : (..., 3) array_like of float
-            In the world.
-
-        Returns
-        -------
-        (...) array of bool
-            False for what lies behind the eye.
+        points (...,3): in the world; result: (...) False for what lies behind the eye.
         """
         return np.asarray((matmul(self.system.homogeneous(points), self.box.planes.T) >= 0.0).all(axis=-1))
 
@@ -242,21 +214,7 @@ class Frustum:
 def homogeneous(points: ArrayLike) -> Floats:
     """Homogeneous coordinates of points, last component 1.
 
-    Parameters
-    ----------
-    points : (..., k) array_like of float
-        In the plane or in space.
-
-    Returns
-    -------
-    (..., k+1) array of float
-        With one more column.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import homogeneous
-    >>> homogeneous([(3, 4)]).tolist()
-    [[3.0, 4.0, 1.0]]
+    points (...,k): in the plane or in space; result: (...,k+1) with one more column.
     """
     p = np.asarray(points, dtype=np.float64)
     return np.concatenate([p, np.ones((*p.shape[:-1], 1))], axis=-1)
@@ -276,28 +234,9 @@ def dehomogenized(points: ArrayLike) -> Floats:
 def transformed(matrix: ArrayLike, points: ArrayLike) -> Floats:
     """Points under a homogeneous matrix, after division by the last component.
 
-    Parameters
-    ----------
-    matrix : (k+1, k+1) array_like of float
-        Acts on homogeneous columns.
-    points : (..., k) array_like of float
-        In the plane or in space.
-
-    Returns
-    -------
-    (..., k) array of float
-        Their images.
-
-    Raises
-    ------
-    InputError
-        For images at infinity.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import transformed, viewport
-    >>> transformed(viewport(100, 80), [(-1, -1, 0), (1, 1, 0)]).tolist()
-    [[-0.5, -0.5, 0.0], [99.5, 79.5, 0.0]]
+    matrix (k+1,k+1): acts on homogeneous columns; points (...,k): in the plane or in space; result: (...,k) their
+    images.
+    Errors: for images at infinity.
     """
     return dehomogenized(matmul(homogeneous(points), np.asarray(matrix, dtype=np.float64).T))
 
@@ -312,27 +251,9 @@ def transformed(matrix: ArrayLike, points: ArrayLike) -> Floats:
 def window_transform(source: ArrayLike, target: ArrayLike) -> Floats:
     """The matrix that carries one box to another, translate, scale, translate: windows in the plane, boxes in space.
 
-    Parameters
-    ----------
-    source, target : (2, k) array_like of float
-        Two opposite corners each, in the same order; a target may run backwards, which mirrors.
-
-    Returns
-    -------
-    (k+1, k+1) array of float
-        Acts on homogeneous columns.
-
-    Raises
-    ------
-    InputError
-        For a source box without extent.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import transformed, window_transform
-    >>> matrix = window_transform([(0, 0), (2, 2)], [(0, 100), (100, 0)])
-    >>> transformed(matrix, [(0, 0), (1, 2)]).tolist()
-    [[0.0, 100.0], [50.0, 0.0]]
+    source, target (2,k): two opposite corners each, in the same order; a target may run backwards, which mirrors;
+    result: (k+1,k+1) acts on homogeneous columns.
+    Errors: for a source box without extent.
     """
     s, t = np.asarray(source, dtype=np.float64), np.asarray(target, dtype=np.float64)
     if np.any(s[0] == s[1]):
@@ -347,26 +268,9 @@ def window_transform(source: ArrayLike, target: ArrayLike) -> Floats:
 def viewport(columns: int, rows: int) -> Floats:
     """The matrix from the square [-1, 1]^2 to an image of so many pixels, whose centres are the integers.
 
-    Parameters
-    ----------
-    columns, rows : int
-        The size in pixels.
-
-    Returns
-    -------
-    (4, 4) array of float
-        The image is [-1/2, columns - 1/2] x [-1/2, rows - 1/2]. Depth is kept. Row 0 is at y = -1.
-
-    Raises
-    ------
-    InputError
-        For an image without pixels.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import transformed, viewport
-    >>> transformed(viewport(4, 2), [(0, 0, 0.5)]).tolist()
-    [[1.5, 0.5, 0.5]]
+    columns, rows: the size in pixels; result: (4,4) the image is [-1/2, columns - 1/2] x [-1/2, rows - 1/2]. Depth is
+    kept. Row 0 is at y = -1.
+    Errors: for an image without pixels.
     """
     if columns < 1 or rows < 1:
         raise InputError(f"an image of {columns} x {rows} pixels shows nothing")
@@ -380,30 +284,10 @@ def viewport(columns: int, rows: int) -> Floats:
 class ViewVolume:
     """What is seen, in camera coordinates.
 
-    Parameters
-    ----------
-    left, right : float
-        Limits of x in the plane z = near, left < right.
-    bottom, top : float
-        Limits of y there, bottom < top.
-    near, far : float
-        Limits of z, 0 > near > far.
-
-    Raises
-    ------
-    InputError
-        For a volume that is empty or reaches the eye.
-
-    Notes
-    -----
+    left, right: limits of x in the plane z = near, left < right; bottom, top: limits of y there, bottom < top; near,
+    far: limits of z, 0 > near > far.
     Source: lecture, M_orth, P and M_per.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import ViewVolume, transformed
-    >>> volume = ViewVolume(-1, 1, -1, 1, near=-1, far=-9)
-    >>> transformed(volume.orthographic_perspective, [(1, 1, -1), (9, -9, -9)]).tolist()
-    [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0]]
+    Errors: for a volume that is empty or reaches the eye.
     """
 
     left: float
@@ -421,24 +305,9 @@ class ViewVolume:
     def of_field(cls, fov_deg: float, aspect: float, near: float, far: float) -> ViewVolume:
         """The symmetric volume with a field of vision over its height.
 
-        Parameters
-        ----------
-        fov_deg : float
-            In degrees.
-        aspect : float
-            Width / height.
-        near, far : float
-            As of ViewVolume.
-
-        Returns
-        -------
-        ViewVolume
-            With the eye's ray in its middle.
-
-        Raises
-        ------
-        InputError
-            For what ViewVolume refuses.
+        fov_deg: in degrees; aspect: width / height; near, far: see ViewVolume; result: with the eye's ray in its
+        middle.
+        Errors: for what ViewVolume refuses.
         """
         half = -near * float(tan(np.radians(fov_deg) / 2.0))
         return cls(-half * aspect, half * aspect, -half, half, near, far)
@@ -467,30 +336,8 @@ class ViewVolume:
 def camera_matrix(eye: ArrayLike, gaze: ArrayLike, up: ArrayLike) -> Floats:
     """M_cam, from the world to camera coordinates: the eye goes to the origin, the gaze to -z.
 
-    Parameters
-    ----------
-    eye : (3,) array_like of float
-        In the world.
-    gaze, up : (3,) array_like of float
-        As of basis_of_gaze.
-
-    Returns
-    -------
-    (4, 4) array of float
-        Acts on homogeneous columns.
-
-    Raises
-    ------
-    InputError
-        For vectors without length, or collinear ones.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot.textbook import camera_matrix, transformed
-    >>> camera = camera_matrix(eye=(0, -5, 0), gaze=(0, 1, 0), up=(0, 0, 1))
-    >>> np.allclose(transformed(camera, [(0, 0, 0), (1, 0, 2)]), [(0, 0, -5), (1, 2, -5)])
-    True
+    eye (3,): in the world; gaze, up (3,): see basis_of_gaze; result: (4,4) acts on homogeneous columns.
+    Errors: for vectors without length, or collinear ones.
     """
     return frame_from_world(eye, basis_of_gaze(gaze, up))
 
@@ -498,32 +345,9 @@ def camera_matrix(eye: ArrayLike, gaze: ArrayLike, up: ArrayLike) -> Floats:
 def pixel_matrix(camera: ArrayLike, volume: ViewVolume, columns: int, rows: int) -> Floats:
     """Viewport, orthographic, perspective and camera matrix in one: from the world to pixels and depth.
 
-    Parameters
-    ----------
-    camera : (4, 4) array_like of float
-        As of camera_matrix.
-    volume : ViewVolume
-        What is seen.
-    columns, rows : int
-        The size of the image in pixels.
-
-    Returns
-    -------
-    (4, 4) array of float
-        Acts on homogeneous columns.
-
-    Raises
-    ------
-    InputError
-        For an image without pixels.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import ViewVolume, camera_matrix, pixel_matrix, transformed
-    >>> camera = camera_matrix(eye=(0, 0, 5), gaze=(0, 0, -1), up=(0, 1, 0))
-    >>> matrix = pixel_matrix(camera, ViewVolume(-1, 1, -1, 1, -1, -9), 100, 80)
-    >>> transformed(matrix, [(0, 0, 4), (1, 1, 4)])[:, :2].round(6).tolist()
-    [[49.5, 39.5], [99.5, 79.5]]
+    camera (4,4): see camera_matrix; volume: what is seen; columns, rows: the size of the image in pixels; result:
+    (4,4) acts on homogeneous columns.
+    Errors: for an image without pixels.
     """
     return np.asarray(
         matmul(
@@ -536,48 +360,10 @@ def pixel_matrix(camera: ArrayLike, volume: ViewVolume, columns: int, rows: int)
 def segments_to_pixels(
     starts: ArrayLike, ends: ArrayLike, camera: ArrayLike, volume: ViewVolume, columns: int, rows: int
 ) -> tuple[Floats, Floats, Bools]:
-    """The images of segments, and which segments have one.
-
-    Parameters
-    ----------
-    starts, ends : (n, 3) array_like of float
-        In the world.
-    camera : (4, 4) array_like of float
-        As of camera_matrix.
-    volume : ViewVolume
-        What is seen.
-    columns, rows : int
-        The size of the image in pixels.
-
-    Returns
-    -------
-    (n, 3) array of float
-        The images of the starts, in pixels and depth; zeros where there is none.
-    (n, 3) array of float
-        Those of the ends.
-    (n,) array of bool
-        Which segments have an image.
-
-    Raises
-    ------
-    InputError
-        For an image without pixels.
-
-    Notes
-    -----
-    Segments are cut at the near plane before the division, so one that reaches behind the eye shows its part in front.
-    Nothing else is cut.
-
-    Source: lecture, final algorithm; erratum V-04.
-
-    Examples
-    --------
-    >>> from vectorplot.textbook import ViewVolume, camera_matrix, segments_to_pixels
-    >>> camera = camera_matrix(eye=(0, 0, 5), gaze=(0, 0, -1), up=(0, 1, 0))
-    >>> volume = ViewVolume(-1, 1, -1, 1, -1, -9)
-    >>> starts, ends, seen = segments_to_pixels([(0, 0, 0), (0, 0, 6)], [(1, 0, 6), (0, 0, 9)], camera, volume, 100, 80)
-    >>> seen.tolist(), ends[0, 2].round(6).item()
-    ([True, False], 1.0)
+    """The images (n,3) of starts and ends in pixels and depth, zeros where there is none, and (n,) which segments have
+    one. starts, ends (n,3): in the world; camera (4,4): see camera_matrix. Segments are cut at the near plane before
+    the division, so one that reaches behind the eye shows its front part; nothing else is cut.
+    Source: lecture, final algorithm; erratum V-04. Errors: InputError for an image without pixels.
     """
     camera = np.asarray(camera, dtype=np.float64)
     p, q = (matmul(homogeneous(x), camera.T) for x in (starts, ends))

@@ -159,7 +159,8 @@ def pressed(state: ViewerState, key: str) -> ViewerState:
 
     Examples
     --------
-    >>> from vectorplot.viewer import ViewerState, pressed
+    >>> from vectorplot.viewer import pressed
+    >>> from vectorplot.viewer.state import ViewerState
     >>> top = pressed(ViewerState(azimuth=1.0), "1")
     >>> top.parallel, pressed(top, "u").azimuth, pressed(top, "?") == top
     (True, 1.0, True)
@@ -439,7 +440,7 @@ def recorded_pictures(states: tuple[ViewerState, ...], scene: Scene, job: Job) -
     """The drawings of states, on the page of the first one; the same state is drawn once.
 
     Pixels become painted polygons: a movie has frames of one kind.
-    Errors: as of picture; SupersededError where the job is stopped.
+    Errors: see picture; SupersededError where the job is stopped.
     """
     before: tuple[ViewerState, Drawing] | None = None
     for number, state in enumerate(states):

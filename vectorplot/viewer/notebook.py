@@ -34,7 +34,7 @@ def show(scene: object) -> ViewerWidget:
     Raises
     ------
     InputError
-        Where anywidget is not installed, and as of `io.scene_of`.
+        Where anywidget is not installed, and as in `io.scene_of`.
     TypeError
         For what has no shape.
 

@@ -86,7 +86,7 @@ def picture(state: ViewerState, scene: Scene, *, progress: Progress | None = Non
     Raises
     ------
     InputError
-        As of the verbs.
+        See the verbs.
 
     Examples
     --------

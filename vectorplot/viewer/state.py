@@ -40,59 +40,14 @@ _LAMP = (0.6, 0.9)
 
 @dataclass(frozen=True)
 class ViewerState:
-    """The camera by its spherical coordinates, the mode, and what is shown with it.
-
-    Parameters
-    ----------
-    azimuth, elevation, twist : float
-        Of the eye seen from the target, and of the camera about its principal ray, in radians.
-    distance : float
-        From the eye to the target, in world units.
-    target : (float, float, float)
-        In world coordinates.
-    fov_deg : float
-        The full angle over the page's height, in degrees.
-    parallel : bool
-        Parallel rays; the height of the picture is that of the central one in the plane through the target.
-    former : tuple, optional
-        Azimuth, elevation, twist and parallel before a main view was chosen.
-    mode : str
-        A word of `animation.MODES`.
-    crease_angle_deg : float
-        Sharper edges are creases; 0 to 180 degrees.
-    hatch : {"none", "tone", "colour", "even"}
-        How faces of line drawings are hatched.
-    spacing_mm : float
-        From stroke to stroke of the hatching where it is darkest.
-    light_azimuth, light_elevation : float
-        How far all lights are turned about the middle of the scene, in radians.
-    lights_go_along_from : float, optional
-        Where the lights go along with the eye (heliocentric): its azimuth when they began to; None: they stand still.
-    rotating : bool
-        The azimuth changes by itself.
-    depth_buffer : bool
-        Shaded pictures are pixels with a depth buffer, not painted polygons.
-    outlines : bool
-        Outlines on shaded pictures; line drawings show nothing else.
-    colour_map, boxes, axes, lights : bool
-        What is shown over the picture, and is not in files: colours, boxes round items, axes, and the lights, which
-        arrow keys move then.
-    landscape : bool
-        The page lies on its longer side.
-    wish : {"", "ps", "video", "quit"}
-        What a key asked for beside another picture.
-
-    Raises
-    ------
-    InputError
-        For numbers that are not finite or out of range, and for unknown words.
-
-    Examples
-    --------
-    >>> from vectorplot.viewer import ViewerState, pressed
-    >>> state = ViewerState(azimuth=0.5, distance=10.0)
-    >>> round(pressed(state, "a").azimuth, 9), round(pressed(state, "d").distance, 9)
-    (0.55, 10.3)
+    """The camera by spherical coordinates, the mode, and what is shown. azimuth, elevation, twist: radians; distance,
+    target: world units; fov_deg: over the page's height; parallel: the picture's height is that of the central one
+    through the target; former: azimuth, elevation, twist, parallel before a main view; mode: a word of
+    `animation.MODES`; light_azimuth, light_elevation: turn of all lights about the scene, radians;
+    lights_go_along_from: the eye's azimuth when lights began to follow it, None where they stand; rotating: azimuth
+    changes by itself; depth_buffer: pixels, not painted polygons; outlines: on shaded pictures; colour_map, boxes,
+    axes, lights: shown but not saved; landscape; wish: what a key asked for besides a picture.
+    Errors: InputError for numbers not finite or out of range, and unknown words.
     """
 
     azimuth: float = -math.pi / 3.0

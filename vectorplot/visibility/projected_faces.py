@@ -42,30 +42,9 @@ class ProjectedFaces:
 def project_faces(view: View) -> ProjectedFaces:
     """The faces of a view in the image.
 
-    Parameters
-    ----------
-    view : View
-        As of scene.look.
-
-    Returns
-    -------
-    ProjectedFaces
-        One entry for each face of the view.
-
-    Notes
-    -----
+    view: see scene.look; result: one entry for each face of the view.
     A face is edge-on where its image is narrower than the view's tolerance.
-
     Source: Glaeser, section 5.1 (backfaces and frontfaces).
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> camera = vp.Camera((0.5, -9, 0.5), target=(0.5, 0, 0.5), parallel=True)
-    >>> view = scene.look(vp.Scene((vp.Item("cube", geometry.box((1, 1, 1))),)), camera)
-    >>> sorted(visibility.project_faces(view).facing.tolist())
-    [-1, 0, 0, 0, 0, 1]
     """
     count = view.face_count
     faces = ProjectedFaces(np.empty(count, np.int8), np.empty((4, count), np.float32), np.empty(count, np.float32))

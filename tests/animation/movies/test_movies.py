@@ -8,7 +8,6 @@ from hypothesis.extra import numpy as arrays
 from support.paths import DATA
 
 import vectorplot as vp
-from vectorplot.animation import packed
 from vectorplot.animation.movies import (
     Movie,
     MovieFrame,
@@ -18,6 +17,7 @@ from vectorplot.animation.movies import (
     encoded,
     frame_drawings,
     movie_of,
+    packed,
     pruned,
     read_movie,
     unpacked,

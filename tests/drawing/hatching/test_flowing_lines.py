@@ -15,6 +15,7 @@ from vectorplot import features
 from vectorplot.backends.cairo import png_bytes
 from vectorplot.drawing.hatching import _farthest_first, place_ranks
 from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
+from vectorplot.features.surface_points import Sites
 from vectorplot.geometry import box
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.pictures.followed_lines import field_of
@@ -139,7 +140,7 @@ def test_along_isophotes_strokes_have_one_angle_to_the_light_that_the_item_names
 
 
 def test_what_crosses_isophotes_leads_into_the_light():
-    sites = features.Sites(Sphere(1.0), np.array([0.4, 3.0]), np.array([0.2, -1.0]))
+    sites = Sites(Sphere(1.0), np.array([0.4, 3.0]), np.array([0.2, -1.0]))
     (along,), (across,) = (field_of("isophotes", family, SUN).tangents(sites) for family in (0, 1))
     sun = np.array(SUN.position)
     towards = sun - (sites.points @ sun)[:, None] * sites.points

@@ -15,7 +15,7 @@ from vectorplot.geometry.polylines import segments
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.pictures.hatching import BEHIND
-from vectorplot.scene import Page
+from vectorplot.scene.page import Page
 
 PAGE = Page(200.0, 140.0, 0.0)
 NEAR = 0.03

@@ -19,8 +19,8 @@ from vectorplot.scene import look
 from vectorplot.surfaces import Cylinder, ImplicitTorus, Sphere, Torus
 from vectorplot.testing.rays import visible_by_rays
 from vectorplot.tolerances import NEAR_SURFACE_OF_EXTENT
-from vectorplot.visibility import project_faces
 from vectorplot.visibility.hidden_points import points_hidden_by
+from vectorplot.visibility.projected_faces import project_faces
 
 NAMES = "ABCDEFGH"
 CUBE = vp.Item("CUBE", box((2, 2, 2)))

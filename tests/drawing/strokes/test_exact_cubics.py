@@ -11,7 +11,8 @@ import shapely
 import vectorplot as vp
 from vectorplot.curves import AkimaSpline, BSpline, CubicSpline, PlacedCurve, nurbs_curve, spline_curve
 from vectorplot.curves.splines import SplineCurve
-from vectorplot.drawing import CurvedStrokes, Paths, curved_strokes
+from vectorplot.drawing import curved_strokes
+from vectorplot.drawing.drawing import CurvedStrokes, Paths
 from vectorplot.drawing.simplify import without_collinear_points
 from vectorplot.surfaces import PlacedSurface, Sphere, nurbs_surface, spline_surface
 from vectorplot.surfaces.splines import line_pieces

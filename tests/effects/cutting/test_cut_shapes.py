@@ -13,7 +13,8 @@ from vectorplot.errors import InputError
 from vectorplot.features import polygonized
 from vectorplot.geometry import box
 from vectorplot.geometry.mesh_cuts import HalfSpaces
-from vectorplot.io import parse_scene, scene_of
+from vectorplot.io import parse_scene
+from vectorplot.io.anything import scene_of
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.surfaces import ImplicitTorus, Torus, implicit_sphere
 from vectorplot.surfaces.implicit import CutImplicit

@@ -2,10 +2,11 @@ import numpy as np
 import pytest
 import shapely
 
-from vectorplot.effects.windows import screen_door, screen_door_pixels, sparseness
+from vectorplot.effects.windows import screen_door, sparseness
 from vectorplot.errors import InputError
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.scene.material import Material
+from vectorplot.shading.screen import every_nth
 
 ELL = np.array([(0, 0), (9, 0), (9, 3), (3, 3), (3, 9), (0, 9)], dtype=float).T
 DISC = 5.0 * np.stack([np.cos(np.linspace(0, 6.2, 60)), np.sin(np.linspace(0, 6.2, 60))]) + 20.0
@@ -64,13 +65,11 @@ def test_lines_through_corners_enter_and_leave() -> None:
 @pytest.mark.capability("G6.6-screen-door")
 @pytest.mark.parametrize("every", [1, 2, 3, 4])
 def test_every_nth_pixel_is_set_evenly(every: int) -> None:
-    pixels = screen_door_pixels(120, 240, every)
+    pixels = every_nth(np.arange(120)[:, None], np.arange(240), every)
     assert pixels.mean() == 1.0 / every
     assert (pixels.sum(axis=0) == 120 // every).all() or every == 4
     if every > 1:
         assert not (pixels[:, 1:] & pixels[:, :-1]).any() and not (pixels[1:] & pixels[:-1]).any()
-    with pytest.raises(InputError):
-        screen_door_pixels(3, 3, 0)
 
 
 def test_how_sparse_opacities_are() -> None:

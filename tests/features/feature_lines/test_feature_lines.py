@@ -11,6 +11,7 @@ from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.feature_lines import Detail, Sight, implicit_bending, surface_bending, surface_feature_lines
 from vectorplot.features.mesh_feature_lines import implicit_feature_lines, mesh_bending, mesh_feature_lines
 from vectorplot.features.mesh_lines import face_triangles
+from vectorplot.surfaces.quadrics import implicit_ellipsoid
 from vectorplot.words import DRAWN, FEATURE_KINDS, WIRES, LineKind
 
 EYE = np.array([20.0, 3.0, 8.0])
@@ -95,7 +96,7 @@ def test_ridges_of_an_ellipsoid_lie_in_its_planes_of_symmetry():
 
 
 def test_ridges_of_an_implicit_ellipsoid_and_of_a_mesh_of_it_are_the_same():
-    implicit = surfaces.implicit_ellipsoid((3.0, 2.0, 1.0))
+    implicit = implicit_ellipsoid((3.0, 2.0, 1.0))
     mesh = features.polygonized(implicit, 40)
     for lines in (
         implicit_feature_lines(implicit, mesh, SIGHTS["central"], [LineKind.RIDGE], Detail()),

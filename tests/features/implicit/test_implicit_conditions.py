@@ -11,9 +11,8 @@ from vectorplot.features.implicit_surfaces import (
     ImplicitPointIsophote,
     MeetsImplicit,
     MeetsPlane,
-    sight_line_bending,
 )
-from vectorplot.surfaces.quadrics import implicit_cylinder, implicit_sphere
+from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.surfaces.tori import ImplicitTorus
 
 TORUS = ImplicitTorus(3.0, 1.0)
@@ -36,15 +35,6 @@ def test_gradients_are_the_derivatives_of_values(condition):
     assert np.abs(gradients - np.stack(moved, axis=-1)).max() < 1e-6 * np.abs(gradients).max()
     grid = condition.values(p.reshape(5, 8, 3))
     assert np.array_equal(grid.ravel(), condition.values(p))
-
-
-def test_bending_along_the_line_of_sight_is_the_normal_curvature():
-    sphere = implicit_sphere(2.0)
-    p = 2.0 * np.eye(3)
-    way = np.array([[0, 3.0, 0], [1.0, 0, 5.0], [2.0, 2.0, 2.0]])
-    assert np.allclose(sight_line_bending(sphere, p, way), [4.5, 13.0, 4.0])
-    rod = implicit_cylinder(1.0, (0, 0, 0), (0, 0, 1), [[-2] * 3, [2] * 3])
-    assert abs(sight_line_bending(rod, np.array([1.0, 0, 0]), np.array([0, 0, 1.0]))) < 1e-15
 
 
 def test_wrong_numbers_are_named():

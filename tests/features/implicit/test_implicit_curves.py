@@ -11,7 +11,6 @@ from vectorplot.features.implicit_curves import (
     implicit_contour,
     implicit_intersection,
     implicit_isophotes,
-    implicit_level_lines,
     implicit_parallel_contour,
     implicit_plane_sections,
     implicit_point_light_isophotes,
@@ -101,7 +100,7 @@ def test_isophotes_of_a_point_light():
 
 def test_the_condition_is_positive_on_the_left():
     surface = implicit_sphere(2.0)
-    (curve,) = lines(implicit_level_lines(surface, [0.5]))
+    (curve,) = lines(implicit_plane_sections(surface, (0, 0, 1), [0.5]))
     middle, along = (curve[1:] + curve[:-1]) / 2, np.diff(curve, axis=0)
     assert (np.cross(surface.gradients(middle), along)[:, 2] > 0).all()
 
@@ -184,7 +183,9 @@ def test_a_tangent_plane_at_the_inner_equator_gives_a_curve_with_a_node():
 def test_tiny_ovals_are_found_by_local_subdivision(height):
     # Much smaller than a cell of 0.02.
     centre = (0.013, 0.021, 0.0)
-    curves = implicit_level_lines(implicit_sphere(1.0, centre), [height], tracing=ImplicitTracing(tolerance=1e-6))
+    curves = implicit_plane_sections(
+        implicit_sphere(1.0, centre), (0, 0, 1), [height], tracing=ImplicitTracing(tolerance=1e-6)
+    )
     assert len(curves) == 1 and curves.closed.all() and not curves.doubts
     away = np.linalg.norm(curves.points[:, :2] - centre[:2], axis=1)
     assert np.abs(away - np.sqrt(1.0 - height**2)).max() < 1e-10
@@ -219,7 +220,7 @@ def test_an_isophote_on_a_flat_part_is_not_filled():
 @pytest.mark.slow
 @pytest.mark.hard(39)
 def test_touching_along_a_line_is_said():
-    curves = implicit_level_lines(ImplicitTorus(3, 1), [1.0])
+    curves = implicit_plane_sections(ImplicitTorus(3, 1), (0, 0, 1), [1.0])
     assert len(curves) == 0 and curves.doubts
 
 
@@ -292,7 +293,9 @@ def test_scaled_and_shifted_scenes_are_the_same(scale, offset):
 
 def test_chords_keep_the_tolerance_where_the_picture_measures_it():
     surface = implicit_sphere(1.0)
-    curves = implicit_level_lines(surface, [0.2], tracing=ImplicitTracing(tolerance=0.01, picture=lambda p: 100.0 * p))
+    curves = implicit_plane_sections(
+        surface, (0, 0, 1), [0.2], tracing=ImplicitTracing(tolerance=0.01, picture=lambda p: 100.0 * p)
+    )
     p = curves[0]
     middle = np.linalg.norm((p[1:, :2] + p[:-1, :2]) / 2, axis=1)
     assert np.abs(middle - np.sqrt(0.96)).max() < 1e-4

@@ -10,9 +10,17 @@ from scipy.spatial import cKDTree
 import vectorplot as vp
 from vectorplot import features, scene, surfaces
 from vectorplot.errors import InputError
-from vectorplot.features import Tracing, evenly_spaced_curves
-from vectorplot.features import streamlines as uncrowded_lines
-from vectorplot.features.streamlines import Ground, PlacesAlong, SeparationTest, is_near_itself, thinned, widest_first
+from vectorplot.features import streamlines
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.streamlines import (
+    Ground,
+    PlacesAlong,
+    SeparationTest,
+    evenly_spaced_curves,
+    is_near_itself,
+    thinned,
+    widest_first,
+)
 from vectorplot.features.surface_integration import Accuracy, FieldFlow, Until, traces_from
 from vectorplot.features.surface_points import charts
 from vectorplot.surfaces import Cylinder, Domain, Sphere, Torus
@@ -171,14 +179,14 @@ def test_what_is_near_is_so_on_the_same_sheet_and_for_a_line_not_a_little_before
     first = int(np.argmax(beside))
     # The way back is beside the way there as soon as it is twice the distance long.
     assert first > 3000 and abs(along[first] - along[2999] - 1.4) < 0.7 and not beside[:3000].any()
-    crowd = SeparationTest(ground).with_places(places[:10], where[:10]).with_places(places[10:20], where[10:20])
-    assert crowd.near(places[3000:], where[3000:], 0.5).sum() > 0 and len(crowd.groups) == 1
+    separation = SeparationTest(ground).with_places(places[:10], where[:10]).with_places(places[10:20], where[10:20])
+    assert separation.near(places[3000:], where[3000:], 0.5).sum() > 0 and len(separation.groups) == 1
     # What is in a hole is no place for a line, whatever is taken.
     lost = np.where(np.arange(6000)[:, None] % 7 == 3, np.nan, where)
-    near = crowd.near(places, lost, 0.5)
+    near = separation.near(places, lost, 0.5)
     assert near[3::7].all()
-    assert np.array_equal(*(np.delete(some, np.s_[3::7]) for some in (near, crowd.near(places, where, 0.5))))
-    assert not crowd.away(lost)[3::7].any() and SeparationTest(ground).near(places[3:4], lost[3:4], 0.5).all()
+    assert np.array_equal(*(np.delete(some, np.s_[3::7]) for some in (near, separation.near(places, where, 0.5))))
+    assert not separation.away(lost)[3::7].any() and SeparationTest(ground).near(places[3:4], lost[3:4], 0.5).all()
     chosen = thinned(ground, places, 0.5)
     assert cKDTree(where[chosen]).query(where[chosen], 2)[0][:, 1].min() > 0.5
     assert cKDTree(where[chosen]).query(where)[0].max() <= 0.5
@@ -195,8 +203,8 @@ def test_lines_are_taken_one_after_the_other_however_many_are_compared_at_a_time
     lines = PlacesAlong(33 * np.arange(count + 1), along, np.full(count, np.inf), places)
     found = []
     for group in (50, 400, 1 << 14):
-        monkeypatch.setattr(uncrowded_lines, "GROUP", group)
-        spans, crowd = uncrowded_lines.uncrowded(lines, SeparationTest(ground))
+        monkeypatch.setattr(streamlines, "GROUP", group)
+        spans, separation = streamlines.well_separated(lines, SeparationTest(ground))
         found.append(spans)
     assert len(found[0]) > 10 and all(np.array_equal(spans, found[0]) for spans in found)
     line, low, high = found[0].T
@@ -205,7 +213,7 @@ def test_lines_are_taken_one_after_the_other_however_many_are_compared_at_a_time
     for number, own in enumerate(kept[1:], start=1):
         away = cKDTree(np.concatenate(kept[:number])).query(own)[0]
         assert away.min() > 0.05, "no two are nearer than half the distance"
-    assert sum(map(len, kept)) == sum(len(taken.places) for taken in crowd.groups)
+    assert sum(map(len, kept)) == sum(len(taken.places) for taken in separation.groups)
 
 
 @pytest.mark.parametrize("most", [1, 7, 1000])

@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from vectorplot import features
 from vectorplot.errors import InputError
-from vectorplot.features import Tracing, geodesics_between
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.geodesic_curves import geodesics_between
 from vectorplot.surfaces import Cone, Cylinder, Ellipsoid, Sphere, Torus
 from vectorplot.testing import assert_geodesic
 
@@ -96,7 +96,7 @@ def test_what_is_there_and_back_is_as_long():
 )
 def test_what_is_wrong_is_told(places, words, cause):
     with pytest.raises(InputError, match=cause):
-        features.geodesics_between(Sphere(), *places, **words)
+        geodesics_between(Sphere(), *places, **words)
 
 
 def test_there_is_none_where_none_is_short_enough_or_a_border_is_in_the_way():

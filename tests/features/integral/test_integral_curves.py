@@ -7,8 +7,13 @@ import vectorplot as vp
 from vectorplot import features
 from vectorplot.curves import Loxodrome
 from vectorplot.errors import InputError
-from vectorplot.features import Accuracy, Sites, Tracing, geodesics, integral_curves
-from vectorplot.features.tangent_fields import principal
+from vectorplot.features import geodesics, integral_curves
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.geodesic_curves import geodesics_between
+from vectorplot.features.streamlines import evenly_spaced_curves
+from vectorplot.features.surface_integration import Accuracy
+from vectorplot.features.surface_points import Sites
+from vectorplot.features.tangent_fields import ParameterField, principal
 from vectorplot.geometry.mesh_cuts import HalfSpaces
 from vectorplot.scene import FieldLines
 from vectorplot.surfaces import (
@@ -263,12 +268,12 @@ def test_a_geodesic_of_the_torus_keeps_clairauts_constant():
     flow = GeodesicFlow(torus, charts(torus))
     tangents = np.array([[0.0, np.cos(0.8), np.sin(0.8)], [0.0, np.cos(1.3), np.sin(1.3)]])
     run = traces(flow, np.array([[0.0, np.pi]] * 2), tangents, np.ones(2), np.full(2, 20.0), 11.0, 4.0, EIGHT_DIGITS)
-    every = np.arange(len(run.leaps.row))
+    every = np.arange(len(run.strides.row))
     states = run.states(every, np.ones(len(every)))
     points = run.points(every, np.ones(len(every)))
     constant = points[:, 0] * states[:, 3] - points[:, 1] * states[:, 2]
     for row, angle in enumerate((0.8, 1.3)):
-        assert np.abs(constant[run.leaps.row == row] - 4.0 * np.cos(angle)).max() < 1e-8
+        assert np.abs(constant[run.strides.row == row] - 4.0 * np.cos(angle)).max() < 1e-8
 
 
 @pytest.mark.capability("G9.4-field")
@@ -294,7 +299,7 @@ def test_the_error_follows_the_accuracy_that_is_asked_for():
 @pytest.mark.capability("G9.4-field")
 def test_fields_of_ones_own_and_what_is_wrong_with_them():
     winds = features.VectorField(lambda points: np.cross((0.0, 0.0, 1.0), points))
-    rates = features.ParameterField(lambda u, v: np.stack([np.ones_like(u), np.zeros_like(v)], axis=1))
+    rates = ParameterField(lambda u, v: np.stack([np.ones_like(u), np.zeros_like(v)], axis=1))
     for field in (winds, rates):
         found = integral_curves(Sphere(), field, (1.0, 0.5), tracing=FINE)
         assert found.closed.all() and np.allclose(found.v, 0.5)
@@ -369,7 +374,7 @@ def test_curves_end_where_their_surface_is_cut(along):
 @pytest.mark.slow
 def test_evenly_spaced_curves_keep_to_what_a_cut_leaves():
     bowl = CutSurface(Torus(2.0, 0.7), (HalfSpaces(((0.6, 0.8, 0.0),), (0.3,)),))
-    found = features.evenly_spaced_curves(bowl, features.SteepestSlope(), 0.4)
+    found = evenly_spaced_curves(bowl, features.SteepestSlope(), 0.4)
     assert len(found) > 10 and (found.points @ (0.6, 0.8, 0.0)).max() <= 0.3
 
 
@@ -378,8 +383,8 @@ def test_shapes_without_parameters_are_told():
     for work in (
         lambda: features.integral_curves(ring, slope, (0.0, 0.0)),
         lambda: features.geodesics(ring, (0.0, 0.0), 0.3),
-        lambda: features.geodesics_between(ring, (0.0, 0.0), (1.0, 0.0)),
-        lambda: features.evenly_spaced_curves(ring, slope, 0.5),
+        lambda: geodesics_between(ring, (0.0, 0.0), (1.0, 0.0)),
+        lambda: evenly_spaced_curves(ring, slope, 0.5),
     ):
         with pytest.raises(InputError, match="ImplicitTorus is no surface with parameters u and v"):
             work()

@@ -4,7 +4,10 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features import Accuracy, Sites, Tracing, face_sites, integral_curves
+from vectorplot.features import face_sites, integral_curves
+from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.surface_integration import Accuracy
+from vectorplot.features.surface_points import Sites
 from vectorplot.features.tangent_fields import IsophoteDirections
 from vectorplot.geometry import box
 from vectorplot.surfaces import Domain, Sphere, Torus, graph

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputWarning
-from vectorplot.features.contours_and_isophotes import level_lines, plane_sections, section_by_implicit
+from vectorplot.features.contours_and_isophotes import plane_sections, section_by_implicit
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.surfaces.quadrics import (
     Cylinder,
@@ -144,7 +144,7 @@ def test_a_plane_through_one_pole_cuts_a_sphere_in_one_circle():
 def test_level_lines_of_the_saddle_are_hyperbolas_and_at_zero_two_lines():
     saddle = HyperbolicParaboloid(1.0, 1.0, 1.0, 1.0)
     heights = [-0.25, 0.0, 0.25]
-    curves = level_lines(saddle, heights, tracing=Tracing(tolerance=1e-4))
+    curves = plane_sections(saddle, (0, 0, 1), heights, tracing=Tracing(tolerance=1e-4))
     level = np.repeat(curves.levels, np.diff(curves.offsets))
     assert np.abs(curves.points[:, 2] - level).max() < 1e-11
     assert [int((curves.levels == h).sum()) for h in heights] == [2, 2, 2]

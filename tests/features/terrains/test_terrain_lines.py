@@ -6,7 +6,9 @@ import pytest
 import vectorplot as vp
 from vectorplot import features
 from vectorplot.errors import InputError
-from vectorplot.features.terrain_water import places_on_terrain
+from vectorplot.features.mesh_lines import mesh_level_lines
+from vectorplot.features.terrain_roads import roads
+from vectorplot.features.terrain_water import places_on_terrain, valley_lines, watersheds
 from vectorplot.geometry.rotations import rotation_z
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.io.scene_writer import write_scene
@@ -40,7 +42,7 @@ def slopes(points):
 @pytest.mark.parametrize(("scale", "shift"), [(1.0, 0.0), (1e-5, 0.0), (1e4, 3e6)])
 def test_roads_keep_their_slope_and_come_to_their_end_on_both_sides(scale, shift):
     start, end = np.array([3.0, 0.1]), np.array([0.2, 1.0])
-    found = features.roads(land(cone, scale=scale, shift=shift, count=25), scale * start + shift, scale * end + shift)
+    found = roads(land(cone, scale=scale, shift=shift, count=25), scale * start + shift, scale * end + shift)
     radii, turn = np.hypot(*np.array([start, end]).T), np.arctan2(1, 0.2) - np.arctan2(0.1, 3)
     # On a cone of 45 degrees a road is a logarithmic spiral in the plan: both come from how far it turns.
     exact = [np.arctan(1 / np.hypot(1.0, t / np.log(radii[0] / radii[1]))) for t in (2 * np.pi - turn, turn)]
@@ -53,7 +55,7 @@ def test_roads_keep_their_slope_and_come_to_their_end_on_both_sides(scale, shift
 @pytest.mark.slow
 def test_roads_down_are_those_up_and_there_may_be_none():
     mesh = land(cone, count=17)
-    up, down = features.roads(mesh, (3, 0.1), (0.2, 1)), features.roads(mesh, (0.2, 1), (3, 0.1))
+    up, down = roads(mesh, (3, 0.1), (0.2, 1)), roads(mesh, (0.2, 1), (3, 0.1))
     assert np.array_equal(up.levels, -down.levels)
     assert np.array_equal(up[0], down[0][::-1])
     for start, end, said in (
@@ -64,7 +66,7 @@ def test_roads_down_are_those_up_and_there_may_be_none():
         ((3, 0), (-2, 0.1), "no road of constant slope"),
     ):
         with pytest.raises(InputError, match=said):
-            features.roads(mesh, start, end, longest=6.0)
+            roads(mesh, start, end, longest=6.0)
 
 
 @pytest.mark.capability("G9.5-landscape")
@@ -91,7 +93,7 @@ def test_watersheds_lead_from_saddles_to_summits_and_valleys_to_pits():
     mesh = land(lambda x, y: -((x**2 - 4) ** 2) / 8 - y**2)
     for turn in (0.0, 0.5):
         turned = vp.Mesh(mesh.vertices @ rotation_z(turn), mesh.corners, mesh.offsets)
-        up, down = features.watersheds(turned), features.valley_lines(turned)
+        up, down = watersheds(turned), valley_lines(turned)
         assert len(up) == len(down) == 2
         top = np.array([line[-1] for line in up]) @ rotation_z(-turn)
         assert np.allclose(top[np.argsort(top[:, 0])], [[-2, 0, 0], [2, 0, 0]], atol=1e-9)
@@ -99,8 +101,8 @@ def test_watersheds_lead_from_saddles_to_summits_and_valleys_to_pits():
             assert np.allclose(line[0], [0, 0, -2], atol=1e-9)
             assert (np.diff(line[:, 2]) >= -1e-12).all()
         assert np.allclose(np.abs((np.array([line[-1] for line in down]) @ rotation_z(-turn))[:, :2]), [[0, 4]] * 2)
-    assert len(features.watersheds(land(cone))) == 0
-    assert len(features.watersheds(land(lambda x, y: 0 * x))) == 0
+    assert len(watersheds(land(cone))) == 0
+    assert len(watersheds(land(lambda x, y: 0 * x))) == 0
 
 
 def test_every_place_has_a_basin_and_its_pit_is_in_it():
@@ -118,7 +120,7 @@ def test_every_place_has_a_basin_and_its_pit_is_in_it():
 @pytest.mark.slow
 def test_labels_stand_on_straight_parts_and_apart():
     mesh = land(hills, count=41)
-    lines = features.mesh_level_lines(mesh, np.linspace(-1, 1, 9))
+    lines = mesh_level_lines(mesh, np.linspace(-1, 1, 9))
     found = features.label_places(lines, length=0.5, apart=1.0)
     assert len(found.heights) > 20
     assert np.allclose(found.points[:, 2], found.heights, atol=1e-9)
@@ -129,7 +131,7 @@ def test_labels_stand_on_straight_parts_and_apart():
     for point, way, height in zip(found.points, left, found.heights, strict=True):
         inside = np.abs(point[:2] + 0.1 * way[:2]).max() < 4
         assert not inside or places_on_terrain(mesh, point[:2] + 0.1 * way[:2])[1][0, 2] > height
-    ring = features.mesh_level_lines(land(cone), [3.9])
+    ring = mesh_level_lines(land(cone), [3.9])
     assert len(features.label_places(ring, length=0.5, apart=1.0).heights) == 0
 
 

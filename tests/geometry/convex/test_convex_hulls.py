@@ -10,8 +10,8 @@ from scipy.spatial import ConvexHull
 from support.effort import several
 
 from vectorplot.errors import InputError
-from vectorplot.exact.predicates import orient2d
 from vectorplot.geometry.convex_polygons import convex_hull, convex_hulls, hull_mesh
+from vectorplot.geometry.predicates import orient2d
 
 
 @pytest.mark.slow

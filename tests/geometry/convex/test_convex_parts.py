@@ -8,11 +8,11 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from support.effort import examples
 
-from vectorplot.geometry.convex_bodies import convex_prism_parts, convex_revolution_parts, split_faces
+from vectorplot.geometry.convex_bodies import split_faces
 from vectorplot.geometry.convex_polygons import convex_polygon_parts, is_convex_polygon, signed_area
 from vectorplot.geometry.solids import has_convex_outline, prism, revolution
 from vectorplot.geometry.winding import is_closed_oriented
-from vectorplot.textbook.polyhedra import body_record
+from vectorplot.textbook.polyhedra import body_record, convex_prism_parts, convex_revolution_parts
 
 LETTER = np.array([[0, 0, 0], [4, 0, 0], [4, 1, 0], [1, 1, 0], [1, 3, 0], [4, 3, 0], [4, 4, 0], [0, 4, 0]], dtype=float)
 

@@ -10,11 +10,11 @@ from scipy.spatial import ConvexHull, HalfspaceIntersection
 from support.effort import examples
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.convex_bodies import cut_face, polyhedron_intersection
+from vectorplot.geometry.convex_bodies import polyhedron_intersection
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.solids import box, has_convex_outline, prism, revolution
 from vectorplot.geometry.winding import is_closed_oriented
-from vectorplot.textbook.polyhedra import body_record, face_constants
+from vectorplot.textbook.polyhedra import body_record, cut_face, face_constants
 
 
 def moved(mesh, shift, angles=(0.0, 0.0), scale=1.0):

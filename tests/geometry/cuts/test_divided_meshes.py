@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from vectorplot.features import mesh_of_grid
-from vectorplot.geometry import Mesh, box
+from vectorplot.geometry import box
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import (
     HalfSpaces,
     PlaneFrame,

@@ -24,8 +24,8 @@ from vectorplot.surfaces import (
     implicit_sphere,
     landscape,
     surface_of_function,
-    tube,
 )
+from vectorplot.surfaces.swept import tube
 
 SURFACES = [
     Sphere(1.0),

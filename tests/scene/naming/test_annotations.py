@@ -11,6 +11,7 @@ import shapely
 import vectorplot as vp
 from vectorplot import io
 from vectorplot.geometry import box
+from vectorplot.io.anything import scene_of
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.annotations import label_anchors
 
@@ -41,7 +42,7 @@ def test_dimensions_and_angles_say_their_measures() -> None:
 
 
 def test_they_are_thin_and_hidden_like_other_lines() -> None:
-    scene = io.scene_of([CUBE, vp.axes(4), vp.dimension((0, 2, 0), (2, 2, 0), (0, 1, 0))])
+    scene = scene_of([CUBE, vp.axes(4), vp.dimension((0, 2, 0), (2, 2, 0), (0, 1, 0))])
     drawing = vp.draw(scene, CAMERA, page=vp.Page(100, 80))
     layers = {layer.name: sum(map(len, layer.marks)) for layer in drawing.layers}
     assert layers["curve"] == 0 and layers["label"] > 10
@@ -64,7 +65,7 @@ def test_arrowheads_point_on_and_ticks_stand_across() -> None:
 
 
 def test_scene_files_keep_them() -> None:
-    scene = io.scene_of([CUBE, vp.axes(4, ticks=2), vp.angle((0, 0, 2), (1, 0, 2), (0, 1, 2), 0.5)])
+    scene = scene_of([CUBE, vp.axes(4, ticks=2), vp.angle((0, 0, 2), (1, 0, 2), (0, 1, 2), 0.5)])
     again = io.parse_scene(write_scene(scene))
     assert again.labels == scene.labels and [i.lines for i in again.items] == [i.lines for i in scene.items]
 

@@ -9,6 +9,7 @@ import vectorplot as vp
 from vectorplot import io
 from vectorplot.curves import Circle
 from vectorplot.geometry import box
+from vectorplot.io.anything import scene_of
 from vectorplot.io.scene_writer import write_scene
 from vectorplot.scene.annotations import label_anchors
 from vectorplot.scene.labels import capital_height
@@ -128,8 +129,8 @@ def test_labels_go_where_their_scene_goes() -> None:
 
 def test_labels_of_several_scenes_name_their_own_items() -> None:
     one = vp.Scene(ITEMS[:1], labels=(vp.Label("V", vp.AtVertex("CUBE", 7)),))
-    both = io.scene_of([one, one.moved(10)])
-    named = io.scene_of({"left": one, "right": one.moved(10)})
+    both = scene_of([one, one.moved(10)])
+    named = scene_of({"left": one, "right": one.moved(10)})
     for scene in (both, named):
         points = label_anchors(scene).points
         assert points[1] - points[0] == pytest.approx([10.0, 0.0, 0.0])

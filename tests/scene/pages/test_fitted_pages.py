@@ -10,6 +10,7 @@ from vectorplot.cli.main import run
 from vectorplot.drawing.drawing import Paths
 from vectorplot.drawing.fills import Fills
 from vectorplot.errors import InputError
+from vectorplot.geometry.projections import projection_of
 from vectorplot.geometry.solids import box
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.scene.page import Page
@@ -86,7 +87,7 @@ def test_hatching_halo_and_labels_are_those_of_the_page_cut():
 @pytest.mark.parametrize("kind", [fitted_page, lambda page: page_of_width(page, 100.0)])
 @pytest.mark.parametrize("margin", [0.0, 10.0])
 def test_pictures_without_width_or_height_have_a_page(kind, margin):
-    view = vp.geometry.projection_of(vp.Camera.view("top"), bounds=np.array([(-1, -1, 0), (1, 1, 0)]))
+    view = projection_of(vp.Camera.view("top"), bounds=np.array([(-1, -1, 0), (1, 1, 0)]))
     for size in [(0.0, 2.0), (2.0, 0.0), (0.0, 0.0)]:
         image = np.array([np.zeros(2), size]).T
         placement = fitted_picture(view, kind(Page(100.0, 80.0, margin)), image)

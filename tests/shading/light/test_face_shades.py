@@ -203,37 +203,21 @@ def test_shades_of_triangles_and_of_polygons_are_those_at_their_barycentres():
         assert np.allclose(view.world_of(fs.face_middles(view)), means, atol=1e-12)
 
 
-@pytest.mark.capability("G4.5-face-shades")
-@pytest.mark.parametrize("word", ["normal", "plastic", "metallic"])
-def test_corners_of_a_sphere_have_the_shades_of_the_sphere(word):
-    sphere = Scene((Item("ball", ball(24), "gray", Material(word)),), (Light((4.0, 2.0, 6.0)),))
-    view = look(sphere, CAMERA)
-    lights = fs.view_lights(view, sphere.lights)
-    normals = view.points[:, view.corners] / np.linalg.norm(view.points[:, view.corners], axis=0)
-    found = fs.corner_shades(view, sphere.items, lights, normals)
-    seen = np.repeat(~fs.shows_inside(view), view.face_sizes)
-    exact = fs.point_shades(
-        view, sphere.items, lights, view.points[:, view.corners].T, normals.T, np.zeros(len(view.corners), int)
-    )
-    assert np.array_equal(found.total[seen], exact.total[seen])
-    # Two faces at one vertex agree, also beside the contour.
-    for vertex in np.unique(view.corners[seen]):
-        assert np.ptp(found.total[seen & (view.corners == vertex)]) < 1e-12
-
-
 @pytest.mark.capability("G8.5-phong")
 def test_a_highlight_measured_by_angles_differs_from_vertex_to_vertex():
     measured = replace(FINISHES["plastic"], weight=((0.0, 0.0), (0.6, 0.1), (1.2, 0.6), (1.6, 1.0)))
     angles = np.linspace(0.1, 1.5, 20)
     assert np.array_equal(measured.weight_at(np.cos(angles)), np.sort(measured.weight_at(np.cos(angles))))
     # At the mirror direction the highlight is k2 w(alpha), and nothing else changes from vertex to vertex.
-    from vectorplot.shading.illumination import light_shares
+    from vectorplot.shading.illumination import brightness, light_cosines
 
     normals = np.stack((np.sin(angles / 1.0), np.zeros(20), np.cos(angles)), axis=1)
     lamp = Light((0.0, 0.0, 1.0), parallel=True)
     for normal, angle in zip(normals, angles, strict=True):
         mirrored = 2 * normal[2] * normal - (0, 0, 1)
-        share = light_shares(np.zeros((1, 3)), normal[None], (*mirrored.tolist(), 0.0), [lamp], measured)[0, 0]
+        share = brightness(*light_cosines(np.zeros((1, 3)), normal[None], (*mirrored.tolist(), 0.0), [lamp]), measured)[
+            0, 0
+        ]
         expected = measured.diffuse * np.cos(angle) + measured.highlight * measured.weight_at(np.cos(np.array(angle)))
         assert share == pytest.approx(expected, abs=1e-12)
 

@@ -16,6 +16,11 @@ SIZE = 32
 @pytest.mark.capability("G4.5-lambert")
 @pytest.mark.capability("G4.5-distance")
 @pytest.mark.capability("G4.5-depth")
+def light_shares(points, normals, eye, lights, finish):
+    """(l, n) the brightness that each light of intensity 1 gives to points with unit normals."""
+    return il.brightness(*il.light_cosines(np.asarray(points), np.asarray(normals), eye, lights), finish)
+
+
 def test_tv23_lambert_distance_and_depth():
     s = il.DIRECT_SHARE * il.lambert(np.cos(0.6), 2.0)
     assert SIZE * s == pytest.approx(17.4381792573014, abs=1e-12)
@@ -109,7 +114,7 @@ def test_several_lights_add_up_and_can_be_made_to_fit():
     points = rng.uniform(-1, 1, (200, 3))
     normals = rng.normal(size=(200, 3))
     normals /= np.linalg.norm(normals, axis=1)[:, None]
-    shares = il.light_shares(points, normals, (0, 0, 9, 1), lights, FINISHES["normal"])
+    shares = light_shares(points, normals, (0, 0, 9, 1), lights, FINISHES["normal"])
     assert shares.shape == (3, 200)
     # One light at a time, by hand.
     ray = np.array([3.0, 1, 4]) - points
@@ -139,7 +144,7 @@ def test_four_finishes_shade_a_sphere_differently():
     normals = np.stack([np.sin(u) * np.cos(v), np.sin(u) * np.sin(v), np.cos(u)], axis=-1).reshape(-1, 3)
     lights = [Light((4, -3, 5))]
     series = {
-        word: il.shades(il.light_shares(normals, normals, (0, -9, 3, 1), lights, FINISHES[word]), [1.0])
+        word: il.shades(light_shares(normals, normals, (0, -9, 3, 1), lights, FINISHES[word]), [1.0])
         for word in ("plastic", "metallic", "wood", "normal")
     }
     names = list(series)
@@ -147,9 +152,9 @@ def test_four_finishes_shade_a_sphere_differently():
         for other in names[i + 1 :]:
             assert np.abs(series[one] - series[other]).mean() > 0.02, (one, other)
     # A highlight is small and bright: plastic has one, wood has none.
-    spot = il.light_shares(normals, normals, (0, -9, 3, 1), lights, FINISHES["plastic"])[0]
+    spot = light_shares(normals, normals, (0, -9, 3, 1), lights, FINISHES["plastic"])[0]
     assert spot.max() > 0.9 and (spot > 0.7).mean() < 0.1
-    assert il.light_shares(normals, normals, (0, -9, 3, 1), lights, FINISHES["wood"])[0].max() <= 0.9
+    assert light_shares(normals, normals, (0, -9, 3, 1), lights, FINISHES["wood"])[0].max() <= 0.9
 
 
 def test_highlights_sit_where_the_mirror_direction_meets_the_eye():
@@ -159,12 +164,12 @@ def test_highlights_sit_where_the_mirror_direction_meets_the_eye():
     normals /= np.linalg.norm(normals, axis=1)[:, None]
     light, eye = np.array([1.0, 0, 0]), np.array([0.0, 1, 0])
     finish = Finish(1.0, 0.0, 1.0, 200.0, 1.0)
-    share = il.light_shares(normals, normals, (*eye, 0), [Light((1, 0, 0), parallel=True)], finish)[0]
+    share = light_shares(normals, normals, (*eye, 0), [Light((1, 0, 0), parallel=True)], finish)[0]
     assert normals[share.argmax()] @ ((light + eye) / np.sqrt(2)) > 0.999
 
 
 def test_a_point_in_the_lamp_is_not_lit_and_gives_no_nan():
-    share = il.light_shares([(1, 2, 3)], [(0, 0, 1)], (0, 0, 9, 1), [Light((1, 2, 3))], FINISHES["plastic"])
+    share = light_shares([(1, 2, 3)], [(0, 0, 1)], (0, 0, 9, 1), [Light((1, 2, 3))], FINISHES["plastic"])
     assert share[0, 0] == 0.0
 
 

@@ -9,32 +9,31 @@ from hypothesis import strategies as st
 from support.effort import several
 
 from vectorplot.errors import InputError
-from vectorplot.shading.shadow_maps import (
-    column_major,
-    depth_row,
-    four_by_four,
-    quadrilateral_map,
-    recipe_factors,
-    recipe_map,
-    recipe_matrix,
-    square_map,
-)
+from vectorplot.shading.shadow_maps import four_by_four
 from vectorplot.shading.trapezoids import (
-    LARGEST_ETA,
     Axis,
     adapted_size,
-    bounding_trapezoid,
-    convex_hull,
-    eta_of_focus,
     focus_area,
     focus_distance,
     line_of_sight,
     projective_images,
-    rectangle,
     searched_line,
-    side_directions,
     taper_of_focus,
     tapered_map,
+)
+from vectorplot.textbook.trapezoid_maps import (
+    LARGEST_ETA,
+    bounding_trapezoid,
+    column_major,
+    depth_row,
+    eta_of_focus,
+    quadrilateral_map,
+    recipe_factors,
+    recipe_map,
+    recipe_matrix,
+    rectangle,
+    side_directions,
+    square_map,
     trapezoid,
     widths,
 )
@@ -381,14 +380,6 @@ def test_points_on_a_line_and_a_single_point_still_have_a_map():
         assert np.abs(projective_images(matrix, points)).max() <= 1.0 + 1e-9
 
 
-def test_hulls_of_few_points():
-    rng = np.random.default_rng(0)
-    points = rng.normal(size=(40, 2))
-    hull = convex_hull(points)
-    assert area(hull) > 0.0
-    after = np.roll(hull, -1, axis=0)
-    side = after - hull
-    arm = points[:, None] - hull
-    assert (side[:, 0] * arm[..., 1] - side[:, 1] * arm[..., 0] >= -1e-12).all()
+def test_a_matrix_of_the_plane_is_one_of_space():
     assert four_by_four(np.eye(3)).tolist() == np.eye(4).tolist()
     assert isinstance(AXIS, Axis)

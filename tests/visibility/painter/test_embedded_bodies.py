@@ -7,10 +7,10 @@ import vectorplot as vp
 from vectorplot.geometry import box
 from vectorplot.geometry.boxes import overlapping_pairs
 from vectorplot.scene import look
-from vectorplot.visibility import project_faces
 from vectorplot.visibility.painter import unseen
 from vectorplot.visibility.painter.image_faces import drawn_faces
 from vectorplot.visibility.painter.unseen import body_sides
+from vectorplot.visibility.projected_faces import project_faces
 
 
 def _closed_grid(of, across, along):

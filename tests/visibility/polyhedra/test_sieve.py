@@ -1,4 +1,4 @@
-"""The sieve in the image, and the cells that things are entered in: nothing that hides may fall through."""
+"""Early rejection in the image, and the cells that things are entered in: nothing that hides may fall through."""
 
 from __future__ import annotations
 
@@ -10,9 +10,10 @@ from vectorplot.geometry import box
 from vectorplot.speed.measure import bars, boxes, weave
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra import hidden_lines
-from vectorplot.visibility.polyhedra.hidden_lines import Segments, clip_pairs, entered, sieve
+from vectorplot.visibility.polyhedra.hidden_lines import Segments, clip_pairs, early_rejection, entered
 from vectorplot.visibility.polyhedra.lines import edge_lines
 from vectorplot.visibility.polyhedra.occluders import solid_items
+from vectorplot.visibility.projected_faces import project_faces
 
 KINDS = frozenset({vp.LineKind.CONTOUR, vp.LineKind.CREASE})
 TUBE = box((0.7, 5.0, 0.5), caps=())
@@ -30,7 +31,7 @@ def _tubes():
 
 def _prepared(scene, camera):
     view = vp.scene.look(scene, camera)
-    faces = vp.visibility.project_faces(view)
+    faces = project_faces(view)
     solid = solid_items(view, faces)
     lines = edge_lines(scene, view, faces, KINDS, 25.0, ~solid)
     segments = Segments(lines.start, lines.end)
@@ -53,7 +54,7 @@ def test_every_pair_that_clipping_keeps_is_found_in_a_cell_and_passes_the_sieve(
     tolerance = 1e-9 / np.linalg.norm(segments.end - segments.start, axis=0)[of[hits.pair]]
     real = hits.pair[(hits.high - hits.low > 100.0 * tolerance) & (pieces.farthest > 0.0)[piece[hits.pair]]]
     assert len(real) > 50
-    assert np.isin(real, sieve(view, grid, pieces, occluders).passing(piece, occluder)).all()
+    assert np.isin(real, early_rejection(view, grid, pieces, occluders).passing(piece, occluder)).all()
     for most in (0, 1 << 30):
         entries = entered(view, grid, occluders, np.arange(len(occluders)), most)
         met = set()

@@ -54,7 +54,7 @@ VERBS = {"draw": draw, "paint": paint, "render": render}
     click.option("--frames", type=click.IntRange(1), metavar="N", help="How many.  [default: that of the animation]"),
     FPS,
     FRAME_FORMAT,
-    lines_option("Kinds of lines", default=None, note="  [default: as of the verbs]"),
+    lines_option("Kinds of lines", default=None, note="  [default: see the verbs]"),
     crease_angle_option("Sharper edges are creases."),
     shadows_option("render", "Whether lights cast shadows, and how pixels find them."),
 )

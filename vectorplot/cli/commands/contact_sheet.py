@@ -163,7 +163,7 @@ def _size(option: str, size: tuple[float, float] | str) -> tuple[float, float]:
 
 
 def _params(verb: str, path: str, words: Sequence[str]) -> Mapping[str, Any]:
-    """The values of a verb's parameters for a cell. Bad usage as of the verb."""
+    """The values of a verb's parameters for a cell. Bad usage as in the verb."""
     command: PictureVerb = VERBS[verb]  # type: ignore[assignment]
     # Nothing is written under this name: the sheet takes the drawing itself.
     params = command.make_context(verb, [path, "-o", "cell.svg", *words]).params

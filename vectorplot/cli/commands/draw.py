@@ -96,7 +96,7 @@ def draw(scene: Scene, **told: Any) -> Drawing:
 
 
 def keywords(told: dict[str, Any]) -> dict[str, Any]:
-    """What the options of the command are to the function. Bad usage as of hatching_from."""
+    """What the options of the command are to the function. Bad usage as in hatching_from."""
     hatch, rest = hatching_from(told)
     return {**rest, "hatch": hatch}
 

@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact.radix import radix_order
 from vectorplot.geometry import ragged
+from vectorplot.geometry.radix import radix_order
 from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.tolerances import SMALLEST_CELL
 

@@ -11,8 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged
+from vectorplot.geometry import intervals, ragged
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.polylines import joined
@@ -58,8 +57,8 @@ class EarlyRejection:
         return passing
 
 
-def sieve(view: View, grid: Grid, pieces: Pieces, occluders: Occluders) -> EarlyRejection:
-    """The sieve for pieces in a grid, which holds all of them, and occluders."""
+def early_rejection(view: View, grid: Grid, pieces: Pieces, occluders: Occluders) -> EarlyRejection:
+    """The early rejection for pieces in a grid, which holds all of them, and occluders."""
     left, right, bottom, top = pieces.box
     piece_boxes = _packed(np.stack([right, -left, top, -bottom]))
     left, right, bottom, top = occluders.box
@@ -127,17 +126,7 @@ FULL = 0.75
 class Segments:
     """Straight segments in the view's coordinates, all of them beyond the near plane.
 
-    Parameters
-    ----------
-    start, end : (3, n) array of float
-        Their ends, such as points_of of a view gives them.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> from vectorplot import visibility
-    >>> len(visibility.Segments(start=np.zeros((3, 4)), end=np.ones((3, 4))))
-    4
+    start, end (3,n): their ends, such as points_of of a view gives them.
     """
 
     start: Floats
@@ -149,8 +138,8 @@ class Segments:
 
 @dataclass(frozen=True, eq=False)
 class Hits:
-    """Hidden zones of single pairs: pair (h,) which one, low and high (h,) parameters, and side (h,): 0, or where the
-    segment runs along a border of the occluder's shadow, 1 with the shadow on its left, -1 on its right."""
+    """Hidden intervals of single pairs: pair (h,) which one, low and high (h,) parameters, and side (h,): 0, or where
+    the segment runs along a border of the occluder's shadow, 1 with the shadow on its left, -1 on its right."""
 
     pair: Ints
     low: Floats
@@ -168,12 +157,10 @@ def clip_pairs(
     high: Floats,
     beyond: Bools,
 ) -> Hits:
-    """What occluders hide of segments between the parameters low and high, pair by pair.
-
-    The points that a convex thing hides, itself included, form a convex set, so a zone is one interval: the segment
-    clipped by the occluder's planes, those towards the eye first; beyond (n,) tells the pairs that need not be
-    clipped by these, since the part lies behind all of the occluder. A distance below the view's tolerance is zero,
-    and zero does not hide; where a segment lies in a plane of the outline, only the shadow's side counts.
+    """What occluders hide of segments between the parameters low and high, pair by pair: one interval, since the points
+    that a convex thing hides, itself included, are convex; the segment is clipped by the occluder's planes, those
+    towards the eye first. beyond (n,): pairs wholly behind, not clipped by these. Distances below the view's
+    tolerance are zero and do not hide; for a segment in a plane of the outline only the shadow's side counts.
     Source: Glaeser, section 7.2; errata G7-01 and G7-02.
     """
     skipped = occluders.behind.take(occluder) * beyond
@@ -453,45 +440,9 @@ def with_whole_lines(seen: Visibility, whole: Bools) -> Visibility:
 def visible_parts(
     view: View, faces: ProjectedFaces, solid: Bools, segments: Segments, progress: Progress
 ) -> Visibility:
-    """The visible parts of straight segments.
-
-    Parameters
-    ----------
-    view : View
-        As of scene.look.
-    faces : ProjectedFaces
-        As of project_faces.
-    solid : (i,) array of bool
-        As of solid_items: the items that hide as convex solids.
-    segments : Segments
-        In the view's coordinates.
-    progress : callable
-        progress(share) is called while it works.
-
-    Returns
-    -------
-    Visibility
-        The visible parts only.
-
-    Notes
-    -----
-    What lies on an occluder or on the border of its shadow is visible; a line along a border is hidden where both its
-    sides are. Parts below ten tolerances of the view are left out.
-
-    Source: Glaeser, section 7.2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> camera = vp.Camera((9, 1, 1), target=(0, 1, 1), parallel=True)
-    >>> view = scene.look(vp.Scene((vp.Item("wall", geometry.box((1, 2, 2))),)), camera)
-    >>> faces = visibility.project_faces(view)
-    >>> line = visibility.Segments(*(view.points_of(np.array([(-3.0, y, 1.0)])) for y in (-1.0, 3.0)))
-    >>> parts = visibility.visible_parts(view, faces, visibility.solid_items(view, faces), line, lambda share: None)
-    >>> parts.low.round(9).tolist(), parts.high.round(9).tolist()
-    ([0.0, 0.75], [0.25, 1.0])
+    """The visible parts of straight segments; solid (i,): see solid_items. What lies on an occluder or the border of
+    its shadow is visible; a line along a border is hidden where both sides are. Parts below ten tolerances of the
+    view are left out. Source: Glaeser, section 7.2.
     """
     gap = _gaps(view, segments)
     if not len(segments):
@@ -503,7 +454,7 @@ def visible_parts(
     occluders = _occluders(alone, faces, solid & once, grid, grids.deepest(grid, pieces))
     cover = covered_cells(view, grid, occluders)
     covered = pieces.nearest > cover.take(pieces.row * grid.columns[0] + pieces.column)
-    zones = [
+    hidden_intervals = [
         (
             pieces.segment[covered],
             pieces.low[covered],
@@ -517,10 +468,10 @@ def visible_parts(
     slabs = min(max(fewer // IN_SLAB, 4), MOST_SLABS) if fewer > ONE_SLAB else 1
     for piece, hits, _ in _all_hits(view, grid, segments, pieces, occluders, alive, slabs, progress):
         of = piece.take(hits.pair)
-        zones.append((pieces.segment.take(of), hits.low, hits.high, hits.side))
+        hidden_intervals.append((pieces.segment.take(of), hits.low, hits.high, hits.side))
         whole = (hits.side == 0) & (hits.low <= pieces.low.take(of)) & (hits.high >= pieces.high.take(of))
         alive[of.compress(whole)] = False
-    segment, low, high, side = (np.concatenate(column) for column in zip(*zones, strict=True))
+    segment, low, high, side = (np.concatenate(column) for column in zip(*hidden_intervals, strict=True))
     owner, low, high = _resolved(segment, low, high, side, gap)
     long = high - low > gap[owner]
     owner, low, high = intervals.complement(len(segments), owner[long], low[long], high[long], gap)
@@ -532,7 +483,7 @@ def counted_parts(
 ) -> Visibility:
     """All parts of straight segments, with the number of items that hide each.
 
-    solid: (i,) as of solid_items: the items that hide as convex solids.
+    solid: (i,) as in solid_items: the items that hide as convex solids.
     Source: Glaeser, section 7.2.
     """
     gap = _gaps(view, segments)
@@ -630,12 +581,12 @@ def _all_hits(
     slabs: int,
     progress: Progress,
 ) -> Iterator[tuple[Ints, Hits, Ints]]:
-    """Hidden zones of pieces, front to back, with the piece and the occluder of every pair.
+    """Hidden intervals of pieces, front to back, with the piece and the occluder of every pair.
 
     Pieces that the caller marks as no longer alive are not tried again.
     """
     order = np.argsort(occluders.nearest, kind="stable")
-    in_image = sieve(view, grid, pieces, occluders)
+    in_image = early_rejection(view, grid, pieces, occluders)
 
     def clipped(entries: Entries, some: tuple[Ints, Ints, Ints]) -> tuple[Ints, Hits, Ints]:
         which, begin, counts = some
@@ -674,7 +625,7 @@ def _blocks(which: Ints, begin: Ints, counts: Ints) -> Iterator[tuple[Ints, Ints
 
 
 def _resolved(segment: Ints, low: Floats, high: Floats, side: Ints, gap: Floats) -> tuple[Ints, Floats, Floats]:
-    """Disjoint hidden zones; zones of one side count where they meet zones of the other."""
+    """Disjoint hidden intervals; those of one side count where they meet those of the other."""
     if not side.any():
         return intervals.union(segment, low, high, gap)
     halved = np.zeros(len(gap), dtype=np.bool_)

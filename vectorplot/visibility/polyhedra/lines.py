@@ -49,13 +49,10 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Lines(Elements):
-    """Straight lines in the view's coordinates.
-
-    start, end: (3, n) their ends; kind: (n,) lineKind values; item: (n,) of which item each is a line; side: (n,) 1 or
-    -1 for an outline, where its surface lies to the left or right of start -> end in the image, 0 for other lines;
-    smooth: (n,) A chord of a smooth curve, both of its ends on it; behind: (n,) how many smooth surfaces hide all of
-    it; aside: (3, n) how far from it the line lies that is hidden where it is: contours across faces are seen as what
-    is just outside of these faces is; chords: which parts of smooth curves they are, if some are.
+    """Straight lines in the view's coordinates. start, end (3,n); kind (n,): LineKind values; item (n,); side (n,): 1
+    or -1 for an outline with its surface left or right of start -> end in the image, else 0; smooth (n,): chords of
+    smooth curves; behind (n,): how many smooth surfaces hide all of it; aside (3,n): offset at which it is tested,
+    as contours across faces are just outside of these; chords: the parts of smooth curves, if any.
     """
 
     start: Floats = field(metadata=IN_COLUMNS)
@@ -72,7 +69,7 @@ class Lines(Elements):
         return len(self.kind)
 
     def sides(self, view: View) -> Ints:
-        """The sides of all outlines, as of side, those of smooth surfaces too.
+        """The sides of all outlines, see side, those of smooth surfaces too.
 
         result: (n,) 1, -1 or 0.
         """
@@ -123,7 +120,7 @@ def wanted_kinds(scene: Scene, kinds: frozenset[LineKind]) -> list[tuple[frozens
 
 
 def items_wanting(kind: LineKind, scene: Scene, kinds: frozenset[LineKind]) -> Bools:
-    """(i,) the items on which lines of a kind are looked for, as of kinds_of."""
+    """(i,) the items on which lines of a kind are looked for, see kinds_of."""
     found = (kind in kinds_of(item, kinds) for item in scene.items)
     return np.fromiter(found, dtype=np.bool_, count=len(scene.items))
 
@@ -140,49 +137,10 @@ def kinds_of(item: Item, kinds: frozenset[LineKind]) -> frozenset[LineKind]:
 def edge_lines(
     scene: Scene, view: View, faces: ProjectedFaces, kinds: frozenset[LineKind], crease_angle_deg: float, backs: Bools
 ) -> Lines:
-    """Contours, boundaries, creases and other edges of all items.
-
-    Parameters
-    ----------
-    scene : Scene
-        With its polyhedra.
-    view : View
-        Of the scene.
-    faces : ProjectedFaces
-        Of the view.
-    kinds : frozenset of LineKind
-        Those asked for; an item's own come first.
-    crease_angle_deg : float
-        Sharper edges are creases.
-    backs : (i,) array of bool
-        Items whose edges between faces that all turn away are wanted too; of a closed solid they are hidden.
-
-    Returns
-    -------
-    Lines
-        With their kinds, items and sides.
-
-    Notes
-    -----
-    Of items that list the edges to be drawn (drawn_edges) these are drawn, flat ones as creases, and no others;
-    segments that are no edges (added_edges) are creases too, less what is cut away.
-
+    """Contours, boundaries, creases and other edges of all items; kinds: unless an item has its own; backs (i,): items
+    whose edges between faces turned away are wanted too (of closed solids they are hidden). Items with drawn_edges
+    have these only, flat ones as creases; added_edges are creases too, less what is cut away.
     Source: Glaeser, sections 3.3, 4.4 and 7.2.
-
-    Examples
-    --------
-    >>> import numpy as np
-    >>> import vectorplot as vp
-    >>> from vectorplot import visibility
-    >>> from vectorplot.geometry import box
-    >>> from vectorplot.scene import look
-    >>> scene = vp.Scene((vp.Item("cube", box((2, 2, 2))),))
-    >>> view = look(scene, vp.Camera((6, 5, 4)))
-    >>> wanted = frozenset({vp.LineKind.CONTOUR, vp.LineKind.CREASE})
-    >>> faces = visibility.project_faces(view)
-    >>> lines = visibility.edge_lines(scene, view, faces, wanted, 25.0, np.zeros(1, dtype=bool))
-    >>> [int((lines.kind == kind).sum()) for kind in (vp.LineKind.CONTOUR, vp.LineKind.CREASE)]
-    [6, 3]
     """
     parts = []
     smooth, listed = _smoothly_outlined(scene), _listing_edges(scene)
@@ -351,12 +309,12 @@ def _outlined(scene: Scene, kinds: frozenset[LineKind]) -> Bools:
 
 
 def _smoothly_outlined(scene: Scene) -> Bools:
-    """(i,) the items whose contours run across their faces, as of the smooth shapes they stand for."""
+    """(i,) the items whose contours run across their faces, as on the smooth shapes they stand for."""
     return np.array([item.curves.smooth_contours for item in scene.items], dtype=np.bool_)
 
 
 def _parts(scene: Scene, view: View, solid: Bools) -> Ints:
-    """(f,) numbers that faces have in common where they are of one item and hang together."""
+    """(f,) numbers that faces have in common where they are of one item and are connected."""
     whole = solid.copy()
     open_ = np.flatnonzero(~solid)
     whole[open_] = [_in_one_piece(scene.items[k]) for k in open_.tolist()]
@@ -374,7 +332,7 @@ def _parts(scene: Scene, view: View, solid: Bools) -> Ints:
 
 
 def _in_one_piece(item: Item) -> bool:
-    """Whether an item is known to hang together: meshes of many faces are asked, all others looked at together."""
+    """Whether an item is known to be connected: meshes of many faces are asked, all others looked at together."""
     mesh = item.shape
     return isinstance(mesh, Mesh) and mesh.face_count >= MANY_FACES and mesh.present is None and mesh.pieces[0] == 1
 
@@ -419,7 +377,7 @@ def mesh_curve_lines(
 
     At edges that turn by more than the crease angle a mesh is not smooth: isophotes end there. budget: of shortest
     ways; done: is told the part of the work that is done.
-    Errors: InputError, with the item's name, for a light that the scene does not have, and as of item_integral_lines.
+    Errors: InputError, with the item's name, for a light that the scene does not have, and as in item_integral_lines.
     """
     parts = []
     for number, item in enumerate(scene.items):

@@ -44,36 +44,9 @@ class Occluders:
 
 
 def solid_items(view: View, faces: ProjectedFaces, *, most_faces: int = MAX_SOLID_FACES) -> Bools:
-    """The items that hide as convex solids: closed, convex, with few faces, seen from outside.
-
-    Parameters
-    ----------
-    view : View
-        As of scene.look.
-    faces : ProjectedFaces
-        As of project_faces.
-    most_faces : int
-        Items with more faces hide through their faces: few of them matter to a line, but all of the outline would.
-
-    Returns
-    -------
-    (i,) array of bool
-        One for each item of the view.
-
-    Notes
-    -----
-    Convexity is checked, not believed: every vertex of the item lies behind every face.
-
-    Source: Glaeser, sections 5.1 and 7.2.
-
-    Examples
-    --------
-    >>> import vectorplot as vp
-    >>> from vectorplot import geometry, scene, visibility
-    >>> items = (vp.Item("box", geometry.box((1, 1, 1))), vp.Item("tube", geometry.box((1, 1, 1), caps=())))
-    >>> view = scene.look(vp.Scene(items), vp.Camera((5, 4, 3)))
-    >>> visibility.solid_items(view, visibility.project_faces(view)).tolist()
-    [True, False]
+    """(i,) the items that hide as convex solids: closed, convex (tested: every vertex behind every face), of at most
+    most_faces (others hide through their faces, few of which matter to a line), seen from outside. Source: Glaeser,
+    sections 5.1 and 7.2.
     """
     items = len(view.item_vertices) - 1
     face_counts = np.bincount(view.face_item, minlength=items)

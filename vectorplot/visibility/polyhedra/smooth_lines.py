@@ -60,7 +60,7 @@ def item_integral_lines(
 ) -> MeshCurves:
     """The curves on a polyhedron with faces that are asked for. done: is told the part of the work that is done.
 
-    Warnings: where there are none that go by curvatures. Errors: as of mesh_integral_lines, with the item's name.
+    Warnings: where there are none that go by curvatures. Errors: see mesh_integral_lines, with the item's name.
     """
     try:
         found = mesh_integral_lines(item.mesh, lines, budget, done, crease_angle_deg)

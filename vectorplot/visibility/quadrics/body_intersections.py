@@ -180,12 +180,10 @@ class Convex:
 
 
 def are_apart(one: Convex, other: Convex, guesses: Iterator[Floats], tolerance: float) -> Bools:
-    """(k,) which pairs of bodies have a plane between them, or one that both touch.
-
-    guesses: normals (k,3) of planes that may be such. Edge cases: bodies that touch in a plane that is not among the
-    guesses, or are nearer to each other than about a thousandth of their size, may not be found to be apart.
-    Source: Gilbert, Johnson and Keerthi, a fast procedure for computing the distance between complex objects; of it the
-    step along a line, which needs the points farthest in a direction only.
+    """(k,) which pairs of bodies have a plane between them, or one that both touch; guesses: normals (k,3) of such
+    planes. Edge cases: bodies that touch in another plane, or are nearer than about a thousandth of their size, may
+    not be found to be apart.
+    Source: the step along a line of Gilbert, Johnson and Keerthi, which needs only the farthest points in a direction.
     """
     result = np.zeros(len(one.which), dtype=np.bool_)
     for normals in guesses:

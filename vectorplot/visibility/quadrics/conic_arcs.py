@@ -8,8 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged, records
+from vectorplot.geometry import intervals, ragged, records
 from vectorplot.geometry.elementary import arccos, arctan, arctan2, tan
 from vectorplot.geometry.records import IN_COLUMNS, Elements
 from vectorplot.geometry.vectors import dot
@@ -27,13 +26,10 @@ from vectorplot.words import LineKind
 
 @dataclass(frozen=True, eq=False)
 class Arcs(Elements):
-    """The points middle + cos(t) first + sin(t) second, low <= t <= high, divided by 1 + cos(t) weight; of a straight
-    line middle + t first.
-
-    middle, first, second (n,3) in the coordinates of sight; low, high (n,); straight (n,); kind, item (n,); own (n,2)
-    the bodies on which an arc lies, or -1; side (n,): 1 or -1 where it is an outline, and its body to the left or right
-    of it, else 0; weight (n,): 0 of ellipses about their middles and of straight lines, larger of other conics, which
-    do not reach further than a quarter turn from t = 0.
+    """The points middle + cos(t) first + sin(t) second, low <= t <= high, divided by 1 + cos(t) weight; for straight
+    lines middle + t first. middle, first, second (n,3) in the coordinates of sight; straight, kind, item (n,); own
+    (n,2): the bodies of an arc, or -1; side (n,): 1 or -1 for an outline with its body left or right, else 0; weight
+    (n,): 0 of ellipses and lines, larger of other conics, which reach no further than a quarter turn from t = 0.
     """
 
     middle: Floats

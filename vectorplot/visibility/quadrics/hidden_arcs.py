@@ -9,8 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged, records
+from vectorplot.geometry import intervals, ragged, records
 from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances import ROUNDING, ULP
 from vectorplot.visibility.polyhedra.hidden_lines import SLIVER, Progress, Visibility
@@ -128,7 +127,7 @@ def _single_roots(c: Floats) -> Floats:
     return found
 
 
-# What covers hide of pieces of arcs, pair by pair: between the roots of polynomials along each piece.
+# What volumes hide of pieces of arcs, pair by pair: between the roots of polynomials along each piece.
 
 
 @dataclass(frozen=True, eq=False)
@@ -141,28 +140,34 @@ class OccludedIntervals:
 
 
 def occluded_intervals(
-    pieces: Pieces, covers: OcclusionVolumes, piece: Ints, cover: Ints, tolerance: float
+    pieces: Pieces, volumes: OcclusionVolumes, piece: Ints, volume: Ints, tolerance: float
 ) -> OccludedIntervals:
-    """The zones of pairs (piece, cover).
+    """The hidden intervals of pairs (piece, volume).
 
     A linear form along a piece has degree two, the difference of squares degree four. Where no coefficient is positive
     nothing is hidden, where none is negative all of it may be; else a part between two roots is decided at its middle.
     What is no larger than the tolerance counts as zero, and zero does not hide.
     """
     pair, control = np.arange(len(piece)), pieces.control[:, :, piece]
-    linear = np.empty((len(covers.linear), 3, len(piece)))
+    linear = np.empty((len(volumes.linear), 3, len(piece)))
     some, whole = np.ones(len(piece), dtype=np.bool_), np.ones(len(piece), dtype=np.bool_)
-    for number, form in enumerate(covers.linear):
-        c = _along(form[:, cover], control)
+    for number, form in enumerate(volumes.linear):
+        c = _along(form[:, volume], control)
         c[np.abs(c) <= tolerance] = 0.0
         some &= (c > 0.0).any(axis=0)
         whole &= (c >= 0.0).all(axis=0)
         linear[number] = c
     kept = np.flatnonzero(some)
-    pair, cover, control, whole, linear = pair[kept], cover[kept], control[:, :, kept], whole[kept], linear[:, :, kept]
+    pair, volume, control, whole, linear = (
+        pair[kept],
+        volume[kept],
+        control[:, :, kept],
+        whole[kept],
+        linear[:, :, kept],
+    )
     square = np.zeros((5, 0))
-    if len(covers.squares):
-        square = _difference(covers, cover, control)
+    if len(volumes.squares):
+        square = _difference(volumes, volume, control)
         kept = np.flatnonzero((square > 0.0).any(axis=0))
         pair, whole, linear, square = pair[kept], whole[kept], linear[:, :, kept], square[:, kept]
         whole = whole & (square >= 0.0).all(axis=0)
@@ -183,13 +188,13 @@ def _along(form: Floats, control: Floats) -> Floats:
     )
 
 
-def _difference(covers: OcclusionVolumes, cover: Ints, control: Floats) -> Floats:
+def _difference(volumes: OcclusionVolumes, volume: Ints, control: Floats) -> Floats:
     """(5,n) the square of the first form less those of the others, snapped to zero."""
-    first = squares(_along(covers.squares[0][:, cover], control))
+    first = squares(_along(volumes.squares[0][:, volume], control))
     square, size = first.copy(), np.abs(first).max(axis=0)
-    slack = covers.slack[cover] * size
-    for form in covers.squares[1:]:
-        other = squares(_along(form[:, cover], control))
+    slack = volumes.slack[volume] * size
+    for form in volumes.squares[1:]:
+        other = squares(_along(form[:, volume], control))
         square -= other
         np.maximum(size, np.maximum(other[0], other[4]), out=size)
     square[np.abs(square) <= np.maximum(slack, ROUNDING * size)] = 0.0
@@ -228,7 +233,7 @@ OWN_AT_ONCE = 1 << 16
 
 @dataclass(frozen=True, eq=False)
 class _Hidden:
-    """Hidden zones of arcs: arc (z,), from low to high (z,) of its way, 0 to 1; item (z,) that hides; piece (z,) of the
+    """Hidden parts of arcs: arc (z,), from low to high (z,) of its way, 0 to 1; item (z,) that hides; piece (z,) of the
     arc, and whole (z,): whether all of it is hidden."""
 
     arc: Ints
@@ -254,16 +259,16 @@ def visible_arcs(bodies: Bodies, arcs: Arcs, sides: OwnSides, progress: Progress
     # Of equal bodies one hides what all of them do.
     hiding = np.flatnonzero(bodies.hides)
     _, first = np.unique(bodies.same[hiding], return_index=True)
-    covers = bodies.covers(hiding[first])
-    pieces = cut_arcs(bodies.sight, arcs, typical_size(covers))
+    volumes = bodies.volumes(hiding[first])
+    pieces = cut_arcs(bodies.sight, arcs, typical_size(volumes))
     alive = np.ones(len(pieces), dtype=np.bool_)
     found = []
-    for hidden in _occluded_intervals(bodies, covers, pieces, alive, arcs, sides, MOST_SLABS, progress):
+    for hidden in _occluded_intervals(bodies, volumes, pieces, alive, arcs, sides, MOST_SLABS, progress):
         alive[hidden.piece[hidden.whole]] = False
         found.append(hidden)
-    zones = records.joined(found)
+    hidden = records.joined(found)
     gap = _gaps(arcs, bodies.tolerance)
-    union = intervals.union(zones.arc, zones.low, zones.high, gap)
+    union = intervals.union(hidden.arc, hidden.low, hidden.high, gap)
     owner, low, high = intervals.complement(len(arcs), *union, gap)
     return Visibility(owner, low, high, np.zeros(len(owner), dtype=np.intp))
 
@@ -273,15 +278,15 @@ def counted_arcs(bodies: Bodies, arcs: Arcs, sides: OwnSides, items: int, progre
 
     The visible parts are those of visible_arcs.
     """
-    covers = bodies.covers(np.flatnonzero(bodies.hides))
+    volumes = bodies.volumes(np.flatnonzero(bodies.hides))
     side, body = bodies.hiding_alike(sides.body)
     sides = OwnSides(sides.arc[side], sides.form[side], body)
-    pieces = cut_arcs(bodies.sight, arcs, typical_size(covers))
+    pieces = cut_arcs(bodies.sight, arcs, typical_size(volumes))
     alive = np.ones(len(pieces), dtype=np.bool_)
-    zones = records.joined(list(_occluded_intervals(bodies, covers, pieces, alive, arcs, sides, 1, progress)))
+    hidden = records.joined(list(_occluded_intervals(bodies, volumes, pieces, alive, arcs, sides, 1, progress)))
     gap = _gaps(arcs, bodies.tolerance)
-    key, owner = np.unique(zones.arc * items + zones.item, return_inverse=True)
-    of, low, high = intervals.union(owner.reshape(-1), zones.low, zones.high, gap[key // items])
+    key, owner = np.unique(hidden.arc * items + hidden.item, return_inverse=True)
+    of, low, high = intervals.union(owner.reshape(-1), hidden.low, hidden.high, gap[key // items])
     arc = key[of] // items
     covered = intervals.coverage(arc, low, high, np.zeros(len(arc), dtype=np.intp))
     long = covered[2] - covered[1] > gap[covered[0]]
@@ -302,7 +307,7 @@ def _gaps(arcs: Arcs, tolerance: float) -> Floats:
 
 def _occluded_intervals(
     bodies: Bodies,
-    covers: tuple[OcclusionVolumes, ...],
+    volumes: tuple[OcclusionVolumes, ...],
     pieces: Pieces,
     alive: Bools,
     arcs: Arcs,
@@ -312,29 +317,29 @@ def _occluded_intervals(
 ) -> Iterator[_Hidden]:
     """What bodies hide of the pieces of arcs that are alive, front to back; first what they hide of themselves."""
     for turned, piece, side in _own_pairs(bodies, pieces, sides, len(arcs)):
-        yield _zones(pieces, arcs, turned, piece, side, bodies.tolerance)
-    grid = grid_of(pieces, typical_size(covers))
+        yield _hidden_of_pairs(pieces, arcs, turned, piece, side, bodies.tolerance)
+    grid = grid_of(pieces, typical_size(volumes))
     own = np.where(arcs.own >= 0, bodies.same[arcs.own] if len(bodies) else -1, -1)
-    steps = list(_slabs(covers, slabs))
+    steps = list(_slabs(volumes, slabs))
     for number, (some, slab) in enumerate(steps):
-        for piece, cover in close_pairs(grid, pieces, alive, some, slab):
-            body = bodies.same[some.body[cover]]
+        for piece, volume in close_pairs(grid, pieces, alive, some, slab):
+            body = bodies.same[some.body[volume]]
             other = (own[pieces.arc[piece]] != body[:, None]).all(axis=1)
-            yield _zones(pieces, arcs, some, piece[other], cover[other], bodies.tolerance)
+            yield _hidden_of_pairs(pieces, arcs, some, piece[other], volume[other], bodies.tolerance)
         progress((number + 1.0) / len(steps))
 
 
-def _slabs(covers: tuple[OcclusionVolumes, ...], most: int) -> Iterator[tuple[OcclusionVolumes, Ints]]:
-    """The covers of all kinds front to back, slab by slab."""
-    nearest = np.concatenate([np.zeros(0), *(some.nearest for some in covers)])
+def _slabs(volumes: tuple[OcclusionVolumes, ...], most: int) -> Iterator[tuple[OcclusionVolumes, Ints]]:
+    """The volumes of all kinds front to back, slab by slab."""
+    nearest = np.concatenate([np.zeros(0), *(some.nearest for some in volumes)])
     if not len(nearest):
         return
     count = min(max(len(nearest) // IN_SLAB, FEWEST_SLABS), most)
     bounds = np.quantile(nearest, np.linspace(0.0, 1.0, count + 1))
     bounds[0], bounds[-1] = -np.inf, np.inf
-    orders = [np.argsort(some.nearest, kind="stable") for some in covers]
+    orders = [np.argsort(some.nearest, kind="stable") for some in volumes]
     for low, high in pairwise(bounds.tolist()):
-        for some, order in zip(covers, orders, strict=True):
+        for some, order in zip(volumes, orders, strict=True):
             begin, end = np.searchsorted(some.nearest[order], [low, high])
             if begin < end:
                 yield some, order[begin:end]
@@ -343,7 +348,7 @@ def _slabs(covers: tuple[OcclusionVolumes, ...], most: int) -> Iterator[tuple[Oc
 def _own_pairs(
     bodies: Bodies, pieces: Pieces, sides: OwnSides, arcs: int
 ) -> Iterator[tuple[OcclusionVolumes, Ints, Ints]]:
-    """Blocks (covers, piece, cover) of what bodies hide of arcs on themselves."""
+    """Blocks (volumes, piece, volume) of what bodies hide of arcs on themselves."""
     offsets = np.searchsorted(pieces.arc, np.arange(arcs + 1))
     for low in range(0, max(len(sides.arc), 1), OWN_AT_ONCE):
         block = slice(low, low + OWN_AT_ONCE)
@@ -357,11 +362,13 @@ def _own_pairs(
         yield turned, ragged.ranges(offsets[arc], size), ragged.owner(size)
 
 
-def _zones(pieces: Pieces, arcs: Arcs, covers: OcclusionVolumes, piece: Ints, cover: Ints, tolerance: float) -> _Hidden:
-    """The zones of pairs as parts of arcs."""
-    zones = occluded_intervals(pieces, covers, piece, cover, tolerance)
-    of, item = piece[zones.pair], covers.item[cover[zones.pair]]
+def _hidden_of_pairs(
+    pieces: Pieces, arcs: Arcs, volumes: OcclusionVolumes, piece: Ints, volume: Ints, tolerance: float
+) -> _Hidden:
+    """The hidden intervals of pairs as parts of arcs."""
+    hidden = occluded_intervals(pieces, volumes, piece, volume, tolerance)
+    of, item = piece[hidden.pair], volumes.item[volume[hidden.pair]]
     arc = pieces.arc[of]
     span, start = (arcs.high - arcs.low)[arc], arcs.low[arc]
-    low, high = (np.clip((pieces.parameters(arcs, of, t) - start) / span, 0.0, 1.0) for t in (zones.low, zones.high))
-    return _Hidden(arc, low, high, item, of, (zones.low <= 0.0) & (zones.high >= 1.0))
+    low, high = (np.clip((pieces.parameters(arcs, of, t) - start) / span, 0.0, 1.0) for t in (hidden.low, hidden.high))
+    return _Hidden(arc, low, high, item, of, (hidden.low <= 0.0) & (hidden.high >= 1.0))

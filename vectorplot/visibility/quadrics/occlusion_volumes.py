@@ -27,7 +27,7 @@ from vectorplot.visibility.smooth.traced_curves import Curves
 class OcclusionVolumes:
     """Regions of space in which everything is hidden.
 
-    Cover k hides the points X = (x,y,z,1) with linear[j,:,k].X > 0 for all j and, if there are squares, with
+    Volume k hides the points X = (x,y,z,1) with linear[j,:,k].X > 0 for all j and, if there are squares, with
     squares[0,:,k].X squared larger than the sum of the squares of the others. linear (l,4,n): forms with gradients of
     length 1; squares (q,4,n): forms; slack (n,): what counts as zero of the difference, where squares[0,:,k].X is 1.
     body (n,): the ball; item (n,); box (4,n) left, right, bottom, top in the image; nearest, farthest (n,) depth.
@@ -71,14 +71,14 @@ def _behind(balls: Balls, which: Ints, contours: tuple[Floats, Floats, Floats], 
 
 
 def outlines(sight: EyeCoordinates, discs: tuple[Floats, Floats, Floats]) -> Floats:
-    """(3,4,n) forms, as the squares of covers, of what lies in the same direction as elliptic discs with these middles
+    """(3,4,n) forms, as the squares of volumes, of what lies in the same direction as elliptic discs with these middles
     and conjugate radii (n,3)."""
     m, p, q = (_seen(sight, part, w) for part, w in zip(discs, (1.0, 0.0, 0.0), strict=True))
     rows = np.stack([np.cross(p, q), np.cross(q, m), np.cross(m, p)], axis=1)
-    volume = (rows[:, 0] * m).sum(axis=1)
+    size = (rows[:, 0] * m).sum(axis=1)
     squares = np.zeros((3, 4, len(m)))
     with np.errstate(divide="ignore", invalid="ignore"):
-        squares[:, sight.seen] = (rows / volume[:, None, None]).transpose(1, 2, 0)
+        squares[:, sight.seen] = (rows / size[:, None, None]).transpose(1, 2, 0)
     return squares
 
 
@@ -145,7 +145,7 @@ def capped_occlusion_volumes(bodies: CappedBodies, which: Ints) -> tuple[Occlusi
         _behind_frusta(bodies, frusta, box[:, ~round_]),
         _inside_capped(bodies, frusta, box[:, ~round_], _of_frusta(bodies, frusta)),
         _behind_parts(bodies, parts, box[:, round_]),
-        _inside_capped(bodies, parts, box[:, round_], _of_balls(bodies, parts)),
+        _inside_capped(bodies, parts, box[:, round_], _of_balls(len(parts))),
     ]
     return tuple(some for some in found if len(some))
 
@@ -259,9 +259,9 @@ def _of_frusta(bodies: CappedBodies, which: Ints) -> Floats:
     return forms
 
 
-def _of_balls(bodies: CappedBodies, which: Ints) -> Floats:
+def _of_balls(count: int) -> Floats:
     """(4,k,4) squares in unit coordinates: one, x, y and z."""
-    forms = np.zeros((4, len(which), 4))
+    forms = np.zeros((4, count, 4))
     forms[0, :, 3] = forms[1, :, 0] = forms[2, :, 1] = forms[3, :, 2] = 1.0
     return forms
 
@@ -355,8 +355,8 @@ class Bodies:
         first, last = (np.searchsorted(self.same[hiding], self.same[which], side) for side in ("left", "right"))
         return ragged.owner(last - first), hiding[ragged.ranges(first, last - first)]
 
-    def covers(self, which: Ints) -> tuple[OcclusionVolumes, ...]:
-        """What bodies hide, by their kinds; covers of kinds that the scene lacks are not among them."""
+    def volumes(self, which: Ints) -> tuple[OcclusionVolumes, ...]:
+        """What bodies hide, by their kinds; volumes of kinds that the scene lacks are not among them."""
         count = len(self.balls)
         capped = capped_occlusion_volumes(self.capped, which[which >= count] - count)
         every = [
@@ -371,7 +371,7 @@ class Bodies:
         return Bodies(self.balls.take(which[:count]), self.capped.take(which[count:]))
 
 
-# Which pieces of arcs could be hidden by which covers: those whose boxes overlap in the image, front to back.
+# Which pieces of arcs could be hidden by which volumes: those whose boxes overlap in the image, front to back.
 
 FINEST = 1024.0
 """The finest grid has at most so many cells along each side of the picture."""
@@ -380,9 +380,9 @@ TOUCHES_AT_ONCE, PAIRS_AT_ONCE = 1 << 16, 1 << 14
 """Cells of pieces looked up at once, and pairs handed over at once: these stay in the processor's cache."""
 
 
-def typical_size(covers: tuple[OcclusionVolumes, ...]) -> float:
+def typical_size(volumes: tuple[OcclusionVolumes, ...]) -> float:
     """The size in the image of what hides, the median; 1 where nothing has one."""
-    sizes = np.concatenate([np.zeros(0), *(_sizes(some.box) for some in covers)])
+    sizes = np.concatenate([np.zeros(0), *(_sizes(some.box) for some in volumes)])
     sizes = sizes[np.isfinite(sizes) & (sizes > 0.0)]
     return float(np.median(sizes)) if len(sizes) else 1.0
 
@@ -403,21 +403,21 @@ def grid_of(pieces: Pieces, typical: float) -> Grid:
 
 
 def close_pairs(
-    grid: Grid, pieces: Pieces, alive: Bools, covers: OcclusionVolumes, slab: Ints
+    grid: Grid, pieces: Pieces, alive: Bools, volumes: OcclusionVolumes, slab: Ints
 ) -> Iterator[tuple[Ints, Ints]]:
-    """Blocks (piece, cover) of pieces that are alive and covers of a slab whose boxes overlap, each pair once.
+    """Blocks (piece, volume) of pieces that are alive and volumes of a slab whose boxes overlap, each pair once.
 
     alive (p,) is looked at anew for each block.
     """
-    level = grid.level_of(covers.box[:, slab])
-    nearest = covers.nearest[slab].min()
+    level = grid.level_of(volumes.box[:, slab])
+    nearest = volumes.nearest[slab].min()
     which = np.flatnonzero(alive & (pieces.farthest > nearest))
     for one in np.unique(level).tolist():
         some = slab[level == one]
         levels = np.full(len(some), one)
-        thing, column, row = grids.touched(grid, covers.box[:, some], levels)
+        thing, column, row = grids.touched(grid, volumes.box[:, some], levels)
         entries = grids.entries(grid, thing, column, row, np.full(len(thing), one))
-        first = grid.corner_cells(covers.box[:, some], levels)[:2]
+        first = grid.corner_cells(volumes.box[:, some], levels)[:2]
         for block in np.array_split(which, max(1, 4 * len(which) // TOUCHES_AT_ONCE)):
             block_level = np.full(len(block), one)
             own = grid.corner_cells(pieces.box[:, block], block_level)[:2]
@@ -431,9 +431,9 @@ def close_pairs(
                 np.maximum(own[1][piece], first[1][at]) == row
             )
             p, c = block[piece[once]], some[at[once]]
-            a, b = pieces.box[:, p], covers.box[:, c]
+            a, b = pieces.box[:, p], volumes.box[:, c]
             near = (a[0] <= b[1]) & (b[0] <= a[1]) & (a[2] <= b[3]) & (b[2] <= a[3])
-            near &= (pieces.farthest[p] >= covers.nearest[c]) & (pieces.nearest[p] <= covers.farthest[c])
+            near &= (pieces.farthest[p] >= volumes.nearest[c]) & (pieces.nearest[p] <= volumes.farthest[c])
             p, c = p[near], c[near]
             for low in range(0, len(p), PAIRS_AT_ONCE):
                 kept = alive[p[low : low + PAIRS_AT_ONCE]]

@@ -7,8 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.exact import intervals
-from vectorplot.geometry import ragged, records
+from vectorplot.geometry import intervals, ragged, records
 from vectorplot.geometry.boxes import SlabHulls
 from vectorplot.geometry.vectors import dot, greatest_component, least_component
 from vectorplot.scene.view import View

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from vectorplot.drawing.pen_order import crowd, curves_through, nearer_than
+from vectorplot.drawing.pen_order import curves_through, nearer_than, separation_test
 
 COUNT = 2000
 OPPOSITE = np.arange(COUNT) ^ 1
@@ -14,7 +14,7 @@ def ends():
 
 def near(reach):
     spots, layer = ends()
-    one, other, apart = nearer_than(reach, crowd(spots, OPPOSITE, layer, curves_through(spots, layer)))
+    one, other, apart = nearer_than(reach, separation_test(spots, OPPOSITE, layer, curves_through(spots, layer)))
     return {(int(a), int(b)): float(d) for a, b, d in zip(one, other, apart, strict=True)}
 
 
@@ -43,5 +43,7 @@ def test_those_that_look_find_the_same_however_many_look(share):
 
 def test_no_pair_is_found_twice_but_where_a_curve_closes():
     spots, layer = ends()
-    one, other, _ = nearer_than(np.full(COUNT, 0.02), crowd(spots, OPPOSITE, layer, curves_through(spots, layer)))
+    one, other, _ = nearer_than(
+        np.full(COUNT, 0.02), separation_test(spots, OPPOSITE, layer, curves_through(spots, layer))
+    )
     assert len(set(zip(one.tolist(), other.tolist(), strict=True))) > len(one) - 10

@@ -12,6 +12,7 @@ from vectorplot.features import AsymptoticDirections, PrincipalDirections
 from vectorplot.features.mesh_integration import FaceFieldFlow, mesh_integral_curves, mesh_sides
 from vectorplot.features.mesh_lines import face_triangles
 from vectorplot.features.mesh_streamlines import evenly_spaced_mesh_curves
+from vectorplot.features.nearest import nearest_on_mesh
 from vectorplot.features.surface_points import FaceSites
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.surfaces.quadrics import implicit_sphere
@@ -49,7 +50,7 @@ def sleeve(points, n):
 
 
 def through(mesh, field, places, length):
-    nearest = features.nearest_on_mesh(mesh, places)
+    nearest = nearest_on_mesh(mesh, places)
     found = mesh_integral_curves(mesh, field, nearest.faces, nearest.points, length=length)
     assert len(found) == len(places)
     return [found[k] for k in range(len(found))]

@@ -5,8 +5,7 @@ import pytest
 
 from vectorplot import Mesh, features
 from vectorplot.errors import InputError
-from vectorplot.features import mesh_geodesics
-from vectorplot.features.mesh_integration import mesh_integral_curves
+from vectorplot.features.mesh_integration import mesh_geodesics, mesh_integral_curves
 from vectorplot.testing.shapes import box
 
 CUBE = box((-1.0, -1.0, -1.0), (1.0, 1.0, 1.0))

@@ -5,8 +5,9 @@ import pytest
 
 from vectorplot import Mesh, features
 from vectorplot.errors import InputError
-from vectorplot.features import mesh_distances, mesh_shortest_paths
-from vectorplot.geometry import Budget
+from vectorplot.features import mesh_shortest_paths
+from vectorplot.features.shortest_paths import mesh_distances
+from vectorplot.geometry.budget import Budget
 from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.testing import assert_geodesic
 from vectorplot.testing.shapes import box

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot import features, surfaces
+from vectorplot import surfaces
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.edge_splitting import Within
 from vectorplot.features.hole_rims import cut_at_holes, hole_rims
 from vectorplot.features.holes import beside_rim_chords, into_surface, is_known
-from vectorplot.features.parameter_curves import domain_borders, u_lines, v_lines
+from vectorplot.features.parameter_curves import borders, domain_borders, u_lines, v_lines
 from vectorplot.features.tessellation import facets
 from vectorplot.testing.curves import curves_in_space
 
@@ -60,7 +60,7 @@ def test_every_hole_has_a_rim_on_the_border_of_what_is_known(function, rims):
     inside = (np.abs(places) < (1.499, 0.999)).all(axis=1)
     assert inwards[inside].any(axis=1).all()
     assert not is_known(surface, places[inside] - 1e-2 * inwards[inside] / 1e-6).all() if rims else True
-    assert len(features.borders(surface)) >= len(rims)
+    assert len(borders(surface)) >= len(rims)
 
 
 def test_triangles_are_cut_where_the_hole_begins():

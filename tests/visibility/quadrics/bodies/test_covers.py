@@ -60,9 +60,9 @@ def test_forms_are_positive_in_what_is_hidden_and_nowhere_else(camera):
             truth &= ((-b - np.sqrt(np.maximum(b * b - a * c, 0.0))) / a) < 1.0
         one = np.concatenate([points, np.ones((len(points), 1))], axis=1)
         hidden = np.zeros(len(points), dtype=bool)
-        for cover in (behind, inside):
-            square = (one @ cover.squares[0, :, k]) ** 2 - sum((one @ form[:, k]) ** 2 for form in cover.squares[1:])
-            hidden |= (square > 0.0) & (one @ cover.linear[:, :, k].T > 0.0).all(axis=1)
+        for volume in (behind, inside):
+            square = (one @ volume.squares[0, :, k]) ** 2 - sum((one @ form[:, k]) ** 2 for form in volume.squares[1:])
+            hidden |= (square > 0.0) & (one @ volume.linear[:, :, k].T > 0.0).all(axis=1)
         assert (hidden == truth).all()
 
 

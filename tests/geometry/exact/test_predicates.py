@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from vectorplot.errors import InputError
-from vectorplot.exact.predicates import orient2d, orient3d, polygon_orientation
+from vectorplot.geometry.predicates import orient2d, orient3d, polygon_orientation
 
 coordinate = st.floats(allow_nan=False, allow_infinity=False, width=64)
 near_line = st.integers(-8, 8).map(lambda k: 0.5 + k * 2.0**-53)

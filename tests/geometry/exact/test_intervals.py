@@ -3,7 +3,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from vectorplot.exact.intervals import complement, coverage, union
+from vectorplot.geometry.intervals import complement, coverage, union
 
 NO_GAP = np.zeros(1)
 

@@ -1,5 +1,0 @@
-"""Decisions that are never guessed: signs of predicates, sets of intervals."""
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
