@@ -153,7 +153,10 @@ def test_the_bottom_of_a_crater_in_a_body_is_not_in_the_shadow_of_the_body() -> 
 @pytest.mark.slow
 def test_smooth_balls_throw_less_shadows_than_they_have_facets() -> None:
     balls = (Sphere(1.0, (0, 0, 0)), Sphere(1.0, (0.0, 0.0, -2.5)))
-    scene = vp.Scene(tuple(vp.Item(f"ball{k}", some, "gray") for k, some in enumerate(balls)), lights=(LAMPS[1],))
+    items = [vp.Item(f"ball{k}", some, "gray") for k, some in enumerate(balls)]
+    # Beside a mesh balls are triangles.
+    leaf = vp.Mesh.from_triangles([(-2, 2, -4), (-1, 2, -4), (-2, 3, -4)], [(0, 1, 2)])
+    scene = vp.Scene((*items, vp.Item("leaf", leaf, "gray")), lights=(LAMPS[1],))
     counts: dict[str, int] = {}
     vp.paint(
         scene,
