@@ -317,6 +317,44 @@ def lit_bodies(
     return LitBodies(view, system, casters, number, item, convex, regions, depths)
 
 
+def shut_out(view: View, system: LightSystem, items: Bools, receivers: Receivers) -> Ints:
+    """(n,) the receivers that a lamp does not reach, as it is within another one of the items (i,), a closed body, the
+    box of which they do not meet.
+
+    Source: Van Oosterom and Strackee, The solid angle of a plane triangle, 1983.
+    """
+    none = np.zeros(0, dtype=np.intp)
+    if system.parallel:
+        return none
+    solid = np.flatnonzero(np.diff(view.item_vertices) > 0)
+    if not len(solid):
+        return none
+    reach, _ = _bounds(view, solid)
+    lamp = matmul(view.axes.T, system.position[:, None])
+    around = (reach[0] < lamp) & (reach[1] > lamp)
+    body = solid[around.all(axis=0)]
+    body = body[items[body]]
+    face = np.flatnonzero(np.isin(view.face_item, body))
+    own = view.face_item[face]
+    position, offsets = ragged.take(view.offsets, face)
+    fans, of = ragged.fans(offsets)
+    points = directions(view, system, view.corners[position])
+    a, b, c = (points[:, fans[:, k]] for k in range(3))
+    x, y, z = (np.sqrt((p * p).sum(axis=0)) for p in (a, b, c))
+    solid_angle = x * y * z + (a * b).sum(axis=0) * z + (b * c).sum(axis=0) * x + (c * a).sum(axis=0) * y
+    solid_angle = 2.0 * np.arctan2((a * cross(b, c)).sum(axis=0), solid_angle)
+    turned = np.abs(np.bincount(own[of], solid_angle, minlength=len(items))) > 2.0 * np.pi
+    turned[np.unique(outlines(view, face, own)[2])] = False
+    body = body[turned[body]]
+    if not len(body) or not len(receivers.face):
+        return none
+    world = matmul(view.axes.T, receivers.points)
+    low, high = (f.reduceat(world, receivers.offsets[:-1], axis=1) for f in (np.minimum, np.maximum))
+    place = np.searchsorted(solid, body)
+    beside = (low[:, :, None] >= reach[1][:, None, place]) | (high[:, :, None] <= reach[0][:, None, place])
+    return np.flatnonzero(beside.any(axis=0).any(axis=1))
+
+
 def _cones(system: LightSystem, axes: Floats, corners: Floats, first: Ints, body: Ints) -> Floats:
     """(4,c) the planes of rays through the sides of hulls with corners (2,c), counter-clockwise; body (k,): whose they
     are. Of each hull those that follow each other are far apart: what is outside is soon found to be so."""

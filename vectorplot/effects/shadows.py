@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.fills import FillKind
-from vectorplot.effects.body_shadows import LitBodies, lit_bodies
+from vectorplot.effects.body_shadows import LitBodies, lit_bodies, shut_out
 from vectorplot.effects.decals import Decals, FaceFrames, disjoint_decals, joined_decals, no_decals
 from vectorplot.effects.shadow_casters import (
     Casters,
@@ -335,7 +335,8 @@ def cast_within(
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()
         alone[bodies.item[bodies.convex]] = False
-        inside = _whole(bright.take(bodies.within(bright)), number)
+        within = np.union1d(bodies.within(bright), shut_out(view, system, items, bright))
+        inside = _whole(bright.take(within), number)
         parts = [joined_shadows([outlined, inside]).without_needless()]
         still = ~np.isin(bright.face, parts[0].face[parts[0].whole])
         for casters, on in ((alone, still), (open_items, still & open_receivers)):

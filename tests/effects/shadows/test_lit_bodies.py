@@ -151,6 +151,24 @@ def test_the_bottom_of_a_crater_in_a_body_is_not_in_the_shadow_of_the_body() -> 
 
 
 @pytest.mark.slow
+@pytest.mark.parametrize(("cut", "shut"), [(False, True), (True, False)])
+def test_a_lamp_in_a_closed_body_reaches_nothing_beyond_its_box(cut: bool, shut: bool) -> None:
+    ring = torus_mesh()
+    low, high = ring.vertices.min(axis=0), ring.vertices.max(axis=0)
+    if cut:
+        quadrangles = ring.corners.reshape(-1, 4)[:-20]
+        ring = Mesh.from_triangles(ring.vertices, quadrangles[:, [[0, 1, 2], [0, 2, 3]]].reshape(-1, 3))
+    inside = Light((float(high[0]) - 0.3 * float(high[2] - low[2]), 0.0, 0.5 * float(low[2] + high[2])))
+    x, y, z = 2.0 * low[0], 2.0 * low[1], float(low[2]) - 0.3
+    floor = Mesh.from_triangles([(x, y, z), (-x, y, z), (-x, -y, z), (x, -y, z)], [(0, 1, 2), (0, 2, 3)])
+    view = view_of_meshes(ring, floor)
+    found = cast_within(view, (inside,), np.inf).shadows
+    whole = found.face[found.whole]
+    assert (set(np.flatnonzero(view.face_item == 1).tolist()) <= set(whole.tolist())) == shut
+    if shut:
+        assert (view.face_item[found.face] == 1).sum() == 2
+
+
 def test_smooth_balls_throw_less_shadows_than_they_have_facets() -> None:
     balls = (Sphere(1.0, (0, 0, 0)), Sphere(1.0, (0.0, 0.0, -2.5)))
     items = [vp.Item(f"ball{k}", some, "gray") for k, some in enumerate(balls)]
