@@ -15,6 +15,7 @@ from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
 from vectorplot.geometry.regions import POLYGON, polygons_of, unions
+from vectorplot.geometry.vectors import solid_angles
 from vectorplot.scene.view import View
 
 # Outlines that closed bodies have in a light: of the faces that they turn to it.
@@ -318,11 +319,8 @@ def lit_bodies(
 
 
 def shut_out(view: View, system: LightSystem, items: Bools, receivers: Receivers) -> Ints:
-    """(n,) the receivers that a lamp does not reach, as it is within another one of the items (i,), a closed body, the
-    box of which they do not meet.
-
-    Source: Van Oosterom and Strackee, The solid angle of a plane triangle, 1983.
-    """
+    """(n,) the receivers that a lamp does not reach, as it is within another one of the items (i,), a closed body, and
+    they are beside its box."""
     none = np.zeros(0, dtype=np.intp)
     if system.parallel:
         return none
@@ -338,12 +336,9 @@ def shut_out(view: View, system: LightSystem, items: Bools, receivers: Receivers
     own = view.face_item[face]
     position, offsets = ragged.take(view.offsets, face)
     fans, of = ragged.fans(offsets)
-    points = directions(view, system, view.corners[position])
-    a, b, c = (points[:, fans[:, k]] for k in range(3))
-    x, y, z = (np.sqrt((p * p).sum(axis=0)) for p in (a, b, c))
-    solid_angle = x * y * z + (a * b).sum(axis=0) * z + (b * c).sum(axis=0) * x + (c * a).sum(axis=0) * y
-    solid_angle = 2.0 * np.arctan2((a * cross(b, c)).sum(axis=0), solid_angle)
-    turned = np.abs(np.bincount(own[of], solid_angle, minlength=len(items))) > 2.0 * np.pi
+    points = directions(view, system, view.corners[position]).T
+    angle = solid_angles(*(points[fans[:, k]] for k in range(3)))
+    turned = np.abs(np.bincount(own[of], angle, minlength=len(items))) > 2.0 * np.pi
     turned[np.unique(outlines(view, face, own)[2])] = False
     body = body[turned[body]]
     if not len(body) or not len(receivers.face):
@@ -351,7 +346,8 @@ def shut_out(view: View, system: LightSystem, items: Bools, receivers: Receivers
     world = matmul(view.axes.T, receivers.points)
     low, high = (f.reduceat(world, receivers.offsets[:-1], axis=1) for f in (np.minimum, np.maximum))
     place = np.searchsorted(solid, body)
-    beside = (low[:, :, None] >= reach[1][:, None, place]) | (high[:, :, None] <= reach[0][:, None, place])
+    beside = low[:, :, None] > reach[1][:, None, place] + view.tolerance
+    beside |= high[:, :, None] < reach[0][:, None, place] - view.tolerance
     return np.flatnonzero(beside.any(axis=0).any(axis=1))
 
 

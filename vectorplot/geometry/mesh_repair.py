@@ -13,8 +13,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.component_arrays import cross, dot, triangle_corners
 from vectorplot.geometry.connectivity import unbalanced_vertices
-from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh, next_positions
+from vectorplot.geometry.vectors import solid_angles
 from vectorplot.geometry.weld import chained, close_points, distinct_points
 from vectorplot.geometry.winding import (
     EdgeUses,
@@ -275,18 +275,9 @@ def _is_convex(mesh: Mesh, uses: EdgeUses) -> bool:
 
 
 def _solid_angles(mesh: Mesh, eye: Floats) -> Floats:
-    """(c,) solid angles of the triangles from each face's first corner to each of its edges, seen from eye.
-
-    Source: van Oosterom and Strackee, The solid angle of a plane triangle, equation 8.
-    """
+    """(c,) solid angles of the triangles from each face's first corner to each of its edges, seen from eye."""
     b = mesh.vertices[mesh.corners] - eye
-    a = b[mesh.offsets[:-1]][mesh.corner_face]
-    c = b[mesh.next_corner]
-    la, lb, lc = (np.linalg.norm(arm, axis=1) for arm in (a, b, c))
-    ab, bc, ca = (np.einsum("ij,ij->i", p, q) for p, q in ((a, b), (b, c), (c, a)))
-    return np.asarray(
-        2.0 * arctan2(np.einsum("ij,ij->i", a, np.cross(b, c)), la * lb * lc + ab * lc + bc * la + ca * lb)
-    )
+    return solid_angles(b[mesh.offsets[:-1]][mesh.corner_face], b, b[mesh.next_corner])
 
 
 def repaired(mesh: Mesh, precision: float) -> tuple[Mesh, Mending]:

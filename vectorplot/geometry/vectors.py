@@ -195,3 +195,12 @@ def spherical_coordinates(points: ArrayLike) -> Floats:
     across = length(p[..., :2])
     azimuth = np.where(across > 0.0, arctan2(p[..., 1], p[..., 0]), 0.0)
     return np.stack([length(p), azimuth, arctan2(p[..., 2], across)], axis=-1)
+
+
+def solid_angles(a: Floats, b: Floats, c: Floats) -> Floats:
+    """(n,) solid angles, seen from the origin, of triangles with corners (n,3), negative for such as turn clockwise.
+
+    Source: van Oosterom and Strackee, The solid angle of a plane triangle, equation 8.
+    """
+    x, y, z = norm(a), norm(b), norm(c)
+    return np.asarray(2.0 * arctan2(dot(a, cross(b, c)), x * y * z + dot(a, b) * z + dot(b, c) * x + dot(c, a) * y))
