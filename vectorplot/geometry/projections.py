@@ -385,6 +385,12 @@ class Projection:
         """
         return np.asarray(matmul(self.axes / self.scale, (world - self.centre).T), dtype=np.float64)
 
+    def in_image_plane(self, image: Floats) -> Floats:
+        """(3, n) the points of the image plane, in the projection's coordinates, whose images (2, n) these are."""
+        across = self.target if self.eye is None else self.eye
+        height = 0.0 if self.eye is None else self.eye[2] - self.focus
+        return np.concatenate([image + across[:2, None], np.full((1, image.shape[1]), height)])
+
     def world_of(self, points: Floats) -> Floats:
         """Points of the projection in world coordinates.
 

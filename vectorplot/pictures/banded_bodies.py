@@ -82,11 +82,7 @@ class WholeBodies:
         """The place of a picture of the bodies, and of places beside them (n,3) in the world."""
         view, others = self.view, self.view.points_of(beside)
         corners = np.stack([self.boxes[:2].ravel(), self.boxes[2:].ravel()])
-        # Places in the image plane, the images of which they are.
-        flat = view.target[:2] if view.eye is None else view.eye[:2]
-        level = 0.0 if view.eye is None else view.eye[2] - view.focus
-        there = np.concatenate([corners + flat[:, None], np.full((1, corners.shape[1]), level)])
-        if not fit or view.reaches_too_far(view.points, there, others):
+        if not fit or view.reaches_too_far(view.points, view.in_image_plane(corners), others):
             return field_of_vision(view, page, fit)
         return fitted_picture(view, page, np.concatenate([corners, view.image_of(others)], axis=1))
 

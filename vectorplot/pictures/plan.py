@@ -15,7 +15,7 @@ from vectorplot.scene.item import Item
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import box_corners, field_of_vision
 from vectorplot.scene.scene import Scene
-from vectorplot.surfaces.capped_bodies import ball_of, capped_quadric_of
+from vectorplot.surfaces.capped_bodies import ball_of, capped_quadric_of, is_quadric_body
 from vectorplot.tolerances import ZERO_OF_EXTENT
 from vectorplot.words import FEATURE_KINDS, LineKind
 
@@ -209,7 +209,7 @@ def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple
         if any(item.dims_light for item in scene.items):
             stages.append(Stage("transparent shadows", "items are transparent"))
     stages.append(Stage("coplanar", "which of the faces in one plane is seen"))
-    stages.append(Stage("depth", "which triangle or round body is in front in every pixel"))
+    stages.append(Stage("depth", "which triangle or quadric body is in front in every pixel"))
     stages.append(Stage("shading", "every visible point once"))
     if any(item.material.is_mirror for item in scene.items):
         stages.append(Stage("mirrors", "what mirrors show"))
@@ -293,9 +293,7 @@ def is_whole(item: Item) -> bool:
     """Whether an item is a body that bands of shade can show: opaque, of one colour and whole."""
     plain = item.material.opacity >= 1.0 and item.material.refraction == 1.0 and item.hides
     plain &= not (item.patterns or item.cut_by or item.is_cut_face or item.group or item.curves.slices)
-    plain &= item.fields is None and item.face_looks is None
-    capped = None if ball_of(item.shape) else capped_quadric_of(item.shape)
-    return plain and (ball_of(item.shape) is not None or (capped is not None and not capped.is_round))
+    return plain and item.fields is None and item.face_looks is None and is_quadric_body(item.shape)
 
 
 def consists_of_bodies(scene: Scene) -> bool:

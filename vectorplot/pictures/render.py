@@ -49,11 +49,12 @@ from vectorplot.shading.facet_resolution import FacetedScene, faceted
 from vectorplot.shading.image import Image, averaged_light
 from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.palettes import palette
-from vectorplot.shading.round_bodies import round_bodies, screen_bodies, with_extents
+from vectorplot.shading.quadric_pixels import bodies_in_pixels, pixel_bodies, with_extents
 from vectorplot.shading.scene_pixels import picture_of
 from vectorplot.shading.screen import picture_placement, pixel_system, raster_size, scene_triangles
 from vectorplot.shading.shaded_faces import exposed_scene
 from vectorplot.visibility.painter.image_faces import outer_sides
+from vectorplot.visibility.quadrics.visible_parts import image_boxes
 from vectorplot.words import LineKind, check_word, line_kinds
 
 if TYPE_CHECKING:
@@ -242,15 +243,17 @@ def render(
     if pipeline.calls_for("facets"):
         shown, criterion = without_coincident(seen), Within(allowed_in_space(seen, projection, page, fit, FACET_PIXELS))
         if not pipeline.calls_for("shadows") and not pipeline.calls_for("mirrors"):
-            bodies = round_bodies(shown.items, projection)
-            shown = with_extents(shown, bodies, projection)
+            bodies = bodies_in_pixels(shown.items, projection)
+            shown = shown if bodies is None else with_extents(shown, bodies, projection)
         facets = pipeline.run("facets", faceted, shown, lambda number: criterion, budget_of(budget))
     view = pipeline.run("look", view_of, facets.scene, projection)
     triangles = pipeline.run("triangles", scene_triangles, view, facets.normals, crease_angle_deg)
     beside = places_beside_faces(seen, view, None, page, fit, kinds, LINE_PIXELS, budget)
     if bodies is not None:
         triangles = triangles.take(~np.isin(triangles.item, bodies.item))
-        beside = np.concatenate([beside, bodies.outlines(projection)])
+        left, right, low, high = image_boxes(bodies, projection)
+        corners = projection.in_image_plane(np.array([[left, right], [low, high]]).reshape(2, -1))
+        beside = np.concatenate([beside, projection.world_of(corners)])
     placement = picture_placement(view, page, fit, beside)
     if fit:
         placement = prepared.around(placement, view, page, samples * PIXELS_PER_MM)
@@ -268,8 +271,8 @@ def render(
     coplanar = pipeline.run("coplanar", coplanar_faces, view)
     behind = paper[0].astype(np.float64)
     picture = picture_of(triangles, system, fine, lighting, opacity, mirror, sides, coplanar, behind)
-    if bodies is not None and len(bodies):
-        picture = replace(picture, bodies=screen_bodies(bodies.seen_by(projection), system, *fine))
+    if bodies is not None:
+        picture = replace(picture, bodies=pixel_bodies(bodies, projection, system, *fine))
     if transparency == "sparse":
         from vectorplot.effects.windows import sparseness
 

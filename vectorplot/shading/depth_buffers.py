@@ -370,7 +370,7 @@ class DepthBuffer:
 
     code: (rows, columns) codes of the depths, 0 where there is nothing; triangle: (rows, columns) number in triangles,
     -1 where there is nothing; depth_code: what the codes mean; triangles: what the picture is of; top: the row of the
-    whole picture that is row 0 here; body: (rows, columns) number of the round body in front, -1 where there is none.
+    whole picture that is row 0 here; body: (rows, columns) number of the quadric body in front, -1 where there is none.
     Source: Glaeser, section 7.3.
     """
 

@@ -30,7 +30,7 @@ from vectorplot.shading.illumination import (
     towards,
 )
 from vectorplot.shading.palettes import COLOUR_MAP, Colours, palette
-from vectorplot.shading.round_bodies import BodyPoints
+from vectorplot.shading.quadric_pixels import QuadricPoints
 from vectorplot.shading.screen import SceneTriangles
 from vectorplot.shading.shaded_faces import depth_limits, light_colours, unit, view_eye
 from vectorplot.shading.shaded_faces import mesh_face_normals as face_normals
@@ -233,8 +233,8 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
     return ShadedPoints(lit.places, lit.faces, np.rint(colours).astype(np.uint8))
 
 
-def shaded_bodies(found: BodyPoints, lighting: Lighting) -> NDArray[np.uint8]:
-    """(m, 3) the colours of points of round bodies, on which no shadows fall."""
+def shaded_bodies(found: QuadricPoints, lighting: Lighting) -> NDArray[np.uint8]:
+    """(m, 3) the colours of points of quadric bodies, on which no shadows fall."""
     to_eye = towards(found.places, lighting.eye)
     none = np.full(len(found.item), -1)
     unshadowed = replace(lighting, blocked=())

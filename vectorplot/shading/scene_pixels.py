@@ -14,7 +14,7 @@ from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import norm
 from vectorplot.shading.depth_buffers import CoplanarFaces, DepthBuffer, finest_code, layers_before, ranked, strip
 from vectorplot.shading.lighting import Lighting, points_in_pixels, shaded_bodies, shaded_points, visible_points
-from vectorplot.shading.round_bodies import ScreenBodies, body_points, front_bodies
+from vectorplot.shading.quadric_pixels import PixelBodies, front_bodies, quadric_points
 from vectorplot.shading.screen import (
     HalfSpace,
     SceneTriangles,
@@ -44,7 +44,7 @@ class Picture:
     screen: the triangles; opacity, mirror (i,): of items; outer_side (i,): 1 and -1 for items of which only the
     outside is seen, wound right or inside out, 0 for others; coplanar: faces in one plane; background (3,);
     points_at_once: shaded together; every (i,): a transparent item sets one of so many pixels, 0 to blend all; door:
-    samples across such a pixel; bodies: opaque round bodies, of which there are no triangles.
+    samples across such a pixel; bodies: opaque quadric bodies, of which there are no triangles.
     """
 
     triangles: SceneTriangles
@@ -62,7 +62,7 @@ class Picture:
     points_at_once: int = POINTS_AT_ONCE
     every: Ints | None = None
     door: int = 1
-    bodies: ScreenBodies | None = None
+    bodies: PixelBodies | None = None
 
     @property
     def shaded_at_once(self) -> int:
@@ -96,7 +96,7 @@ def picture_of(
 
 
 def opaque_buffer(picture: Picture, top: int, bottom: int) -> DepthBuffer:
-    """The depth buffer of the opaque triangles and the round bodies in the rows from top to bottom (exclusive)."""
+    """The depth buffer of the opaque triangles and the quadric bodies in the rows from top to bottom (exclusive)."""
     chosen = None if (picture.opacity >= 1.0).all() else picture.opaque
     if picture.bodies is None:
         return strip(picture.screen, picture.columns, picture.rows, top, bottom, chosen=chosen)
@@ -123,7 +123,7 @@ def shaded(picture: Picture, buffer: DepthBuffer) -> Colours:
         made = shaded_points(picture.triangles, found, picture.lighting)
         colours[found.pixel + part.start * columns] = made.colours
         if picture.bodies is not None and buffer.body is not None:
-            met = body_points(picture.bodies, buffer.body[part], piece.top)
+            met = quadric_points(picture.bodies, buffer.body[part], piece.top)
             colours[met.pixel + part.start * columns] = shaded_bodies(met, picture.lighting)
 
     for _ in mapped(shade, slices(rows, step)):

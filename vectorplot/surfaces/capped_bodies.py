@@ -414,6 +414,12 @@ def capped_quadric_of(shape: object) -> CappedQuadric | None:
     return None
 
 
+def is_quadric_body(shape: object) -> bool:
+    """Whether a shape is a ball, ellipsoid, cylinder, cone or frustum with flat ends."""
+    capped = None if ball_of(shape) else capped_quadric_of(shape)
+    return ball_of(shape) is not None or (capped is not None and not capped.is_round)
+
+
 @dataclass(frozen=True, eq=False)
 class RoundBody:
     """A ball, or a rod (a circular cylinder between upright caps): the points centre + s @ frame for the points s of

@@ -9,9 +9,12 @@ import vectorplot as vp
 from vectorplot import surfaces
 from vectorplot.geometry.projections import projection_of
 from vectorplot.pictures import render as verb
+from vectorplot.scene.page import Page
+from vectorplot.scene.view import look
 from vectorplot.shading.depth_buffers import DepthCode
-from vectorplot.shading.round_bodies import body_points, front_bodies, round_bodies, screen_bodies
-from vectorplot.shading.screen import raster_system
+from vectorplot.shading.quadric_pixels import bodies_in_pixels, front_bodies, pixel_bodies, quadric_points, with_extents
+from vectorplot.shading.screen import picture_placement, pixel_system
+from vectorplot.visibility.quadrics.visible_parts import image_boxes
 
 SIZE = (160, 120)
 EYES = {
@@ -67,7 +70,7 @@ def beside_edges(pixels: np.ndarray) -> np.ndarray:
 def test_pictures_are_those_of_fine_triangles(name, seed, monkeypatch) -> None:
     scene = scene_of(some_shapes(np.random.default_rng(seed)))
     made = vp.render(scene, EYES[name], size=SIZE, samples=1).pixels.astype(int)
-    monkeypatch.setattr(verb, "round_bodies", lambda items, projection: round_bodies((), projection))
+    monkeypatch.setattr(verb, "bodies_in_pixels", lambda items, projection: None)
     of_triangles = vp.render(scene, EYES[name], size=SIZE, samples=1).pixels.astype(int)
     off = np.abs(made - of_triangles).max(axis=2) > 4
     assert off.mean() < 0.01
@@ -77,21 +80,24 @@ def test_pictures_are_those_of_fine_triangles(name, seed, monkeypatch) -> None:
 @pytest.mark.parametrize("name", EYES)
 def test_what_a_pixel_shows_is_on_the_body_and_on_its_sight_line(name) -> None:
     scene, camera = scene_of(some_shapes(np.random.default_rng(2)), with_box=False), EYES[name]
-    bodies, system = round_bodies(scene.items, projection_of(camera, scene.bounds)), raster_system(camera, *SIZE)
-    screen = screen_bodies(bodies, system, *SIZE)
+    view = look(scene, camera)
+    bodies = bodies_in_pixels(scene.items, view)
+    system = pixel_system(picture_placement(view, Page(*map(float, SIZE), 0.0), True))
+    screen = pixel_bodies(bodies, view, system, *SIZE)
     _, number = front_bodies(screen, DepthCode.fine(*screen.depths, 40), SIZE[0], 0, SIZE[1])
-    found = body_points(screen, number, 0)
+    found = quadric_points(screen, number, 0)
     assert len(found.pixel) > 500
-    there = system.from_world(found.places)
+    there = system.homogeneous(found.places)
     row, column = np.divmod(found.pixel, SIZE[0])
-    assert np.abs(there[:, :2] - np.stack([column, row], axis=1)).max() < 1e-6
+    assert np.abs(there[:, :2] / there[:, 3:] - np.stack([column, row], axis=1)).max() < 1e-6
     of = number.ravel()[found.pixel]
-    s = np.einsum("nij,nj->ni", bodies.inverse[of], found.places - bodies.centre[of])
-    width = bodies.start[of] + bodies.growth[of] * s[:, 2]
-    mantle = np.abs(s[:, 0] ** 2 + s[:, 1] ** 2 + bodies.round[of] * s[:, 2] ** 2 - width**2)
-    ends = np.minimum(np.abs(s[:, 2] - bodies.low[of]), np.abs(s[:, 2] - bodies.high[of]))
+    x, y, z = np.einsum("ijn,in->jn", bodies.inverse[..., of], found.places.T - bodies.centre[:, of])
+    ball = bodies.is_ball[of]
+    width = np.where(ball, 1.0, bodies.radii[0, of] + bodies.growth[of] * z)
+    mantle = np.abs(x * x + y * y + ball * z * z - width * width)
+    ends = np.where(ball, np.inf, np.minimum(np.abs(z), np.abs(z - 1.0)))
     assert np.minimum(mantle, ends).max() < 1e-9
-    to_eye = camera.direction if camera.parallel else np.array(camera.eye) - found.places
+    to_eye = np.array([0.0, 0.0, 1.0]) if view.eye is None else view.eye - found.places
     assert (np.sum(found.normals * to_eye, axis=1) > -1e-9).all()
     assert np.abs(np.linalg.norm(found.normals, axis=1) - 1.0).max() < 1e-12
 
@@ -108,30 +114,30 @@ def test_size_and_place_change_no_pixel(scale, parallel) -> None:
     assert (np.abs(here.astype(int) - there.astype(int)).max(axis=2) > 1).mean() < 1e-3
 
 
-def test_outlines_and_extents_reach_as_far_as_the_bodies() -> None:
+def test_boxes_of_images_and_octahedra_reach_as_far_as_the_bodies() -> None:
     scene = scene_of(some_shapes(np.random.default_rng(4)), with_box=False)
     for name, camera in EYES.items():
         projection = projection_of(camera, scene.bounds)
-        bodies = round_bodies(scene.items, projection)
-        for k, number in enumerate(bodies.item.tolist()):
+        bodies = bodies_in_pixels(scene.items, projection)
+        octahedra = with_extents(scene, bodies, projection)
+        boxes = image_boxes(bodies, projection)
+        for number, box in zip(bodies.item.tolist(), boxes.T, strict=True):
             shape = scene.items[number].shape
             grid = np.meshgrid(*shape.domain.grid(300, 300), indexing="ij")
             points = projection.points_of(np.asarray(shape.points(*grid)).reshape(-1, 3))
-            one = bodies.take(np.array([k]))
-            reach = projection.points_of(one.extents(projection.axes)[0])
+            reach = projection.points_of(octahedra.items[number].mesh.vertices)
             assert np.abs(points.min(axis=1) - reach.min(axis=1)).max() < 1e-3, name
             assert np.abs(points.max(axis=1) - reach.max(axis=1)).max() < 1e-3, name
             image = projection.image_of(points)
-            outline = projection.image_of(projection.points_of(one.outlines(projection)))
             size = np.ptp(image, axis=1).max()
-            assert np.abs(image.min(axis=1) - outline.min(axis=1)).max() < 2e-3 * size, name
-            assert np.abs(image.max(axis=1) - outline.max(axis=1)).max() < 2e-3 * size, name
+            assert np.abs(image.min(axis=1) - box[::2]).max() < 2e-3 * size, name
+            assert np.abs(image.max(axis=1) - box[1::2]).max() < 2e-3 * size, name
 
 
 def test_bodies_that_reach_behind_the_eye_are_left_to_triangles() -> None:
     scene = scene_of([surfaces.Sphere(1.0), surfaces.Capped(surfaces.Cylinder(0.2, -9.0, 9.0))], with_box=False)
     camera = vp.Camera((0.0, -1.5, 6.0), target=(0.0, 0.0, 0.0))
-    assert round_bodies(scene.items, projection_of(camera, scene.bounds)).item.tolist() == [0]
+    assert bodies_in_pixels(scene.items, projection_of(camera, scene.bounds)).item.tolist() == [0]
     assert vp.render(scene, camera, size=SIZE).pixels.shape == (SIZE[1], SIZE[0], 3)
 
 
@@ -142,8 +148,11 @@ def test_clear_bodies_mirrors_and_other_surfaces_are_none() -> None:
         vp.Item("mirror", ball, material=vp.Material("mirror")),
         vp.Item("torus", surfaces.Torus(2.0, 0.5)),
         vp.Item("open", surfaces.Cylinder(1.0, 0.0, 1.0)),
+        vp.Item("dome", surfaces.Capped(ball, v=(0.0, 1.0))),
         vp.Item("mesh", vp.geometry.box((1.0, 1.0, 1.0))),
         vp.Item("ball", ball),
     )
     scene = vp.Scene(items)
-    assert round_bodies(items, projection_of(vp.Camera((5.0, 4.0, 3.0)), scene.bounds)).item.tolist() == [5]
+    projection = projection_of(vp.Camera((5.0, 4.0, 3.0)), scene.bounds)
+    assert bodies_in_pixels(items, projection).item.tolist() == [6]
+    assert bodies_in_pixels(items[:6], projection) is None
