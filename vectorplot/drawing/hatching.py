@@ -167,7 +167,7 @@ def toned_regions(fills: Fills) -> TonedRegions:
     """The visible regions of polygons painted one over the other, as dark as their colours: black is 1, white 0.
 
     What one can see through is as much lighter as it is clear, and adds to what lies behind it. Lines, and the paper,
-    are no regions. Errors as of visible_fills.
+    are no regions. Errors as in visible_fills.
     """
     import shapely
 
@@ -575,7 +575,7 @@ def crossings(u: Floats, v: Floats, offsets: Ints, polygon: Ints, spacing: Float
 
 
 def scanned(u: Floats, v: Floats, offsets: Ints, region: Ints, spacing: Floats) -> Scanned:
-    """The parts inside regions of lines along u; all else as of crossings."""
+    """The parts inside regions of lines along u; all else as in crossings."""
     found = crossings(u, v, offsets, region, spacing)
     low, high = found.along[0::2], found.along[1::2]
     full = np.flatnonzero(high > low)
@@ -711,7 +711,7 @@ def hatched_fills(fills: Fills, hatching: Sequence[Hatching | Stippling | None],
     hatching : sequence of Hatching or None
         Of every item that has polygons.
     page_from_world : (4, 4) array of float
-        As of Drawing.
+        As in Drawing.
 
     Returns
     -------

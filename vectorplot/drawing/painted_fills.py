@@ -113,8 +113,8 @@ def fills_on_page(
     item: Ints,
     kind: Ints,
 ) -> Fills:
-    """Polygons of the image on the page: points (3,c) places and heights as of ImageFaces, colours (c,3), opacity,
-    item and kind (m,) as of Fills."""
+    """Polygons of the image on the page: points (3,c) places and heights as in ImageFaces, colours (c,3), opacity,
+    item and kind (m,) as in Fills."""
     flat = placement.on_page(points[:2])
     return Fills(
         np.ascontiguousarray(flat), offsets, colours, opacity, item, view.world_of(view_points(view, points)), kind

@@ -61,7 +61,7 @@ def narrow(view: View, system: LightSystem, face: Ints) -> Bools:
 
 
 def reach(view: View, system: LightSystem, face: Ints, body: Ints) -> Floats:
-    """(k,) the greatest distances of corners of the faces of bodies, as of Depths."""
+    """(k,) the greatest distances of corners of the faces of bodies, as in Depths."""
     position, offsets = ragged.take(view.offsets, face)
     points = directions(view, system, view.corners[position])
     distance = -(matmul(system.position, points)) if system.parallel else np.sqrt((points * points).sum(axis=0))
@@ -383,7 +383,7 @@ def _bounds(view: View, item: Ints) -> tuple[Floats, Floats]:
 
 
 def _nearest(view: View, planes: FacePlanes, system: LightSystem) -> Floats:
-    """(f,) the least distances of faces, as of Depths, or less: no point of a convex polygon is nearer than the
+    """(f,) the least distances of faces, as in Depths, or less: no point of a convex polygon is nearer than the
     square root of what is left of the square of its nearest corner without half that of its extent."""
     if not view.face_count:
         return np.zeros(0)

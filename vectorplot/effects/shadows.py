@@ -312,7 +312,7 @@ def cast_within(
     projected: ProjectedFaces | None = None,
     off: Floats | None = None,
 ) -> Cast:
-    """The shadows as of cast_shadows, but for those of one item on one, in one light, for which more than so many pairs
+    """The shadows as in cast_shadows, but for those of one item on one, in one light, for which more than so many pairs
     would have to be looked at (see shadow_pairs.crowds). off (i,): how far the faces of items may be off the surfaces
     that they stand for (None: not at all, they are polyhedra); so far may borders of shadows be from those that the
     faces throw."""
@@ -486,7 +486,7 @@ def shadow_decals(
 def tell_missing_shadows(items: Sequence[Item], lights: Sequence[Light], left_out: Ints) -> None:
     """Warn of shadows that are left out, with one InputWarning for each item that throws them and one on which.
 
-    left_out (3,k): as of Cast.
+    left_out (3,k): as in Cast.
     """
     for one, other in np.unique(left_out[1:], axis=1).T.tolist():
         number = left_out[0, (left_out[1] == one) & (left_out[2] == other)]
@@ -524,7 +524,7 @@ def transparent_shadows(
 
     shadows: those; where they keep a light away nothing dims it, and where they keep others away those lack, too.
     Things of one colour and opacity dim a light once. They fall on opaque items only. receivers, errors and degenerate
-    cases as of cast_shadows; an InputWarning names the items for which the budget did not do.
+    cases as in cast_shadows; an InputWarning names the items for which the budget did not do.
     Source: Glaeser, section 6.6.
     """
     groups: dict[tuple[str, float], Bools] = {}

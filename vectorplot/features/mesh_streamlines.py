@@ -520,7 +520,7 @@ def evenly_spaced_mesh_curves(
 def evenly_spaced_on_faces(
     bent: BentFaces, field: TangentField, apart: float, longest: float | None = None
 ) -> MeshCurves:
-    """The same on a mesh of which is known how it bends; longest: as of StreamlineMesh."""
+    """The same on a mesh of which is known how it bends; longest: as in StreamlineMesh."""
     positive("evenly spaced curves: distance", apart)
     sides, none = mesh_sides(bent.mesh), all_mesh_curves([])
     if not bent.mesh.face_count or sides.extent == 0.0:

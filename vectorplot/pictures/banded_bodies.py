@@ -88,7 +88,7 @@ class WholeBodies:
 
 
 def whole_bodies(shown: Scene, projection: Projection) -> WholeBodies | None:
-    """The bodies of a scene, as of consists_of_bodies, in the painter's order; None where they cannot be painted as
+    """The bodies of a scene, as in consists_of_bodies, in the painter's order; None where they cannot be painted as
     wholes: where they pierce each other but for balls and rods in these, where the eye is in one or near it, or sees a
     mantle all around."""
     scene = replace(shown, items=tuple(without_curved_mirror(item) for item in shown.items))
@@ -214,7 +214,7 @@ class _Cut:
     of_chart: Ints
 
     def __call__(self, chart: Ints, points: Floats) -> Floats:
-        """As of Margin; without a cut everything is inside."""
+        """As in Margin; without a cut everything is inside."""
         number = self.of_chart[chart]
         some = np.flatnonzero(number >= 0)
         found = np.ones(len(chart))

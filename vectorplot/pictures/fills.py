@@ -112,7 +112,7 @@ def smooth_items(faceted: FacetedScene) -> Bools:
 def fineness(
     pipeline: Pipeline, shown: Scene, projection: Projection, casts: bool, allowed: Allowed, tolerance_mm: float
 ) -> Callable[[int], Criterion]:
-    """What a picture asks of the triangles of the items that it shows; all else as of picture_fineness."""
+    """What a picture asks of the triangles of the items that it shows; all else as in picture_fineness."""
     in_glass = None
     if pipeline.calls_for("refraction"):
         from vectorplot.effects.glass import items_in_glass

@@ -278,8 +278,8 @@ def followed_lines(
 ) -> list[FollowedLines]:
     """The visible lines to hatch along of each item that has such, and of each family where they cross.
 
-    how: of every item; view: of the scene; trace: the visible lines of a scene in their places, as of draw;
-    tolerance_mm, crease_angle_deg: as of draw.
+    how: of every item; view: of the scene; trace: the visible lines of a scene in their places, as in draw;
+    tolerance_mm, crease_angle_deg: as in draw.
     """
     found: list[FollowedLines] = []
     for family in (0, 1):

@@ -236,7 +236,7 @@ class Pieces(Elements):
     or 1; begin, stop: where along its line each begins and ends, in mm; face; line: its number; family: of which lines
     that number is; spacing: how far these are apart, in mm; threshold: what has to be darker is drawn; lacking: the
     lights that a place has to lack, -1 whatever it lacks; window: darkness is its mean over so many mm; pen: its width
-    in mm; shares (2l,n) and shares_end: what lights give to the ends, as of Tone.
+    in mm; shares (2l,n) and shares_end: what lights give to the ends, as in Tone.
     """
 
     start: Floats = field(metadata=IN_COLUMNS)
@@ -858,7 +858,7 @@ painted."""
 @dataclass(frozen=True, eq=False)
 class HatchedPicture:
     """What is hatched: a scene, the same toned, where its picture is; trace: the visible lines of a scene in their
-    places; all else as of paint."""
+    places; all else as in paint."""
 
     scene: Scene
     toned: Scene
@@ -984,7 +984,7 @@ def hatched(
     """The strokes that hatch the visible faces of a scene, as they come.
 
     placement: of a picture of the scene; given: how items without a hatching of their own are hatched; trace: the
-    visible lines of a scene in their places; crease_angle_deg and tolerance_mm as of paint. What is near is no brighter
+    visible lines of a scene in their places; crease_angle_deg and tolerance_mm as in paint. What is near is no brighter
     than what is far away, and items that are hatched by tone are gray, and without patterns. Errors and warnings as of
     paint.
     """

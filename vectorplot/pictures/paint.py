@@ -133,11 +133,11 @@ def paint(
     scene : Scene, path, Item, Mesh, surface, curve, or several of these
         What is painted, as of `io.scene_of`.
     camera : Camera or str, optional
-        As of draw.
+        As in draw.
     page : Page or str, optional
-        As of draw.
+        As in draw.
     width : float or str, optional
-        As of draw.
+        As in draw.
     fit : bool
         The picture fills the page but for its margin; otherwise the page centre is the target and the page height the
         camera's picture height.
@@ -164,13 +164,13 @@ def paint(
     crease_angle_deg : float
         Sharper edges are creases, and meshes look round where faces meet at less; 0 to 180 degrees.
     style : Style or str, optional
-        As of draw, without wireframes: its pens, dashes and paper.
+        As in draw, without wireframes: its pens, dashes and paper.
     pens : str, Pen, mapping or iterable of str, optional
-        As of draw, for lines on top.
+        As in draw, for lines on top.
     dashes : str, mapping or iterable of str, optional
-        As of draw, for the same lines.
+        As in draw, for the same lines.
     depth_cue : DepthCue or str, optional
-        As of draw, for lines on top; with blank polygons, whose lines have the shades of items, only none.
+        As in draw, for lines on top; with blank polygons, whose lines have the shades of items, only none.
     background : str, optional
         The colour of the paper, in place of that of the scene.
     tolerance_mm : float
@@ -181,11 +181,11 @@ def paint(
     frame : bool
         A rectangle in the middle of the margin, which ends before the title.
     text : {"strokes", "real"}
-        As of draw.
+        As in draw.
     budget : float
-        As of draw, for lines and triangles.
+        As in draw, for lines and triangles.
     jobs : int, optional
-        As of draw.
+        As in draw.
     progress : callable, optional
         progress(stage, fraction) is called while it works.
     explain : callable, optional

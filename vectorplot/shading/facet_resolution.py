@@ -77,7 +77,7 @@ def faceted(scene: Scene, criterion: Callable[[int], Criterion], budget: Budget 
     """The scene with meshes in place of smooth surfaces. criterion: how fine the triangles of an item have to be, by
     its number; budget: how many there may be. An InputWarning names the items for which it did not do.
 
-    Errors: as of features.facets. Edge cases: a curve has no faces.
+    Errors: as in features.facets. Edge cases: a curve has no faces.
     Source: Glaeser, section 8.4 (polygonised surfaces and their normals).
     """
     smooth = [number for number, item in enumerate(scene.items) if _is_smooth(item)]
@@ -175,7 +175,7 @@ def refined(
     """Convex polygons with triangles in place of those on which linear shading would be off by more than error: points
     (3,c) of the image, offsets (m+1,), and parent (m,), ascending, the polygon that each is a part of.
 
-    points, offsets (n+1,) and source (n,) as of ImageFaces; sides in the image that are shorter than shortest are not
+    points, offsets (n+1,) and source (n,) as in ImageFaces; sides in the image that are shorter than shortest are not
     cut any more. Polygons with one shade stay as they are. Where there would be more than most polygons the longest
     sides are cut, and no others.
     """
@@ -497,7 +497,7 @@ class PictureFineness:
     touch them: there outlines and the borders of dark sides begin, and so they do where mirrors show them.
     Chords are compared with the surface in a few places only: outlines may be off by up to 1.4 tolerances.
 
-    view: of the scene, its points being what it reaches; lights: in its coordinates, as of view_lights; casts: whether
+    view: of the scene, its points being what it reaches; lights: in its coordinates, as in view_lights; casts: whether
     they throw shadows; deep (s,): by how many times the tolerance triangles may be off elsewhere; others: what the
     other items have in the box of each item; doubles: of the eye and of such lights, in mirrors that show the items.
     """

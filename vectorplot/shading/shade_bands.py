@@ -37,7 +37,7 @@ Margin = Callable[[Ints, Floats], Floats]
 
 @dataclass(frozen=True, eq=False)
 class ShadedCharts:
-    """Charts, the items (n,) they show, and how bright these are: view, items and lights as of point_shades.
+    """Charts, the items (n,) they show, and how bright these are: view, items and lights as in point_shades.
 
     steps (n,): how many bands a palette has on each chart; loose_mm (n,): how far isophotes may be off on the page;
     grain (n,): parts that cuts and shadows take are no smaller than this in the view; cuts: margins one after the
@@ -567,7 +567,7 @@ class _Marching:
 
     @cached_property
     def sides(self) -> tuple[Ints, Ints, Ints]:
-        """As of ChartMesh, of all triangles."""
+        """As in ChartMesh, of all triangles."""
         return self.mesh.sides(self.mesh.triangles)
 
     @cached_property

@@ -502,9 +502,9 @@ def sliced_order(faces: ImageFaces, place: Ints, tolerance: float) -> ImageFaces
     Parameters
     ----------
     faces : ImageFaces
-        As of image_faces.
+        As in image_faces.
     place : (n,) array of int
-        The rank of each one's slice in the order of drawing, as of slice_order.
+        The rank of each one's slice in the order of drawing, as in slice_order.
     tolerance : float
         What counts as distance zero, that of the view.
 

@@ -56,7 +56,7 @@ class Plan:
 
 
 def largest_plan(places: Floats, corners: Ints, offsets: Ints) -> tuple[Plan, Ints] | None:
-    """The plan of polygons as of plan_of, and which ones it is of (k,): all of them, or those that are left without the
+    """The plan of polygons as in plan_of, and which ones it is of (k,): all of them, or those that are left without the
     few whose borders cross; None where too many do, or they overlap otherwise."""
     kept = np.arange(len(offsets) - 1)
     fewest = (1.0 - SHARE_LEFT_OUT) * len(kept)

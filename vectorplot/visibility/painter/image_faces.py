@@ -77,7 +77,7 @@ def drawn_faces(view: View, faces: ProjectedFaces) -> Ints:
     """The faces that can be seen at all: not edge-on, not behind the near plane, and of closed bodies only those that
     show their outside.
 
-    That holds for bodies that do not cross themselves, as of body_sides, and that the near plane does not cut; an eye
+    That holds for bodies that do not cross themselves, as in body_sides, and that the near plane does not cut; an eye
     in a body sees its inner walls.
     Source: Glaeser, section 5.1; erratum G5-09.
     """
@@ -89,7 +89,7 @@ def drawn_faces(view: View, faces: ProjectedFaces) -> Ints:
 
 def outer_sides(view: View) -> Ints:
     """(i,) 1 for items that are seen from outside only and wound that way, -1 for such wound inside out, 0 for all
-    others: as of body_sides, but those that reach behind the near plane, in which the eye may be."""
+    others: as in body_sides, but those that reach behind the near plane, in which the eye may be."""
     side = body_sides(view)
     if view.eye is not None:
         behind = np.flatnonzero(view.depth <= view.near)
@@ -105,7 +105,7 @@ def image_faces(view: View, which: Ints) -> ImageFaces:
     Parameters
     ----------
     view : View
-        As of scene.look.
+        As in scene.look.
     which : (n,) array of int
         Faces of the view.
 
@@ -148,7 +148,7 @@ def image_points(view: View, points: Floats) -> Floats:
     Parameters
     ----------
     view : View
-        As of scene.look.
+        As in scene.look.
     points : (3, n) array of float
         In the view's coordinates.
 
@@ -197,7 +197,7 @@ def view_points(view: View, points: Floats) -> Floats:
 
 
 def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -> ImageFaces:
-    """Polygons of corners (3,c) as of image_points, all turned counter-clockwise; those narrower than the tolerance
+    """Polygons of corners (3,c) as in image_points, all turned counter-clockwise; those narrower than the tolerance
     left out.
 
     Where faces lie in one plane the larger one is drawn first; of equal ones the lower, the left one, the one nearer

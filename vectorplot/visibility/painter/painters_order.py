@@ -86,9 +86,9 @@ def painters_order(
     Parameters
     ----------
     view : View
-        As of scene.look.
+        As in scene.look.
     projected : ProjectedFaces, optional
-        As of project_faces, where they are known already.
+        As in project_faces, where they are known already.
     known : mapping of int to Precedence, optional
         For items whose structure tells the order (known_orders, graph_order, ring_order) what has to be drawn before
         what among their faces; these are compared with those of other items only, and with each other where they then

@@ -275,7 +275,7 @@ def may_touch(faces: ImageFaces, first: Ints, second: Ints) -> tuple[Floats, Boo
 
 
 def _in_image(view: View, points: Floats, normals: Floats) -> Floats:
-    """(3,3,n) normals of the images of planes through points of a view with normals (3,3,n), as of image_points."""
+    """(3,3,n) normals of the images of planes through points of a view with normals (3,3,n), as in image_points."""
     if view.eye is None:
         return normals
     eye = np.array([view.eye[0], view.eye[1], view.eye[2] - view.focus])
