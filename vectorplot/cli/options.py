@@ -38,7 +38,16 @@ from vectorplot.cli.option_values import (
     style,
     upwards,
 )
-from vectorplot.cli.picture import Report, Source, make_picture, picture_contents, picture_made, warn_of_nothing
+from vectorplot.cli.picture import (
+    SILENT,
+    Report,
+    Source,
+    kept_promise,
+    make_picture,
+    picture_contents,
+    picture_made,
+    warn_of_nothing,
+)
 from vectorplot.errors import InputError
 from vectorplot.pictures.options import SHADOWS
 from vectorplot.words import TEXT_WORDS
@@ -596,6 +605,17 @@ TOLERANCE = click.option(
     help="For approximations.",
 )
 
+PROMISES = (
+    click.option(
+        "--off-by",
+        metavar="ERROR",
+        help="The error to keep, such as 0.01mm (of pixels 0.2px, of colours 4shades): accuracy is chosen for it.",
+    ),
+    click.option("--within", metavar="TIME", help="The time to take, such as 0.5s: as accurate as that allows."),
+    click.option("--strict", is_flag=True, help="Write nothing, and fail, where --off-by or --within is not kept."),
+)
+"""An error or a time that a picture keeps."""
+
 TITLE = click.option("--title", default="", metavar="TEXT", show_default=False, help="Letters in the lower margin.")
 
 FRAME = click.option("--frame", is_flag=True, help="A rectangle in the margin.")
@@ -639,11 +659,8 @@ OUT_OR_FOLDER = click.option(
     help="File to write; - for stdout; FOLDER/ for a picture of each INPUT.",
 )
 
-_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain")
+_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain", "strict")
 """Parameters that say what is read and written, and what is said of it."""
-
-SILENT = Report(None, None)
-"""Nobody is told anything."""
 
 
 def format_option(formats: Sequence[str]) -> Option:
@@ -765,7 +782,8 @@ def picture_verb(
 
             def picture(scene: Scene, report: Report) -> Drawing | Image:
                 lined, keywords = told.with_lines(scene)
-                made = verb(lined, **keywords, progress=report.progress, explain=report.explain)
+                with kept_promise(report, keywords, strict=params["strict"], quiet=params["quiet"]) as explain:
+                    made = verb(lined, **keywords, progress=report.progress, explain=explain)
                 warn_of_nothing(source, made, lambda: _why_nothing(verb.__name__, lined, keywords))
                 return made
 

@@ -7,7 +7,7 @@ import os
 import sys
 import time
 import warnings
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from functools import partial
@@ -152,6 +152,36 @@ class Report:
 
     progress: Callable[[str, float], None] | None
     explain: Callable[[StageReport], None] | None
+
+
+SILENT = Report(None, None)
+"""Nobody is told anything."""
+
+
+@contextmanager
+def kept_promise(
+    report: Report, keywords: Mapping[str, Any], *, strict: bool, quiet: bool
+) -> Iterator[Callable[[StageReport], None] | None]:
+    """Whom a verb tells what its stages cost. Afterwards what it reached is printed, where an error or a time was asked
+    for. Errors: with strict, InputError where it could not be kept."""
+    if keywords.get("off_by") is None and keywords.get("within") is None:
+        yield report.explain
+        return
+    from vectorplot.pictures.promises import BROKEN, PROMISE
+
+    reports: list[StageReport] = []
+
+    def explain(entry: StageReport) -> None:
+        reports.append(entry)
+        if report.explain is not None:
+            report.explain(entry)
+
+    yield explain
+    for entry in reports:
+        if entry.name == BROKEN and strict:
+            raise InputError(f"not kept: {entry.why}")
+        if entry.name == PROMISE and not quiet and report is not SILENT:
+            click.echo(f"vectorplot: {entry.why}", err=True)
 
 
 @dataclass(frozen=True)

@@ -28,6 +28,7 @@ from vectorplot.pictures.options import check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene
+from vectorplot.pictures.promises import DRAWING, promised
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.scene.page import Page
@@ -102,6 +103,8 @@ def draw(
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
     longest_mm: float | None = None,
+    off_by: float | str | None = None,
+    within: float | str | None = None,
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -173,6 +176,12 @@ def draw(
         Letters of labels and titles are strokes of the pen; or texts, set in fonts by what reads the file.
     longest_mm : float, optional
         Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
+    off_by : float or str, optional
+        The error that the picture is to keep, mm, or a text with its unit such as "0.01mm": tolerance_mm is
+        chosen for it, and what was reached is measured.
+    within : float or str, optional
+        The time that the picture may take, seconds or a text such as "0.5s" or "300ms": it gets as accurate as that
+        allows.
     budget : float
         How many times the usual work on smooth surfaces is allowed (see geometry.budget).
     jobs : int, optional
@@ -222,7 +231,10 @@ def draw(
     >>> [layer.name for layer in drawing.layers if len(layer.strokes[0])]
     ['contour', 'hidden']
     """
-    check_options(locals())
+    told = dict(locals())
+    check_options(told)
+    if off_by is not None or within is not None:
+        return promised(draw, DRAWING, told)
     given = scene_of(scene) if lines is not None else with_default_lines(scene_of(scene))
     chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)

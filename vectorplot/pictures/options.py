@@ -138,6 +138,8 @@ OPTIONS: dict[str, Option] = {
     "frame": _YES,
     # Shorter parts of strokes would be dots.
     "longest_mm": _number("longest strokes of {:g} mm", 1.0, optional=True),
+    "off_by": Option("a number, or a text such as '0.01mm'", lambda given: isinstance(given, str) or _is_number(given)),
+    "within": Option("seconds, or a text such as '0.5s'", lambda given: isinstance(given, str) or _is_number(given)),
     "budget": _ANY_NUMBER,
     "exposure": Option("a number or 'fitted'", lambda given: isinstance(given, str) or _is_number(given)),
     "aura_mm": _number("an aura of {:g} mm", 0.0),

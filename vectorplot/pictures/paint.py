@@ -36,6 +36,7 @@ from vectorplot.pictures.options import SHADOWS, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport
 from vectorplot.pictures.plan import accuracy_of_paint, consists_of_bodies, plan_bodies, plan_paint, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
+from vectorplot.pictures.promises import PAINTING, promised
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
@@ -121,6 +122,8 @@ def paint(
     title: str = "",
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
+    off_by: float | str | None = None,
+    within: float | str | None = None,
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -182,6 +185,13 @@ def paint(
         A rectangle in the middle of the margin, which ends before the title.
     text : {"strokes", "real"}
         As in draw.
+    off_by : float or str, optional
+        The error that the picture is to keep, mm, a text such as "0.01mm", or
+        with the error of shades, in steps of 255, "0.01mm,4shades": tolerance_mm is chosen for it,
+        and what was reached is measured.
+    within : float or str, optional
+        The time that the picture may take, seconds or a text such as "0.5s" or "300ms": it gets as accurate as that
+        allows.
     budget : float
         As in draw, for lines and triangles.
     jobs : int, optional
@@ -228,7 +238,10 @@ def paint(
     >>> [layer.name for layer in drawing.layers]
     ['fills', 'visible', 'contour']
     """
-    check_options(locals())
+    told = dict(locals())
+    check_options(told)
+    if off_by is not None or within is not None:
+        return promised(paint, PAINTING, told)
     check_word("shadows", shadows, SHADOWS["paint"])
     if fills == "erasing" and depth_cue_of(depth_cue) is not None:
         raise InputError("depth_cue does not go with fills that are erasing, whose lines have the shades of items")

@@ -39,6 +39,7 @@ from vectorplot.pictures.pixels import (
 )
 from vectorplot.pictures.plan import accuracy_of_render, chosen_shadows, plan_render, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, prepared_scene, tell_what_leaves_page
+from vectorplot.pictures.promises import RENDERING, promised
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.placement import allowed_in_space
@@ -102,6 +103,8 @@ def render(
     dashes: str | Mapping[str, str] | Iterable[str] | None = None,
     depth_cue: DepthCue | str | None = None,
     background: str | None = None,
+    off_by: float | str | None = None,
+    within: float | str | None = None,
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -160,6 +163,12 @@ def render(
         See draw, for lines over the picture.
     background : str, optional
         A palette, a plain colour or #rrggbb.
+    off_by : float or str, optional
+        The error that the picture is to keep, pixels, or a text such as "0.2px": number of samples is chosen for it,
+        and what was reached is measured.
+    within : float or str, optional
+        The time that the picture may take, seconds or a text such as "0.5s" or "300ms": it gets as accurate as that
+        allows.
     budget : float
         See draw, for lines and triangles.
     jobs : int, optional
@@ -207,7 +216,10 @@ def render(
     >>> vp.render(scene, size=(60, 40), background="#ffffff")
     <Image 'Tetrahedron': 60 x 40 pixels>
     """
-    check_options(locals())
+    told = dict(locals())
+    check_options(told)
+    if off_by is not None or within is not None:
+        return promised(render, RENDERING, told)
     check_word("shadows", shadows, SHADOWS["render"])
     kinds = line_kinds(lines)
     samples = default_samples(size) if samples is None else samples

@@ -16,6 +16,7 @@ from vectorplot.cli.options import (
     HATCHING_OPTIONS,
     LAYERS,
     PAGE_OPTIONS,
+    PROMISES,
     STROKE_OPTIONS,
     TEXT,
     TITLE,
@@ -66,6 +67,7 @@ if TYPE_CHECKING:
     ),
     click.option("--curves", type=of_option("curves"), default="bezier", help="How smooth curves leave."),
     TOLERANCE,
+    *PROMISES,
     TITLE,
     FRAME,
     TEXT,
@@ -111,13 +113,13 @@ def _all_round(
     given = click.get_current_context().params
     unlike = {name: given[name] for name in ("eye", "target", "up", "twist", "fov", "height", "near", "far", "view")}
     flags = {name: given[name] or None for name in ("parallel", "scale_pens", "thin_ends")}
-    cue = {"depth-cue": told["depth_cue"]}
+    cue = {"depth-cue": told["depth_cue"], "off-by": told["off_by"], "within": told["within"]}
     halo = {"halo": told["halo_mm"] or None, "no-fit": None if told["fit"] else True, "hatch": hatched or None}
     if told["text"] != "strokes":
         raise click.UsageError("letters of panoramas are strokes: --text does not go with --panorama")
     for name, value in {**unlike, **flags, **halo, **cue, "hidden": told["hidden"]}.items():
         if value is not None and value != "none":
             raise click.UsageError(f"--{name.replace('_', '-')} does not go with --panorama")
-    unused = ("camera", "fit", "hidden", "halo_mm", "scale_pens", "thin_ends", "depth_cue", "text")
+    unused = ("camera", "fit", "hidden", "halo_mm", "scale_pens", "thin_ends", "depth_cue", "text", "off_by", "within")
     rest = {name: value for name, value in told.items() if name not in unused}
     return panorama(scene, Panorama(standing, strips=strips), **rest)

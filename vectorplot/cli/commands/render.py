@@ -13,6 +13,7 @@ from vectorplot.cli.options import (
     EXPOSURE,
     LIGHTS,
     OVERLAID_OPTIONS,
+    PROMISES,
     crease_angle_option,
     fit_option,
     lines_option,
@@ -66,6 +67,7 @@ FORMATS = ("png",)
     click.option(
         "--samples", type=of_option("samples"), metavar="N", help="N x N samples in every pixel.  [default: 2]"
     ),
+    *PROMISES,
     click.option(
         "--transparency",
         type=of_option("transparency"),
