@@ -134,6 +134,10 @@ WORTH, GAIN = 1.4, 30.0
 finer at most, for what it costs is foretold from the last one."""
 
 
+UNTIL = 0.9
+"""A picture is given up after this part of the time: some stages take a while until they hear of it."""
+
+
 class _TimeIsOver(Exception):
     """A picture is given up for which there is a coarser one."""
 
@@ -197,7 +201,7 @@ def promised(verb: Callable[..., R], parameter: Parameter, arguments: Mapping[st
         began, listener = time.perf_counter(), told["progress"]
 
         def progress(stage: str, fraction: float) -> None:
-            if last is not None and time.perf_counter() - start > seconds:
+            if last is not None and time.perf_counter() - start > UNTIL * seconds:
                 raise _TimeIsOver
             if listener is not None:
                 listener(stage, fraction)
@@ -218,8 +222,11 @@ def promised(verb: Callable[..., R], parameter: Parameter, arguments: Mapping[st
     def next_value(made: _Made[R]) -> float | None:
         """A finer value that is worth a picture; None where there is none."""
         if asked:
-            excess = max((reached(made).get(unit, 0.0) / most for unit, most in asked.items()), default=0.0)
-            return parameter.finer(made.value, excess / SURE) if excess > 1.0 else None
+            found = reached(made)
+            excess = {unit: found.get(unit, 0.0) / most for unit, most in asked.items()}
+            # Errors of shades go like sides of triangles, those of outlines like their squares.
+            factor = max((over / SURE) ** (2 if unit == _STEPS else 1) for unit, over in excess.items())
+            return parameter.finer(made.value, factor) if max(excess.values()) > 1.0 else None
         # Pictures without approximations are as good as they get.
         approximate = {report.name for report in made.reports if report.error is not None} - _EXACT
         left = seconds - (time.perf_counter() - start)
