@@ -38,9 +38,11 @@ approximation, drawn by vectorplot itself. `vectorplot accuracy --list` lists th
 * A slope is the power of the knob that errors went like, all values taken together; in plots, dashed lines have the
   slope of theory. -2 means that twice as many cells leave a quarter of the error.
 
-What these numbers mean for a picture stands in [accuracy and limits](accuracy-and-limits.md), and the time of whole
-pictures in [speed](speed.md). This page and its plots are written by `python docs/accuracy.py`; how to add an
-approximation is told in [CONTRIBUTING](../CONTRIBUTING.md#a-new-approximation).
+`--off-by 0.01mm` and `--within 0.5s` choose from these curves, and measure what they reached:
+[accuracy that is kept](command.md#accuracy-that-is-kept). What these numbers mean for a picture stands in
+[accuracy and limits](accuracy-and-limits.md), and the time of whole pictures in [speed](speed.md). This page and its
+plots are written by `python docs/accuracy.py`; how to add an approximation is told in
+[CONTRIBUTING](../CONTRIBUTING.md#a-new-approximation).
 """
 
 NOTES = {

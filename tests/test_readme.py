@@ -10,6 +10,8 @@ import stat
 import pytest
 from support.paths import ROOT
 
+import vectorplot as vp
+
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```(\w+)\n(.*?)```", README, flags=re.DOTALL)
 
@@ -47,21 +49,27 @@ def test_the_python_of_the_readme_runs(tmp_path, monkeypatch):
 
 
 def test_the_drawing_of_the_readme_is_the_picture_beside_it():
-    (text,) = (text for language, text in BLOCKS if language == "text")
+    text = next(text for language, text in BLOCKS if language == "text" and "page A5" in text)
     assert (ROOT / "data" / "house.scene").read_text(encoding="utf-8").endswith(text)
     commands = next(block for block in shell_blocks() if "mine.scene" in block).splitlines()
     assert commands[0] == ". .venv/bin/activate" and all(line.startswith("vectorplot ") for line in commands[1:])
 
 
-def test_every_option_of_the_command_is_in_the_readme():
-    from vectorplot.cli.commands.draw import draw
-    from vectorplot.cli.commands.paint import paint
-    from vectorplot.cli.commands.render import render
-
-    for parameter in (*draw.params, *paint.params, *render.params):
-        for option in (*parameter.opts, *parameter.secondary_opts):
-            if option.startswith("--") and option != "--out":
-                assert option in README, option
+def test_the_stages_of_the_readme_are_those_of_its_pictures():
+    (text,) = (text for language, text in BLOCKS if language == "text" and "--explain" in text)
+    head, *rows = text.splitlines()
+    middle = head.rindex("$")
+    for start, end in ((0, middle), (middle, None)):
+        words = head[start:end].split()
+        reports = []
+        getattr(vp, words[2])(ROOT / words[3], explain=reports.append)
+        told = {report.name: report.why for report in reports}
+        shown = [row[start:end] for row in rows if row[start:end].strip()]
+        names = [re.split(r"  +", row)[0] for row in shown]
+        assert names == [
+            name for name in dict.fromkeys(report.name for report in reports) if name not in {"look", "faces"}
+        ]
+        assert all(re.split(r"  +", row.rstrip())[1] in told[name] for name, row in zip(names, shown, strict=True))
 
 
 def test_every_dependency_is_in_the_readme():

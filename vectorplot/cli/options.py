@@ -809,6 +809,7 @@ def picture_verb(
             *options,
             *LINE_OPTIONS,
             *CUT_OPTIONS,
+            *PROMISES,
             BUDGET,
             JOBS,
             *WORKER_OPTIONS,

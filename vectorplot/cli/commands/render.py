@@ -13,7 +13,6 @@ from vectorplot.cli.options import (
     EXPOSURE,
     LIGHTS,
     OVERLAID_OPTIONS,
-    PROMISES,
     crease_angle_option,
     fit_option,
     lines_option,
@@ -67,7 +66,6 @@ FORMATS = ("png",)
     click.option(
         "--samples", type=of_option("samples"), metavar="N", help="N x N samples in every pixel.  [default: 2]"
     ),
-    *PROMISES,
     click.option(
         "--transparency",
         type=of_option("transparency"),
