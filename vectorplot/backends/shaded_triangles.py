@@ -199,6 +199,10 @@ LOOKS = np.array((0.0, 0.05, 0.5, 0.95, 1.0))
 ALIKE = 32.0
 """By no more of 255 are colours alike."""
 
+CELLS_WIDE, _CELLS_A_POLYGON, _FEW_CELLS = 2.0, 16, 1 << 16
+"""Cells are so many times as wide as half of the polygons; there are no more of them than so many a polygon, or so few,
+and polygons reach into no more."""
+
 HOLLOW_MICRONS = 75.0
 """So far polygons reach under others that are not convex, where these are twice as wide."""
 
@@ -311,7 +315,9 @@ def underlaps(areas: Areas) -> Underlaps:
     open_ = np.zeros(len(covers), dtype=np.bool_)
     open_[owner[~met]] = open_[owner[hollow]] = open_[owner[later[thin]]] = open_[owner[beyond[thin]]] = True
     beside = np.append(np.flatnonzero(met), found.side), np.append(owner[other[met]], owner[found.other])
-    amid = _amid(sides, open_ & covers & ~_with_unlike_sides(sides, *beside))
+    looked = open_ & covers & ~_with_unlike_sides(sides, *beside)
+    plainly = _plainly_amid(sides, looked, np.flatnonzero(covers[owner] & ~met))
+    amid = plainly | _amid(sides, looked & ~plainly)
     # A line around those that are open does the same, but meshes have none.
     thin = later[thin & amid[owner[beyond]] & areas.meshed[owner[later]]]
     # A group is cut off at its outline.
@@ -365,6 +371,55 @@ def _with_unlike_sides(sides: _Sides, side: Ints, neighbour: Ints) -> Bools:
     border = (ends == sides.microns.min(axis=0, initial=0)) | (ends == sides.microns.max(axis=0, initial=0))
     unlike &= ~border.all(axis=0).any(axis=1)
     return np.asarray(np.bincount(sides.owner, weights=unlike, minlength=len(sides.covers)) > 0.0)
+
+
+def _plainly_amid(sides: _Sides, which: Bools, ends: Ints) -> Bools:
+    """(m,) those of some polygons (m,) that lie amid others as in _amid, and in a neighbourhood that says so by itself:
+    in cells around them there are polygons of their item and about their colour alone, and no side that is no common
+    one, ends (k,): then others cover all places there."""
+    covers = np.flatnonzero(sides.covers)
+    corner, offsets = ragged.take(sides.areas.offsets, covers)
+    if not which.any():
+        return which
+    points = sides.microns[corner]
+    low, high = (f.reduceat(points, offsets[:-1]) for f in (np.minimum, np.maximum))
+    cell = max(CELLS_WIDE * float(np.median(high - low)), 2.0 * BEYOND_MICRONS)
+    origin, far = points.min(axis=0) - BEYOND_MICRONS, points.max(axis=0) + BEYOND_MICRONS
+    columns, rows = (((far - origin) // cell).astype(np.intp) + 1).tolist()
+    if columns * rows > max(_CELLS_A_POLYGON * len(covers), _FEW_CELLS):
+        return np.zeros_like(which)
+
+    def cells(low: Floats, high: Floats) -> tuple[Ints, Ints]:
+        """(p,) the cells that boxes (n,2) reach into, those of one after those of another, and (n+1,) offsets."""
+        (x, y), (right, top) = (((end - origin) // cell).astype(np.intp).T for end in (low, high))
+        wide = right - x + 1
+        sizes = wide * (top - y + 1)
+        at, box = ragged.place(sizes), ragged.owner(sizes)
+        return (y[box] + at // wide[box]) * columns + x[box] + at % wide[box], ragged.offsets(sizes)
+
+    spans = (((high - low) // cell) + 2).prod(axis=1).sum()
+    if spans > _CELLS_A_POLYGON * len(covers) + _FEW_CELLS:
+        return np.zeros_like(which)
+    starts = sides.areas.offsets[:-1]
+    mean = np.add.reduceat(sides.areas.colours.astype(np.float64), starts) / sides.areas.sizes[:, None]
+    rows_of = np.column_stack([mean, sides.areas.item])[covers]
+    within, first = cells(low, high)
+    of = ragged.owner(np.diff(first))
+    least, most = np.full((columns * rows, 4), np.inf), np.full((columns * rows, 4), -np.inf)
+    for k in range(4):
+        np.minimum.at(least[:, k], within, rows_of[of, k])
+        np.maximum.at(most[:, k], within, rows_of[of, k])
+    open_ = np.zeros(columns * rows, dtype=np.bool_)
+    side = np.stack((sides.microns[ends], sides.microns[sides.after[ends]]))
+    open_[cells(side.min(axis=0), side.max(axis=0))[0]] = True
+    asked = np.flatnonzero(which[covers])
+    around, first = cells(low[asked] - BEYOND_MICRONS, high[asked] + BEYOND_MICRONS)
+    least, most = np.minimum.reduceat(least[around], first[:-1]), np.maximum.reduceat(most[around], first[:-1])
+    own, may = rows_of[asked], np.array((ALIKE, ALIKE, ALIKE, 0.0))
+    alike = ((own - least <= may) & (most - own <= may)).all(axis=1)
+    found = np.zeros_like(which)
+    found[covers[asked]] = alike & ~np.logical_or.reduceat(open_[around], first[:-1])
+    return found
 
 
 def _amid(sides: _Sides, which: Bools) -> Bools:

@@ -9,6 +9,7 @@ import pytest
 import shapely
 from support.fill_samples import fan, flat, page_of, pictures, shaded
 
+from vectorplot.backends import shaded_triangles
 from vectorplot.backends.cairo import pdf_bytes, ps_bytes
 from vectorplot.backends.page import areas
 from vectorplot.backends.shaded_triangles import HOLLOW_MICRONS, grown, underlaps
@@ -88,6 +89,35 @@ def test_lines_around_polygons_stay_off_other_colours(hidden):
     for number in np.flatnonzero(laps.open):
         line = shapely.Polygon(found.microns[found.offsets[number] : found.offsets[number + 1]]).buffer(70.0)
         assert number < len(first) or not line.intersects(foreign)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_fine_meshes_are_judged_by_their_neighbourhood_as_side_by_side(seed, monkeypatch):
+    """Triangles of half a millimetre about a hole, an unlike patch and other ones painted over them."""
+    random = np.random.default_rng(seed)
+    x, y = np.meshgrid(np.linspace(5, 55, 100), np.linspace(5, 35, 60))
+    x[1:-1, 1:-1] += random.uniform(-0.1, 0.1, (58, 98))
+    corner = np.stack((x, y), axis=2)
+    a, b, c, d = corner[:-1, :-1], corner[:-1, 1:], corner[1:, 1:], corner[1:, :-1]
+    triangles = np.concatenate([np.stack((a, b, c), axis=2), np.stack((a, c, d), axis=2)]).reshape(-1, 3, 2)
+    middle = triangles.mean(axis=1)
+    triangles = triangles[np.hypot(*(middle - (20, 20)).T) > 4.0]
+    middle = triangles.mean(axis=1)
+    shade = np.rint(140 + 60 * np.sin(middle[:, 0] / 9)).astype(int)
+    shade[np.hypot(*(middle - (40, 22)).T) < 3.0] = 20
+    over = list(triangles[(middle[:, 0] < 12) & (middle[:, 1] < 12)] + (30.1, 2.3))
+    found = areas(flat([*triangles, *over], [(int(v),) * 3 for v in shade] + [(250, 250, 250)] * len(over)), 60.0, 40.0)
+    asked = []
+    true = shaded_triangles._amid
+    monkeypatch.setattr(
+        shaded_triangles, "_amid", lambda sides, which: (asked.append(which.sum()), true(sides, which))[1]
+    )
+    quick = underlaps(found)
+    monkeypatch.setattr(shaded_triangles, "_plainly_amid", lambda sides, which, ends: np.zeros_like(which))
+    slow = underlaps(found)
+    assert asked[0] < 0.3 * asked[1], "most are told by their neighbourhood"
+    for name in ("side", "near", "far", "open", "owner", "along", "added"):
+        assert np.array_equal(getattr(quick, name), getattr(slow, name)), name
 
 
 def test_neighbours_in_heaps_are_not_looked_for():
