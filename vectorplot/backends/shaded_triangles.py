@@ -13,6 +13,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.page import Areas, places_of
 from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged
+from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes, overlapping_pairs
+from vectorplot.geometry.budget import slices
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.tolerances import LEAST_DIVISOR
@@ -209,7 +211,7 @@ HOLLOW_MICRONS = 75.0
 APART_MICRONS = 20.0
 """Sides that are no farther apart, and run against each other, are common ones as far as both go."""
 
-MOST_NEAR = 32
+MOST_NEAR = 64
 """Neighbours are looked for if no more boxes are around a side, or a place, in the mean of some of them."""
 
 FEW_NEAR = 1 << 22
@@ -449,18 +451,24 @@ def _amid(sides: _Sides, which: Bools) -> Bools:
     return np.asarray(which & (np.bincount(owner, weights=~inside, minlength=len(which)) == 0.0))
 
 
-def _near(tree: shapely.STRtree, shapes: NDArray[np.object_], far: float = 0.0) -> NDArray[np.int64]:
-    """(2,k) the shapes and those of a tree that are no farther from them than that, all of one shape before those of
-    the next; none, and an InputWarning, where more boxes are in one another's way than MOST_NEAR allows."""
-    asked = {"predicate": "dwithin", "distance": far} if far else {"predicate": "intersects"}
+def _is_crowded(found: int, asked: int, count: int) -> bool:
+    """Whether more boxes are in one another's way than MOST_NEAR allows, by those found around some of all, which is
+    said in an InputWarning."""
+    crowded = found * (count / max(asked, 1)) > max(MOST_NEAR * count, FEW_NEAR)
+    if crowded:
+        warnings.warn(CROWDED, InputWarning, stacklevel=6)
+    return crowded
+
+
+def _near(tree: shapely.STRtree, shapes: NDArray[np.object_]) -> NDArray[np.int64]:
+    """(2,k) the shapes and those of a tree that they meet, all of one shape before those of the next; none where they
+    are crowded."""
     some = shapes[:: 1 + len(shapes) // _ASKED_AT_ONCE]
     found = [np.zeros((2, 0), dtype=np.int64)]
-    boxes = tree.query(some).shape[1] * (len(shapes) / max(len(some), 1))
-    if boxes > max(MOST_NEAR * len(shapes), FEW_NEAR):
-        warnings.warn(CROWDED, InputWarning, stacklevel=5)
+    if _is_crowded(tree.query(some).shape[1], len(some), len(shapes)):
         return found[0]
     for start in range(0, len(shapes), _ASKED_AT_ONCE):
-        near = tree.query(shapes[start : start + _ASKED_AT_ONCE], **asked)
+        near = tree.query(shapes[start : start + _ASKED_AT_ONCE], predicate="intersects")
         near[0] += start
         found.append(near)
     return np.concatenate(found, axis=1)
@@ -490,12 +498,24 @@ class _Parts:
 
 def _partly_common(sides: _Sides, alone: Ints) -> _Parts:
     """The common parts of sides without a partner, alone (n,): each of two by the one and by the other."""
-    import shapely
-
     alone = alone[np.hypot(*sides.along(alone).T) > APART_MICRONS]
-    ends = np.stack((sides.microns[alone], sides.microns[sides.after[alone]]), axis=1).astype(np.float64)
-    lines = shapely.linestrings(ends)
-    one, two = alone[_near(shapely.STRtree(lines), lines, APART_MICRONS)]
+    ends = np.stack((sides.microns[alone], sides.microns[sides.after[alone]])).astype(np.float64)
+    flat = np.zeros((1, len(alone)))
+    low, high = np.vstack((ends.min(axis=0).T - APART_MICRONS, flat)), np.vstack((ends.max(axis=0).T, flat))
+    some = slice(None, None, 1 + len(alone) // _ASKED_AT_ONCE)
+    found = len(overlapping_boxes(low[:, some], high[:, some], low, high)[0])
+    if _is_crowded(found, len(flat[0, some]), len(alone)):
+        return _Parts(alone[:0], alone[:0], np.zeros((0, 2)), np.zeros((0, 2)))
+    pair = np.column_stack(overlapping_pairs(low, high))
+    pair = np.concatenate((pair, pair[:, ::-1]))
+    pair = alone[pair[np.lexsort(pair.T[::-1])]]
+    parts = [_common_parts(sides, *pair[chunk].T) for chunk in slices(max(len(pair), 1), PAIRS_AT_ONCE)]
+    joined = [np.concatenate([getattr(part, name) for part in parts]) for name in ("side", "other", "low", "high")]
+    return _Parts(*joined)
+
+
+def _common_parts(sides: _Sides, one: Ints, two: Ints) -> _Parts:
+    """The common parts of pairs of sides (n,) of polygons of one group, by the first of each."""
     own, next_ = sides.owner[one], sides.owner[two]
     kept = (own != next_) & (sides.areas.group[own] == sides.areas.group[next_])
     one, two = one[kept], two[kept]

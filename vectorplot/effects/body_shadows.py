@@ -14,7 +14,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
-from vectorplot.geometry.regions import POLYGON, polygons_of, unions
+from vectorplot.geometry.regions import POLYGON, corners_of, mosaics, polygons_of, without_holes
 from vectorplot.geometry.vectors import solid_angles
 from vectorplot.scene.view import View
 
@@ -144,7 +144,7 @@ def covered(ends: Floats, of: Ints, count: int, tolerance: float) -> Any:
     regions = np.full(count, shapely.Polygon(), dtype=np.object_)
     filled, group = np.unique(body[full], return_inverse=True)
     if len(filled):
-        regions[filled] = unions(cell[full], group, tolerance)
+        regions[filled] = mosaics(cell[full], group)
     return regions
 
 
@@ -224,31 +224,72 @@ class LitBodies:
     depths: Depths
 
     def settle(self, item: Ints, face: Ints) -> Bools:
-        """(n,) of pairs of items and faces those for which the shadow of the item is that of its cone, or none: the
-        face is one of its own, or lies beyond it."""
+        """(n,) of pairs of items and faces those for which the shadow of the item is that of its cone or its region, or
+        none: the face is one of its own, and it is convex for the light, or the face lies beyond it."""
         body = self.number[item]
         result = np.zeros(len(item), dtype=np.bool_)
         known = np.flatnonzero(body >= 0)
-        known = known[self.convex[body[known]]]
-        body, face = body[known], face[known]
-        result[known] = (self.view.face_item[face] == item[known]) | self.depths.beyond(body, face)
+        own = self.view.face_item[face[known]] == item[known]
+        convex, filled = self.convex[body[known]], self._filled[body[known]]
+        known = known[convex | (filled & ~own)]
+        body, face, own = body[known], face[known], self.view.face_item[face[known]] == item[known]
+        result[known] = own | self.depths.beyond(body, face)
         return result
 
-    def within(self, receivers: Receivers) -> Ints:
-        """(n,) the receivers all of which is in the shadow of another item that is not convex for the light."""
+    @property
+    def _filled(self) -> Bools:
+        """(k,) the bodies that have a region."""
         import shapely
 
-        filled = np.flatnonzero(~shapely.is_empty(self.regions))
+        return np.asarray(~shapely.is_empty(self.regions))
+
+    def beyond(self, receivers: Receivers) -> tuple[Ints, Ints, Floats, Ints]:
+        """The shadows of bodies that are not convex for the light on receivers beyond them: (n,) the receivers that are
+        dark as a whole; (k,) those that are so in part, each in polygons, wound as they are: points (3,c) and offsets
+        (k+1,)."""
+        import shapely
+
+        filled = np.flatnonzero(self._filled)
+        none = np.zeros(0, dtype=np.intp)
         if not len(filled) or not len(receivers.face):
-            return np.zeros(0, dtype=np.intp)
+            return none, none, np.zeros((3, 0)), ragged.offsets(none)
         points = receivers.points if self.system.parallel else receivers.points - self.system.position[:, None]
         x, y, away = matmul(self.system.axes[0], points)
         flat = np.stack([x, y]) if self.system.parallel else np.stack([x, y]) / away
-        tree = shapely.STRtree(polygons_of(flat, receivers.offsets))
-        body, receiver = tree.query(self.regions[filled], predicate="contains")
-        body, face = filled[body], receivers.face[receiver]
-        others = self.view.face_item[face] != self.item[body]
-        return np.unique(receiver[others & self.depths.beyond(body, face)])
+        polygons = polygons_of(flat, receivers.offsets)
+        body, receiver = shapely.STRtree(polygons).query(self.regions[filled], predicate="intersects")
+        body = filled[body]
+        others = self.view.face_item[receivers.face[receiver]] != self.item[body]
+        body, receiver = body[others], receiver[others]
+        further = self.depths.beyond(body, receivers.face[receiver])
+        body, receiver = body[further], receiver[further]
+        shapely.prepare(self.regions)
+        inside = shapely.contains(self.regions[body], polygons[receiver])
+        whole = np.unique(receiver[inside])
+        part = np.flatnonzero(~np.isin(receiver, whole))
+        dark, of = shapely.get_parts(
+            shapely.intersection(self.regions[body[part]], polygons[receiver[part]]), return_index=True
+        )
+        filled = shapely.get_type_id(dark) == POLYGON
+        dark, of = without_holes(dark[filled], receiver[part][of[filled]])
+        corners, offsets = corners_of(dark)
+        turned = shapely.is_ccw(shapely.get_exterior_ring(polygons[of]))
+        end = np.repeat(offsets[:-1] + offsets[1:] - 1, np.diff(offsets))
+        place = np.arange(corners.shape[1])
+        corners = corners[:, np.where(np.repeat(turned, np.diff(offsets)), place, end - place)]
+        return whole, of, self._lifted(corners, receivers.face[np.repeat(of, np.diff(offsets))]), offsets
+
+    def _lifted(self, flat: Floats, face: Ints) -> Floats:
+        """(3,c) the points of the planes of faces (c,) that points (2,c) of the light's image show."""
+        right, up, away = self.system.axes[0]
+        normal, constant = self.depths.lit_side[:3, face], self.depths.lit_side[3, face]
+        across = right[:, None] * flat[0] + up[:, None] * flat[1]
+        if self.system.parallel:
+            start, way = across, np.broadcast_to(away[:, None], across.shape)
+        else:
+            start, way = np.broadcast_to(self.system.position[:, None], across.shape), across + away[:, None]
+        far = (constant - (normal * start).sum(axis=0)) / (normal * way).sum(axis=0)
+        return np.asarray(start + far * way)
 
 
 @dataclass(frozen=True, eq=False)

@@ -58,7 +58,8 @@ MOST_CELLS = 3_000_000
 @dataclass(frozen=True, eq=False)
 class Shadows(LineElements):
     """Polygons on faces: points (3,c) in the view, offsets (m+1,); face (m,) of the view; lacking (m,): the lights that
-    do not get there, bit k for light k; whole (m,): it is the whole face. Those that one light casts are convex."""
+    do not get there, bit k for light k; whole (m,): it is the whole face. Those that one light casts are
+    convex, but for those of whole bodies."""
 
     points: Floats = field(metadata=EACH_POINT | IN_COLUMNS)
     offsets: Ints
@@ -335,9 +336,12 @@ def cast_within(
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()
         alone[bodies.item[bodies.convex]] = False
-        within = np.union1d(bodies.within(bright), shut_out(view, system, items, bright))
+        within, receiver, points, offsets = bodies.beyond(bright)
+        within = np.union1d(within, shut_out(view, system, items, bright))
         inside = _whole(bright.take(within), number)
-        parts = [joined_shadows([outlined, inside]).without_needless()]
+        lacking = np.full(len(receiver), 1 << number, dtype=np.intp)
+        beyond = Shadows(points, offsets, bright.face[receiver], lacking, np.zeros(len(receiver), dtype=np.bool_))
+        parts = [joined_shadows([outlined, inside, beyond]).without_needless()]
         still = ~np.isin(bright.face, parts[0].face[parts[0].whole])
         for casters, on in ((alone, still), (open_items, still & open_receivers)):
             dark = replace(shadow_casters(view, planes, system, facing, casters, solids), known=bodies.settle)

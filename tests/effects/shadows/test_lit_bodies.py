@@ -115,7 +115,7 @@ def test_faces_that_rings_and_bumpy_balls_darken_whole_are_those_that_rays_never
     lit = seen[system.facing(planes, view.tolerance)[seen] > 0]
     receivers = Receivers.of(view, lit)
     bodies = bodies_of(view, light)
-    whole = bodies.within(receivers)
+    whole = bodies.beyond(receivers)[0]
     dark = np.isin(lit, lit[whole])
     assert bodies.convex.tolist() == [True, False, False] and 20 < np.count_nonzero(dark) < len(lit)
     cast = cast_within(view, (light,), np.inf).shadows
@@ -124,6 +124,20 @@ def test_faces_that_rings_and_bumpy_balls_darken_whole_are_those_that_rays_never
     rays = 10.0 * system.towards(at.points) if system.parallel else system.towards(at.points)
     reached, sure = blocked(at.points.T, rays.T, scene_triangles(view))
     assert reached[sure > 1e-6].all() and np.count_nonzero(sure > 1e-6) > 250
+
+
+@pytest.mark.parametrize("light", LAMPS[:2])
+def test_the_shadow_of_a_body_that_is_not_convex_is_one_region_on_each_face_beyond_it(light: Light) -> None:
+    floor = Mesh.from_polygons([(-6, -6, -2), (6, -6, -2), (6, 6, -2), (-6, 6, -2)], [(0, 1, 2, 3)])
+    ring, bumpy = moved(torus_mesh(), 0.5, (0.0, 0.0, 2.0)), ball(0.8, 0.0, 4.0, 0.7, 0.15)
+    view = view_of_meshes(floor, ring, bumpy)
+    cast = cast_within(view, (light,), np.inf).shadows
+    on_floor = np.flatnonzero(view.face_item[cast.face] == 0)
+    # The hole of the ring cuts its shadow in two.
+    assert len(on_floor) == 3
+    decals, seen = shadow_decals(view, (light,)), drawn_faces(view, project_faces(view))
+    wrong, answered = wrong_points(view, (light,), decals, seen, 400, 4)
+    assert wrong == 0 and answered > 250
 
 
 def test_a_remote_lamp_sees_what_parallel_light_does() -> None:

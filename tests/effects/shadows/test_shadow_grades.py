@@ -149,7 +149,8 @@ def test_many_lights_on_a_mesh_see_its_outline_only() -> None:
     view = look(scene, Camera((7, -12, 11), (0, 0, 0)))
     lamps = ring_of_lights(16)
     decals = shadow_decals(view, lamps)
-    assert len(decals) < 0.5 * len(cast_shadows(view, lamps))
+    # The ring has 576 faces, of which each lamp sees some half.
+    assert len(cast_shadows(view, lamps)) < 0.1 * 16 * 288 and len(decals) < 500
     wrong, answered = wrong_points(view, lamps, decals, drawn_faces(view, project_faces(view)), 1000)
     assert wrong == 0 and answered > 900
 
