@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from functools import cache
 
 import numpy as np
 import pytest
@@ -13,8 +12,9 @@ from support.top_fills import fills_of, top_at
 
 import vectorplot as vp
 from vectorplot.drawing.drawing import Drawing
-from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.fills import FillKind
 from vectorplot.scene.placement import default_camera
+from vectorplot.shading import shade_bands
 from vectorplot.surfaces import Capped, Ellipsoid, Frustum, Sphere, rod
 
 CENTRAL, PARALLEL = vp.Camera((10, -8, 6)), vp.Camera((10, -8, 6), parallel=True)
@@ -139,14 +139,10 @@ def assert_same_fills(one, other):
     assert (seen[0] != seen[1]).any(axis=1).mean() < 0.002
 
 
-@cache
-def fills_of_jobs(jobs: int) -> Fills:
-    return fills_of(vp.paint(replace(heap(5, 80), lights=LAMPS), jobs=jobs))
-
-
 @pytest.mark.slow
-def test_jobs_make_the_same_picture():
-    one, several = fills_of_jobs(1), fills_of_jobs(3)
+def test_jobs_make_the_same_picture(monkeypatch):
+    monkeypatch.setattr(shade_bands, "CHARTS_AT_ONCE", 8)
+    one, several = (fills_of(vp.paint(replace(heap(5, 30), lights=LAMPS), jobs=jobs)) for jobs in (1, 3))
     assert (one.points == several.points).all() and (one.colours == several.colours).all()
 
 
