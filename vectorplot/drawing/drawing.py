@@ -5,9 +5,10 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
-from numpy.typing import ArrayLike
+from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.arcs import EllipseArcs
@@ -156,14 +157,8 @@ class Paths:
         >>> paths.offsets.tolist(), paths.closed.tolist()
         ([0, 2, 5], [False, True])
         """
-        lines = [np.asarray(line, dtype=np.float64) for line in polylines]
-        for k, line in enumerate(lines):
-            if line.ndim != 2 or line.shape[1] != 2 or len(line) < 2 or not np.isfinite(line).all():
-                raise InputError(f"polyline {k}: expected two or more points of two finite numbers")
-        try:
-            rounds, kinds, items = (np.broadcast_to(np.asarray(of), len(lines)) for of in (closed, kind, item))
-        except ValueError:
-            raise InputError(f"closed, kind and item: expected one entry, or {len(lines)}") from None
+        lines = _lines_of(polylines)
+        rounds, kinds, items = (_of_each(entries, len(lines)) for entries in (closed, kind, item))
         repeated = np.array([len(line) > 2 and (line[0] == line[-1]).all() for line in lines], dtype=np.bool_)
         lines = [line[:-1] if again else line for line, again in zip(lines, repeated.tolist(), strict=True)]
         points = np.concatenate([np.zeros((0, 2)), *lines])
@@ -183,6 +178,23 @@ class Paths:
         none = np.zeros(0, dtype=np.intp)
         one, flags = np.zeros(1, dtype=np.intp), np.zeros(0, dtype=np.bool_)
         return cls(np.zeros((0, 2)), one, flags, none, none, none, np.zeros((0, 3)))
+
+
+def _lines_of(polylines: Iterable[ArrayLike]) -> list[Floats]:
+    """The polylines (k,2). Errors: InputError as in Paths.of_polylines."""
+    lines = [np.asarray(line, dtype=np.float64) for line in polylines]
+    for number, line in enumerate(lines):
+        if line.ndim != 2 or line.shape[1] != 2 or len(line) < 2 or not np.isfinite(line).all():
+            raise InputError(f"polyline {number}: expected two or more points of two finite numbers")
+    return lines
+
+
+def _of_each(entries: ArrayLike, count: int) -> NDArray[Any]:
+    """(count,) entries, or one that counts for all. Errors: InputError for another number of them."""
+    own = np.asarray(entries)
+    if own.shape not in ((), (count,)):
+        raise InputError(f"closed, kind and item: expected one entry, or {count}")
+    return np.broadcast_to(own, count)
 
 
 @dataclass(frozen=True, eq=False)
