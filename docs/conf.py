@@ -37,6 +37,9 @@ autodoc_typehints = "none"
 autodoc_use_type_comments = False
 
 
+CHAPTERS = sorted(page.stem for page in (Path(__file__).parent / "course").glob("[1-8]-*.md"))
+"""Those of the course."""
+
 CONTENTS = {
     "Start": (
         "first-drawing",
@@ -49,9 +52,11 @@ CONTENTS = {
         "concepts",
         "gallery/README",
     ),
+    "A course": ("course/README", *(f"course/{chapter}" for chapter in CHAPTERS)),
     "What it does": (
         *("drawing", "feature-lines", "cuts", "labels", "hatching", "paint", "render", "colour-maps"),
-        *("viewer", "animation", "movies", "many-pictures", "scene-language", "molecules", "landscapes", "textbook"),
+        *("viewer", "animation", "movies", "many-pictures", "scene-language", "molecules", "landscapes"),
+        *("curves-on-surfaces", "own-surfaces", "textbook"),
     ),
     "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
     "How exact, how fast": ("accuracy-and-limits", "accuracy", "stability", "speed", "tolerances"),

@@ -38,7 +38,8 @@ def test_the_site_is_built_without_a_warning_from_all_pages(tmp_path: Path) -> N
     command = [sys.executable, "-c", BUILD, *options, str(source), str(site)]
     done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=300)
     assert done.returncode == 0, done.stderr[-3000:]
-    pages = [page.relative_to(DOCS).with_suffix(".html") for page in (*DOCS.glob("*.md"), *DOCS.glob("gallery/*.md"))]
+    written = (*DOCS.glob("*.md"), *DOCS.glob("gallery/*.md"), *DOCS.glob("course/*.md"))
+    pages = [page.relative_to(DOCS).with_suffix(".html") for page in written]
     assert all((site / page).stat().st_size > 1000 for page in pages)
     front = (site / "index.html").read_text(encoding="utf-8")
     assert all(f'href="{page.as_posix()}"' in front for page in pages if page.stem != "index")

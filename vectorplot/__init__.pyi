@@ -6,6 +6,7 @@ from .drawing.pens import Style
 from .drawing.sheets import Sheet, contact_sheet
 from .effects.cuts import cut
 from .errors import InputError, InputWarning
+from .features.zero_curves import zero_manifold_of_f_uv
 from .geometry.camera import Camera, Panorama
 from .geometry.mesh import Mesh
 from .geometry.polylines import Strokes
@@ -96,4 +97,5 @@ __all__ = [
     "technical_sheet",
     "tube",
     "turntable",
+    "zero_manifold_of_f_uv",
 ]

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
+from vectorplot import features, surfaces
 from vectorplot.errors import InputError
 from vectorplot.save import write
 from vectorplot.surfaces import Domain, Torus
@@ -89,3 +90,52 @@ def test_what_is_wrong_with_it_is_one_sentence(family, told):
     with pytest.raises(InputError, match=told) as caught:
         vp.Item("WAVE", family())
     assert "\n" not in str(caught.value)
+
+
+def test_features_find_the_second_partials_that_a_class_lacks():
+    eye, at = (8.0, 3.0, 4.0), [(0.3, 0.2), (2.0, 1.0)]
+    u, v = np.array([0.3, 2.0]), np.array([0.2, 1.0])
+    own = {family: family() for family in (Points, Partials, Four)}
+    for asked in (
+        lambda ring: features.contour(ring, eye),
+        lambda ring: features.isophotes(ring, (1, 2, 3), [0.4]),
+        lambda ring: features.plane_sections(ring, (0, 0, 1), [0.5]),
+        lambda ring: features.integral_curves(ring, features.PrincipalDirections(1), at, length=3.0),
+        lambda ring: features.geodesics(ring, at, 0.7, length=5.0),
+    ):
+        found = {family: asked(ring) for family, ring in own.items()}
+        length = {
+            family: sum(np.linalg.norm(np.diff(curves[k], axis=0), axis=1).sum() for k in range(len(curves.closed)))
+            for family, curves in found.items()
+        }
+        assert length[Points] == pytest.approx(length[Four], rel=1e-6)
+        assert length[Partials] == pytest.approx(length[Four], rel=1e-6)
+    for ring in own.values():
+        expected = np.cos(v) / (3.0 + np.cos(v))
+        np.testing.assert_allclose(surfaces.gaussian_curvature(ring, u, v), expected, rtol=1e-9)
+        forms = (features.Sites(shape, u, v).second_form for shape in (ring, Four()))
+        for found, exact in zip(*forms, strict=True):
+            np.testing.assert_allclose(found, exact, rtol=1e-9, atol=1e-9)
+
+
+class NotAnalytic(Points):
+    """The ring with points that complex steps cannot take: second derivatives are differences."""
+
+    def points(self, u, v):
+        return super().points(np.real(u), np.real(v)) + 0.0 * np.hypot(u, v)[..., None]
+
+
+def test_second_partials_by_differences_are_right_to_nine_digits():
+    u, v = (x.ravel() for x in np.meshgrid(np.linspace(0.1, 6.0, 9), np.linspace(0.2, 5.9, 7)))
+    found = vp.Item("A", NotAnalytic()).shape.second_partials(u, v)
+    for by, exact in zip(found, Four().second_partials(u, v), strict=True):
+        assert np.abs(by - exact).max() < 4e-9
+
+
+def test_a_placed_and_a_trimmed_surface_find_what_their_own_one_lacks():
+    placed = surfaces.PlacedSurface(Points(), np.diag([1.0, 2.0, 3.0]), (1.0, 0.0, 0.0))
+    assert vp.draw(vp.Item("A", placed)).layers
+    assert len(features.contour(placed, (20.0, 0.0, 5.0)).closed) == len(
+        features.contour(surfaces.PlacedSurface(Four(), placed.matrix, placed.shift), (20.0, 0.0, 5.0)).closed
+    )
+    assert vp.draw(vp.Item("A", surfaces.TrimmedSurface(Points(), u=(0.0, 2.0)))).layers

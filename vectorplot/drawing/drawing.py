@@ -3,16 +3,22 @@
 from __future__ import annotations
 
 import os
+from collections.abc import Iterable
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.arcs import EllipseArcs
 from vectorplot.curves.bezier import BezierPaths
 from vectorplot.drawing.fills import Fills
 from vectorplot.drawing.texts import Texts
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
+from vectorplot.words import LineKind
 
 NO_CURVE = -1
 """Of what is no curve, or nobody knows which."""
@@ -113,11 +119,82 @@ class Paths:
         return len(self.offsets) - 1
 
     @classmethod
+    def of_polylines(
+        cls,
+        polylines: Iterable[ArrayLike],
+        *,
+        closed: ArrayLike = False,
+        kind: ArrayLike = LineKind.CURVE,
+        item: ArrayLike = 0,
+    ) -> Paths:
+        """Paths from polylines of one's own.
+
+        Parameters
+        ----------
+        polylines : iterable of (k, 2) array_like of float
+            Points in mm on the page, y upwards; k, two or more, differs from one to the next.
+        closed : (m,) array_like of bool, or bool
+            Which polylines are closed; one whose last point repeats the first is closed as well, and loses the repeated
+            point.
+        kind, item : (m,) array_like of int, or int
+            What kind of line each is, and of which item; one number counts for all.
+
+        Returns
+        -------
+        Paths
+            Visible ones, in this order. Their points in space (points3d) are those on the page, at height 0.
+
+        Raises
+        ------
+        InputError
+            For a polyline of fewer than two points, or with points that are not two finite numbers; for closed, kind or
+            item with neither one entry nor one for each polyline.
+
+        Examples
+        --------
+        >>> import vectorplot as vp
+        >>> paths = vp.Paths.of_polylines([[(10, 10), (40, 10)], [(10, 20), (40, 20), (25, 40), (10, 20)]])
+        >>> paths.offsets.tolist(), paths.closed.tolist()
+        ([0, 2, 5], [False, True])
+        """
+        lines = _lines_of(polylines)
+        rounds, kinds, items = (_of_each(entries, len(lines)) for entries in (closed, kind, item))
+        repeated = np.array([len(line) > 2 and (line[0] == line[-1]).all() for line in lines], dtype=np.bool_)
+        lines = [line[:-1] if again else line for line, again in zip(lines, repeated.tolist(), strict=True)]
+        points = np.concatenate([np.zeros((0, 2)), *lines])
+        return cls(
+            points,
+            ragged.offsets(np.array([len(line) for line in lines], dtype=np.intp)),
+            rounds.astype(np.bool_) | repeated,
+            kinds.astype(np.intp),
+            items.astype(np.intp),
+            np.zeros(len(lines), dtype=np.intp),
+            np.column_stack([points, np.zeros(len(points))]),
+        )
+
+    @classmethod
     def empty(cls) -> Paths:
         """No paths at all."""
         none = np.zeros(0, dtype=np.intp)
         one, flags = np.zeros(1, dtype=np.intp), np.zeros(0, dtype=np.bool_)
         return cls(np.zeros((0, 2)), one, flags, none, none, none, np.zeros((0, 3)))
+
+
+def _lines_of(polylines: Iterable[ArrayLike]) -> list[Floats]:
+    """The polylines (k,2). Errors: InputError as in Paths.of_polylines."""
+    lines = [np.asarray(line, dtype=np.float64) for line in polylines]
+    for number, line in enumerate(lines):
+        if line.ndim != 2 or line.shape[1] != 2 or len(line) < 2 or not np.isfinite(line).all():
+            raise InputError(f"polyline {number}: expected two or more points of two finite numbers")
+    return lines
+
+
+def _of_each(entries: ArrayLike, count: int) -> NDArray[Any]:
+    """(count,) entries, or one that counts for all. Errors: InputError for another number of them."""
+    own = np.asarray(entries)
+    if own.shape not in ((), (count,)):
+        raise InputError(f"closed, kind and item: expected one entry, or {count}")
+    return np.broadcast_to(own, count)
 
 
 @dataclass(frozen=True, eq=False)

@@ -47,6 +47,7 @@ from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import NumberedLines, take
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.vectors import normalize
+from vectorplot.surfaces.function_surface import with_derivatives
 from vectorplot.surfaces.surface import ImplicitSurface, Surface
 from vectorplot.surfaces.trimmed import uncut
 from vectorplot.tolerances import ROUNDING_OF_TERMS, ZERO_OF_EXTENT
@@ -116,6 +117,7 @@ def _of_each(
     tracing: Tracing,
 ) -> list[SurfaceCurves]:
     """What is found of the condition on each of the surfaces; those with pinch points stand alone."""
+    surfaces = [with_derivatives(surface) for surface in surfaces]
     each = [through_pinch_points(condition(uncut(surface))) for surface in surfaces]
     plain = [own.surface for own in each if not isinstance(own, ThroughPinchPoints)]
     others = iter(for_each(plain, tracing.nodes, lambda stack: found(stacked(stack, condition(stack[0])))))
@@ -198,7 +200,7 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
     >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
     ([0.0, 0.5], True)
     """
-    condition = Isophote(uncut(surface), light, 0.0)
+    condition = Isophote(uncut(with_derivatives(surface)), light, 0.0)
     return cut_as(surface, _isophotes(condition, _levels(cosines), ROUNDING_OF_TERMS, tracing), condition)
 
 
@@ -212,7 +214,7 @@ def point_light_isophotes(
     Source: Glaeser, section 8.4, equation 28, figure 15.
     """
     lamp, levels = vector("isophotes: light", light), _levels(cosines)
-    condition = PointIsophote(uncut(surface), lamp, 0.0)
+    condition = PointIsophote(uncut(with_derivatives(surface)), lamp, 0.0)
     points = samples(condition.surface)[2]
     if not len(points):
         return no_curves()

@@ -23,6 +23,7 @@ from vectorplot.geometry.chord_refinement import Image, Traces, refined, straigh
 from vectorplot.geometry.elementary import power
 from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_finite, dot, from_components, norm
+from vectorplot.surfaces.function_surface import with_derivatives
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances import (
     CHORD_OF_EXTENT,
@@ -768,6 +769,7 @@ def integral_curves(
     ([True, True], True)
     """
     at = starts_of(surface, starts)
+    surface = with_derivatives(surface)
     flow = FieldFlow(surface, charts(surface), field)
     found = field.tangents(Sites(surface, *flow.charts.inside(at)))[0]
     return curves_from(flow, at, found, length, both_ways, accuracy, tracing)
@@ -825,6 +827,7 @@ def geodesics(
     ([True], 6.3)
     """
     at = starts_of(surface, starts)
+    surface = with_derivatives(surface)
     turn = np.broadcast_to(np.asarray(angles, dtype=np.float64), len(at))
     if not np.isfinite(turn).all():
         raise InputError("geodesics: angles must be finite numbers")

@@ -21,6 +21,7 @@ from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import all_finite, cross, dot, from_components
 from vectorplot.geometry.winding import face_barycentres
+from vectorplot.surfaces.function_surface import with_derivatives
 from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets, Surface, first_jets, is_parametrised, second_jets
 from vectorplot.tolerances import AT_POLE, LEAST_DIVISOR
 
@@ -255,6 +256,9 @@ class Sites(TangentPlanes):
     surface: Surface
     u: Floats
     v: Floats
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "surface", with_derivatives(self.surface))
 
     @cached_property
     def _second_jets(self) -> SecondJets:

@@ -197,10 +197,12 @@ class Item(Movable["Item"]):
 
     def __post_init__(self) -> None:
         check_colour(self.colour, f"{self.name}: ")
-        if is_parametrised(self.shape) and not type(self.shape).__module__.startswith("vectorplot."):
-            from vectorplot.surfaces.function_surface import completed
+        if is_parametrised(self.shape):
+            from vectorplot.surfaces.function_surface import completed, with_derivatives
 
-            object.__setattr__(self, "shape", completed(self.shape, self.name))
+            own = not type(self.shape).__module__.startswith("vectorplot.")
+            shape = completed(self.shape, self.name) if own else with_derivatives(self.shape)
+            object.__setattr__(self, "shape", shape)
         if self.lines is not None:
             object.__setattr__(self, "lines", line_words(self.lines, OWN_LINE_WORDS))
         if self.default_lines is not None:

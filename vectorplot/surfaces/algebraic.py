@@ -14,7 +14,7 @@ from vectorplot.geometry.algebra import least_squares, matmul, singular_decompos
 from vectorplot.geometry.elementary import cosh, sinh
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.geometry.vectors import cross, dot, norm
-from vectorplot.surfaces.function_surface import surface_of_function
+from vectorplot.surfaces.function_surface import surface_of_function, with_derivatives
 from vectorplot.surfaces.inversion import InvertedSurface
 from vectorplot.surfaces.placed_surface import MovableImplicit, PlacedSurface
 from vectorplot.surfaces.quadrics import (
@@ -231,7 +231,7 @@ def first_form(surface: Surface, u: Floats, v: Floats) -> tuple[Floats, Floats, 
     >>> round(float(e), 9), abs(round(float(f), 9)), round(float(g), 9)
     (9.0, 0.0, 1.0)
     """
-    a, b = surface.partials(u, v)
+    a, b = with_derivatives(surface).partials(u, v)
     return dot(a, a), dot(a, b), dot(b, b)
 
 
@@ -275,6 +275,7 @@ def gaussian_curvature(surface: Surface, u: Floats, v: Floats) -> Floats:
     >>> bool((surfaces.gaussian_curvature(surfaces.HyperbolicParaboloid(), u, v) < 0.0).all())
     True
     """
+    surface = with_derivatives(surface)
     (e, f, g), (p, m, q) = first_form(surface, u, v), second_form(surface, u, v)
     return _ratio(p * q - m * m, e * g - f * f)
 
@@ -308,6 +309,7 @@ def mean_curvature(surface: Surface, u: Floats, v: Floats) -> Floats:
     >>> bool(abs(surfaces.mean_curvature(surfaces.helicoid_to_catenoid(bending=0.3), u, v)) < 1e-12)
     True
     """
+    surface = with_derivatives(surface)
     (e, f, g), (p, m, q) = first_form(surface, u, v), second_form(surface, u, v)
     return _ratio(0.5 * (e * q - 2.0 * f * m + g * p), e * g - f * f)
 

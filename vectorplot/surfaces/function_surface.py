@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats
 from vectorplot.curves.derivatives import NumericFunction, Range, cut_off, numeric_function
 from vectorplot.errors import InputError
-from vectorplot.surfaces.placed_surface import MovableSurface
+from vectorplot.surfaces.placed_surface import MovableSurface, PlacedSurface
 from vectorplot.surfaces.surface import Domain, FirstJets, SecondJets, Surface
 from vectorplot.tolerances import GAP_OF_EXTENT, WRONG_DERIVATIVE
 
@@ -204,6 +204,20 @@ def completed(surface: Surface, name: str) -> Surface:
         expected = surface_of_function(surface.points, surface.domain, partials=own.get("partials", ()))
         _check_derivatives(name, "second_partials", surface.second_partials(u, v), expected.second_partials(u, v), u, v)
     return surface if len(own) == 2 else surface_of_function(surface.points, surface.domain, **own)
+
+
+def with_derivatives(surface: Surface) -> Surface:
+    """The surface itself if it has partials and second partials; else, of a user's class, one that finds them;
+    placed where the surface was.
+
+    Errors: InputError as in completed.
+    """
+    if isinstance(surface, PlacedSurface):
+        whole = with_derivatives(surface.surface)
+        return surface if whole is surface.surface else replace(surface, surface=whole)
+    if hasattr(surface, "partials") and hasattr(surface, "second_partials"):
+        return surface
+    return completed(surface, type(surface).__name__)
 
 
 _SAMPLES = np.array([0.17, 0.41, 0.58, 0.83])

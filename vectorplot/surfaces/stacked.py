@@ -314,8 +314,10 @@ def unit_normals(surface: Surface, u: Floats, v: Floats) -> Floats:
     >>> bool(np.allclose(north, (0.0, 0.0, 1.0)))
     True
     """
+    from vectorplot.surfaces.function_surface import with_derivatives
+
     u, v = np.broadcast_arrays(np.asarray(u, dtype=np.float64), np.asarray(v, dtype=np.float64))
-    return unit_normals_of(surface, u, v, surface.partials(u, v))
+    return unit_normals_of(surface, u, v, with_derivatives(surface).partials(u, v))
 
 
 def tangent_planes(surface: Surface, u: Floats, v: Floats) -> tuple[FirstJets, Floats]:

@@ -57,6 +57,9 @@ class TrimmedSurface(MovableSurface):
     v: Range | None = None
 
     def __post_init__(self) -> None:
+        from vectorplot.surfaces.function_surface import with_derivatives
+
+        object.__setattr__(self, "surface", with_derivatives(self.surface))
         # Asked once, so that a range that does not fit is an error here and now.
         _ = self.domain
 
