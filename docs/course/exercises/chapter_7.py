@@ -1,4 +1,7 @@
-"""Exercises of chapter 7, a shadow. Fill in the functions; ``python docs/course/check.py 7`` says which are right."""
+"""Exercises of chapter 7, a shadow.
+
+Fill in the functions; ``python docs/course/check.py 7`` says which are right.
+"""
 
 from __future__ import annotations
 
