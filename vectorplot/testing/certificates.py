@@ -1,0 +1,245 @@
+"""Certificates of drawings: what hides which part of which line, for a checker that knows nothing of this package."""
+
+from __future__ import annotations
+
+import json
+import os
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.backends.json import json_bytes, plain
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.finishing import DASH_MM
+from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.io.anything import scene_of
+from vectorplot.pictures.prepared_scene import Paper, prepared_scene
+from vectorplot.scene.added_lines import with_default_lines
+from vectorplot.scene.item import Item
+from vectorplot.scene.page import Page
+from vectorplot.scene.view import look
+from vectorplot.testing import check_certificate as checker
+from vectorplot.visibility.polyhedra.lines import kinds_of
+from vectorplot.words import DRAWN, LineKind, line_kinds
+
+SIZE_MM = 0.01
+"""Parts of lines that are shorter are not looked at."""
+
+WIDTH_MM = 0.001
+"""Sight lines are clear to this width: ten times what strokes may be off where they are joined."""
+
+STRETCHED = 2.0
+"""Gaps between dashes are no more than so many times as long as they are meant to be."""
+
+
+@dataclass(frozen=True, eq=False)
+class Certificate:
+    """What proves a drawing.
+
+    Parameters
+    ----------
+    content : dict
+        As it stands in its file, see `docs/certificates.md`.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot import geometry, testing
+    >>> cube = geometry.box((2, 2, 2))
+    >>> certificate = testing.certificate(cube, vp.draw(cube))
+    >>> [len(one["triangles"]) for one in certificate.content["items"]]
+    [12]
+    """
+
+    content: dict[str, Any]
+
+    def __bytes__(self) -> bytes:
+        """The file: JSON in ASCII, an item, the claims of a stroke, or a hidden part of a line in a line each."""
+        head = {key: value for key, value in self.content.items() if not isinstance(value, list) or key in _HEAD}
+        rows = {key: value for key, value in self.content.items() if key not in head}
+        tables = [f'"{key}": [{",".join(chr(10) + json.dumps(row) for row in value)}]' for key, value in rows.items()]
+        return (json.dumps(head)[:-1] + ",\n" + ",\n".join(tables) + "}\n").encode("ascii")
+
+    @property
+    def not_certified(self) -> tuple[str, ...]:
+        """What cannot be proved of the drawing, a few words each; empty where all of it can be."""
+        return tuple(self.content["not_certified"])
+
+    def save(self, path: str | os.PathLike[str]) -> None:
+        """Write the file, whole or not at all.
+
+        Parameters
+        ----------
+        path : str or path
+            The file.
+
+        Raises
+        ------
+        OSError
+            Where the file cannot be written.
+
+        Examples
+        --------
+        >>> import os, tempfile
+        >>> import vectorplot as vp
+        >>> from vectorplot import geometry, testing
+        >>> cube = geometry.box((2, 2, 2))
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     testing.certificate(cube, vp.draw(cube)).save(os.path.join(folder, "cube.json"))
+        ...     os.listdir(folder)
+        ['cube.json']
+        """
+        from vectorplot.save import write_together
+
+        write_together({path: bytes(self)})
+
+
+_HEAD = ("page_from_world", "not_certified")
+
+
+def certificate(
+    scene: object,
+    drawing: Drawing,
+    camera: Camera | str | None = None,
+    *,
+    lines: str | Iterable[str] | None = None,
+    crease_angle_deg: float = 25.0,
+    hidden: Literal["none", "dashed", "solid"] | None = None,
+    size_mm: float = SIZE_MM,
+    width_mm: float = WIDTH_MM,
+) -> Certificate:
+    given = scene_of(scene) if lines is not None else with_default_lines(scene_of(scene))
+    kinds = line_kinds(DRAWN if lines is None else lines)
+    paper = Paper(Page(drawing.width_mm, drawing.height_mm, 0.0), fit=True)
+    prepared = prepared_scene(given, camera, paper, None, None)
+    view, items = look(prepared.scene, prepared.camera), prepared.scene.items
+    size = view.face_sizes
+    corner = np.repeat(view.offsets[:-1], size - 2)
+    step = ragged.place(size - 2)
+    triangles = view.corners[np.stack([corner, corner + step + 1, corner + step + 2], axis=1)]
+    owner = np.repeat(view.face_item, size - 2)
+    world, first = prepared.scene.vertices, view.item_vertices
+    found = json.loads(json_bytes(drawing))
+    dashed = {layer.pen.dash_mm[1] for layer in drawing.layers if layer.pen.dash_mm}
+    broken = any(layer.pen.dash_mm and any(layer.pen.dash_mm) and (paths.hidden_by == 0).any() for layer in drawing.layers for paths in layer.strokes)
+    if hidden is None:
+        behind = any((paths.hidden_by > 0).any() for layer in drawing.layers for paths in layer.strokes)
+        hidden = "dashed" if behind else "none"
+    said = _not_certified(items, kinds) + (["lines that are drawn in dashes"] if broken else [])
+    content: dict[str, Any] = {
+        "format": checker.FORMATS[1],
+        "version": 1,
+        "page_from_world": found["page_from_world"],
+        "size_mm": float(size_mm),
+        "width_mm": float(width_mm),
+        "crease_angle_deg": float(crease_angle_deg),
+        "hidden_gap_mm": {"none": None, "solid": 0.0, "dashed": STRETCHED * max(dashed | {DASH_MM[1]})}[hidden],
+        "not_certified": said,
+        "items": [
+            {
+                "name": item.name,
+                "hides": bool(view.occludes[number]),
+                "lines": [] if broken else _complete(item, kinds),
+                "vertices": plain(world[first[number] : first[number + 1]]),
+                "triangles": (triangles[owner == number] - first[number]).tolist(),
+            }
+            for number, item in enumerate(items)
+        ],
+        "strokes": [[]] * len(found["strokes"]),
+        "hidden": [],
+    }
+    model = checker.model_of(found, content)
+    return Certificate({**content, **_claims(model, drawing)})
+
+
+def _complete(item: Item, kinds: frozenset[LineKind]) -> list[str]:
+    """The kinds of lines of which all on an item are drawn."""
+    own = {kind.word for kind in kinds_of(item, kinds)} & {*checker.EDGE_KINDS}
+    if item.drawn_edges is not None or item.cut_by or item.is_cut_face or LineKind.GHOST in kinds_of(item, kinds):
+        return []
+    return sorted(own - {"contour"} if item.curves.smooth_contours else own)
+
+
+def _not_certified(items: tuple[Item, ...], kinds: frozenset[LineKind]) -> list[str]:
+    """What cannot be proved of a drawing of some items."""
+    told = []
+    for item in items:
+        own = {kind.word for kind in kinds_of(item, kinds)} & {*checker.EDGE_KINDS}
+        if not isinstance(item.shape, Mesh):
+            told.append(f"{item.name}, its lines and what it hides: a smooth shape")
+        elif left := sorted(own - {*_complete(item, kinds)}):
+            told.append(f"that {', '.join(left)} of {item.name} are complete")
+    return told
+
+
+def _claims(model: checker.Model, drawing: Drawing) -> dict[str, Any]:
+    """What hides each stroke of a drawing, and each part of a line that is not drawn."""
+    count = model.many - 1
+    stroke = model.strokes.owner
+    place = ragged.place(count)
+    seen = np.flatnonzero(~model.hidden)
+    rows = [(seen, np.zeros(len(seen)), count[seen].astype(float), np.full(len(seen), -1))]
+    which = np.flatnonzero(model.hidden[stroke])
+    found = _hidden(model, model.strokes.take(which))
+    line = which[found.line]
+    rows.append((stroke[line], place[line] + found.low, place[line] + found.high, found.by))
+    owner, low, high, by = (np.concatenate(column) for column in zip(*rows, strict=True))
+    order = np.lexsort((low, owner))
+    table = [[a, b, c] for a, b, c in zip(low[order].tolist(), high[order].tolist(), by[order].tolist(), strict=True)]
+    ends = np.searchsorted(owner[order], np.arange(len(count) + 1)).tolist()
+    claims = [table[a:b] for a, b in zip(ends[:-1], ends[1:], strict=True)]
+    found = _hidden(model, model.sides.take(model.wanted))
+    edge = model.edges.ends[model.wanted[found.line]]
+    hidden = zip(*edge.T.tolist(), found.low.tolist(), found.high.tolist(), found.by.tolist(), strict=True)
+    return {"strokes": claims, "hidden": [list(row) for row in hidden]}
+
+
+def _hidden(model: checker.Model, lines: checker.Segments) -> checker.Parts:
+    """The parts of segments that triangles hide, by as few of these as possible, one after the other.
+
+    Of all that begin before the part so far ends the one that ends last goes on (the greedy cover of an interval).
+    """
+    parts = checker.joined(checker.hidden_parts(lines, model.of, model.hiding, 0.0, 2.0 * checker.STRICT_MM))
+    if not len(parts.line):
+        return parts
+    parts = parts.take(np.lexsort((parts.low, parts.line)))
+    shift = 4.0 * np.arange(len(lines.owner) + 1)
+    key, last = parts.low + shift[parts.line], np.searchsorted(parts.line, np.arange(len(lines.owner)), side="right")
+    best = _last_maximum(parts.high + shift[parts.line])
+    line = np.unique(parts.line)
+    reach = np.full(len(line), -1.0)
+    found = []
+    while len(line):
+        at = np.searchsorted(key, reach + shift[line], side="right") - 1
+        # Where nothing goes on, the next part begins.
+        goes_on = (at >= 0) & (parts.line[at] == line)
+        chosen = best[np.maximum(at, 0)]
+        goes_on &= parts.high[chosen] > reach + 1e-12
+        chosen = np.where(goes_on, chosen, at + 1)
+        kept = chosen < last[line]
+        line, reach, chosen, goes_on = line[kept], reach[kept], chosen[kept], goes_on[kept]
+        low = np.where(goes_on, np.maximum(reach, parts.low[chosen]), parts.low[chosen])
+        found.append(checker.Parts(line, low, parts.high[chosen], parts.by[chosen]))
+        reach = np.maximum(reach, parts.high[chosen])
+    return checker.joined(found)
+
+
+def _last_maximum(values: Floats) -> Ints:
+    """(n,) where the largest of the values up to each stands."""
+    running = np.maximum.accumulate(values)
+    new = np.ones(len(values), dtype=np.bool_)
+    new[1:] = running[1:] > running[:-1]
+    return np.maximum.accumulate(np.where(new, np.arange(len(values)), 0))
+
+
+def assert_certified(scene: object, drawing: Drawing, camera: Camera | str | None = None, **how: Any) -> None:
+    made = certificate(scene, drawing, camera, **how)
+    verdict = checker.check(json.loads(json_bytes(drawing)), made.content)
+    assert not verdict.wrong, "; ".join(verdict.wrong)
+    assert not verdict.unproven, "not proven: " + "; ".join(verdict.unproven)
