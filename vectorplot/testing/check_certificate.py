@@ -29,7 +29,7 @@ EDGE_KINDS = ("contour", "boundary", "crease")
 FACE_KINDS = ("intersection", "pattern", "section", "isophote")
 BLOCK, PAIRS = 64, 1 << 17
 """Segments that are compared with all others at once, and pairs that are held at once: all arrays are below 100 MB."""
-STRICT_MM, SEAM_MM, ANGLE_DEG, TINY = 1e-6, 1e-9, 0.1, 1e-300
+STRICT_MM, SEAM_MM, ANGLE_DEG, TINY = 1e-6, 1e-9, 1e-3, 1e-300
 """What is no farther behind a face is not hidden by it; faces hide so far beyond sides they share, and rounding moves
 points less; edges that turn by the crease angle, but for so much, may be drawn or not; the least divisor."""
 Fault = tuple[str, "Segments", "Parts", bool]
