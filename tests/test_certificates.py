@@ -113,7 +113,7 @@ def test_what_leaves_the_page_need_not_be_drawn():
 def test_fine_meshes_are_proved_where_their_edges_are_tiny():
     turn = np.linspace(0.0, 2.0 * np.pi, 41)
     ring = mesh_of_grid(Torus(3.0, 1.0).points(*np.meshgrid(turn, turn, indexing="ij")), closed_u=True, closed_v=True)
-    drawing = vp.draw(ring, "iso", page="A10", hidden="solid")
+    drawing = vp.draw(ring, "iso", page="40x30", hidden="solid")
     assert assert_certified(ring, drawing, "iso", hidden="solid")["lines"] > 80
 
 

@@ -776,7 +776,7 @@ def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Proof:
 
         assert isinstance(made, Drawing)
         lined, keywords = told.with_lines(scene)
-        known = ("camera", "lines", "crease_angle_deg", "style", "hidden")
+        known = ("camera", "page", "lines", "crease_angle_deg", "style", "hidden")
         found = certificate(lined, made, **{name: keywords[name] for name in known})
         if found.unproved:
             text = f"{source.name}: the certificate does not prove {'; '.join(found.unproved)}"

@@ -24,6 +24,7 @@ from vectorplot.pictures.prepared_scene import Paper, prepared_scene
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.item import Item
 from vectorplot.scene.page import Page
+from vectorplot.scene.placement import page_of
 from vectorplot.scene.view import View, look
 from vectorplot.testing import check_certificate as checker
 from vectorplot.visibility.polyhedra.lines import kinds_of
@@ -99,7 +100,7 @@ class Certificate:
         write_together({path: bytes(self)})
 
 
-_HEAD = ("page_from_world", "not_certified", "clear")
+_HEAD = ("page_from_world", "window_mm", "not_certified", "clear")
 
 
 def certificate(
@@ -107,6 +108,7 @@ def certificate(
     drawing: Drawing,
     camera: Camera | str | None = None,
     *,
+    page: Page | str | None = None,
     lines: str | Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
     style: Style | str | None = None,
@@ -122,8 +124,9 @@ def certificate(
         What is drawn.
     drawing : Drawing
         What `draw` made of it, or something else did.
-    camera, lines, crease_angle_deg, style, hidden
-        As in `draw`; where hidden is None and the style does not say it, hidden lines are dashed if there are any.
+    camera, page, lines, crease_angle_deg, style, hidden
+        As in `draw`; of the page its margin counts, within which all lines are; where hidden is None and the style does
+        not say it, hidden lines are dashed if there are any.
     size_mm : float
         Parts of lines that are shorter are not looked at; in mm on the page.
     width_mm : float
@@ -170,6 +173,7 @@ def certificate(
     hidden = chosen.hidden if hidden is None else hidden
     if hidden == "none" and any(stroke["hidden_by"] for stroke in found["strokes"]):
         hidden = "dashed"
+    margin = float(page_of(page, given).margin_mm)
     gap = max((layer.pen.dash_mm[1] for layer in drawing.layers if layer.pen.dash_mm), default=DASH_MM[1])
     partial = _broken(drawing)
     said = [f"that {partial} are complete"] if partial else []
@@ -177,6 +181,7 @@ def certificate(
         "format": checker.FORMATS[1],
         "version": 1,
         "page_from_world": found["page_from_world"],
+        "window_mm": [[margin, margin], [drawing.width_mm - margin, drawing.height_mm - margin]],
         "size_mm": float(size_mm),
         "width_mm": float(width_mm),
         "crease_angle_deg": float(crease_angle_deg),
@@ -292,6 +297,7 @@ def assert_certified(
     drawing: Drawing,
     camera: Camera | str | None = None,
     *,
+    page: Page | str | None = None,
     lines: str | Iterable[str] | None = None,
     crease_angle_deg: float = 25.0,
     style: Style | str | None = None,
@@ -307,8 +313,8 @@ def assert_certified(
         What is drawn.
     drawing : Drawing
         What is checked.
-    camera, lines, crease_angle_deg, style, hidden
-        As in `draw`.
+    camera, page, lines, crease_angle_deg, style, hidden
+        As in `draw`, see `certificate`.
     size_mm, width_mm : float
         See `certificate`.
 
@@ -341,7 +347,7 @@ def assert_certified(
     Traceback (most recent call last):
     AssertionError: neither drawn nor hidden, of edge 3 times, ...
     """
-    how = {"lines": lines, "crease_angle_deg": crease_angle_deg, "style": style, "hidden": hidden}
+    how = {"page": page, "lines": lines, "crease_angle_deg": crease_angle_deg, "style": style, "hidden": hidden}
     made = certificate(scene, drawing, camera, **how, size_mm=size_mm, width_mm=width_mm)  # type: ignore[arg-type]
     wrong, unproven, counts = checker.check(json.loads(json_bytes(drawing)), made.content)
     assert not wrong, "; ".join(wrong)

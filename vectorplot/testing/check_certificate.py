@@ -29,7 +29,7 @@ EDGE_KINDS = ("contour", "boundary", "crease")
 FACE_KINDS = ("intersection", "pattern", "section", "isophote")
 BLOCK, PAIRS = 64, 1 << 17
 """Segments that are compared with all others at once, and pairs that are held at once: all arrays are below 100 MB."""
-STRICT_MM, SEAM_MM, ANGLE_DEG, TINY = 1e-6, 1e-9, 1e-3, 1e-300
+STRICT_MM, SEAM_MM, ANGLE_DEG, TINY = 1e-6, 1e-8, 1e-3, 1e-300
 """What is no farther behind a face is not hidden by it; faces hide so far beyond sides they share, and rounding moves
 points less; edges that turn by the crease angle, but for so much, may be drawn or not; the least divisor."""
 Fault = tuple[str, "Segments", "Parts", bool]
@@ -96,7 +96,6 @@ class Model(NamedTuple):
     may: dict[str, Bools]
     wanted: Ints
     of: Triangles
-    page: tuple[float, float]
     shift: Floats
     off: float
     smooth: bool
@@ -310,7 +309,7 @@ def model_of(drawing: Any, certificate: Any) -> Model:
     smooth = [one["name"] for one in items if one["smooth"]]
     proved &= ~np.isin(np.array([row["item"] for row in rows], dtype=np.str_), smooth)[strokes.owner]
     shift = np.asarray(np.hypot(*(page - points[:, :2]).T))
-    rest = tuple(drawing["page_mm"]), shift, off, any(one["smooth"] and one["hides"] for one in items)
+    rest = shift, off, any(one["smooth"] and one["hides"] for one in items)
     return Model(strokes, proved, kind, hidden > 0, sides, ends, may, np.flatnonzero(wanted), of, *rest)
 
 
@@ -373,8 +372,8 @@ def check_missing(model: Model, certificate: Any) -> Iterator[Fault]:
     """Lines of meshes are drawn, or hidden by what is named; hidden ones, if any is drawn, but for gaps of dashes."""
     lines, width, size = take(model.sides, model.wanted), certificate["width_mm"], certificate["size_mm"]
     away = hidden_by(lines, named_parts(certificate["hidden_lines"], model.ends[model.wanted]), model.of)
-    (right, top), visible = model.page, take(model.strokes, ~model.hidden[model.strokes.owner])
-    ends = (np.stack([x, y, right - x, top - y], axis=1) for x, y, _ in (side.T for side in lines[:2]))
+    visible, window = take(model.strokes, ~model.hidden[model.strokes.owner]), stacked([certificate["window_mm"]], 2)[0]
+    ends = (np.hstack([side[:, :2] - window[0], window[1] - side[:, :2]]) for side in lines[:2])
     outside = gaps(clipped(every := np.arange(len(model.wanted)), every, *ends), np.zeros(len(every)))
     there = joined([*parts_along(lines, visible, width, 2), away, outside])
     yield "neither drawn nor hidden, of edge", lines, gaps(there, lines.least(size)), True
