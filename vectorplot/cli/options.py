@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, fields, replace
@@ -40,6 +41,7 @@ from vectorplot.cli.option_values import (
 )
 from vectorplot.cli.picture import (
     SILENT,
+    Proof,
     Report,
     Source,
     kept_promise,
@@ -48,7 +50,7 @@ from vectorplot.cli.picture import (
     picture_made,
     warn_of_nothing,
 )
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.pictures.options import SHADOWS
 from vectorplot.words import TEXT_WORDS
 
@@ -659,7 +661,7 @@ OUT_OR_FOLDER = click.option(
     help="File to write; - for stdout; FOLDER/ for a picture of each INPUT.",
 )
 
-_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain", "strict")
+_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain", "strict", "certificate")
 """Parameters that say what is read and written, and what is said of it."""
 
 
@@ -755,6 +757,35 @@ def _why_nothing(verb: str, scene: Scene, keywords: Mapping[str, Any]) -> str:
     return why_nothing(scene, keywords["camera"], page, fit=keywords["fit"], lines=lines)
 
 
+_UNPROVED = ("panorama", "halo_mm", "thin_ends")
+"""Options with which a drawing shows less than its lines, or has no camera."""
+
+
+def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Proof:
+    """The certificate that is asked for. Errors: bad usage for options with which there is none."""
+    path = params["certificate"]
+    for name in _UNPROVED:
+        if params[name]:
+            raise click.UsageError(f"--certificate does not go with --{name.removesuffix('_mm').replace('_', '-')}")
+    if path == "-" or os.path.realpath(path) == os.path.realpath(params["out"]):
+        raise click.UsageError("--certificate needs a file of its own")
+
+    def content(scene: Scene, made: Drawing | Image) -> bytes:
+        from vectorplot.drawing.drawing import Drawing
+        from vectorplot.testing.certificates import certificate
+
+        assert isinstance(made, Drawing)
+        lined, keywords = told.with_lines(scene)
+        known = ("camera", "page", "lines", "crease_angle_deg", "style", "hidden")
+        found = certificate(lined, made, **{name: keywords[name] for name in known})
+        if found.unproved:
+            text = f"{source.name}: the certificate does not prove {'; '.join(found.unproved)}"
+            warnings.warn(text, InputWarning, stacklevel=2)
+        return bytes(found)
+
+    return Proof(path, content)
+
+
 def with_options(*options: Option) -> Callable[[Command], Command]:
     """A decorator that gives a command these options, in this order."""
     return lambda command: reduce(lambda inner, option: option(inner), reversed(options), command)
@@ -788,7 +819,8 @@ def picture_verb(
                 return made
 
             source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
-            return {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
+            said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
+            return said if params.get("certificate") is None else {**said, "proof": _proof(params, told, source)}
 
         def content(params: Mapping[str, Any]) -> bytes:
             """What a file of pictures in a folder holds."""
@@ -819,6 +851,8 @@ def picture_verb(
         @wraps(verb)
         def command(**params: Any) -> None:
             if is_folder(params["out"]):
+                if params.get("certificate") is not None:
+                    raise click.UsageError("--certificate is of one picture: OUT must be a file")
                 make_pictures(verb.__name__, params, formats, asked)
                 return
             if WorkerOptions.of(params).given:

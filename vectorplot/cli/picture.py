@@ -212,6 +212,14 @@ class Source:
         return together(scenes)
 
 
+@dataclass(frozen=True)
+class Proof:
+    """What proves a picture: its file, and what makes the content of that from the scene and the picture."""
+
+    path: str
+    content: Callable[[Scene, Drawing | Image], bytes]
+
+
 def make_picture(
     source: Source,
     out: str,
@@ -222,20 +230,28 @@ def make_picture(
     explain: bool,
     jobs: int | None = None,
     overlaid: bool = False,
+    proof: Proof | None = None,
 ) -> None:
     """Read a scene, make a picture of it and write that; nothing is written unless all of it succeeds.
 
     quiet: no warnings, no progress bar; explain: print what each stage cost; jobs: threads to read on, as many as
-    processors where it is None; overlaid: texts are left to LaTeX, in a file beside OUT.
+    processors where it is None; overlaid: texts are left to LaTeX, in a file beside OUT; proof: one more file.
     """
     reports: list[StageReport] = []
     with reported_warnings(quiet=quiet):
         check_place(out)
+        if proof is not None:
+            check_place(proof.path)
         with progress_bar(quiet=quiet) as progress:
             report = Report(progress, reports.append if explain else None)
-            contents = picture_contents(source, Path(out).name, format_, picture, report, jobs, overlaid=overlaid)
+            contents = picture_contents(
+                source, Path(out).name, format_, picture, report, jobs, overlaid=overlaid, proof=proof
+            )
     # What is wrong with a picture is said before there is a file of it.
-    write_out(out, *contents)
+    if proof is None:
+        write_out(out, *contents)
+    else:
+        write_out(out, *contents[:-1], beside={proof.path: contents[-1]})
     if explain:
         click.echo(table(reports), err=True)
 
@@ -284,22 +300,26 @@ def picture_contents(
     jobs: int | None = None,
     *,
     overlaid: bool = False,
+    proof: Proof | None = None,
 ) -> tuple[bytes, ...]:
-    """Read a scene and make a picture of it: the content of its file, and where texts are overlaid of theirs; name:
-    that of the picture's file."""
+    """Read a scene and make a picture of it: the content of its file, where texts are overlaid of theirs, and that of a
+    proof, if there is one; name: that of the picture's file."""
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.geometry.budget import threads_of
     from vectorplot.pictures.pipeline import Pipeline, Stage
     from vectorplot.save import write, write_for_latex
 
-    stages = (Stage("read", source.name), Stage("write", f"as {format_}"))
+    stages = [Stage("read", source.name), Stage("write", f"as {format_}")]
+    if proof is not None:
+        stages.insert(1, Stage("certificate", "a proof is asked for"))
     pipeline = Pipeline(stages, report.explain, None, threads_of(jobs))
     scene = pipeline.run("read", source.read)
     with located(scene):
         made = picture(scene, report)
+        proved = () if proof is None else (pipeline.run("certificate", proof.content, scene, made),)
     if overlaid and isinstance(made, Drawing):
-        return pipeline.run("write", write_for_latex, made, format_, name)
-    return (pipeline.run("write", write, made, format_),)
+        return (*pipeline.run("write", write_for_latex, made, format_, name), *proved)
+    return (pipeline.run("write", write, made, format_), *proved)
 
 
 def picture_made(
@@ -358,14 +378,17 @@ def check_place(out: str) -> None:
         raise FileNotFoundError(errno.ENOENT, os.strerror(errno.ENOENT), str(folder))
 
 
-def write_out(out: str, content: bytes, *letters: bytes) -> None:
-    """Write to a file, whole or not at all, or to stdout for ``-``; letters: to a .tex beside it, together with it."""
+def write_out(out: str, content: bytes, *letters: bytes, beside: Mapping[str, bytes] | None = None) -> None:
+    """Write to a file, whole or not at all, or to stdout for ``-``; letters: to a .tex beside it, together with it;
+    beside: other files, by their names, together with it too."""
+    from vectorplot.save import write_together
+
+    others: dict[str | os.PathLike[str], bytes] = {} if beside is None else {path: one for path, one in beside.items()}
     if out == "-":
+        write_together(others)
         if sys.stdout is None:
             raise OSError(errno.EBADF, "standard output is closed")
         sys.stdout.buffer.write(content)
         sys.stdout.buffer.flush()
         return
-    from vectorplot.save import write_together
-
-    write_together({out: content, **{Path(out).with_suffix(".tex"): one for one in letters}})
+    write_together({out: content, **{Path(out).with_suffix(".tex"): one for one in letters}, **others})

@@ -1,3 +1,4 @@
+from .certificates import Certificate, assert_certified, certificate
 from .curves import (
     assert_closed,
     assert_contour,
@@ -15,6 +16,8 @@ from .rays import visible_by_rays
 from .shapes import hard_shapes
 
 __all__ = [
+    "Certificate",
+    "assert_certified",
     "assert_closed",
     "assert_contour",
     "assert_drawing_is_right",
@@ -26,6 +29,7 @@ __all__ = [
     "assert_on_surface",
     "assert_same_curve",
     "branch_count",
+    "certificate",
     "curves_in_space",
     "edge_points",
     "hard_shapes",

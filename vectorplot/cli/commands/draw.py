@@ -76,6 +76,12 @@ if TYPE_CHECKING:
         metavar="MM",
         help="Longer strokes leave in parts.  [default: whole]",
     ),
+    click.option(
+        "--certificate",
+        type=click.Path(dir_okay=False),
+        metavar="FILE",
+        help="Also write what proves each stroke visible or hidden, as JSON.",
+    ),
 )
 def draw(scene: Scene, **told: Any) -> Drawing:
     """Draw INPUT, a scene file (- for stdin), mesh (obj, stl, ply, off, glb), molecule (xyz, pdb, cif) or terrain

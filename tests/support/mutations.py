@@ -1,0 +1,195 @@
+"""Drawings with one stroke that is not what it should be: ``python mutations.py 1000`` counts how many are caught."""
+
+import copy
+import json
+import sys
+import tempfile
+import time
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+import vectorplot as vp
+from vectorplot.backends.json import json_bytes
+from vectorplot.testing import certificate
+from vectorplot.testing.check_certificate import EDGE_KINDS, check
+
+LEAST_MM = 0.05
+"""No mutation is smaller: five times what certificates leave open."""
+
+SCENES = (
+    *(
+        "box",
+        "cubes",
+        "face_looks",
+        "interpenetrating",
+        "intersections",
+        "mirror",
+        "patterns",
+        "pencil",
+        "plate",
+        "pool",
+    ),
+    *("removed_faces", "shadows", "table", "three_bars", "town", "translational_sweep", "tube"),
+)
+"""Scenes of data/ that consist of meshes."""
+
+
+def on_page(drawing, points):
+    """(n,2) the image in mm of points in the world."""
+    matrix = np.array(drawing["page_from_world"])
+    found = (np.asarray(points)[:, None, :] * matrix[None, :, :3]).sum(axis=2) + matrix[:, 3]
+    return found[:, :2] / found[:, 3:]
+
+
+def way(stroke, key):
+    """The points of a stroke, the first one again at the end of a closed one."""
+    return np.array([*stroke[key], *stroke[key][: stroke["closed"]]])
+
+
+def length(stroke):
+    """In mm."""
+    return float(np.linalg.norm(np.diff(way(stroke, "points"), axis=0), axis=1).sum())
+
+
+def some(rng, drawing, wanted):
+    """The number of a stroke that is wanted and long enough to be seen; None where there is none."""
+    found = [k for k, stroke in enumerate(drawing["strokes"]) if wanted(stroke) and length(stroke) > 4.0 * LEAST_MM]
+    return int(rng.choice(found)) if found else None
+
+
+def moved(rng, drawing):
+    """A stroke elsewhere, on the page alone or in space."""
+    stroke = drawing["strokes"][some(rng, drawing, lambda stroke: True)]
+    turn = rng.uniform(0.0, 2.0 * np.pi)
+    step = LEAST_MM * 100.0 ** rng.uniform() * np.array([np.cos(turn), np.sin(turn)])
+    if rng.uniform() < 0.5:
+        stroke["points"] = (np.array(stroke["points"]) + step).tolist()
+        return True
+    matrix, points = np.array(drawing["page_from_world"]), np.array(stroke["points3d"])
+    depth = (matrix[3, :3] * points[0]).sum() + matrix[3, 3]
+    slopes = (matrix[:2, :3] - on_page(drawing, points[:1]).T * matrix[3, :3]) / depth
+    stroke["points3d"] = (points + np.linalg.lstsq(slopes, step, rcond=None)[0]).tolist()
+    stroke["points"] = on_page(drawing, stroke["points3d"]).tolist()
+    return True
+
+
+def dropped(rng, drawing):
+    """A contour, crease or border less."""
+    number = some(rng, drawing, lambda stroke: stroke["kind"] in EDGE_KINDS)
+    stroke = drawing["strokes"].pop(number)
+    return not shown_by_others(drawing, way(stroke, "points"))
+
+
+def added(rng, drawing):
+    """A stroke more, from somewhere between two points to somewhere else there, or twice the same one."""
+    one, two = (drawing["strokes"][k] for k in rng.integers(len(drawing["strokes"]), size=2))
+    if rng.uniform() < 0.1:
+        drawing["strokes"].append(
+            copy.deepcopy(drawing["strokes"][some(rng, drawing, lambda stroke: stroke["kind"] in EDGE_KINDS)])
+        )
+        return True
+    ends = np.array([rng.choice(one["points3d"]), rng.choice(two["points3d"])])
+    share = rng.uniform(0.05, 0.45)
+    points = np.array([ends[0] + share * (ends[1] - ends[0]), ends[1] + share * (ends[0] - ends[1])])
+    page = on_page(drawing, points)
+    kind = {
+        "kind": str(rng.choice(EDGE_KINDS)),
+        "item": one["item"],
+        "hidden_by": int(rng.integers(2)),
+        "closed": False,
+    }
+    place = int(rng.integers(len(drawing["strokes"]) + 1))
+    drawing["strokes"].insert(place, {**kind, "points": page.tolist(), "points3d": points.tolist()})
+    return float(np.linalg.norm(page[1] - page[0])) > 2.0 * LEAST_MM
+
+
+def shortened(rng, drawing):
+    """A visible contour, crease or border that ends too early."""
+    visible = some(rng, drawing, lambda stroke: stroke["kind"] in EDGE_KINDS and stroke["hidden_by"] == 0)
+    stroke = drawing["strokes"][visible]
+    points = way(stroke, "points3d")[:: int(rng.choice([1, -1]))].copy()
+    page = on_page(drawing, points)
+    last = float(np.linalg.norm(page[-1] - page[-2]))
+    if last < 2.0 * LEAST_MM:
+        return False
+    cut, low, high, end = rng.uniform(LEAST_MM, 0.9 * last), 0.0, 1.0, points[-1]
+    for _ in range(50):
+        share = 0.5 * (low + high)
+        end = points[-1] + share * (points[-2] - points[-1])
+        near = np.linalg.norm(on_page(drawing, end[None])[0] - page[-1]) < cut
+        low, high = (share, high) if near else (low, share)
+    points[-1] = end
+    stroke.update(points3d=points.tolist(), points=on_page(drawing, points).tolist(), closed=False)
+    return not shown_by_others(drawing, np.array([page[-1], on_page(drawing, end[None])[0]]))
+
+
+def shown(rng, drawing):
+    """A hidden stroke among the visible ones."""
+    number = some(rng, drawing, lambda stroke: stroke["hidden_by"] > 0)
+    if number is None:
+        return False
+    drawing["strokes"][number]["hidden_by"] = 0
+    return True
+
+
+def hidden(rng, drawing):
+    """A visible stroke among the hidden ones."""
+    drawing["strokes"][some(rng, drawing, lambda stroke: stroke["hidden_by"] == 0)]["hidden_by"] = 1
+    return True
+
+
+MUTATIONS = (moved, dropped, added, shortened, shown, hidden)
+
+
+def shown_by_others(drawing, points):
+    """Whether other strokes run where a way (n,2) did, but for 2 micrometres: then it is still drawn."""
+    ways = [way(stroke, "points") for stroke in drawing["strokes"] if len(stroke["points"]) > 1]
+    start, end = (np.concatenate([one[part] for one in ways]) for part in (slice(None, -1), slice(1, None)))
+    along = end - start
+    middle = 0.5 * (points[:-1] + points[1:])[:, None]
+    share = ((middle - start) * along).sum(axis=2) / np.maximum((along * along).sum(axis=1), 1e-30)
+    off = np.linalg.norm(middle - start - np.clip(share, 0.0, 1.0)[..., None] * along, axis=2).min(axis=1)
+    return bool((off < 0.002).all())
+
+
+def mutated(rng, drawing, mutation):
+    """A drawing, as in a file, with one mutation that shows; None where it has nothing to mutate in so many tries."""
+    for _ in range(20):
+        other = copy.deepcopy(drawing)
+        if mutation(rng, other):
+            return other
+    return None
+
+
+def faults(scene, drawing, how):
+    """What is wrong with a drawing, as in a file, by a certificate of its own."""
+    with tempfile.TemporaryDirectory() as folder:
+        path = Path(folder) / "drawing.json"
+        path.write_text(json.dumps(drawing))
+        read = vp.read(path)
+    return check(json.loads(json_bytes(read)), certificate(scene, read, hidden=how).content)[0]
+
+
+def main(many, how, seed):
+    """Print how many of so many mutations are caught, and which are not."""
+    rng, caught, missed, start = np.random.default_rng(seed), Counter(), [], time.perf_counter()
+    scenes = [vp.read(Path(__file__).parents[2] / "data" / f"{name}.scene") for name in SCENES]
+    drawings = [json.loads(json_bytes(vp.draw(scene, hidden=how))) for scene in scenes]
+    assert not any(faults(*pair, how) for pair in zip(scenes, drawings, strict=True))
+    while sum(caught.values()) + len(missed) < many:
+        number = int(rng.integers(len(scenes)))
+        mutation = MUTATIONS[(sum(caught.values()) + len(missed)) % len(MUTATIONS)]
+        other = mutated(rng, drawings[number], mutation)
+        if other is None:
+            continue
+        if faults(scenes[number], other, how):
+            caught[mutation.__name__] += 1
+        else:
+            missed.append((SCENES[number], mutation.__name__))
+    print(dict(caught), f"caught, {len(missed)} missed, in {time.perf_counter() - start:.0f} s", missed)
+
+
+if __name__ == "__main__":
+    main(int(sys.argv[1]), *(sys.argv[2:3] or ["solid"]), int((sys.argv[3:4] or [0])[0]))

@@ -1,0 +1,249 @@
+"""Certificates of drawings: right ones are proved, mutated ones are caught, and what cannot be proved is said."""
+
+import ast
+import json
+import runpy
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+from support.effort import several
+from support.mutations import MUTATIONS, SCENES, faults, mutated
+from support.paths import DATA, PACKAGE
+
+import vectorplot as vp
+from vectorplot.backends.json import json_bytes
+from vectorplot.cli.main import run
+from vectorplot.errors import InputError
+from vectorplot.features import mesh_of_grid
+from vectorplot.geometry import box
+from vectorplot.surfaces import Torus
+from vectorplot.testing import assert_certified, certificate
+from vectorplot.testing.check_certificate import check
+
+CHECKER = PACKAGE / "testing" / "check_certificate.py"
+
+
+def told(drawing, made):
+    """What the checker says of two files that are read again."""
+    return check(json.loads(json_bytes(drawing)), json.loads(bytes(made)))
+
+
+@pytest.fixture(scope="module")
+def drawn():
+    """Scenes of data/ with all their lines, as in a file."""
+    scenes = [vp.read(DATA / f"{name}.scene") for name in SCENES]
+    return [(scene, json.loads(json_bytes(vp.draw(scene, hidden="solid")))) for scene in scenes]
+
+
+@pytest.mark.parametrize("hidden", ["none", "dashed", "solid"])
+def test_drawings_of_meshes_are_proved(hidden):
+    for name in SCENES:
+        scene = vp.read(DATA / f"{name}.scene")
+        counts = assert_certified(scene, vp.draw(scene, hidden=hidden), hidden=hidden)
+        assert counts["strokes"] and counts["lines"] and counts["triangles"]
+
+
+@pytest.mark.slow
+def test_a_scanned_model_is_proved():
+    rabbit = vp.read(DATA / "rabbit.ply")
+    assert assert_certified(rabbit, vp.draw(rabbit, hidden="solid"), hidden="solid")["triangles"] == 36588
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("mutation", MUTATIONS, ids=lambda mutation: mutation.__name__)
+def test_mutated_drawings_are_caught(drawn, mutation):
+    rng = np.random.default_rng(6)
+    caught = 0
+    while caught < several(8, long=170):
+        scene, drawing = drawn[int(rng.integers(len(drawn)))]
+        other = mutated(rng, drawing, mutation)
+        if other is not None:
+            assert faults(scene, other, "solid")
+            caught += 1
+
+
+def test_a_part_in_front_of_nothing_is_not_taken_for_hidden():
+    """A certificate that names what does not hide a stroke: the stroke lies in the face that is named, or before it."""
+    cube = box((2, 2, 2))
+    drawing = json.loads(json_bytes(vp.draw(cube, "iso")))
+    made = certificate(cube, vp.draw(cube, "iso"), "iso").content
+    assert check(drawing, made)[:2] == ([], [])
+    for stroke in drawing["strokes"]:
+        stroke["hidden_by"] = 1
+    segments = [
+        (k, j) for k, one in enumerate(drawing["strokes"]) for j in range(len(one["points"]) - (not one["closed"]))
+    ]
+    for triangle in range(12):
+        rows = [[stroke, segment, 0.0, 1.0, triangle] for stroke, segment in segments]
+        wrong, _, _ = check(drawing, {**made, "hidden_strokes": rows})
+        assert any(line.startswith("hidden by nothing that is named") for line in wrong)
+
+
+def test_lines_that_the_certificate_does_not_name_are_missing():
+    cube = box((2, 2, 2))
+    drawing = vp.draw(cube, "iso")
+    made = certificate(cube, drawing, "iso").content
+    wrong, _, _ = check(json.loads(json_bytes(drawing)), {**made, "hidden_lines": made["hidden_lines"][1:]})
+    assert len(wrong) == 1 and wrong[0].startswith("neither drawn nor hidden")
+
+
+def test_another_camera_is_told():
+    cube = box((2, 2, 2))
+    wrong, _, _ = told(vp.draw(cube, "iso"), certificate(cube, vp.draw(cube, "front"), "front"))
+    assert wrong[0] == "the drawing is seen by another camera than the certificate"
+
+
+def test_every_body_hides_and_so_does_a_sheet():
+    """Lines behind a square that stands alone, from both of its sides."""
+    square = vp.Mesh.from_triangles([(-1, 2, -1), (1, 2, -1), (1, 2, 1), (-1, 2, 1)], [(0, 1, 2), (0, 2, 3)])
+    scene = vp.Scene((vp.Item("SHEET", square), vp.Item("PART", box((1, 1, 1)))))
+    for eye in ((1, 9, 2), (1, -9, 2)):
+        camera = vp.Camera(eye)
+        assert_certified(scene, vp.draw(scene, camera, hidden="solid"), camera, hidden="solid")
+
+
+def test_what_leaves_the_page_need_not_be_drawn():
+    camera = vp.Camera((4, 5, 6), fov_deg=12.0)
+    drawing = vp.draw(box((2, 2, 2)), camera, fit=False)
+    assert_certified(box((2, 2, 2)), drawing, camera)
+
+
+def test_fine_meshes_are_proved_where_their_edges_are_tiny():
+    turn = np.linspace(0.0, 2.0 * np.pi, 41)
+    ring = mesh_of_grid(Torus(3.0, 1.0).points(*np.meshgrid(turn, turn, indexing="ij")), closed_u=True, closed_v=True)
+    drawing = vp.draw(ring, "iso", page="40x30", hidden="solid")
+    assert assert_certified(ring, drawing, "iso", hidden="solid")["lines"] > 80
+
+
+def test_offsets_and_scales_are_proved_or_said():
+    for factor, offset in ((1e-6, 0.0), (1e6, 0.0), (1.0, 1e4)):
+        part = box((2 * factor, 2 * factor, 2 * factor))
+        part = vp.Mesh(part.vertices + offset, part.corners, part.offsets)
+        assert_certified(part, vp.draw(part, "iso", hidden="solid"), "iso", hidden="solid")
+    far = vp.Mesh(part.vertices + 1e9, part.corners, part.offsets)
+    drawing = vp.draw(far, "iso")
+    assert "rounding moves points" in told(drawing, certificate(far, drawing, "iso"))[1][-1]
+
+
+def test_an_empty_scene_is_proved():
+    assert assert_certified(vp.Scene(()), vp.draw(vp.Scene(()))) == {
+        "strokes": 0,
+        "triangles": 0,
+        "lines": 0,
+        "witnesses": 0,
+    }
+
+
+def test_smooth_shapes_are_not_proved_and_not_called_wrong():
+    scene = vp.read(DATA / "house.scene")
+    drawing = vp.draw(scene, hidden="solid")
+    made = certificate(scene, drawing, hidden="solid")
+    assert made.unproved == ("what BALL shows and hides, which is a smooth shape",)
+    wrong, unproven, _ = told(drawing, made)
+    assert not wrong and unproven[0] == made.unproved[0]
+    with pytest.raises(AssertionError, match="not proven: what BALL"):
+        assert_certified(scene, drawing, hidden="solid")
+
+
+def test_what_labels_and_lists_of_edges_leave_out_is_said():
+    town, pyramid = (vp.read(DATA / name) for name in ("plotted_town.scene", "pyramid.scene"))
+    for scene, what in ((town, "lines beside labels"), (pyramid, "crease of PYRAMID")):
+        made = certificate(scene, vp.draw(scene))
+        assert what in made.unproved[0]
+        assert not told(vp.draw(scene), made)[0]
+
+
+def test_dashes_of_visible_lines_are_said():
+    drawing = vp.draw(box((2, 2, 2)), "iso", dashes="3,1")
+    made = certificate(box((2, 2, 2)), drawing, "iso")
+    assert made.unproved == ("that dashed lines are complete",) and not told(drawing, made)[0]
+
+
+def test_wireframes_have_no_certificate():
+    with pytest.raises(InputError, match="wireframe"):
+        certificate(box((2, 2, 2)), vp.draw(box((2, 2, 2)), style="wireframe"), style="wireframe")
+
+
+def test_the_checker_is_short_and_knows_nothing_of_the_package():
+    source = CHECKER.read_text("utf-8")
+    assert len(source.splitlines()) <= 400
+    imports = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Import | ast.ImportFrom)]
+    names = {(getattr(node, "module", None) or node.names[0].name).split(".")[0] for node in imports}
+    assert names <= sys.stdlib_module_names | {"numpy"}
+
+
+@pytest.mark.slow
+def test_the_command_writes_what_the_checker_proves_on_its_own(tmp_path):
+    drawing, proof = tmp_path / "table.json", tmp_path / "proof.json"
+    assert run(["draw", str(DATA / "table.scene"), "-o", str(drawing), "--certificate", str(proof)]) == 0
+    words = [sys.executable, "-I", str(CHECKER), str(drawing), str(proof)]
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "triangles" in done.stdout and not done.stderr
+    drawing.write_text(drawing.read_text().replace('"hidden_by": 0', '"hidden_by": 1', 1))
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    assert done.returncode == 1 and done.stdout.startswith("wrong: hidden by nothing that is named")
+
+
+@pytest.mark.parametrize(
+    "content", ["", "[]", "{}", '{"format": "vectorplot-certificate", "version": 1}', "[" * 100_000]
+)
+def test_files_that_are_none_are_one_line(tmp_path, capsys, content):
+    (tmp_path / "bad.json").write_text(content)
+    vp.save(vp.draw(box((2, 2, 2))), tmp_path / "good.json")
+    main = runpy.run_path(str(CHECKER))["main"]
+    assert main([str(tmp_path / "good.json"), str(tmp_path / "bad.json")]) == 3
+    assert main([str(tmp_path / "nothing.json")]) == 3
+    assert all(line.startswith("cannot check: ") for line in capsys.readouterr().err.splitlines())
+
+
+def test_numbers_that_point_nowhere_are_told(tmp_path):
+    cube = box((2, 2, 2))
+    drawing, made = vp.draw(cube, "iso", hidden="solid"), certificate(cube, vp.draw(cube, "iso", hidden="solid"), "iso")
+    read = json.loads(json_bytes(drawing))
+    for number in (-1, 12, 10**6):
+        rows = [[*row[:4], number] for row in made.content["hidden_strokes"]]
+        assert check(read, {**made.content, "hidden_strokes": rows})[0]
+    item = {**made.content["items"][0], "triangles": [[0, 1, 8]]}
+    with pytest.raises(ValueError, match="a vertex that there is not"):
+        check(read, {**made.content, "items": [item]})
+
+
+def test_the_command_says_what_is_not_proved(tmp_path, capsys):
+    words = ["draw", str(DATA / "house.scene"), "-o", str(tmp_path / "house.svg"), "--certificate"]
+    assert run([*words, str(tmp_path / "house.json")]) == 0
+    said = capsys.readouterr().err.splitlines()
+    assert len(said) == 1 and "the certificate does not prove what BALL shows and hides" in said[0]
+
+
+@pytest.mark.parametrize(
+    ("words", "status"),
+    [
+        (["--certificate", "-"], 2),
+        (["--certificate", "OUT"], 2),
+        (["--certificate", "proof.json", "--halo", "1"], 2),
+        (["--certificate", "proof.json", "--thin-ends"], 2),
+        (["--certificate", "proof.json", "--style", "wireframe"], 1),
+        (["--certificate", "nowhere/proof.json"], 1),
+    ],
+)
+def test_where_there_is_no_certificate_there_is_no_drawing(tmp_path, monkeypatch, words, status):
+    monkeypatch.chdir(tmp_path)
+    words = ["cube.svg" if word == "OUT" else word for word in words]
+    assert run(["draw", str(DATA / "box.scene"), "-o", "cube.svg", *words]) == status
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_folder_of_pictures_has_none(tmp_path):
+    words = ["draw", str(DATA / "box.scene"), "-o", f"{tmp_path}/out/", "--certificate", f"{tmp_path}/proof.json"]
+    assert run(words) == 2
+
+
+def test_names_are_escaped(tmp_path):
+    name = 'a"b\\c\u2028<script>'
+    scene = vp.Scene((vp.Item(name, box((2, 2, 2))),))
+    made = certificate(scene, vp.draw(scene))
+    made.save(tmp_path / "proof.json")
+    text = (tmp_path / "proof.json").read_text("ascii")
+    assert json.loads(text)["items"][0]["name"] == name
