@@ -17,7 +17,6 @@ from vectorplot.features.conditions import (
     ParallelContour,
     PlaneSection,
     PointIsophote,
-    stacked,
     stacks,
 )
 from vectorplot.features.contours_and_isophotes import (
@@ -31,7 +30,7 @@ from vectorplot.features.contours_and_isophotes import (
     tangent_sections,
 )
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, together
-from vectorplot.features.cusps import contours_with_cusps, singular_lines
+from vectorplot.features.cuspidal_edges import singular_lines
 from vectorplot.features.feature_lines import Detail, Sight, surface_feature_lines
 from vectorplot.features.geodesic_curves import geodesics_between
 from vectorplot.features.hole_rims import hole_rims
@@ -176,7 +175,7 @@ def sheets_of_items(view: View, items: Sequence[tuple[Surface, int, bool]]) -> l
 def contours_of_parametrised(
     view: View, sheets: Mapping[int, ParametricSheet], tracing: Tracing, done: Callable[[float], None] = unheard
 ) -> dict[int, SurfaceCurves]:
-    """The contours of sheets with their cusps, those of many traced at once; all by the numbers of the sheets. done: is
+    """The contours of sheets, those of many traced at once; all by the numbers of the sheets. done: is
     told the part of the work that is done."""
     numbers, found = list(sheets), dict[int, SurfaceCurves]()
     for part in stacks([sheets[number].surface for number in numbers], tracing.nodes):
@@ -186,8 +185,7 @@ def contours_of_parametrised(
             curves = parallel_contours(stack, (0, 0, 1), tracing=tracing)
         else:
             curves = contours(stack, view.eye, tracing=tracing)
-        with_cusps = contours_with_cusps(stacked(stack, _turn(view, stack[0])), curves)
-        found.update({number: own for number, (own, _) in zip(which, with_cusps, strict=True)})
+        found.update(zip(which, curves, strict=True))
         done(len(found) / len(sheets))
     return found
 
