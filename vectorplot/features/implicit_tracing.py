@@ -9,12 +9,12 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.features.conditions import SpatialCondition
 from vectorplot.features.implicit_meshes import Band, ImplicitMesh, Nodes, curve_band, implicit_mesh, sheets_apart
 from vectorplot.features.implicit_singular_lines import SingularLines
 from vectorplot.features.implicit_surfaces import (
     CurveInSpace,
     Picture,
-    SpatialCondition,
     checked_values,
     curve_in_space,
     onto_surface,
@@ -143,7 +143,7 @@ def special_points(curve: CurveInSpace, own: ImplicitMesh, band: Band) -> Specia
         return SpecialPoints(singular, np.full(len(singular), ROUND_SINGULAR * longest), near, 0.0, near)
     finest = float(np.median(np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1)))
     middles = triangles.mean(axis=1)
-    middles = middles[_apart(middles, singular, 2.0 * ROUND_SINGULAR * longest)]
+    middles = middles[_lie_apart(middles, singular, 2.0 * ROUND_SINGULAR * longest)]
     heads = one_each(middles, 3.0 * finest)
     found, settled, ratio = _critical(curve, middles[heads], 10.0 * finest)
     zero = settled & (np.abs(curve.values(found)) <= NODE_IN_SPACE * curve.size)
@@ -161,7 +161,7 @@ def isolated_singular_points(surface: ImplicitSurface, own: ImplicitMesh, reach:
     found = singular_points(surface, own.mesh, reach)
     sides = sides_of(surface)
     for _, lines in own.lines.kinds:
-        found = found[_apart(found, lines.points, reach)]
+        found = found[_lie_apart(found, lines.points, reach)]
         open_ = ~lines.closed
         ends = lines.points[np.concatenate([lines.offsets[:-1][open_], lines.offsets[1:][open_] - 1])]
         inside = sides.has(ends) & ~sides.on(ends).any(axis=1)
@@ -302,14 +302,6 @@ def _straight_on(ways: Floats, node: Ints) -> Ints:
 def _distinct(points: Floats, distance: float) -> Floats:
     """(k,3) the points, those within a distance of one another as one."""
     return points[np.unique(close_points(points, distance))] if len(points) else points
-
-
-def _apart(points: Floats, others: Floats, distance: float) -> Ints:
-    """Indices of the points (k,3) further than a distance from all others."""
-    kept = np.ones(len(points), dtype=np.bool_)
-    for other in others:
-        kept &= np.linalg.norm(points - other, axis=1) > distance
-    return np.flatnonzero(kept)
 
 
 # Curves on implicit surfaces where a condition holds: found on a mesh, every point refined on both equations.

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.conditions import Contour, ParallelContour, Slopes
+from vectorplot.features.conditions import Contour, Isophote, Slopes
 from vectorplot.features.holes import wrapped
 from vectorplot.geometry.vectors import all_finite, cross, dot, from_components
 from vectorplot.geometry.weld import close_points
@@ -219,9 +219,11 @@ class ThroughPinchPoints:
     def _jets(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(k,) f and its derivatives by u and by v, next to pinch points."""
         points, product, by_u, by_v = _turning(self.surface, u, v)
-        sight = self.contour.sights(u, v)
-        if not isinstance(self.contour, ParallelContour):
-            sight = -sight
+        contour = self.contour
+        if isinstance(contour, Isophote):
+            sight = np.broadcast_to(np.asarray(contour.light), points.shape)
+        else:
+            sight = points - np.asarray(contour.eye)
         arms, width = self._arms(u, v), np.array(self.surface.domain.size)
         rest = 1.0 - dot(arms, arms)
         own = np.argmax(rest * self.pinches.turning[:, None], axis=0)

@@ -12,7 +12,6 @@ from vectorplot.features.conditions import ImplicitSection
 from vectorplot.features.contours_and_isophotes import section_by_implicit
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_curves import implicit_intersection
-from vectorplot.features.implicit_surfaces import MeetsImplicit
 from vectorplot.features.intersection_tracing import DoubleCurves
 from vectorplot.features.intersections import intersections_of_grids, self_intersections
 from vectorplot.features.mesh_sections import implicit_mesh_section, mesh_section
@@ -62,7 +61,7 @@ def implicit_with_implicit(
 ) -> tuple[Curves, Doubts]:
     """The curves in which two sheets of these numbers meet, within both boxes; and doubts."""
     found = implicit_intersection(one.home, two.home, tracing=tracing_in_world(one, tracing))
-    family = SpatialCurves(one, first, MeetsImplicit(two.surface), second)
+    family = SpatialCurves(one, first, two.surface, second)
     curves = as_spatial_curves(found, LineKind.INTERSECTION, one, family)
     whole = replace(curves, item=np.full(len(curves), item), second_places=curves.points)
     return within_box(whole, two), found.doubts

@@ -13,9 +13,9 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.conditions import (
     CentralContour,
     Contour,
+    ImplicitSection,
     Isophote,
-    ParallelContour,
-    PlaneSection,
+    MeetsPlane,
     PointIsophote,
     stacks,
 )
@@ -206,7 +206,7 @@ def parameter_lines_of_parametrised(
 
 def _turn(view: View, surface: Surface) -> Contour:
     """The condition of the contour."""
-    return ParallelContour(surface, (0.0, 0.0, 1.0)) if view.eye is None else CentralContour(surface, view.eye)
+    return Isophote(surface, (0.0, 0.0, 1.0)) if view.eye is None else CentralContour(surface, view.eye)
 
 
 def curves_of_parametrised(
@@ -273,11 +273,11 @@ def _asked_for(
         if section.kind in wanted:
             normal = matmul(view.axes, np.asarray(section.normal))
             offsets = (np.asarray(section.offsets) - matmul(view.centre, np.asarray(section.normal))) / view.scale
-            plane = PlaneSection(sheet.whole.surface, normal, 0.0)
+            plane = ImplicitSection(sheet.whole.surface, MeetsPlane(normal, 0.0))
             found = plane_sections(surface, normal, offsets, tracing=tracing)
             if any(text.startswith(ALONG_A_LINE) for text in found.doubts):
                 touched = tangent_sections(surface, normal, offsets, tracing=tracing)
-                across = ParallelContour(sheet.whole.surface, direction_across(normal))
+                across = Isophote(sheet.whole.surface, direction_across(normal))
                 level = replace(touched, levels=np.zeros(len(touched)))
                 result.append((section.kind, ConditionCurves(sheet.whole, number, across), level))
                 if len(touched):
