@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conditions import ImplicitSection
 from vectorplot.features.contours_and_isophotes import section_by_implicit
 from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.holes import near_to
 from vectorplot.features.implicit_curves import implicit_intersection
 from vectorplot.features.intersection_tracing import DoubleCurves
 from vectorplot.features.intersections import intersections_of_grids, self_intersections
@@ -23,7 +24,6 @@ from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import all_finite
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.trimmed import is_embedded
 from vectorplot.tolerances import OUTSIDE_DOMAIN
 from vectorplot.visibility.polyhedra.lines import kept_apart
@@ -288,8 +288,8 @@ def _double(
         swaps = swapped < kept
     ends = np.where(swaps[:, None], found.two[start], found.one[start])
     other_ends = np.where(swaps[:, None], found.one[start], found.two[start])
-    places[back, :2] = _nearest(one.surface.domain, ends, places[back - 1, :2])
-    others[back, :2] = _nearest(two.surface.domain, other_ends, others[back - 1, :2])
+    places[back, :2] = near_to(one.surface.domain, ends, places[back - 1, :2])
+    others[back, :2] = near_to(two.surface.domain, other_ends, others[back - 1, :2])
     many = len(found)
     return Curves(
         found.points[index],
@@ -307,10 +307,3 @@ def _double(
 
 def _places(parameters: Floats) -> Floats:
     return np.concatenate([parameters, np.zeros((len(parameters), 1))], axis=1)
-
-
-def _nearest(domain: Domain, parameters: Floats, to: Floats) -> Floats:
-    """(k,2) the same parameters as many whole periods on as brings them nearest to others."""
-    size = np.array(domain.size)
-    turns = np.where([domain.closed_u, domain.closed_v], np.round((to - parameters) / size), 0.0)
-    return np.asarray(parameters + turns * size)
