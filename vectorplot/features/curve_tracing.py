@@ -418,6 +418,8 @@ def _without_noise(values: Floats, noise: Floats) -> Floats:
 def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> SurfaceCurves:
     """The curves, those that end just before a hole led on straight to its rim: cells with a corner in a hole have no
     curve, and where a surface ends with a vertical tangent the last of them is high."""
+    # `led_to_holes` has followed f before, as far as there is a curve: without it ends are too far from the rim to be
+    # led on straight, and without this what is left between it and them is drawn as gaps and fragments.
     # An end that was followed up to a rim to the last bit may lie behind it: parameters are rounded once more.
     known = all_finite(curves.points)
     if not known.all():
