@@ -454,9 +454,6 @@ NODE_SETTLED_OF_CELL = 1e-9
 BEYOND_END = 1e-9
 """So many lengths of a piece beyond its end count as the end: a root that rounding has moved out still is its own."""
 
-BESIDE_POLE = 1e-3
-"""Part of a piece that one goes along it from a pole, where there is no curvature, to where there is one."""
-
 SAME_EVENT = 1e-6
 """Parts of a chord that differ by less are one event: where curves touch, places are known to the root of the
 rounding."""
@@ -670,9 +667,6 @@ spoil a difference equally."""
 SECOND_DIFFERENCE = 2.0**-12
 """Part of the domain that a second difference spans: about the fourth root of the rounding, for the same reason."""
 
-CURVATURE_DIFFERENCE = 2.0**-16
-"""Part of the domain that a difference of curvatures spans: only the speed of Newton's method depends on it."""
-
 CENTRAL_DIFFERENCE = 6e-6
 """Step of a central difference, relative to 1 + |x|: the third root of the rounding."""
 
@@ -703,13 +697,6 @@ rounding of a cross product as small as that is no larger than what the normal t
 ASIDE_OF_CREASE = 1e-6
 """Part of the side of a triangle by which an end on a sharp edge is looked at from inside: normals turn by no more than
 that on the way, and the parameter is another one unless the side is lost in rounding anyway."""
-
-CUSP_FOUND = 1e-7
-"""A cusp has been found when the last step to it is shorter than this part of the domain: curvatures are
-differences."""
-
-CUSP_SETTLED = 1e-15
-"""The same when no further step can help."""
 
 PINCH_SETTLED = 1e-9
 """A pinch point has been found when the last step to it is shorter than this part of the domain: second derivatives of
@@ -875,9 +862,6 @@ by its value, each divided by the second derivatives: more is a line of critical
 SHALLOW_CROSSING = 1e-6
 """Product of the two larger eigenvalues of the second derivatives of an implicit surface, by their squared size, below
 which two sheets do not cross: they touch, or end in a pinch point."""
-
-LEVEL_CURVATURE = 1e-9
-"""Part of the largest curvature along a contour below which one is rounding."""
 
 VANISHED_ON_BORDER = 1e-14
 """Part of the values inside a domain that those on its border are at most where the function vanishes all along it."""

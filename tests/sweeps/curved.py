@@ -67,7 +67,7 @@ def cusps_of_a_torus(slant: float) -> float:
 
     slant: the angle of sight beyond the one at which the contour gets them.
     """
-    from features.parametric.test_cusps import torus_cusps
+    from visibility.smooth.events.test_cusps import torus_cusps
 
     c = np.arccos(np.sqrt(1.0 / 3.0)) + slant
     camera = vp.Camera((0.0, 20.0 * np.sin(c), 20.0 * np.cos(c)), parallel=True)

@@ -17,6 +17,7 @@ from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import number, vector
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import all_finite, dot, normalize
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.stacked import (
@@ -26,7 +27,7 @@ from vectorplot.surfaces.stacked import (
     points_and_normals,
     unit_normals,
 )
-from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface
+from vectorplot.surfaces.surface import Domain, Surface, first_jets
 
 Slopes = tuple[Floats, Floats]
 
@@ -61,6 +62,57 @@ class SurfaceCondition(Condition, Protocol):
         ...
 
 
+class SpatialCondition(Protocol):
+    """What holds along a curve on an implicit surface: g = 0, g defined in space around the surface."""
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) g at points (..., 3)."""
+        ...
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) gradients of g."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class MeetsPlane:
+    """g = n.x - d: the plane of the normal n (3,), of any length, kept as a unit vector, at the offset d.
+
+    Errors: InputError for a normal without length, an offset that is not finite.
+    """
+
+    normal: ArrayLike
+    offset: float
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "normal", normalize(vector("plane sections: normal", self.normal)))
+        number("plane sections: offset", self.offset)
+
+    def values(self, points: Floats) -> Floats:
+        """(...,) distances from the plane, positive on the side of its normal."""
+        return np.asarray(matmul(points, np.asarray(self.normal)) - self.offset)
+
+    def gradients(self, points: Floats) -> Floats:
+        """(..., 3) the normal, everywhere."""
+        return np.broadcast_to(np.asarray(self.normal), points.shape).copy()
+
+
+@dataclass(frozen=True, eq=False)
+class Planes(Elements):
+    """g = n.x - d of a plane for each of points (k,3): unit normals (k,3), offsets (k,)."""
+
+    normals: Floats
+    offsets: Floats
+
+    def values(self, points: Floats) -> Floats:
+        """(k,) heights of points."""
+        return dot(points, self.normals) - self.offsets
+
+    def gradients(self, points: Floats) -> Floats:
+        """(k,3) the normals."""
+        return self.normals
+
+
 class _Alike(ABC):
     """A condition, a dataclass, that is the same for all parameters that it is asked for."""
 
@@ -79,12 +131,12 @@ class _Alike(ABC):
         """(...,) f."""
 
     @abstractmethod
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(...,) derivatives by u and by v."""
-
     def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
         """Both at once."""
-        return self.values(u, v), self.slopes(u, v)
+
+    def slopes(self, u: Floats, v: Floats) -> Slopes:
+        """(...,) derivatives by u and by v."""
+        return self.values_and_slopes(u, v)[1]
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,66 +158,25 @@ class CentralContour(_Alike):
         points, unit = points_and_normals(self.surface, u, v)
         return dot(points - np.asarray(self.eye), unit)
 
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(...,) derivatives by u and by v."""
-        return self.values_and_slopes(u, v)[1]
-
     def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
         """Both at once."""
         points, (unit, by_u, by_v) = points_and_normal_partials(self.surface, u, v)
         way = points - np.asarray(self.eye)
         return dot(way, unit), (dot(way, by_u), dot(way, by_v))
 
-    def sights(self, u: Floats, v: Floats) -> Floats:
-        """(..., 3) vectors from the surface to the eye."""
-        return np.asarray(np.asarray(self.eye) - self.surface.points(u, v))
-
-
-@dataclass(frozen=True, eq=False)
-class ParallelContour(_Alike):
-    """The condition f = N.d = 0 of a contour for an eye at infinity: seen along d the surface turns away.
-
-    surface: with unit normals N; direction: (3,) d, of any length, towards the eye.
-    Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
-    """
-
-    surface: Surface
-    direction: ArrayLike
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "direction", normalize(vector("contour: direction", self.direction)))
-
-    def values(self, u: Floats, v: Floats) -> Floats:
-        """(...,) cosines of the angles between normal and direction; NaN in holes."""
-        return _towards(self.surface, np.asarray(self.direction), u, v)
-
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(...,) derivatives by u and by v."""
-        return self.values_and_slopes(u, v)[1]
-
-    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
-        """Both at once."""
-        return _turning_towards(self.surface, np.asarray(self.direction), u, v)
-
-    def sights(self, u: Floats, v: Floats) -> Floats:
-        """(..., 3) unit vectors to the eye, the same everywhere."""
-        return np.broadcast_to(np.asarray(self.direction), (*np.broadcast(u, v).shape, 3))
-
-
-Contour = CentralContour | ParallelContour
-
 
 @dataclass(frozen=True, eq=False)
 class Isophote(_Alike):
-    """f = N.l - c: parallel light l (3,), of any length, kept as a unit vector, meets the surface at the cosine c.
+    """f = N.l - c: parallel light l (3,), of any length, kept as a unit vector, meets the surface at the cosine c; at 0
+    the surface turns away from an eye at infinity in that direction, and this is its contour.
 
     Errors: InputError for a light without length, a cosine not within -1 and 1.
-    Source: Glaeser, section 8.4, equation 28.
+    Source: Glaeser, section 8.4, equations 27 and 28.
     """
 
     surface: Surface
     light: ArrayLike
-    cosine: float
+    cosine: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "light", normalize(vector("isophotes: light", self.light)))
@@ -175,14 +186,13 @@ class Isophote(_Alike):
         """(...,) cosines of the angles between normal and light, less c; NaN in holes."""
         return _towards(self.surface, np.asarray(self.light), u, v) - self.cosine
 
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(...,) derivatives by u and by v."""
-        return self.values_and_slopes(u, v)[1]
-
     def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
         """Both at once."""
         values, slopes = _turning_towards(self.surface, np.asarray(self.light), u, v)
         return values - self.cosine, slopes
+
+
+Contour = CentralContour | Isophote
 
 
 @dataclass(frozen=True, eq=False)
@@ -207,14 +217,14 @@ class PointIsophote(_Alike):
         way = self._way(u, v)[0]
         return dot(way, unit_normals(self.surface, u, v)) - self.cosine
 
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(...,) derivatives by u and by v."""
+    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+        """Both at once."""
         way, distance = self._way(u, v)
         unit, normal_u, normal_v = normal_partials(self.surface, u, v)
         along_u, along_v = self.surface.partials(u, v)
         with np.errstate(invalid="ignore", divide="ignore"):
             nearing = dot(unit, way) / distance
-        return (
+        return dot(way, unit) - self.cosine, (
             np.asarray(dot(normal_u, way) + nearing * dot(along_u, way)),
             np.asarray(dot(normal_v, way) + nearing * dot(along_v, way)),
         )
@@ -229,51 +239,29 @@ class PointIsophote(_Alike):
 
 @dataclass(frozen=True, eq=False)
 class ImplicitSection(_Alike):
-    """f = F(x(u, v)): the surface meets the implicit surface F = 0.
+    """f = F(x(u, v)): the surface meets the implicit surface F = 0, such as a plane, or one for each pair of parameters
+    that is asked for.
 
     Source: Glaeser, section 8.4, equation 29.
     """
 
     surface: Surface
-    implicit: ImplicitSurface
+    implicit: SpatialCondition
+
+    def on(self, surface: Surface, which: Ints) -> ImplicitSection:
+        """The same on another surface, with the planes of what is asked for."""
+        own = self.implicit.take(which) if isinstance(self.implicit, Planes) else self.implicit
+        return ImplicitSection(surface, own)
 
     def values(self, u: Floats, v: Floats) -> Floats:
         """(...,) F on the surface."""
         return self.implicit.values(self.surface.points(u, v))
 
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(...,) derivatives by u and by v."""
-        along_u, along_v = self.surface.partials(u, v)
-        gradients = self.implicit.gradients(self.surface.points(u, v))
-        return dot(gradients, along_u), dot(gradients, along_v)
-
-
-@dataclass(frozen=True, eq=False)
-class PlaneSection(_Alike):
-    """f = n.x - d: the surface meets the plane of the normal n (3,), of any length, kept as a unit vector, at the
-    offset d.
-
-    Errors: InputError for a normal without length, an offset that is not finite.
-    """
-
-    surface: Surface
-    normal: ArrayLike
-    offset: float
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "normal", normalize(vector("plane sections: normal", self.normal)))
-        number("plane sections: offset", self.offset)
-
-    def values(self, u: Floats, v: Floats) -> Floats:
-        """(...,) distances from the plane, positive on the side of its normal."""
-        return np.asarray(matmul(self.surface.points(u, v), np.asarray(self.normal)) - self.offset)
-
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(...,) derivatives by u and by v."""
-        along_u, along_v = self.surface.partials(u, v)
-        return np.asarray(matmul(along_u, np.asarray(self.normal))), np.asarray(
-            matmul(along_v, np.asarray(self.normal))
-        )
+    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
+        """Both at once."""
+        points, along_u, along_v = first_jets(self.surface, u, v)
+        gradients = self.implicit.gradients(points)
+        return self.implicit.values(points), (dot(gradients, along_u), dot(gradients, along_v))
 
 
 def _towards(surface: Surface, direction: Floats, u: Floats, v: Floats) -> Floats:

@@ -18,8 +18,7 @@ from vectorplot.features.conditions import (
     Contour,
     ImplicitSection,
     Isophote,
-    ParallelContour,
-    PlaneSection,
+    MeetsPlane,
     PointIsophote,
     StackedConditions,
     alone,
@@ -153,7 +152,8 @@ def parallel_contours(
     def found(conditions: StackedConditions[Any]) -> list[SurfaceCurves]:
         return curves_on_each(conditions, [1.0] * len(conditions), [ROUNDING_OF_TERMS] * len(conditions), tracing)
 
-    return _of_each(surfaces, lambda surface: ParallelContour(surface, direction), found, tracing)
+    towards = vector("contour: direction", direction)
+    return _of_each(surfaces, lambda surface: Isophote(surface, towards), found, tracing)
 
 
 # Isophotes: lines of equal illumination on a surface.
@@ -200,8 +200,8 @@ def isophotes(surface: Surface, light: ArrayLike, cosines: ArrayLike, *, tracing
     >>> curves.levels.tolist(), bool(np.allclose(curves[1][:, 2], 0.5))
     ([0.0, 0.5], True)
     """
-    condition = Isophote(uncut(with_derivatives(surface)), light, 0.0)
-    return cut_as(surface, _isophotes(condition, _levels(cosines), ROUNDING_OF_TERMS, tracing), condition)
+    condition = Isophote(uncut(with_derivatives(surface)), light)
+    return cut_as(surface, _isophotes(condition, levels_of(cosines), ROUNDING_OF_TERMS, tracing), condition)
 
 
 def point_light_isophotes(
@@ -213,7 +213,7 @@ def point_light_isophotes(
     Edge cases: a light on the surface: the curves end there.
     Source: Glaeser, section 8.4, equation 28, figure 15.
     """
-    lamp, levels = vector("isophotes: light", light), _levels(cosines)
+    lamp, levels = vector("isophotes: light", light), levels_of(cosines)
     condition = PointIsophote(uncut(with_derivatives(surface)), lamp, 0.0)
     points = samples(condition.surface)[2]
     if not len(points):
@@ -223,7 +223,8 @@ def point_light_isophotes(
     return cut_as(surface, _isophotes(condition, levels, rounding, tracing), condition)
 
 
-def _levels(cosines: ArrayLike) -> Floats:
+def levels_of(cosines: ArrayLike) -> Floats:
+    """(k,) the cosines of isophotes. Errors: InputError unless they are numbers in a row from -1 to 1."""
     levels = np.atleast_1d(np.asarray(cosines, dtype=np.float64))
     if levels.ndim != 1:
         raise InputError("isophotes: cosines must be numbers in a row")
@@ -320,7 +321,7 @@ def plane_sections(
         raise InputError("plane sections: offsets must be numbers in a row")
     for offset in levels.tolist():
         number("plane sections: offset", offset)
-    plane = PlaneSection(uncut(surface), normal, 0.0)
+    plane = ImplicitSection(uncut(surface), MeetsPlane(normal, 0.0))
     size, large = extent(plane.surface)
     roundings = ROUNDING_OF_TERMS * (large + np.abs(levels))
     found = curves_on_levels(plane.surface, plane, levels, size=size, roundings=roundings, tracing=tracing)

@@ -32,7 +32,6 @@ from vectorplot.tolerances import (
     CHORD_OF_EXTENT,
     FLAT_OF_VALUES,
     NODE_OF_VALUES,
-    REPEATED_OF_DOMAIN,
     RESOLUTION,
     ZERO_OF_EXTENT,
 )
@@ -217,46 +216,6 @@ class SurfaceCurves(NumberedLines):
 def together(families: Sequence[SurfaceCurves]) -> SurfaceCurves:
     """All the curves in one; a doubt that several of them have is said once."""
     return joined([no_curves(), *families])
-
-
-def with_points(curves: SurfaceCurves, after: Ints, u: Floats, v: Floats, points: Floats) -> tuple[SurfaceCurves, Ints]:
-    """The curves with points put in, and (k,) where these stand among the new points.
-
-    after (k,): positions in curves.u of the points that the new ones follow, one for each; u, v (k,) and points (k,3):
-    what is put in, in the order along the curves, parameters running on with those of the curve. A point of the curve
-    in whose place a new one comes, to within 1e-9 of what the parameters span, gives way to it.
-    """
-    place = np.asarray(after, dtype=np.intp)
-    if not len(place):
-        return curves, place
-    order = np.argsort(place, kind="stable")
-    at = np.empty_like(place)
-    at[order] = place[order] + 1 + np.arange(len(place))
-    curve = np.searchsorted(curves.offsets, place, side="right") - 1
-    span = np.array([np.ptp(x) if len(x) else 0.0 for x in (curves.u, curves.v)])
-    gone = np.zeros(len(curves.u) + len(place), dtype=np.bool_)
-    old_to_new = np.arange(len(curves.u)) + np.searchsorted(place[order], np.arange(len(curves.u)))
-    last = curves.offsets[curve + 1] - 1
-    for neighbour in (place, np.where(place < last, place + 1, place)):
-        apart = np.abs(np.stack([u - curves.u[neighbour], v - curves.v[neighbour]], axis=1))
-        gone[old_to_new[neighbour[(apart <= REPEATED_OF_DOMAIN * span).all(axis=1)]]] = True
-    kept = ~gone
-    sizes = np.diff(curves.offsets) + np.bincount(curve, minlength=len(curves))
-    bounds = ragged.offsets(sizes)
-    counts = ragged.offsets(kept)
-
-    def merged(old: Floats, new: Floats) -> Floats:
-        result = np.insert(old, place[order] + 1, np.asarray(new)[order], axis=0)
-        return np.asarray(result[kept])
-
-    return replace(
-        curves,
-        u=merged(curves.u, u),
-        v=merged(curves.v, v),
-        points=merged(curves.points, points),
-        directions=merged(curves.directions, np.full((len(place), 2), np.nan)),
-        offsets=counts[bounds].astype(np.intp),
-    ), counts[at].astype(np.intp)
 
 
 def no_curves(doubts: tuple[str, ...] = ()) -> SurfaceCurves:
@@ -459,6 +418,8 @@ def _without_noise(values: Floats, noise: Floats) -> Floats:
 def _to_rims(surface: Surface, curves: SurfaceCurves, resolution: float) -> SurfaceCurves:
     """The curves, those that end just before a hole led on straight to its rim: cells with a corner in a hole have no
     curve, and where a surface ends with a vertical tangent the last of them is high."""
+    # `led_to_holes` has followed f before, as far as there is a curve: without it ends are too far from the rim to be
+    # led on straight, and without this what is left between it and them is drawn as gaps and fragments.
     # An end that was followed up to a rim to the last bit may lie behind it: parameters are rounded once more.
     known = all_finite(curves.points)
     if not known.all():

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, no_curves
-from vectorplot.features.holes import wrapped
+from vectorplot.features.holes import ways_between, wrapped
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.chord_refinement import Traces, refined
@@ -18,7 +18,7 @@ from vectorplot.geometry.elementary import arctan2, power
 from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.geometry.weld import chained
-from vectorplot.surfaces.surface import Domain, ImplicitSurface, Surface, hessians
+from vectorplot.surfaces.surface import ImplicitSurface, Surface, hessians
 from vectorplot.tolerances import (
     BENT_ASIDE_OF_POLE,
     CHORD_OF_EXTENT,
@@ -580,7 +580,7 @@ def surface_feature_lines(
 
         met = crossings(points, grid.triangles, function(bending))
         a = grid.places[met.low]
-        b = a + _shortest(surface.domain, grid.places[met.high] - a)
+        b = a + ways_between(surface.domain, a, grid.places[met.high])
         places = zeros_between(asked, a, b, met.part)
         here = surface.points(*wrapped(surface.domain, *places.T))
         lengths = norm(here[met.pairs[:, 1]] - here[met.pairs[:, 0]])
@@ -637,12 +637,6 @@ def _outward(points: Floats, grid: _Grid) -> float:
     return 1.0 if float(np.nansum(dot(cross(a, b), c))) >= 0.0 else -1.0
 
 
-def _shortest(domain: Domain, ways: Floats) -> Floats:
-    """(k,2) ways between places, the short way round in closed directions."""
-    period = np.where((domain.closed_u, domain.closed_v), domain.size, np.inf)
-    return np.asarray(ways - np.where(np.isfinite(period), np.round(ways / period) * domain.size, 0.0))
-
-
 def _curves(
     surface: Surface, places: Floats, pairs: Ints, asked: Asked, extent: float, tracing: Tracing
 ) -> SurfaceCurves:
@@ -653,12 +647,12 @@ def _curves(
     domain, size = surface.domain, np.array(surface.domain.size)
     sizes, own = np.diff(branches.offsets), places[branches.points]
     first = np.repeat(ragged.starts(sizes), sizes)
-    steps = _shortest(domain, np.diff(own, axis=0, prepend=own[:1]))
+    steps = ways_between(domain, np.concatenate([own[:1], own[:-1]]), own)
     run = np.cumsum(steps, axis=0)
     own = own[first] + run - run[first]
     ends = branches.offsets[1:] - 1
     starts = branches.offsets[:-1]
-    again = own[ends] + _shortest(domain, own[starts] - own[ends])
+    again = own[ends] + ways_between(domain, own[ends], own[starts])
     turns = np.round((again - own[starts]) / size).astype(np.intp) * branches.closed[:, None]
     # Closed ones are led back to where they begin, whole periods away.
     back = np.flatnonzero(branches.closed)

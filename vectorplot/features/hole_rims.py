@@ -19,6 +19,7 @@ from vectorplot.features.holes import (
     ways_between,
     wrapped,
 )
+from vectorplot.features.intersection_grids import cell_corners
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, bisected, refined
 from vectorplot.geometry.connectivity import concat, edges_of
@@ -284,6 +285,13 @@ FINER = 2
 """Times as many columns and rows as other curves are traced on: a hole that no point of them is in may be missed."""
 
 
+def grid_triangles(columns: int, rows: int) -> Ints:
+    """(2 columns rows,3) the corners, among the (columns+1) (rows+1) points of a grid, of the lower and then the upper
+    triangles of its cells."""
+    a, b, c, d = cell_corners(columns, rows)
+    return np.concatenate([np.stack([a, b, c], axis=1), np.stack([a, c, d], axis=1)])
+
+
 def hole_rims(surface: Surface, tracing: Tracing) -> SurfaceCurves:
     """The lines inside the domain at which a surface ends, because its points are not finite beyond: the rims of its
     holes, and of what is cut off where it runs to infinity; the hole is to their right.
@@ -296,10 +304,7 @@ def hole_rims(surface: Surface, tracing: Tracing) -> SurfaceCurves:
     known = is_known(surface, places)
     if known.all() or not known.any():
         return no_curves()
-    lower = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
-    right, upper = lower + rows + 1, lower + 1
-    triangles = np.concatenate([np.stack([lower, right, right + 1], 1), np.stack([lower, right + 1, upper], 1)])
-    cut = cut_at_holes(surface, places, triangles, known)
+    cut = cut_at_holes(surface, places, grid_triangles(columns, rows), known)
     if not len(cut.rims):
         return no_curves()
     branches = concat(cut.rims)

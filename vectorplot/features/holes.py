@@ -25,14 +25,40 @@ def wrapped(domain: Domain, u: Floats, v: Floats) -> tuple[Floats, Floats]:
     return u, v
 
 
+def clipped(domain: Domain, places: Floats) -> Floats:
+    """(...,d) places (...,d), those beyond an open border on it."""
+    result = places.copy()
+    for axis, closed, low, high in (
+        (0, domain.closed_u, domain.u_start, domain.u_end),
+        (1, domain.closed_v, domain.v_start, domain.v_end),
+    ):
+        if not closed:
+            result[..., axis] = np.clip(places[..., axis], low, high)
+    return result
+
+
 def inside(domain: Domain, places: Floats) -> tuple[Floats, Floats]:
     """(k,) u and v of places within the domain: a place beyond an open border is the border's."""
-    u, v = wrapped(domain, places[:, 0], places[:, 1])
-    if not domain.closed_u:
-        u = np.clip(u, domain.u_start, domain.u_end)
-    if not domain.closed_v:
-        v = np.clip(v, domain.v_start, domain.v_end)
-    return u, v
+    within = clipped(domain, places)
+    return wrapped(domain, within[..., 0], within[..., 1])
+
+
+def ways_between(domain: Domain, start: Floats, end: Floats) -> Floats:
+    """(...,2) the ways from places (...,2) of a domain to others, the shorter ones round where it is closed."""
+    way = end - start
+    for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
+        if closed:
+            way[..., axis] -= size * np.round(way[..., axis] / size)
+    return way
+
+
+def near_to(domain: Domain, places: Floats, others: Floats) -> Floats:
+    """(k,2) the places (k,2), in closed directions whole periods away, that are nearest to others (k,2)."""
+    result = places.copy()
+    for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
+        if closed:
+            result[:, axis] += size * np.round((others[:, axis] - places[:, axis]) / size)
+    return result
 
 
 # Holes of surfaces: where in their domains they have no points, and where those areas begin.
@@ -162,12 +188,3 @@ def around(surface: Surface, places: Floats) -> Floats:
     ring = np.stack([np.cos(angle), np.sin(angle)], axis=1)
     size = np.broadcast_to(from_components(*surface.domain.size), places.shape)
     return np.asarray(places + AROUND_RIM * ring[:, None] * size)
-
-
-def ways_between(domain: Domain, start: Floats, end: Floats) -> Floats:
-    """(k,2) the ways from places (k,2) of a domain to others, the shorter ones round where it is closed."""
-    way = end - start
-    for axis, (closed, size) in enumerate(zip((domain.closed_u, domain.closed_v), domain.size, strict=True)):
-        if closed:
-            way[:, axis] -= size * np.round(way[:, axis] / size)
-    return way

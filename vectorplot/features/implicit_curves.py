@@ -11,16 +11,13 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import vector
 from vectorplot.errors import InputError
-from vectorplot.features.contours_and_isophotes import direction_across, in_planes
+from vectorplot.features.conditions import MeetsPlane, SpatialCondition
+from vectorplot.features.contours_and_isophotes import direction_across, in_planes, levels_of
 from vectorplot.features.implicit_singular_lines import STRAYS, SingularEquations, onto_lines
 from vectorplot.features.implicit_surfaces import (
     ImplicitCentralContour,
     ImplicitIsophote,
-    ImplicitParallelContour,
     ImplicitPointIsophote,
-    MeetsImplicit,
-    MeetsPlane,
-    SpatialCondition,
     curve_in_space,
     refined_chords,
     sides_of,
@@ -66,7 +63,8 @@ def implicit_parallel_contour(
     Edge cases: as for `implicit_contour`.
     Source: Glaeser, section 8.4, equation 27 for an eye at infinity.
     """
-    return curves_in_space(surface, ImplicitParallelContour(surface, direction), size=1.0, tracing=tracing)
+    towards = vector("contour: direction", direction)
+    return curves_in_space(surface, ImplicitIsophote(surface, towards), size=1.0, tracing=tracing)
 
 
 def implicit_isophotes(
@@ -78,7 +76,7 @@ def implicit_isophotes(
     Edge cases: a flat part at just that angle gives no lines, and a doubt; c = 1 gives isolated points.
     Source: Glaeser, section 8.4, equation 28.
     """
-    return _family(surface, lambda c: (ImplicitIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
+    return _family(surface, lambda c: (ImplicitIsophote(surface, light, c), 1.0), levels_of(cosines), tracing)
 
 
 def implicit_point_light_isophotes(
@@ -90,7 +88,7 @@ def implicit_point_light_isophotes(
     Edge cases: as for `implicit_isophotes`.
     Source: Glaeser, section 8.4, equation 28.
     """
-    return _family(surface, lambda c: (ImplicitPointIsophote(surface, light, c), 1.0), _cosines(cosines), tracing)
+    return _family(surface, lambda c: (ImplicitPointIsophote(surface, light, c), 1.0), levels_of(cosines), tracing)
 
 
 def implicit_intersection(
@@ -108,7 +106,7 @@ def implicit_intersection(
     long = np.linalg.norm(other.gradients(mesh.vertices), axis=1)
     slope = float(np.quantile(long[np.isfinite(long)], 0.95)) if np.isfinite(long).any() else 0.0
     size = slope * float(np.ptp(np.asarray(surface.box), axis=0).max())
-    return curves_in_space(surface, MeetsImplicit(other), size=size or 1.0, tracing=tracing)
+    return curves_in_space(surface, other, size=size or 1.0, tracing=tracing)
 
 
 def implicit_plane_sections(
@@ -142,13 +140,6 @@ def _family(
         one, size = condition(level)
         families.append(curves_in_space(surface, one, size=size, tracing=tracing, level=level))
     return all_curves([no_curves(doubts), *families])
-
-
-def _cosines(cosines: ArrayLike) -> Floats:
-    levels = np.atleast_1d(np.asarray(cosines, dtype=np.float64))
-    if levels.ndim != 1 or not (np.abs(levels) <= 1.0).all():
-        raise InputError("isophotes: cosines must lie between -1 and 1")
-    return levels
 
 
 def implicit_tangent_sections(

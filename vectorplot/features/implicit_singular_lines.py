@@ -8,7 +8,8 @@ from typing import Protocol
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.implicit_surfaces import BOXED, Plane, SpatialCondition, checked_values, sides_of
+from vectorplot.features.conditions import SpatialCondition
+from vectorplot.features.implicit_surfaces import BOXED, Plane, checked_values, sides_of
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul, pseudo_inverse, singular_decomposition, symmetric_eigen
 from vectorplot.geometry.connectivity import concat

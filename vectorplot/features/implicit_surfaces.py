@@ -4,15 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any, Protocol
+from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.curves.curve import number, vector
+from vectorplot.curves.curve import vector
 from vectorplot.errors import InputError
-from vectorplot.features.conditions import check_cosine
+from vectorplot.features.conditions import SpatialCondition, check_cosine
 from vectorplot.features.scalar_fields import bracketed_zeros
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
@@ -433,18 +433,6 @@ def _connection(mesh: Mesh) -> tuple[int, int, int]:
 # One place for each formula: tracers follow these curves, and visibility is decided by the same functions.
 
 
-class SpatialCondition(Protocol):
-    """What holds along a curve on an implicit surface: g = 0, g defined in space around the surface."""
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) g at points (..., 3)."""
-        ...
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients of g."""
-        ...
-
-
 @dataclass(frozen=True, eq=False)
 class ImplicitCentralContour:
     """g = N.(x - eye), N the unit gradient of F, eye (3,): positive where N points away from the eye, NaN where the
@@ -476,32 +464,9 @@ class ImplicitCentralContour:
 
 
 @dataclass(frozen=True, eq=False)
-class ImplicitParallelContour:
-    """g = N.d: the surface turns away from an eye at infinity in the direction d (3,), of any length, kept as a unit
-    vector. Positive where the unit gradient N of F points towards the eye.
-
-    Errors: InputError for a direction without length.
-    Edge cases: NaN where the gradient of F vanishes.
-    """
-
-    surface: ImplicitSurface
-    direction: ArrayLike
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "direction", normalize(vector("contour: direction", self.direction)))
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) cosines of the angles between normal and direction."""
-        return np.asarray(matmul(implicit_unit_normals(self.surface, points), np.asarray(self.direction)))
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients."""
-        return _turning(self.surface, points, np.broadcast_to(np.asarray(self.direction), points.shape))[1]
-
-
-@dataclass(frozen=True, eq=False)
 class ImplicitIsophote:
-    """g = N.l - c: parallel light l (3,), of any length, kept as a unit vector, meets the surface at the cosine c.
+    """g = N.l - c: parallel light l (3,), of any length, kept as a unit vector, meets the surface at the cosine c; at 0
+    the surface turns away from an eye at infinity in that direction. NaN where the gradient of F vanishes.
 
     Errors: InputError for a light without length, a cosine not within -1 and 1.
     Source: Glaeser, section 8.4, equation 28.
@@ -509,7 +474,7 @@ class ImplicitIsophote:
 
     surface: ImplicitSurface
     light: ArrayLike
-    cosine: float
+    cosine: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "light", normalize(vector("isophotes: light", self.light)))
@@ -557,44 +522,6 @@ class ImplicitPointIsophote:
         distance = np.linalg.norm(way, axis=-1, keepdims=True)
         with np.errstate(invalid="ignore", divide="ignore"):
             return np.asarray(way / distance), np.asarray(distance)
-
-
-@dataclass(frozen=True, eq=False)
-class MeetsImplicit:
-    """g = F of another implicit surface: where the two meet. Source: Glaeser, section 8.4, equation 29."""
-
-    other: ImplicitSurface
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) F of the other surface."""
-        return self.other.values(points)
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) gradients."""
-        return self.other.gradients(points)
-
-
-@dataclass(frozen=True, eq=False)
-class MeetsPlane:
-    """g = n.x - d: the plane of the normal n (3,), of any length, kept as a unit vector, at the offset d.
-
-    Errors: InputError for a normal without length, an offset that is not finite.
-    """
-
-    normal: ArrayLike
-    offset: float
-
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "normal", normalize(vector("plane sections: normal", self.normal)))
-        number("plane sections: offset", self.offset)
-
-    def values(self, points: Floats) -> Floats:
-        """(...,) distances from the plane, positive on the side of its normal."""
-        return np.asarray(matmul(points, np.asarray(self.normal)) - self.offset)
-
-    def gradients(self, points: Floats) -> Floats:
-        """(..., 3) the normal, everywhere."""
-        return np.broadcast_to(np.asarray(self.normal), points.shape).copy()
 
 
 def implicit_unit_normals(surface: ImplicitSurface, points: Floats) -> Floats:

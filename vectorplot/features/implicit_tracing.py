@@ -9,12 +9,12 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.features.conditions import SpatialCondition
 from vectorplot.features.implicit_meshes import Band, ImplicitMesh, Nodes, curve_band, implicit_mesh, sheets_apart
 from vectorplot.features.implicit_singular_lines import SingularLines
 from vectorplot.features.implicit_surfaces import (
     CurveInSpace,
     Picture,
-    SpatialCondition,
     checked_values,
     curve_in_space,
     onto_surface,
@@ -38,7 +38,7 @@ from vectorplot.geometry.polylines import (
     joined,
 )
 from vectorplot.geometry.records import APART
-from vectorplot.geometry.vectors import norm
+from vectorplot.geometry.vectors import dot, norm
 from vectorplot.geometry.weld import close_points, one_each
 from vectorplot.surfaces.surface import ImplicitSurface, hessians
 from vectorplot.tolerances import (
@@ -143,7 +143,7 @@ def special_points(curve: CurveInSpace, own: ImplicitMesh, band: Band) -> Specia
         return SpecialPoints(singular, np.full(len(singular), ROUND_SINGULAR * longest), near, 0.0, near)
     finest = float(np.median(np.linalg.norm(triangles - np.roll(triangles, 1, axis=1), axis=2).max(axis=1)))
     middles = triangles.mean(axis=1)
-    middles = middles[_apart(middles, singular, 2.0 * ROUND_SINGULAR * longest)]
+    middles = middles[_lie_apart(middles, singular, 2.0 * ROUND_SINGULAR * longest)]
     heads = one_each(middles, 3.0 * finest)
     found, settled, ratio = _critical(curve, middles[heads], 10.0 * finest)
     zero = settled & (np.abs(curve.values(found)) <= NODE_IN_SPACE * curve.size)
@@ -161,7 +161,7 @@ def isolated_singular_points(surface: ImplicitSurface, own: ImplicitMesh, reach:
     found = singular_points(surface, own.mesh, reach)
     sides = sides_of(surface)
     for _, lines in own.lines.kinds:
-        found = found[_apart(found, lines.points, reach)]
+        found = found[_lie_apart(found, lines.points, reach)]
         open_ = ~lines.closed
         ends = lines.points[np.concatenate([lines.offsets[:-1][open_], lines.offsets[1:][open_] - 1])]
         inside = sides.has(ends) & ~sides.on(ends).any(axis=1)
@@ -259,124 +259,49 @@ def joined_at_nodes(lines: Traces, closed: Bools, special: SpecialPoints) -> tup
 
     closed (m,): which polylines are. Curves that lie near an isolated point as a whole are dropped.
     """
-    points = lines.points
-    node = np.full(len(points), -1)
-    for k, (place, radius) in enumerate(zip(special.nodes, special.radii, strict=True)):
-        node[np.linalg.norm(points - place, axis=1) < radius] = k
+    points, nodes = lines.points, special.nodes
+    about = np.full(len(points), -1)
+    for k, (place, radius) in enumerate(zip(nodes, special.radii, strict=True)):
+        about[np.linalg.norm(points - place, axis=1) < radius] = k
     for place in special.isolated:
-        node[(np.linalg.norm(points - place, axis=1) < special.near) & (node < 0)] = len(special.nodes)
-    starts = np.append(0, lines.ends + 1)
-    line = ragged.owner(np.diff(starts))
-    touched = np.bincount(line[node >= 0], minlength=len(closed)) > 0
-    if not touched.any():
+        about[(np.linalg.norm(points - place, axis=1) < special.near) & (about < 0)] = len(nodes)
+    if (about < 0).all():
         return lines, closed
-    whole = [points[a:b] for a, b, t in zip(starts[:-1], starts[1:], touched, strict=True) if not t]
-    flags = closed[~touched].tolist()
-    pieces: list[Floats] = []
-    ends: list[tuple[int, int]] = []
-    for k in np.flatnonzero(touched).tolist():
-        run = slice(starts[k], starts[k + 1])
-        cut_pieces, cut_ends = _cut(points[run], node[run], bool(closed[k]), special.nodes)
-        pieces += cut_pieces
-        ends += cut_ends
-    joined, rings = _through(pieces, np.array(ends, dtype=np.intp).reshape(-1, 2))
-    parts = [part for part in whole + joined if len(part) > 1]
-    flags = [f for f, part in zip(flags + rings, whole + joined, strict=True) if len(part) > 1]
-    if not parts:
-        return Traces(points[:0], lines.last[:0]), closed[:0]
-    is_last = np.zeros(sum(len(part) for part in parts), dtype=np.bool_)
-    is_last[np.cumsum([len(part) for part in parts]) - 1] = True
-    return Traces(np.concatenate(parts), is_last), np.array(flags, dtype=np.bool_)
+    # Of a closed polyline the last point is the first one once more.
+    vertex = np.arange(len(points))
+    vertex[lines.ends[closed]] = lines.starts[closed]
+    begin = np.flatnonzero(~lines.last)
+    pairs = np.stack([vertex[begin], vertex[begin + 1]], axis=1)
+    low, high = np.sort(about[pairs], axis=1).T
+    leads = np.flatnonzero((low < 0) & (high >= 0) & (high < len(nodes)))
+    end, node = pairs[leads, about[pairs[leads]].argmin(axis=1)], high[leads]
+    # Each pair of ends has a copy of the node to itself.
+    copy = len(points) + _straight_on(points[end] - nodes[node], node)
+    branches = concat(np.concatenate([pairs[high < 0], np.stack([end, copy], axis=1)]))
+    found = np.concatenate([points, nodes[node]])[branches.points]
+    return Traces.of(found, closed_round(branches)), branches.closed
 
 
-def _cut(points: Floats, node: Ints, closed: bool, nodes: Floats) -> tuple[list[Floats], list[tuple[int, int]]]:
-    """The pieces of a polyline outside the nodes' neighbourhoods (node (p,) >= 0), led into them; and for each the
-    nodes at its two ends, or -1."""
-    if closed:
-        shift = int(np.argmax(node >= 0))
-        turn = (np.arange(len(points)) + shift) % (len(points) - 1)
-        turn[-1] = shift % (len(points) - 1)
-        points, node = points[turn], node[turn]
-    outside = node < 0
-    begins = np.flatnonzero(outside & ~np.concatenate([[False], outside[:-1]]))
-    stops = np.flatnonzero(outside & ~np.concatenate([outside[1:], [False]])) + 1
-    pieces, ends = [], []
-    for a, b in zip(begins, stops, strict=True):
-        before = int(node[a - 1]) if a > 0 else -1
-        after = int(node[b]) if b < len(node) else -1
-        before, after = (k if k < len(nodes) else -1 for k in (before, after))
-        parts = [points[a:b]]
-        if before >= 0:
-            parts.insert(0, nodes[before : before + 1])
-        if after >= 0:
-            parts.append(nodes[after : after + 1])
-        pieces.append(np.concatenate(parts))
-        ends.append((before, after))
-    return pieces, ends
-
-
-def _through(pieces: list[Floats], ends: Ints) -> tuple[list[Floats], list[bool]]:
-    """The pieces joined in pairs at their nodes, the straightest pairs first; and which of the results are closed."""
-    mate = {}
-    for node in np.unique(ends[ends >= 0]):
-        here = [(int(k), int(side)) for k, side in np.argwhere(ends == node)]
-        inward = np.array(
-            [
-                pieces[k][min(1, len(pieces[k]) - 1)] - pieces[k][0]
-                if side == 0
-                else pieces[k][-min(2, len(pieces[k]))] - pieces[k][-1]
-                for k, side in here
-            ]
-        )
-        inward /= np.maximum(np.linalg.norm(inward, axis=1, keepdims=True), LEAST_DIVISOR)
-        if len(here) % 2:
+def _straight_on(ways: Floats, node: Ints) -> Ints:
+    """(k,) numbers of ways (k,3) out of nodes (k,), one for two that go straight on in each other, the straightest
+    pairs first; where an odd number of them leaves a node, each ends there."""
+    unit = ways / np.maximum(norm(ways), LEAST_DIVISOR)[:, None]
+    result, order = np.arange(len(ways)), np.argsort(node, kind="stable")
+    for own in np.split(order, np.flatnonzero(np.diff(node[order])) + 1):
+        if len(own) % 2:
             continue
-        cosine = matmul(inward, inward.T)
-        np.fill_diagonal(cosine, np.inf)
-        free = set(range(len(here)))
-        for flat in np.argsort(cosine, axis=None, kind="stable"):
-            i, j = divmod(int(flat), len(here))
-            if i != j and i in free and j in free:
-                free -= {i, j}
-                mate[here[i]], mate[here[j]] = here[j], here[i]
-    return _chained(pieces, mate)
-
-
-def _chained(pieces: list[Floats], mate: dict[tuple[int, int], tuple[int, int]]) -> tuple[list[Floats], list[bool]]:
-    """The pieces one after the other along mate, which links their ends (piece, side); closed ones repeat their first
-    point."""
-    used: set[int] = set()
-    lines, rings = [], []
-    loose = [k for k in range(len(pieces)) if (k, 0) not in mate] + [
-        k for k in range(len(pieces)) if (k, 1) not in mate
-    ]
-    for first in loose + list(range(len(pieces))):
-        if first in used:
-            continue
-        # Enter at the loose end.
-        entry: tuple[int, int] | None = (first, 1 if (first, 1) not in mate and (first, 0) in mate else 0)
-        parts: list[Floats] = []
-        while entry is not None and entry[0] not in used:
-            used.add(entry[0])
-            own = pieces[entry[0]] if entry[1] == 0 else pieces[entry[0]][::-1]
-            parts.append(own if not parts else own[1:])
-            entry = mate.get((entry[0], 1 - entry[1]))
-        lines.append(np.concatenate(parts))
-        rings.append(entry is not None)
-    return lines, rings
+        one, two = np.triu_indices(len(own), 1)
+        free = np.ones(len(own), dtype=np.bool_)
+        for k in np.argsort(dot(unit[own[one]], unit[own[two]]), kind="stable").tolist():
+            if free[one[k]] and free[two[k]]:
+                free[one[k]] = free[two[k]] = False
+                result[own[two[k]]] = own[one[k]]
+    return result
 
 
 def _distinct(points: Floats, distance: float) -> Floats:
     """(k,3) the points, those within a distance of one another as one."""
     return points[np.unique(close_points(points, distance))] if len(points) else points
-
-
-def _apart(points: Floats, others: Floats, distance: float) -> Ints:
-    """Indices of the points (k,3) further than a distance from all others."""
-    kept = np.ones(len(points), dtype=np.bool_)
-    for other in others:
-        kept &= np.linalg.norm(points - other, axis=1) > distance
-    return np.flatnonzero(kept)
 
 
 # Curves on implicit surfaces where a condition holds: found on a mesh, every point refined on both equations.

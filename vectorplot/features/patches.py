@@ -11,7 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import extent
-from vectorplot.features.holes import wrapped
+from vectorplot.features.holes import clipped, ways_between, wrapped
 from vectorplot.features.intersection_grids import FREE, GridNodes, Tessellation, cell_corners, grid_nodes
 from vectorplot.geometry import ragged
 from vectorplot.geometry.connectivity import edges_of
@@ -286,7 +286,7 @@ class OnSurfaces(ABC):
         # Each parameter by itself: near a pole one of them runs far while the other hardly moves.
         size = _size(surface)
         longest = np.maximum(LONGEST_STEP * size / self.grid, LONGEST_PART * size)
-        return _with_numbers(_inside(surface, places[:, :2] + np.clip(change, -longest, longest)), places)
+        return _with_numbers(clipped(surface.domain, places[:, :2] + np.clip(change, -longest, longest)), places)
 
     def along_constraints(self, places: Floats, constraints: Ints) -> Floats:
         """(k,3) derivatives by the other parameter than the one that constraints (k,), 0 or 1, keep."""
@@ -332,10 +332,7 @@ class OnSurfaces(ABC):
         return np.array([self.columns, self.rows])
 
     def _between(self, places: Floats, others: Floats) -> Floats:
-        surface, d = self.surface_at(places), places[..., :2] - others[..., :2]
-        size = _size(surface)
-        turns = np.where((surface.domain.closed_u, surface.domain.closed_v), np.round(d / size), 0.0)
-        return np.asarray(d - turns * size)
+        return ways_between(self.surface_at(places).domain, others[..., :2], places[..., :2])
 
 
 @dataclass(frozen=True, eq=False)
@@ -479,18 +476,6 @@ def _size(surface: Surface) -> Floats:
 def _with_numbers(parameters: Floats, places: Floats) -> Floats:
     """(k,d) places of these parameters (k,2) on the patches of other places."""
     return np.concatenate([parameters, places[..., 2:]], axis=-1) if places.shape[-1] > 2 else parameters
-
-
-def _inside(surface: Surface, parameters: Floats) -> Floats:
-    domain = surface.domain
-    result = parameters.copy()
-    for axis, closed, low, high in (
-        (0, domain.closed_u, domain.u_start, domain.u_end),
-        (1, domain.closed_v, domain.v_start, domain.v_end),
-    ):
-        if not closed:
-            result[:, axis] = np.clip(parameters[:, axis], low, high)
-    return result
 
 
 def _inverse(matrices: Floats) -> Floats:

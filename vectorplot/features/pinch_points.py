@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.features.conditions import Contour, ParallelContour, Slopes
-from vectorplot.features.holes import wrapped
+from vectorplot.features.conditions import Contour, Isophote, Slopes
+from vectorplot.features.holes import clipped, wrapped
 from vectorplot.geometry.vectors import all_finite, cross, dot, from_components
 from vectorplot.geometry.weld import close_points
 from vectorplot.surfaces.surface import Domain, Surface, normals, second_jets
@@ -58,7 +58,7 @@ def pinch_points(surface: Surface) -> PinchPoints:
     found = _Products.at(surface, at)
     for _ in range(ROUNDS if len(at) else 0):
         step = found.step()
-        at = np.where(all_finite(step)[:, None], _inside(domain, at + np.nan_to_num(step) * size), at)
+        at = np.where(all_finite(step)[:, None], clipped(domain, at + np.nan_to_num(step) * size), at)
         settled = np.abs(step).max(axis=1) <= PINCH_SETTLED
         found = _Products.at(surface, at)
         if settled.all():
@@ -90,18 +90,6 @@ def _least(values: Floats, domain: Domain) -> Bools:
     m, n = values.shape
     shifted = [around[a : a + m, b : b + n] for a in range(3) for b in range(3)]
     return np.asarray((values <= np.minimum.reduce(shifted)) & np.isfinite(values))
-
-
-def _inside(domain: Domain, at: Floats) -> Floats:
-    """(k,2) parameters, not beyond open borders."""
-    u, v = at.T
-    return np.stack(
-        [
-            u if domain.closed_u else np.clip(u, domain.u_start, domain.u_end),
-            v if domain.closed_v else np.clip(v, domain.v_start, domain.v_end),
-        ],
-        axis=1,
-    )
 
 
 @dataclass(frozen=True, eq=False)
@@ -219,9 +207,11 @@ class ThroughPinchPoints:
     def _jets(self, u: Floats, v: Floats) -> tuple[Floats, Floats, Floats]:
         """(k,) f and its derivatives by u and by v, next to pinch points."""
         points, product, by_u, by_v = _turning(self.surface, u, v)
-        sight = self.contour.sights(u, v)
-        if not isinstance(self.contour, ParallelContour):
-            sight = -sight
+        contour = self.contour
+        if isinstance(contour, Isophote):
+            sight = np.broadcast_to(np.asarray(contour.light), points.shape)
+        else:
+            sight = points - np.asarray(contour.eye)
         arms, width = self._arms(u, v), np.array(self.surface.domain.size)
         rest = 1.0 - dot(arms, arms)
         own = np.argmax(rest * self.pinches.turning[:, None], axis=0)

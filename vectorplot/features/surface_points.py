@@ -11,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.features.curve_tracing import poles
-from vectorplot.features.holes import wrapped
+from vectorplot.features.holes import near_to, wrapped
 from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.features.mesh_feature_lines import noisy_bending
 from vectorplot.features.mesh_lines import face_triangles
@@ -139,12 +139,7 @@ class Charts:
 
     def near_to(self, places: Floats, others: Floats) -> Floats:
         """(k,2) the places, in closed directions whole periods away, that are nearest to others (k,2)."""
-        result = places.copy()
-        for axis, closed in enumerate((self.domain.closed_u, self.domain.closed_v)):
-            if closed:
-                period = self.domain.size[axis]
-                result[:, axis] += period * np.rint((others[:, axis] - places[:, axis]) / period)
-        return result
+        return near_to(self.domain, places, others)
 
     @cached_property
     def _borders(self) -> tuple[tuple[int, float, float, float], ...]:

@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing, Paths
-from vectorplot.features.conditions import CentralContour, ParallelContour
+from vectorplot.features.conditions import CentralContour, Isophote
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
@@ -347,7 +347,7 @@ def _to_surface(surface: Surface, points: Floats, way: Floats, camera: Camera | 
     at = np.stack([places.u[:, 0], places.v[:, 0]], axis=1)
     if camera is None:
         return surface.points(at[:, 0], at[:, 1])
-    condition = ParallelContour(surface, camera.direction) if camera.parallel else CentralContour(surface, camera.eye)
+    condition = Isophote(surface, camera.direction) if camera.parallel else CentralContour(surface, camera.eye)
     for _ in range(STEPS):
         u, v = at.T
         f, g = condition.values(u, v), ((surface.points(u, v) - points) * way).sum(axis=1)

@@ -23,8 +23,7 @@ def in_triangles(corners: np.ndarray, values: np.ndarray) -> np.ndarray:
     """(s, 2, 2) the segments along which linear functions vanish in triangles (m, 3, 2).
 
     values (m, 3) are those at the corners. A triangle whose values have one sign has none; no value is 0. They come in
-    the order of the triangles; the ends of
-    each may be swapped.
+    the order of the triangles; the ends of each may be swapped.
     """
     raise NotImplementedError
 

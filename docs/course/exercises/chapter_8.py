@@ -35,8 +35,8 @@ def akima(times: np.ndarray, values: np.ndarray, t: np.ndarray) -> np.ndarray:
 
     The chords between keys have the slopes m[0] ... m[k-2]. Two more are put at either end: m[-1] = 2 m[0] - m[1],
     m[-2] = 2 m[-1] - m[0], likewise on the right. The slope at key i is (w1 m[i-1] + w2 m[i]) / (w1 + w2) with
-    w1 = |m[i+1] - m[i]| and w2 = |m[i-1] - m[i-2]|; where both are 0, the mean of m[i-1] and m[i]. Between two keys runs
-    the cubic with these values and slopes.
+    w1 = |m[i+1] - m[i]| and w2 = |m[i-1] - m[i-2]|; where both are 0, the mean of m[i-1] and m[i]. Between two keys
+    runs the cubic with these values and slopes.
     """
     raise NotImplementedError
 

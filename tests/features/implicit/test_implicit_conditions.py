@@ -4,13 +4,11 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
+from vectorplot.features.conditions import MeetsPlane
 from vectorplot.features.implicit_surfaces import (
     ImplicitCentralContour,
     ImplicitIsophote,
-    ImplicitParallelContour,
     ImplicitPointIsophote,
-    MeetsImplicit,
-    MeetsPlane,
 )
 from vectorplot.surfaces.quadrics import implicit_sphere
 from vectorplot.surfaces.tori import ImplicitTorus
@@ -18,10 +16,10 @@ from vectorplot.surfaces.tori import ImplicitTorus
 TORUS = ImplicitTorus(3.0, 1.0)
 CONDITIONS = {
     "central": ImplicitCentralContour(TORUS, (8, -3, 6)),
-    "parallel": ImplicitParallelContour(TORUS, (1, 2, 3)),
+    "parallel": ImplicitIsophote(TORUS, (1, 2, 3)),
     "isophote": ImplicitIsophote(TORUS, (2, 1, 3), 0.3),
     "point isophote": ImplicitPointIsophote(TORUS, (5, 1, 3), 0.3),
-    "implicit": MeetsImplicit(implicit_sphere(2.0)),
+    "implicit": implicit_sphere(2.0),
     "plane": MeetsPlane((1, 2, 3), 0.4),
 }
 

@@ -10,8 +10,7 @@ from vectorplot.features.conditions import (
     CentralContour,
     ImplicitSection,
     Isophote,
-    ParallelContour,
-    PlaneSection,
+    MeetsPlane,
     PointIsophote,
 )
 from vectorplot.surfaces.function_surface import surface_of_function
@@ -32,11 +31,11 @@ EYE = (8.0, -3.0, 6.0)
 LIGHT = (2.0, 1.0, 3.0)
 CONDITIONS = {
     "central contour": lambda s: CentralContour(s, EYE),
-    "parallel contour": lambda s: ParallelContour(s, EYE),
+    "parallel contour": lambda s: Isophote(s, EYE),
     "isophote": lambda s: Isophote(s, LIGHT, 0.3),
     "point isophote": lambda s: PointIsophote(s, LIGHT, 0.3),
     "implicit section": lambda s: ImplicitSection(s, ImplicitTorus(2.0, 1.0)),
-    "plane section": lambda s: PlaneSection(s, LIGHT, 0.3),
+    "plane section": lambda s: ImplicitSection(s, MeetsPlane(LIGHT, 0.3)),
 }
 every_condition = pytest.mark.parametrize("condition", CONDITIONS.values(), ids=CONDITIONS.keys())
 every_surface = pytest.mark.parametrize("surface", SURFACES.values(), ids=SURFACES.keys())
@@ -78,11 +77,11 @@ def test_values_on_a_sphere_in_closed_form():
     u, v = inner_parameters(sphere.domain)
     n = sphere.points(u, v) / 2.0
     assert np.abs(CentralContour(sphere, EYE).values(u, v) - (2.0 - n @ eye)).max() < 1e-13
-    assert np.abs(ParallelContour(sphere, 3.0 * eye).values(u, v) - n @ eye / np.linalg.norm(eye)).max() < 1e-14
+    assert np.abs(Isophote(sphere, 3.0 * eye).values(u, v) - n @ eye / np.linalg.norm(eye)).max() < 1e-14
     assert np.abs(Isophote(sphere, LIGHT, 0.25).values(u, v) - (n @ light - 0.25)).max() < 1e-14
     far = np.linalg.norm(eye - 2.0 * n, axis=-1)
     assert np.abs(PointIsophote(sphere, EYE, -0.5).values(u, v) - ((n @ eye - 2.0) / far + 0.5)).max() < 1e-14
-    assert np.abs(PlaneSection(sphere, LIGHT, 0.5).values(u, v) - (2.0 * n @ light - 0.5)).max() < 1e-14
+    assert np.abs(ImplicitSection(sphere, MeetsPlane(LIGHT, 0.5)).values(u, v) - (2.0 * n @ light - 0.5)).max() < 1e-14
     assert np.abs(ImplicitSection(sphere, implicit_sphere(1.0)).values(u, v)).min() > 0.1
 
 
@@ -91,7 +90,7 @@ def test_values_on_a_sphere_in_closed_form():
 def test_at_the_poles_of_a_sphere_slopes_are_the_limits(u, end):
     # There N = (cos v cos u, cos v sin u, sin v) does not turn with u, and with v by -sin v (cos u, sin u, 0).
     at = np.array(u), np.array(end * np.pi / 2)
-    by_u, by_v = ParallelContour(Sphere(2.0), (3.0, 0.0, 4.0)).slopes(*at)
+    by_u, by_v = Isophote(Sphere(2.0), (3.0, 0.0, 4.0)).slopes(*at)
     assert abs(by_u) < 2e-5 and abs(by_v + 0.6 * end * np.cos(u)) < 2e-5
     for condition in (CentralContour(Sphere(2.0), EYE), PointIsophote(Sphere(2.0), EYE, 0.1)):
         assert np.isfinite([condition.values(*at), *condition.slopes(*at)]).all()
@@ -100,8 +99,8 @@ def test_at_the_poles_of_a_sphere_slopes_are_the_limits(u, end):
 def test_at_the_apex_of_a_cone_the_normal_turns_with_the_ruling():
     cone, u = Cone.standing(2.0, 3.0), np.linspace(0.1, 6.0, 9)
     height = cone.domain.v_end
-    by_u, by_v = ParallelContour(cone, (1.0, 0.0, 0.0)).slopes(u, np.full(9, height))
-    near = ParallelContour(cone, (1.0, 0.0, 0.0)).slopes(u, np.full(9, 0.5 * height))
+    by_u, by_v = Isophote(cone, (1.0, 0.0, 0.0)).slopes(u, np.full(9, height))
+    near = Isophote(cone, (1.0, 0.0, 0.0)).slopes(u, np.full(9, 0.5 * height))
     assert np.abs(by_u - near[0]).max() < 1e-5 and np.abs(by_v).max() < 1e-8
 
 
@@ -117,10 +116,10 @@ def test_bad_conditions_are_refused():
     torus = Torus(3.0, 1.0)
     for bad in (
         lambda: CentralContour(torus, (1, 2, np.nan)),
-        lambda: ParallelContour(torus, (0, 0, 0)),
+        lambda: Isophote(torus, (0, 0, 0)),
         lambda: Isophote(torus, LIGHT, 1.5),
         lambda: PointIsophote(torus, LIGHT, np.nan),
-        lambda: PlaneSection(torus, LIGHT, np.inf),
+        lambda: ImplicitSection(torus, MeetsPlane(LIGHT, np.inf)),
     ):
         with pytest.raises(InputError):
             bad()

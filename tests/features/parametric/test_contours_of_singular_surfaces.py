@@ -8,9 +8,7 @@ from support.effort import several
 
 import vectorplot as vp
 from vectorplot import curves, features, surfaces
-from vectorplot.features.conditions import CentralContour, ParallelContour
 from vectorplot.features.contours_and_isophotes import parallel_contour
-from vectorplot.features.cusps import contour_with_cusps
 from vectorplot.features.holes import wrapped
 from vectorplot.features.pinch_points import pinch_points
 from vectorplot.surfaces.stacked import unit_normals
@@ -51,10 +49,8 @@ BESIDE = 0.01
 
 
 def wrong_part(surface, eye, parallel):
-    """The part of a contour, with its cusps, along which the surface does not turn away; and its length."""
-    condition = (ParallelContour if parallel else CentralContour)(surface, eye)
+    """The part of a contour along which the surface does not turn away; and its length."""
     found = (parallel_contour if parallel else features.contour)(surface, eye)
-    found, _ = contour_with_cusps(condition, found)
     wrong = total = 0.0
     share = (np.arange(8) + 0.5) / 8.0
     for start, end in zip(found.offsets[:-1], found.offsets[1:], strict=True):

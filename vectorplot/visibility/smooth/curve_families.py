@@ -9,15 +9,14 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.features.conditions import Slopes, SurfaceCondition
+from vectorplot.features.conditions import ImplicitSection, Planes, SpatialCondition, SurfaceCondition
 from vectorplot.features.holes import beside_rim_chords, inside
 from vectorplot.features.implicit_singular_lines import SingularEquations, line_tangents, onto_lines
-from vectorplot.features.implicit_surfaces import SpatialCondition
 from vectorplot.geometry import records
 from vectorplot.geometry.vectors import all_finite, cross, dot, from_components
 from vectorplot.surfaces.splines import SplineSurface
 from vectorplot.surfaces.stacked import of_some
-from vectorplot.surfaces.surface import Surface, first_jets
+from vectorplot.surfaces.surface import first_jets
 from vectorplot.tolerances import FAMILY_SETTLED, JUST_BEFORE, LEAST_DIVISOR, MISSED_OF_CHORD, TOUCHING_SHEETS_SINE
 from vectorplot.visibility.smooth.sheets import ImplicitSheet, OnParametrised, TangentPlanes
 
@@ -456,7 +455,7 @@ class FaceCurves:
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords."""
         normals, points = chords.second_places[0], chords.points[0]
-        faces = _PlaneSections(self.surface.surface_at(chords.places[0]), normals, dot(points, normals))
+        faces = ImplicitSection(self.surface.surface_at(chords.places[0]), Planes(normals, dot(points, normals)))
         return ConditionCurves(self.surface, self.sheet, faces).between(_level(chords), part)
 
 
@@ -471,50 +470,8 @@ class ImplicitFaceCurves:
     def between(self, chords: Chords, part: Floats) -> Along:
         """The curves at a part of their chords."""
         normals, points = chords.second_places[0], chords.points[0]
-        faces = _Planes(normals, dot(points, normals))
+        faces = Planes(normals, dot(points, normals))
         return SpatialCurves(self.surface, self.sheet, faces).between(_level(chords), part)
-
-
-@dataclass(frozen=True, eq=False)
-class _Planes:
-    """Heights of points above planes of their own: normals (k,3), offsets (k,)."""
-
-    normals: Floats
-    offsets: Floats
-
-    def values(self, points: Floats) -> Floats:
-        """(k,) heights of points."""
-        return dot(points, self.normals) - self.offsets
-
-    def gradients(self, points: Floats) -> Floats:
-        """(k,3) the normals."""
-        return self.normals
-
-
-@dataclass(frozen=True, eq=False)
-class _PlaneSections:
-    """The same for points of a surface."""
-
-    surface: Surface
-    normals: Floats
-    offsets: Floats
-
-    def values_and_slopes(self, u: Floats, v: Floats) -> tuple[Floats, Slopes]:
-        """Both at once."""
-        return self.values(u, v), self.slopes(u, v)
-
-    def on(self, surface: Surface, which: Ints) -> _PlaneSections:
-        """Those of some points, of another surface."""
-        return _PlaneSections(surface, self.normals[which], self.offsets[which])
-
-    def values(self, u: Floats, v: Floats) -> Floats:
-        """(k,) heights of points."""
-        return dot(self.surface.points(u, v), self.normals) - self.offsets
-
-    def slopes(self, u: Floats, v: Floats) -> Slopes:
-        """(k,) their derivatives by u and by v."""
-        along_u, along_v = self.surface.partials(u, v)
-        return dot(along_u, self.normals), dot(along_v, self.normals)
 
 
 def _level(chords: Chords) -> Chords:

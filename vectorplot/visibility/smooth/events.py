@@ -12,7 +12,7 @@ from vectorplot.geometry import ragged, records
 from vectorplot.geometry.records import Elements
 from vectorplot.geometry.vectors import dot, norm
 from vectorplot.scene.view import View
-from vectorplot.tolerances import BEYOND_END, EDGE_ON_SINE, ROUNDING, SAME_EVENT
+from vectorplot.tolerances import BEYOND_END, EDGE_ON_SINE, LEAST_DIVISOR, ROUNDING, SAME_EVENT
 from vectorplot.visibility.smooth import sight_lines
 from vectorplot.visibility.smooth.curve_families import Along
 from vectorplot.visibility.smooth.lines_on_several_sheets import Stretches
@@ -183,16 +183,20 @@ def _dips(curves: Curves, function: OnCurve, values: Floats) -> tuple[Ints, Floa
     """Chords (k,), and parts (k,) of them where the sign is another one than at both ends."""
     inner = np.arange(1, max(len(values) - 1, 1))
     inner = inner[(curves.owner[inner - 1] == curves.owner[inner]) & (curves.owner[inner + 1] == curves.owner[inner])]
-    with np.errstate(invalid="ignore"):
+    # Points are not evenly spaced: a parabola by the lengths of the chords.
+    one, two = (norm(curves.points[inner + k] - curves.points[inner + k - 1]).clip(LEAST_DIVISOR) for k in (0, 1))
+    with np.errstate(all="ignore"):
         before, at, after = (np.abs(values[inner + k]) for k in (-1, 0, 1))
         sign = values[inner] < 0.0
         same = (sign == (values[inner - 1] < 0.0)) & (sign == (values[inner + 1] < 0.0))
-        slope, bend = 0.5 * (after - before), before + after - 2.0 * at
-        least = at - 0.5 * slope * slope / np.where(bend > 0.0, bend, 1.0)
+        down, up = (at - before) / one, (after - at) / two
+        slope, bend = (down * two + up * one) / (one + two), (up - down) / (one + two)
+        way = -0.5 * slope / np.where(bend > 0.0, bend, 1.0)
+        least = at + 0.5 * slope * way
         dips = same & (at <= before) & (at <= after) & (bend > 0.0) & (least < NEAR * np.minimum(before, after))
-    inner, way = inner[dips], (-slope / np.where(bend > 0.0, bend, 1.0))[dips]
+    inner, way, one, two = inner[dips], way[dips], one[dips], two[dips]
     chord = np.where(way < 0.0, inner - 1, inner)
-    centre = np.where(way < 0.0, 1.0 + way, way)
+    centre = np.where(way < 0.0, 1.0 + way / one, way / two)
     low, high = np.maximum(centre - 0.5, 0.0), np.minimum(centre + 0.5, 1.0)
     sign = values[inner] < 0.0
     best = centre

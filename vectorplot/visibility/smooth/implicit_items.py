@@ -7,6 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from vectorplot.arrays import Floats
+from vectorplot.features.conditions import MeetsPlane, SpatialCondition
 from vectorplot.features.contours_and_isophotes import direction_across, in_planes
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.feature_lines import Detail, Sight
@@ -25,10 +26,7 @@ from vectorplot.features.implicit_singular_lines import CuspidalEdges, DoubleLin
 from vectorplot.features.implicit_surfaces import (
     ImplicitCentralContour,
     ImplicitIsophote,
-    ImplicitParallelContour,
     ImplicitPointIsophote,
-    MeetsPlane,
-    SpatialCondition,
     sides_of,
 )
 from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing, all_curves
@@ -121,7 +119,7 @@ def as_spatial_curves(
 def _contour(view: View, sheet: ImplicitSheet, number: int, tracing: ImplicitTracing) -> Found:
     condition: SpatialCondition
     if view.eye is None:
-        condition = ImplicitParallelContour(sheet.surface, (0.0, 0.0, 1.0))
+        condition = ImplicitIsophote(sheet.surface, (0.0, 0.0, 1.0))
         found = implicit_parallel_contour(sheet.home, view.axes[2], tracing=tracing)
     else:
         condition = ImplicitCentralContour(sheet.surface, view.eye)
@@ -168,7 +166,7 @@ def _section(
         here = np.array([level])
         if found.doubts:
             touched = implicit_tangent_sections(sheet.home, normal, here, tracing=tracing)
-            across = ImplicitParallelContour(sheet.surface, matmul(view.axes, direction_across(normal)))
+            across = ImplicitIsophote(sheet.surface, matmul(view.axes, direction_across(normal)))
             family = SpatialCurves(sheet, number, across)
             result.append((section.kind, family, replace(touched, levels=np.zeros(len(touched)))))
             if len(touched):

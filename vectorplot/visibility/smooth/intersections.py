@@ -11,8 +11,8 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conditions import ImplicitSection
 from vectorplot.features.contours_and_isophotes import section_by_implicit
 from vectorplot.features.curve_tracing import Tracing
+from vectorplot.features.holes import near_to
 from vectorplot.features.implicit_curves import implicit_intersection
-from vectorplot.features.implicit_surfaces import MeetsImplicit
 from vectorplot.features.intersection_tracing import DoubleCurves
 from vectorplot.features.intersections import intersections_of_grids, self_intersections
 from vectorplot.features.mesh_sections import implicit_mesh_section, mesh_section
@@ -24,7 +24,6 @@ from vectorplot.geometry.polylines import closed_round
 from vectorplot.geometry.vectors import all_finite
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
-from vectorplot.surfaces.surface import Domain
 from vectorplot.surfaces.trimmed import is_embedded
 from vectorplot.tolerances import OUTSIDE_DOMAIN
 from vectorplot.visibility.polyhedra.lines import kept_apart
@@ -62,7 +61,7 @@ def implicit_with_implicit(
 ) -> tuple[Curves, Doubts]:
     """The curves in which two sheets of these numbers meet, within both boxes; and doubts."""
     found = implicit_intersection(one.home, two.home, tracing=tracing_in_world(one, tracing))
-    family = SpatialCurves(one, first, MeetsImplicit(two.surface), second)
+    family = SpatialCurves(one, first, two.surface, second)
     curves = as_spatial_curves(found, LineKind.INTERSECTION, one, family)
     whole = replace(curves, item=np.full(len(curves), item), second_places=curves.points)
     return within_box(whole, two), found.doubts
@@ -289,8 +288,8 @@ def _double(
         swaps = swapped < kept
     ends = np.where(swaps[:, None], found.two[start], found.one[start])
     other_ends = np.where(swaps[:, None], found.one[start], found.two[start])
-    places[back, :2] = _nearest(one.surface.domain, ends, places[back - 1, :2])
-    others[back, :2] = _nearest(two.surface.domain, other_ends, others[back - 1, :2])
+    places[back, :2] = near_to(one.surface.domain, ends, places[back - 1, :2])
+    others[back, :2] = near_to(two.surface.domain, other_ends, others[back - 1, :2])
     many = len(found)
     return Curves(
         found.points[index],
@@ -308,10 +307,3 @@ def _double(
 
 def _places(parameters: Floats) -> Floats:
     return np.concatenate([parameters, np.zeros((len(parameters), 1))], axis=1)
-
-
-def _nearest(domain: Domain, parameters: Floats, to: Floats) -> Floats:
-    """(k,2) the same parameters as many whole periods on as brings them nearest to others."""
-    size = np.array(domain.size)
-    turns = np.where([domain.closed_u, domain.closed_v], np.round((to - parameters) / size), 0.0)
-    return np.asarray(parameters + turns * size)

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.features.holes import clipped
 from vectorplot.geometry import ragged
 from vectorplot.geometry.vectors import all_finite, dot, norm
 from vectorplot.tolerances import APART_OF_DOMAIN, SETTLED_ON_SHEET, ZERO_OF_EXTENT
@@ -354,9 +355,5 @@ def _within(sheets: Sheets, number: Ints, places: Floats) -> Floats:
     for one in np.unique(group).tolist():
         sheet, which = sheets.groups[one].as_one, np.flatnonzero(group == one)
         if isinstance(sheet, OnParametrised):
-            domain = sheet.surface_at(places[which]).domain
-            if not domain.closed_u:
-                result[which, 0] = np.clip(places[which, 0], domain.u_start, domain.u_end)
-            if not domain.closed_v:
-                result[which, 1] = np.clip(places[which, 1], domain.v_start, domain.v_end)
+            result[which] = clipped(sheet.surface_at(places[which]).domain, places[which])
     return result

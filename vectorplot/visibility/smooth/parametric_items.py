@@ -13,11 +13,10 @@ from vectorplot.errors import InputError, InputWarning
 from vectorplot.features.conditions import (
     CentralContour,
     Contour,
+    ImplicitSection,
     Isophote,
-    ParallelContour,
-    PlaneSection,
+    MeetsPlane,
     PointIsophote,
-    stacked,
     stacks,
 )
 from vectorplot.features.contours_and_isophotes import (
@@ -31,7 +30,7 @@ from vectorplot.features.contours_and_isophotes import (
     tangent_sections,
 )
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, extent, together
-from vectorplot.features.cusps import contours_with_cusps, singular_lines
+from vectorplot.features.cuspidal_edges import singular_lines
 from vectorplot.features.feature_lines import Detail, Sight, surface_feature_lines
 from vectorplot.features.geodesic_curves import geodesics_between
 from vectorplot.features.hole_rims import hole_rims
@@ -176,7 +175,7 @@ def sheets_of_items(view: View, items: Sequence[tuple[Surface, int, bool]]) -> l
 def contours_of_parametrised(
     view: View, sheets: Mapping[int, ParametricSheet], tracing: Tracing, done: Callable[[float], None] = unheard
 ) -> dict[int, SurfaceCurves]:
-    """The contours of sheets with their cusps, those of many traced at once; all by the numbers of the sheets. done: is
+    """The contours of sheets, those of many traced at once; all by the numbers of the sheets. done: is
     told the part of the work that is done."""
     numbers, found = list(sheets), dict[int, SurfaceCurves]()
     for part in stacks([sheets[number].surface for number in numbers], tracing.nodes):
@@ -186,8 +185,7 @@ def contours_of_parametrised(
             curves = parallel_contours(stack, (0, 0, 1), tracing=tracing)
         else:
             curves = contours(stack, view.eye, tracing=tracing)
-        with_cusps = contours_with_cusps(stacked(stack, _turn(view, stack[0])), curves)
-        found.update({number: own for number, (own, _) in zip(which, with_cusps, strict=True)})
+        found.update(zip(which, curves, strict=True))
         done(len(found) / len(sheets))
     return found
 
@@ -208,7 +206,7 @@ def parameter_lines_of_parametrised(
 
 def _turn(view: View, surface: Surface) -> Contour:
     """The condition of the contour."""
-    return ParallelContour(surface, (0.0, 0.0, 1.0)) if view.eye is None else CentralContour(surface, view.eye)
+    return Isophote(surface, (0.0, 0.0, 1.0)) if view.eye is None else CentralContour(surface, view.eye)
 
 
 def curves_of_parametrised(
@@ -275,11 +273,11 @@ def _asked_for(
         if section.kind in wanted:
             normal = matmul(view.axes, np.asarray(section.normal))
             offsets = (np.asarray(section.offsets) - matmul(view.centre, np.asarray(section.normal))) / view.scale
-            plane = PlaneSection(sheet.whole.surface, normal, 0.0)
+            plane = ImplicitSection(sheet.whole.surface, MeetsPlane(normal, 0.0))
             found = plane_sections(surface, normal, offsets, tracing=tracing)
             if any(text.startswith(ALONG_A_LINE) for text in found.doubts):
                 touched = tangent_sections(surface, normal, offsets, tracing=tracing)
-                across = ParallelContour(sheet.whole.surface, direction_across(normal))
+                across = Isophote(sheet.whole.surface, direction_across(normal))
                 level = replace(touched, levels=np.zeros(len(touched)))
                 result.append((section.kind, ConditionCurves(sheet.whole, number, across), level))
                 if len(touched):

@@ -12,8 +12,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conditions import MOST_PARAMETERS, stacks
-from vectorplot.features.hole_rims import cut_at_holes
-from vectorplot.features.holes import along_rims, inside, into_surface, is_known
+from vectorplot.features.hole_rims import cut_at_holes, grid_triangles
+from vectorplot.features.holes import along_rims, in_domain, inside, into_surface, is_known
 from vectorplot.features.implicit_meshes import ImplicitMesh, mesh_with_lines
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, default_gradient, singular_lines
 from vectorplot.features.implicit_surfaces import polygonized, sides_of
@@ -307,15 +307,7 @@ class OnParametrised(ABC):
 
     def on_sheet(self, places: Floats) -> Bools:
         """(k,) whether places lie in the domain."""
-        domain = self.surface_at(places).domain
-        within = np.isfinite(places).all(axis=1)
-        if not domain.closed_u:
-            part = (places[:, 0] - domain.u_start) / domain.size[0]
-            within &= (part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN)
-        if not domain.closed_v:
-            part = (places[:, 1] - domain.v_start) / domain.size[1]
-            within &= (part >= -OUTSIDE_DOMAIN) & (part <= 1.0 + OUTSIDE_DOMAIN)
-        return np.asarray(within)
+        return in_domain(self.surface_at(places).domain, places[:, :2]) & np.isfinite(places).all(axis=1)
 
 
 @dataclass(frozen=True, eq=False)
@@ -516,9 +508,7 @@ class _Grids:
         if len(bent):
             off[bent] = np.maximum(_cell_deviations(grids[bent]), SAG)
         deviations = np.minimum(off, _around(grids))
-        lower = (np.arange(columns)[:, None] * (rows + 1) + np.arange(rows)).ravel()
-        right, upper = lower + rows + 1, lower + 1
-        corners = np.concatenate([np.stack([lower, right, right + 1], 1), np.stack([lower, right + 1, upper], 1)])
+        corners = grid_triangles(columns, rows)
         twice = (np.tile(cells.reshape(len(surfaces), -1), 2) for cells in (~torn, deviations))
         return cls(from_components(u, v, 0.0), points, corners, *twice)
 

@@ -11,6 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.bezier import bernstein, cubic_error, places
+from vectorplot.features.conditions import ImplicitSection
 from vectorplot.features.curve_tracing import SurfaceCurves
 from vectorplot.features.pinch_points import ThroughPinchPoints
 from vectorplot.geometry import ragged
@@ -496,8 +497,9 @@ def _merged(family: Family, sheets: Sheets) -> _Merged | None:
 def _said(family: ConditionCurves) -> tuple[object, ...]:
     """Equal for conditions that differ in their surfaces only."""
     condition = family.condition
-    values = [value for name, value in vars(condition).items() if name != "surface"]
-    return (type(condition), *(np.asarray(value, dtype=np.float64).tobytes() for value in values))
+    own = condition.implicit if isinstance(condition, ImplicitSection) else condition
+    values = [value for name, value in vars(own).items() if name != "surface"]
+    return (type(condition), type(own), *(np.asarray(value, dtype=np.float64).tobytes() for value in values))
 
 
 # Curves traced on parametrised surfaces as the engine takes them.

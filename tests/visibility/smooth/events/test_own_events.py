@@ -125,5 +125,5 @@ def test_cusps_of_a_torus_come_in_pairs_that_begin_and_end_two_sheets() -> None:
     found = own_events(view, Sheets(sheets), contour, no_stretches(), facing, np.ones(len(contour), dtype=np.bool_))
     assert sorted(found.change.tolist()) == [-1, -1, 1, 1]
     # There the sight line is an asymptotic direction: the contour runs along it.
-    at = contour.at(found.chord, found.part).slopes
+    at = contour.with_exact_slopes(found.chord, found.part).slopes
     assert (np.linalg.norm(at[:, :2], axis=1) < 1e-5 * np.linalg.norm(at, axis=1)).all()
