@@ -71,3 +71,10 @@ def test_products_by_component_are_those_by_row():
     assert np.allclose(columns.dot(a, b), vectors.dot(a.T, b.T), rtol=1e-15, atol=1e-15)
     assert np.array_equal(columns.cross(a, b).T, vectors.cross(a.T, b.T))
     assert np.array_equal(columns.cross(a[:, 0], b), columns.cross(np.repeat(a[:, :1], 40, axis=1), b))
+
+
+@given(SIZES, st.integers(1, 9))
+def test_batches_follow_each_other_and_exceed_the_size_by_one_group_at_the_most(sizes, most):
+    runs = ragged.batches(sizes, most)
+    assert [k for low, high in runs for k in range(low, high)] == list(range(len(sizes)))
+    assert all(low < high and sum(sizes[low : high - 1]) < most + 5 for low, high in runs)

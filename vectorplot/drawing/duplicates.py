@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
-from itertools import pairwise
 
 import numpy as np
 
@@ -293,10 +292,7 @@ def pairs_in_dense_groups(owner: Ints, run: Ints, line: Ints) -> Iterator[tuple[
         return
     last = np.flatnonzero(np.concatenate((run[1:] != run[:-1], [True])))
     following = last[np.cumsum(np.concatenate(([False], run[1:] != run[:-1])))] - np.arange(len(run))
-    total = np.cumsum(following)
-    cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]), PAIRS_AT_ONCE)) + 1
-    edges = np.unique(np.concatenate(([0], cuts, [len(run)]))).tolist()
-    for low, high in pairwise(edges):
+    for low, high in ragged.batches(following, PAIRS_AT_ONCE):
         winner = np.repeat(np.arange(low, high), following[low:high])
         loser = ragged.ranges(np.arange(low + 1, high + 1), following[low:high])
         one, other = owner.take(winner), owner.take(loser)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -90,9 +89,7 @@ def _sweep(
         thing = order[place]
     count = np.maximum(end - begin, 0)
     found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
-    cuts = np.searchsorted(np.cumsum(count), np.arange(PAIRS_AT_ONCE, int(count.sum()), PAIRS_AT_ONCE)) + 1
-    edges = np.unique(np.concatenate([[0], cuts, [len(count)]]))
-    for from_, to in pairwise(edges.tolist()):
+    for from_, to in ragged.batches(count, PAIRS_AT_ONCE):
         size = count[from_:to]
         at, j = np.repeat(i[from_:to], size), thing[ragged.ranges(begin[from_:to], size)]
         keep = np.ones(len(j), dtype=np.bool_)

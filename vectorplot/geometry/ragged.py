@@ -46,6 +46,19 @@ def ranges(first: Ints, sizes: Ints) -> Ints:
     return np.arange(sizes.sum(), dtype=np.intp) + np.repeat(first - starts(sizes), sizes)
 
 
+def batches(sizes: Sizes, most: int) -> list[tuple[int, int]]:
+    """Consecutive runs of groups, from the first to before the last number, whose sizes add up to about most.
+
+    A run exceeds it by one group at the most; there is none of no groups.
+    """
+    total = np.cumsum(sizes)
+    if not len(total):
+        return []
+    cuts = np.searchsorted(total, np.arange(most, int(total[-1]), most)) + 1
+    ends = np.unique(np.append(cuts, len(total))).tolist()
+    return list(zip([0, *ends[:-1]], ends, strict=True))
+
+
 def take(offsets_: Ints, which: Ints | Bools) -> tuple[Ints, Ints]:
     """The elements of some groups, in the order given, and the offsets of these groups among themselves.
 

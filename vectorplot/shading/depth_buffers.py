@@ -12,6 +12,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
+from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import determinant
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.scene.view import View
@@ -328,17 +329,13 @@ def _cover_by_tiles(keys: Keys, task: Task, number: Ints, take: Take) -> None:
 
 def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int, take: Take) -> None:
     """Offer the keys of some triangles, tile by tile; tiles in which everything is closer are passed over."""
-    ends = np.cumsum(pixel_coverage.tile_counts(planes.box, chosen, side))
+    count = pixel_coverage.tile_counts(planes.box, chosen, side)
     across = task.stride // side
     # Rows first: along short last axes numpy takes several times as long.
     farthest = keys.reshape(-1, side, across * side).min(axis=1).reshape(-1, side).min(axis=1)
     nearest = task.nearest[planes.number]
-    begin = 0
-    while begin < len(chosen):
-        done = ends[begin - 1] if begin else 0
-        end = max(begin + 1, int(np.searchsorted(ends, done + TILES_AT_ONCE, side="right")))
+    for begin, end in ragged.batches(count, TILES_AT_ONCE):
         index, column, row = pixel_coverage.tile_pairs(planes.box, chosen[begin:end], side)
-        begin = end
         tile = row * across + column
         open_ = np.flatnonzero(nearest[index] + 1.0 >= farthest[tile] >> task.number_bits)
         index, left, top, tile = index[open_], column[open_] * side, row[open_] * side, tile[open_]

@@ -141,9 +141,8 @@ def small_fragments(triangles: Snapped, box: Boxes, chosen: Ints, stride: int) -
     right <<= SUBPIXEL_BITS
     for code in range(1, SMALL_SIDE + 1):
         alike = np.flatnonzero(width == code)
-        ends = np.cumsum(height[alike] * code)
-        cuts = np.searchsorted(ends, np.arange(CANDIDATES, int(ends[-1]) if len(ends) else 0, CANDIDATES))
-        for part in np.split(alike, np.unique(cuts)):
+        for low, high in ragged.batches(height[alike] * code, CANDIDATES):
+            part = alike[low:high]
             of, down = np.repeat(part, height[part]), ragged.place(height[part]).astype(np.int32)
             along = np.arange(code, dtype=np.int32)[:, None]
             first, second, third = (
@@ -288,13 +287,9 @@ def line_pixels(start: ArrayLike, end: ArrayLike, columns: int, rows: int) -> It
     low = np.maximum(np.where(flat, -x, np.where(down, -y, y - (rows - 1))), 0)
     high = np.minimum(np.maximum(dx, dy), np.where(flat, columns - 1 - x, np.where(down, rows - 1 - y, y)))
     count = np.maximum(high - low + 1, 0)
-    ends = np.cumsum(count)
-    begin = 0
-    while begin < len(p):
-        done = int(ends[begin - 1]) if begin else 0
-        stop = max(begin + 1, int(np.searchsorted(ends, done + PIXELS_AT_ONCE, side="right")))
+    for begin, stop in ragged.batches(count, PIXELS_AT_ONCE):
         line = np.repeat(np.arange(begin, stop), count[begin:stop])
-        step = np.arange(len(line)) + done - (ends - count)[line] + low[line]
+        step = ragged.ranges(low[begin:stop], count[begin:stop])
         long, short = np.maximum(dx, dy)[line], np.minimum(dx, dy)[line]
         aside = (step * short + long // 2) // np.maximum(long, 1)
         column = x[line] + np.where(flat[line], step, aside)
@@ -303,7 +298,6 @@ def line_pixels(start: ArrayLike, end: ArrayLike, columns: int, rows: int) -> It
         share = np.where(turned[line], 1.0 - share, share)
         seen = (column >= 0) & (column < columns) & (row >= 0) & (row < rows)
         yield LinePixels(column[seen], row[seen], line[seen], share[seen])
-        begin = stop
 
 
 # The pixels of polygons, scan line by scan line: no gaps and no overlaps along common edges.
@@ -349,17 +343,12 @@ def polygon_pixels(polygons: Polygons, columns: int, rows: int) -> Iterator[Poly
     """
     for spans in _spans(polygons, columns, rows):
         length = spans.last - spans.first
-        ends = np.cumsum(length)
-        begin = 0
-        while begin < len(length):
-            done = int(ends[begin - 1]) if begin else 0
-            stop = max(begin + 1, int(np.searchsorted(ends, done + AT_ONCE, side="right")))
+        for begin, stop in ragged.batches(length, AT_ONCE):
             span = np.repeat(np.arange(begin, stop), length[begin:stop])
-            column = np.arange(len(span)) + done - (ends - length)[span] + spans.first[span]
+            column = ragged.ranges(spans.first[begin:stop], length[begin:stop])
             yield PolygonPixels(
                 spans.row[span] * columns + column, spans.polygon[span], _along(spans, span, column.astype(np.float64))
             )
-            begin = stop
 
 
 def with_specks_grown(polygons: Polygons) -> Polygons:
@@ -400,14 +389,10 @@ def _spans(polygons: Polygons, columns: int, rows: int) -> Iterator[Spans]:
     top = np.maximum(-(-grid[upper, 1] // SUBPIXELS), 0)
     bottom = np.minimum(-(-grid[lower, 1] // SUBPIXELS), rows)
     count = np.maximum(bottom - top, 0)
-    ends = ragged.offsets(count)[offsets]
-    begin = 0
-    while begin < len(polygons):
-        stop = max(begin + 1, int(np.searchsorted(ends, ends[begin] + AT_ONCE, side="right")) - 1)
+    for begin, stop in ragged.batches(np.diff(ragged.offsets(count)[offsets]), AT_ONCE):
         edges = np.arange(offsets[begin], offsets[stop])
         edge = np.repeat(edges, count[edges])
         row = ragged.place(count[edges]) + top[edge]
-        begin = stop
         yield _paired(points, grid, upper[edge], lower[edge], owner[edge], row, columns)
 
 

@@ -161,19 +161,14 @@ def _candidates(cells: _Cells, triangles: ScreenTriangles) -> Iterator[tuple[Int
     wide, high_count = np.maximum(high - low + 1, 0)
     count = wide * high_count
     nearest = corner[2].max(axis=0)
-    ends = np.cumsum(count)
-    begin = 0
-    while begin < len(count):
-        done = int(ends[begin - 1]) if begin else 0
-        stop = max(begin + 1, int(np.searchsorted(ends, done + PAIRS_AT_ONCE, side="right")))
+    for begin, stop in ragged.batches(count, PAIRS_AT_ONCE):
         tri = np.repeat(np.arange(begin, stop), count[begin:stop])
-        number = np.arange(len(tri)) + done - (ends - count)[tri]
+        number = ragged.place(count[begin:stop])
         row, column = np.divmod(number, wide[tri])
         cell = (low[1].take(tri) + row) * cells.side + low[0].take(tri) + column
         met = np.flatnonzero(cells.deepest[cell] < nearest[tri])
         met = met[_touches(flat.take(tri[met], axis=2), cell[met], cells.side)]
         yield from _with_points(cells, tri[met], cell[met])
-        begin = stop
 
 
 def _touches(corner: Floats, cell: Ints, side: int) -> Bools:
@@ -192,15 +187,9 @@ def _touches(corner: Floats, cell: Ints, side: int) -> Bools:
 def _with_points(cells: _Cells, tri: Ints, cell: Ints) -> Iterator[tuple[Ints, Ints]]:
     """The pairs of triangles and points from pairs of triangles and cells."""
     count = np.diff(cells.starts)[cell]
-    ends = np.cumsum(count)
-    begin = 0
-    while begin < len(tri):
-        done = int(ends[begin - 1]) if begin else 0
-        stop = max(begin + 1, int(np.searchsorted(ends, done + PAIRS_AT_ONCE, side="right")))
-        pair = np.repeat(np.arange(begin, stop), count[begin:stop])
-        position = np.arange(len(pair)) + done - (ends - count)[pair] + cells.starts[cell[pair]]
-        yield tri[pair], cells.order[position]
-        begin = stop
+    for begin, stop in ragged.batches(count, PAIRS_AT_ONCE):
+        position = ragged.ranges(cells.starts[cell[begin:stop]], count[begin:stop])
+        yield np.repeat(tri[begin:stop], count[begin:stop]), cells.order[position]
 
 
 @dataclass(frozen=True, eq=False)

@@ -310,9 +310,8 @@ def _between_faces(around: Surroundings, one: Ints, two: Ints, limit: Floats) ->
     best, plane = np.full(len(one), -np.inf), np.zeros((len(one), 4))
     counts = np.diff(around.plane_offsets)[one]
     sizes = counts * np.diff(around.offsets)[two]
-    ends = np.cumsum(sizes)
-    cuts = np.searchsorted(ends, np.arange(PRODUCTS_AT_ONCE, int(ends[-1]) if len(ends) else 0, PRODUCTS_AT_ONCE)) + 1
-    for part in np.split(np.arange(len(one)), np.unique(cuts)):
+    for low, high in ragged.batches(sizes, PRODUCTS_AT_ONCE):
+        part = np.arange(low, high)
         pair, face = _listed(around.plane_offsets, one[part])
         if not len(face):
             continue

@@ -324,19 +324,11 @@ def _face_criteria(
     """The demands that the faces of things make on each other."""
     sizes = np.diff(things.faces_of(first)[1]) * np.diff(things.faces_of(second)[1])
     demands = []
-    for low, high in _runs(sizes):
+    for low, high in ragged.batches(sizes, PAIRS_AT_ONCE):
         a, b = _all_face_pairs(faces, things, first[low:high], second[low:high], tolerance)
         before, after = drawn_before(faces, a, b, face_relations(faces, a, b, tolerance))
         demands.append((things.of_face[before], things.of_face[after]))
     return np.concatenate([d[0] for d in demands]), np.concatenate([d[1] for d in demands])
-
-
-def _runs(sizes: Ints) -> list[tuple[int, int]]:
-    """Consecutive runs of things whose sizes add up to about PAIRS_AT_ONCE."""
-    total = np.cumsum(sizes)
-    cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]), PAIRS_AT_ONCE)) + 1
-    ends = np.unique(np.append(cuts, len(sizes))).tolist()
-    return list(zip([0, *ends[:-1]], ends, strict=True))
 
 
 def _all_face_pairs(

@@ -617,10 +617,7 @@ def _blocks(which: Ints, begin: Ints, counts: Ints) -> Iterator[tuple[Ints, Ints
     """Pieces (n,) in blocks of about as many pairs with the entries of their cells, counts of them from begin on."""
     full = np.flatnonzero(counts)
     which, begin, counts = which.take(full), begin.take(full), counts.take(full)
-    total = np.cumsum(counts)
-    cuts = np.searchsorted(total, np.arange(PAIRS_AT_ONCE, int(total[-1]) if len(total) else 0, PAIRS_AT_ONCE)) + 1
-    edges = np.unique(np.concatenate([[0], cuts, [len(counts)]]))
-    for low, high in pairwise(edges.tolist()):
+    for low, high in ragged.batches(counts, PAIRS_AT_ONCE):
         yield which[low:high], begin[low:high], counts[low:high]
 
 

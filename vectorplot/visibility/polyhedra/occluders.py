@@ -17,6 +17,9 @@ from vectorplot.scene.view import View
 from vectorplot.tolerances import SINGLE_DEPTH_LEAST, SINGLE_DEPTH_SHARE
 from vectorplot.visibility.projected_faces import CHUNK, Floats32, ProjectedFaces, newell
 
+PAIRS_AT_ONCE = 1 << 20
+"""So many corners of bodies are looked at together."""
+
 MAX_SOLID_FACES = 128
 """A convex solid with more faces hides through its faces: few of them matter to a line, but all of its outline
 would."""
@@ -62,7 +65,7 @@ def solid_items(view: View, faces: ProjectedFaces, *, most_faces: int = MAX_SOLI
     length = np.sqrt((normal * normal).sum(axis=0))
     normal = normal / np.where(length > 0.0, length, 1.0)
     constant = (normal * view.points.take(first, axis=1)).sum(axis=0)
-    for low, high in _blocks(vertex_counts[of]):
+    for low, high in ragged.batches(vertex_counts[of], PAIRS_AT_ONCE):
         pair_face = np.repeat(np.arange(low, high), vertex_counts[of[low:high]])
         starts = ragged.starts(vertex_counts[of[low:high]])
         vertex = np.arange(len(pair_face)) + (view.item_vertices[of[low:high]] - starts)[pair_face - low]
@@ -76,16 +79,6 @@ def solid_items(view: View, faces: ProjectedFaces, *, most_faces: int = MAX_SOLI
     seen = np.zeros(items, dtype=np.bool_)
     seen[view.face_item[(faces.facing > 0) & np.isfinite(faces.nearest)]] = True
     return np.asarray(chosen & seen, dtype=np.bool_)
-
-
-def _blocks(sizes: Ints, most: int = 1 << 20) -> list[tuple[int, int]]:
-    """Consecutive runs of things whose sizes add up to about most."""
-    total = np.cumsum(sizes)
-    if not len(total):
-        return []
-    cuts = np.searchsorted(total, np.arange(most, int(total[-1]), most)) + 1
-    ends = np.unique(np.append(cuts, len(sizes)))
-    return list(zip([0, *ends[:-1].tolist()], ends.tolist(), strict=True))
 
 
 def face_occluders(view: View, faces: ProjectedFaces, which: Ints) -> Occluders:

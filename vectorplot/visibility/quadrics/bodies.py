@@ -85,6 +85,27 @@ class UnitBodies(Elements):
         """(n,3,3): s = (point - centre) @ inverse."""
         return np.asarray(inverse_matrix(self.frame))
 
+    @cached_property
+    def eye(self) -> Floats:
+        """(n,3) the eye in the coordinates of the unit body; of a parallel projection the unit vector towards it."""
+        if self.sight.central:
+            return np.asarray(np.einsum("ni,nij->nj", -self.centre, self.inverse))
+        towards = -self.inverse[:, 2]
+        return np.asarray(towards / np.sqrt(dot(towards, towards))[:, None])
+
+    @property
+    def eye_weight(self) -> float:
+        """The fourth homogeneous coordinate of the eye: 0 where it is infinitely far."""
+        return 1.0 if self.sight.central else 0.0
+
+    def contours(self, which: Ints) -> tuple[Floats, Floats, Floats]:
+        """Centres and two conjugate radii (k,3) of the contours of whole balls; NaN where the eye is inside of them."""
+        eye = self.eye[which]
+        distance = np.sqrt(dot(eye, eye))
+        height = self.eye_weight / distance
+        outside = np.where(height <= 1.0, height, np.nan)
+        return sphere_sections(self.centre[which], self.frame[which], eye / distance[:, None], outside)
+
 
 class Placed(Protocol):
     """A body of the world: the points centre + s @ frame of a unit body."""
@@ -117,14 +138,6 @@ class Balls(UnitBodies):
     """Images of the unit sphere."""
 
     @cached_property
-    def eye(self) -> Floats:
-        """(n,3) the eye where the ball is the unit sphere; of a parallel projection the unit vector towards it."""
-        if self.sight.central:
-            return np.asarray(np.einsum("ni,nij->nj", -self.centre, self.inverse))
-        towards = -self.inverse[:, 2]
-        return np.asarray(towards / np.sqrt(dot(towards, towards))[:, None])
-
-    @cached_property
     def reach(self) -> Floats:
         """(n,3) half the sides of the boxes around the balls."""
         return np.asarray(np.sqrt((self.frame * self.frame).sum(axis=1)))
@@ -147,7 +160,7 @@ class Balls(UnitBodies):
     def polar_planes(self, which: Ints) -> Floats:
         """(k,4) linear forms, of unit gradient, positive on the eye's side of the polar plane: where a ball shows."""
         gradient = np.einsum("nij,nj->ni", self.inverse[which], self.eye[which])
-        constant = -dot(gradient, self.centre[which]) - (1.0 if self.sight.central else 0.0)
+        constant = -dot(gradient, self.centre[which]) - self.eye_weight
         form = np.concatenate([gradient, constant[:, None]], axis=1)
         return np.asarray(form / np.sqrt(dot(gradient, gradient))[:, None])
 
@@ -155,13 +168,6 @@ class Balls(UnitBodies):
         """Centres and two conjugate radii (k,3) of the sections of balls with planes: s.normal = height of the unit
         sphere, unit normals (k,3)."""
         return sphere_sections(self.centre[which], self.frame[which], normal, height)
-
-    def contours(self, which: Ints) -> tuple[Floats, Floats, Floats]:
-        """Centres and two conjugate radii (k,3) of the contours."""
-        eye = self.eye[which]
-        distance = np.sqrt(dot(eye, eye))
-        height = 1.0 / distance if self.sight.central else np.zeros(len(which))
-        return self.circles(which, eye / distance[:, None], height)
 
 
 def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Ball]) -> Balls:
@@ -173,7 +179,7 @@ def balls_of(view: View, items: Sequence[Item], which: Ints, balls: Sequence[Bal
 def sphere_sections(centre: Floats, frame: Floats, normal: Floats, height: Floats) -> tuple[Floats, Floats, Floats]:
     """Centres and two conjugate radii (k,3) of what the planes s.normal = height cut out of the unit sphere, at the
     points centre + s @ frame: centre, unit normals (k,3), frame (k,3,3)."""
-    first, second = across(normal)
+    first, second = _across(normal)
     radius = np.sqrt(np.maximum(1.0 - height * height, 0.0))[:, None]
     parts = (height[:, None] * normal, radius * first, radius * second)
     middle, p, q = (np.einsum("ni,nij->nj", part, frame) for part in parts)
@@ -188,7 +194,7 @@ def same_numbers(numbers: Floats, tolerance: float) -> Ints:
     return np.asarray(first[group.reshape(-1)])
 
 
-def across(directions: Floats) -> tuple[Floats, Floats]:
+def _across(directions: Floats) -> tuple[Floats, Floats]:
     """Two unit vectors (n,3) across each unit vector (n,3), and each other."""
     axis = np.zeros_like(directions)
     axis[np.arange(len(directions)), np.abs(directions).argmin(axis=1)] = 1.0
@@ -215,17 +221,6 @@ class CappedBodies(UnitBodies):
     is_round: Bools
 
     @cached_property
-    def eye(self) -> Floats:
-        """(n,4) the eye in the coordinates of the unit body, homogeneous; a direction of about unit length where it is
-        infinitely far."""
-        if self.sight.central:
-            place = np.einsum("ni,nij->nj", -self.centre, self.inverse)
-            return np.concatenate([place, np.ones((len(self), 1))], axis=1)
-        towards = -self.inverse[:, 2]
-        towards = towards / np.sqrt(dot(towards, towards))[:, None]
-        return np.concatenate([towards, np.zeros((len(self), 1))], axis=1)
-
-    @cached_property
     def growth(self) -> Floats:
         """(n,) by how much the radius of a frustum grows with z."""
         return np.where(self.is_round, 0.0, self.radii[:, TOP] - self.radii[:, BOTTOM])
@@ -233,20 +228,20 @@ class CappedBodies(UnitBodies):
     @cached_property
     def radius_at_eye(self) -> Floats:
         """(n,) of a frustum, at the height of the eye."""
-        return self.radii[:, BOTTOM] * self.eye[:, 3] + self.growth * self.eye[:, 2]
+        return self.radii[:, BOTTOM] * self.eye_weight + self.growth * self.eye[:, 2]
 
     @cached_property
     def polar(self) -> Floats:
         """(n,4) forms in the unit coordinates: positive where the mantle shows the eye its outside."""
         plain, far = self.eye, self.radius_at_eye
         frustum = np.stack([plain[:, 0], plain[:, 1], -far * self.growth, -far * self.radii[:, BOTTOM]], axis=1)
-        ball = np.stack([plain[:, 0], plain[:, 1], plain[:, 2], -plain[:, 3]], axis=1)
+        ball = np.stack([plain[:, 0], plain[:, 1], plain[:, 2], np.full(len(self), -self.eye_weight)], axis=1)
         return np.where(self.is_round[:, None], ball, frustum)
 
     @cached_property
     def faces_eye(self) -> Bools:
         """(n,2) whether the plane of the cap at the bottom, and at the top, shows the eye its outside."""
-        height = self.eye[:, 2:3] - self.ends * self.eye[:, 3:]
+        height = self.eye[:, 2:3] - self.ends * self.eye_weight
         return np.asarray(height * np.array([-1.0, 1.0]) > 0.0)
 
     @cached_property
@@ -273,7 +268,7 @@ class CappedBodies(UnitBodies):
         e, (low, high) = self.eye, self.ends.T
         across = np.hypot(e[:, 0], e[:, 1])
         far = np.where(self.is_round, 0.0, self.radius_at_eye)[:, None]
-        ball = np.where(self.is_round[:, None], e[:, 3:] - e[:, 2:3] * np.stack([low, high], axis=1), 0.0)
+        ball = np.where(self.is_round[:, None], self.eye_weight - e[:, 2:3] * np.stack([low, high], axis=1), 0.0)
         with np.errstate(divide="ignore", invalid="ignore"):
             least = np.where(self.is_round[:, None], ball / self.radii, far) / across[:, None]
             reach = arccos(np.clip(least, -1.0, 1.0))

@@ -19,7 +19,6 @@ from vectorplot.scene.view import View
 from vectorplot.tolerances import HOMOTHETIC, NARROW_CONIC
 from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP, Balls, CappedBodies, EyeCoordinates, sphere_sections
 from vectorplot.visibility.quadrics.conic_arcs import Arcs, OwnSides, arcs_on, lines_on, parts_inside
-from vectorplot.visibility.quadrics.occlusion_volumes import ball_contours
 from vectorplot.words import LineKind
 
 # What items ask for of the lines on their bodies: which of them, planes of sections, and lights.
@@ -249,7 +248,7 @@ def _side(bodies: CappedBodies, start: Floats, way: Floats, inside: Floats) -> I
 
 def _outlines_of_balls(bodies: CappedBodies, before: int, which: Ints) -> Found:
     """The contours of parts of balls: those of the balls between the caps."""
-    circles = ball_contours(bodies, which)
+    circles = bodies.contours(which)
     there = np.isfinite(circles[1]).all(axis=1)
     which, circles = which[there], tuple(part[there] for part in circles)  # type: ignore[assignment]
     inwards = [-bodies.outside_of_cap(which, end) for end in (BOTTOM, TOP)]

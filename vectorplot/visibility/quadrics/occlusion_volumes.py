@@ -15,7 +15,7 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.tolerances import EDGE_ON_SINE
 from vectorplot.visibility.polyhedra import grid as grids
 from vectorplot.visibility.polyhedra.grid import Floats32, Grid
-from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP, Balls, CappedBodies, EyeCoordinates, across
+from vectorplot.visibility.quadrics.bodies import BOTTOM, TOP, Balls, CappedBodies, EyeCoordinates
 from vectorplot.visibility.quadrics.conic_arcs import OwnSides, Pieces, packed_box
 from vectorplot.visibility.smooth.curve_families import Along, Chords, Family
 from vectorplot.visibility.smooth.traced_curves import Curves
@@ -194,24 +194,9 @@ def _boxes(bodies: CappedBodies, which: Ints) -> Floats32:
 def _contours(bodies: CappedBodies, which: Ints) -> tuple[Floats, Floats, Floats]:
     """The contours of the whole balls, of frusta a rim once more."""
     circles = bodies.rims(which, TOP)
-    of_balls = ball_contours(bodies, which)
+    of_balls = bodies.contours(which)
     round_ = bodies.is_round[which][:, None]
     return tuple(np.where(round_, one, other) for one, other in zip(of_balls, circles, strict=True))  # type: ignore[return-value]
-
-
-def ball_contours(bodies: CappedBodies, which: Ints) -> tuple[Floats, Floats, Floats]:
-    """Centres and two conjugate radii (k,3) of the contours that the balls of parts of balls have as wholes; NaN where
-    the eye is inside of them."""
-    eye = bodies.eye[which]
-    distance = np.sqrt(dot(eye[:, :3], eye[:, :3]))[:, None]
-    normal = eye[:, :3] / distance
-    first, second = across(normal)
-    height = eye[:, 3:] / distance
-    with np.errstate(invalid="ignore"):
-        radius = np.sqrt(1.0 - height * height)
-    frame = bodies.frame[which]
-    middle, p, q = (np.einsum("ni,nij->nj", part, frame) for part in (height * normal, radius * first, radius * second))
-    return bodies.centre[which] + middle, p, q
 
 
 def _behind_frusta(bodies: CappedBodies, which: Ints, box: Floats32) -> OcclusionVolumes:
@@ -231,7 +216,7 @@ def _behind_frusta(bodies: CappedBodies, which: Ints, box: Floats32) -> Occlusio
 
 def _behind_parts(bodies: CappedBodies, which: Ints, box: Floats32) -> OcclusionVolumes:
     """All behind the parts of discs that the polar planes cut out of parts of balls."""
-    contours = ball_contours(bodies, which)
+    contours = bodies.contours(which)
     squares = outlines(bodies.sight, contours)
     seen = np.isfinite(squares).all(axis=(0, 1))
     which, box, squares = which[seen], box[:, seen], squares[:, :, seen]
@@ -243,7 +228,8 @@ def _behind_parts(bodies: CappedBodies, which: Ints, box: Floats32) -> Occlusion
 def _sides(bodies: CappedBodies, which: Ints, end: int) -> Floats:
     """(k,4) the planes through the eye and the line in which polar plane and cap meet, positive where the body is;
     positive everywhere where there is no cap."""
-    polar, eye = bodies.polar[which], bodies.eye[which]
+    polar = bodies.polar[which]
+    eye = np.column_stack([bodies.eye[which], np.full(len(which), bodies.eye_weight)])
     sign = 1.0 if end == BOTTOM else -1.0
     inside = np.zeros_like(polar)
     inside[:, 2], inside[:, 3] = sign, -sign * bodies.ends[which, end]
