@@ -388,10 +388,11 @@ def main(names: list[str]) -> int:
     try:
         wrong, unproven, counts = check(*(json.loads(Path(name).read_bytes()) for name in names))
     except (OSError, ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
-        print(f"cannot check: {type(error).__name__}: {error}", file=sys.stderr)
+        sys.stderr.write(f"cannot check: {type(error).__name__}: {error}\n")
         return 3
     told = [*(f"wrong: {line}" for line in wrong), *(f"not proven: {line}" for line in unproven)]
-    print("\n".join([*told, ", ".join(f"{number} {name}" for name, number in counts.items())]))
+    told.append(", ".join(f"{number} {name}" for name, number in counts.items()))
+    sys.stdout.write("\n".join(told) + "\n")
     return 1 if wrong else 2 if unproven else 0
 
 
