@@ -18,6 +18,9 @@ from vectorplot.testing.check_certificate import EDGE_KINDS, check
 LEAST_MM = 0.05
 """No mutation is smaller: five times what certificates leave open."""
 
+DASH_MM = 3.5
+"""Dashes are shorter; between them holes of twice the gap are allowed."""
+
 SCENES = (
     *(
         "box",
@@ -77,7 +80,9 @@ def moved(rng, drawing):
 
 def dropped(rng, drawing):
     """A contour, crease or border less."""
-    number = some(rng, drawing, lambda stroke: stroke["kind"] in EDGE_KINDS)
+    number = some(
+        rng, drawing, lambda one: one["kind"] in EDGE_KINDS and (one["hidden_by"] == 0 or length(one) > DASH_MM)
+    )
     stroke = drawing["strokes"].pop(number)
     return not shown_by_others(drawing, way(stroke, "points"))
 

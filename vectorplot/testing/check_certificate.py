@@ -214,12 +214,12 @@ def lying_parts(lines: Segments, of: Triangles, tolerance: float) -> Iterator[Pa
         yield clipped(line, by, *(np.concatenate([rows, -rows[:, 3:]], axis=1) + tolerance for rows in ends))
 
 
-def parts_along(lines: Segments, others: Segments, tolerance: float, axes: int) -> Iterator[Parts]:
-    """Parts of segments that are within a tolerance of other ones, on the page (axes: 2) or in the image (3)."""
-    start, end, one, two = (np.where(np.arange(3) < axes, side, 0.0) for side in (*lines[:2], *others[:2]))
+def parts_along(lines: Segments, others: Segments, tolerance: float, depth: float) -> Iterator[Parts]:
+    """Parts of segments that are within a tolerance of other ones; depth: how much heights count, on the page 0."""
+    start, end, one, two = (side * [1.0, 1.0, depth] for side in (*lines[:2], *others[:2]))
     length = np.linalg.norm(two - one, axis=1)
     unit = (two - one) / np.maximum(length, TINY)[:, None]
-    across = np.cross(unit, np.eye(3)[np.full(len(unit), 2) if axes == 2 else np.abs(unit).argmin(axis=1)])
+    across = np.cross(unit, np.eye(3)[np.abs(unit).argmin(axis=1)])
     across /= np.maximum(np.linalg.norm(across, axis=1), TINY)[:, None]
     frame = np.stack([unit, across, np.cross(unit, across)], axis=1)
     for line, by in near(start, end, np.minimum(one, two) - tolerance, np.maximum(one, two) + tolerance):
@@ -347,9 +347,9 @@ def check_places(model: Model, certificate: Any) -> Iterator[Fault]:
     for word in np.unique(model.kind[long.owner]).tolist():
         own = take(long, model.kind[long.owner] == word)
         mesh = take(model.sides, model.may[word]) if word in model.may else None
-        on = lying_parts(own, model.of, width) if mesh is None else parts_along(own, mesh, width, 3)
+        on = lying_parts(own, model.of, width) if mesh is None else parts_along(own, mesh, width, width / size)
         yield f"{word} where there is none, of stroke", own, gaps(joined(on), own.least(size)), False
-    twice = joined(parts_along(long, long, 0.1 * width, 3))
+    twice = joined(parts_along(long, long, 0.1 * width, 1.0))
     again = (twice.by < twice.line) & (twice.high - twice.low > long.least(size)[twice.line])
     yield "drawn twice, of stroke", long, take(twice, again), False
 
@@ -375,10 +375,10 @@ def check_missing(model: Model, certificate: Any) -> Iterator[Fault]:
     visible, window = take(model.strokes, ~model.hidden[model.strokes.owner]), stacked([certificate["window_mm"]], 2)[0]
     ends = (np.hstack([side[:, :2] - window[0], window[1] - side[:, :2]]) for side in lines[:2])
     outside = gaps(clipped(every := np.arange(len(model.wanted)), every, *ends), np.zeros(len(every)))
-    there = joined([*parts_along(lines, visible, width, 2), away, outside])
+    there = joined([*parts_along(lines, visible, width, 0.0), away, outside])
     yield "neither drawn nor hidden, of edge", lines, gaps(there, lines.least(size)), True
     if (gap := certificate["hidden_gap_mm"]) is not None:
-        there = joined([*parts_along(lines, model.strokes, width, 2), outside])
+        there = joined([*parts_along(lines, model.strokes, width, 0.0), outside])
         shortest = lines.least(size) + gap / np.maximum(lines.length, TINY)
         yield "hidden lines are drawn, but not, of edge", lines, gaps(there, shortest), True
 
