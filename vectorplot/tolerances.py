@@ -776,6 +776,9 @@ COINCIDENT_MM = 1e-4
 """Strokes that are no further apart than this lie on each other, ends on the same point: a tenth of what a file's
 numbers keep."""
 
+CLEAR_MM = 1e-3
+"""Certificates leave strips of this width open beside outlines: ten times what strokes may be off where they join."""
+
 COLLINEAR_MM = 1e-4
 """A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than
 a millionth of a picture on a sheet of paper: what is drawn stays as visible as it was found to be."""

@@ -27,14 +27,12 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import page_of
 from vectorplot.scene.view import View, look
 from vectorplot.testing import check_certificate as checker
+from vectorplot.tolerances import CLEAR_MM, ROUNDING
 from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 SIZE_MM = 0.01
 """Parts of lines that are shorter are not looked at."""
-
-WIDTH_MM = 0.001
-"""Sight lines are clear to this width: ten times what strokes may be off where they are joined."""
 
 STRETCHED = 2.0
 """Gaps between dashes are no more than so many times as long as they are meant to be."""
@@ -114,7 +112,7 @@ def certificate(
     style: Style | str | None = None,
     hidden: Literal["none", "dashed", "solid"] | None = None,
     size_mm: float = SIZE_MM,
-    width_mm: float = WIDTH_MM,
+    width_mm: float = CLEAR_MM,
 ) -> Certificate:
     """What hides each hidden stroke of a drawing, and each part of a line of its meshes that it does not show.
 
@@ -283,7 +281,7 @@ def _hidden(model: checker.Model, lines: checker.Segments) -> checker.Parts:
         # Where nothing goes on, the next part begins.
         goes_on = (at >= 0) & (parts.line[at] == line)
         chosen = best[np.maximum(at, 0)]
-        goes_on &= parts.high[chosen] > reach + 1e-12
+        goes_on &= parts.high[chosen] > reach + ROUNDING
         chosen = np.where(goes_on, chosen, at + 1)
         kept = chosen < last[line]
         line, reach, chosen, goes_on = line[kept], reach[kept], chosen[kept], goes_on[kept]
@@ -312,7 +310,7 @@ def assert_certified(
     style: Style | str | None = None,
     hidden: Literal["none", "dashed", "solid"] | None = None,
     size_mm: float = SIZE_MM,
-    width_mm: float = WIDTH_MM,
+    width_mm: float = CLEAR_MM,
 ) -> dict[str, int]:
     """How much was compared, where a drawing is proved; otherwise an AssertionError that names what is wrong.
 
