@@ -776,7 +776,7 @@ COINCIDENT_MM = 1e-4
 """Strokes that are no further apart than this lie on each other, ends on the same point: a tenth of what a file's
 numbers keep."""
 
-CLEAR_MM = 1e-3
+CERTIFIED_MM = 1e-3
 """Certificates leave strips of this width open beside outlines: ten times what strokes may be off where they join."""
 
 COLLINEAR_MM = 1e-4

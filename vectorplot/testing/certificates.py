@@ -27,7 +27,7 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import page_of
 from vectorplot.scene.view import View, look
 from vectorplot.testing import check_certificate as checker
-from vectorplot.tolerances import CLEAR_MM, ROUNDING
+from vectorplot.tolerances import CERTIFIED_MM, ROUNDING
 from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
@@ -112,7 +112,7 @@ def certificate(
     style: Style | str | None = None,
     hidden: Literal["none", "dashed", "solid"] | None = None,
     size_mm: float = SIZE_MM,
-    width_mm: float = CLEAR_MM,
+    width_mm: float = CERTIFIED_MM,
 ) -> Certificate:
     """What hides each hidden stroke of a drawing, and each part of a line of its meshes that it does not show.
 
@@ -310,7 +310,7 @@ def assert_certified(
     style: Style | str | None = None,
     hidden: Literal["none", "dashed", "solid"] | None = None,
     size_mm: float = SIZE_MM,
-    width_mm: float = CLEAR_MM,
+    width_mm: float = CERTIFIED_MM,
 ) -> dict[str, int]:
     """How much was compared, where a drawing is proved; otherwise an AssertionError that names what is wrong.
 
