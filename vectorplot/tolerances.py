@@ -489,6 +489,14 @@ LEAST_GAIN_OF_TRAVEL = 1e-3
 """A round of moves that makes a long tour of the pen shorter by less than this part is its last one: those that follow
 gain less still, and each costs as much as a tenth of the whole order."""
 
+FINEST_DRAWN_MM, FINEST_PAINTED_MM = 1e-4, 1e-3
+"""Tolerances at which pictures that have a time to keep are as fine as they get: a tenth of the last digit of the
+files, and a shade of which no more is seen."""
+
+ERROR_SAID = 1e-6
+"""Errors below this, in mm, pixels or shades, are those of rounding: a picture that keeps a promise does not name
+them."""
+
 LEAST_TOLERANCE_MM = 1e-6
 """A thousandth of the last digit of the files: who asks for a finer one has missed a power of ten."""
 
@@ -762,6 +770,9 @@ AT_APEX = 1e-9
 COINCIDENT_MM = 1e-4
 """Strokes that are no further apart than this lie on each other, ends on the same point: a tenth of what a file's
 numbers keep."""
+
+CERTIFIED_MM = 1e-3
+"""Certificates leave strips of this width open beside outlines: ten times what strokes may be off where they join."""
 
 COLLINEAR_MM = 1e-4
 """A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than

@@ -13,7 +13,7 @@ from typing import Any, Generic, TypeVar
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.pictures.pipeline import StageReport, peak_mb
 from vectorplot.scene.page import MM_PER
-from vectorplot.tolerances import LEAST_TOLERANCE_MM
+from vectorplot.tolerances import ERROR_SAID, FINEST_DRAWN_MM, FINEST_PAINTED_MM, LEAST_TOLERANCE_MM
 
 R = TypeVar("R")
 
@@ -23,7 +23,7 @@ PROMISE, BROKEN = "promise", "broken promise"
 _QUANTITY = re.compile(r"\s*([0-9.]+(?:e[-+]?[0-9]+)?)\s*([a-z]*)\s*", re.IGNORECASE)
 """A number, and perhaps a unit."""
 
-_SECONDS = {"ms": 1e-3, "s": 1.0, "min": 60.0}
+_SECONDS = {"ms": 1.0 / 1000.0, "s": 1.0, "min": 60.0}
 
 _STEPS = "shades"
 """The unit of errors of colours: steps of 255."""
@@ -110,10 +110,12 @@ def _samples_for(asked: Mapping[str, float]) -> float:
     return 0.7 / asked["px"]
 
 
-DRAWING = Parameter("tolerance_mm", 0.02, 1.0, LEAST_TOLERANCE_MM, 0.1, 1e-4, 0.5, _tolerance_for, ("mm",))
+DRAWING = Parameter("tolerance_mm", 0.02, 1.0, LEAST_TOLERANCE_MM, 0.1, FINEST_DRAWN_MM, 0.5, _tolerance_for, ("mm",))
 """The parameter of draw: chords of smooth curves get more with the root of the tolerance."""
 
-PAINTING = Parameter("tolerance_mm", 0.02, 1.0, LEAST_TOLERANCE_MM, 0.1, 1e-3, 0.7, _tolerance_for, ("mm", _STEPS))
+PAINTING = Parameter(
+    "tolerance_mm", 0.02, 1.0, LEAST_TOLERANCE_MM, 0.1, FINEST_PAINTED_MM, 0.7, _tolerance_for, ("mm", _STEPS)
+)
 """The parameter of paint: triangles of smooth surfaces get more with the tolerance."""
 
 RENDERING = Parameter("samples", None, 1, 8, 1, 8, 2.0, _samples_for, ("px",))
@@ -271,10 +273,6 @@ _EXACT = {"visible lines", "counted lines", "order", "shadows"}
 
 def _sentence(found: Mapping[str, float], made: _Made[Any], spent: float) -> str:
     """What was reached, such as ``off by 0.008 mm (hidden lines exact), 0.31 s``."""
-    errors = " and ".join(f"{error:.2g} {unit}" for unit, error in found.items() if error >= _ROUNDING) or "nothing"
+    errors = " and ".join(f"{error:.2g} {unit}" for unit, error in found.items() if error >= ERROR_SAID) or "nothing"
     exact = " (hidden lines exact)" if made.hidden_lines_are_exact else ""
     return f"off by {errors}{exact}, {spent:.2f} s"
-
-
-_ROUNDING = 1e-6
-"""Errors below this are those of rounding, in all units."""

@@ -27,14 +27,12 @@ from vectorplot.scene.page import Page
 from vectorplot.scene.placement import page_of
 from vectorplot.scene.view import View, look
 from vectorplot.testing import check_certificate as checker
+from vectorplot.tolerances import CERTIFIED_MM, ROUNDING
 from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 SIZE_MM = 0.01
 """Parts of lines that are shorter are not looked at."""
-
-WIDTH_MM = 0.001
-"""Sight lines are clear to this width: ten times what strokes may be off where they are joined."""
 
 STRETCHED = 2.0
 """Gaps between dashes are no more than so many times as long as they are meant to be."""
@@ -47,7 +45,7 @@ class Certificate:
     Parameters
     ----------
     content : dict
-        As it stands in its file, see `docs/certificates.md`.
+        As it stands in its file, see `docs/for_tests.md`.
     unproved : tuple of str
         What cannot be proved of the drawing, a few words each; empty where all of it can be.
 
@@ -114,7 +112,7 @@ def certificate(
     style: Style | str | None = None,
     hidden: Literal["none", "dashed", "solid"] | None = None,
     size_mm: float = SIZE_MM,
-    width_mm: float = WIDTH_MM,
+    width_mm: float = CERTIFIED_MM,
 ) -> Certificate:
     """What hides each hidden stroke of a drawing, and each part of a line of its meshes that it does not show.
 
@@ -135,7 +133,7 @@ def certificate(
     style : Style or str, optional
         As in `draw`.
     hidden : {"none", "dashed", "solid"}, optional
-        As in `draw`; where it is None and the style does not say it, hidden lines are dashed if there are any.
+        As in `draw`; where neither this nor the style says it, hidden lines are dashed if there are any.
     size_mm : float
         Parts of lines that are shorter are not looked at; in mm on the page.
     width_mm : float
@@ -154,7 +152,7 @@ def certificate(
     Notes
     -----
     It is found without the hidden-line engine of this package, and shows right drawings right: whether this one is,
-    `check_certificate.py` says, see `docs/certificates.md`. Smooth surfaces are not certified, nor are strokes of other
+    `check_certificate.py` says, see `docs/for_tests.md`. Smooth surfaces are not certified, nor are strokes of other
     kinds than contour, boundary, crease, edges, intersection, pattern, section and isophote; a drawing with a halo, or
     thin ends, shows less than its lines.
 
@@ -283,7 +281,7 @@ def _hidden(model: checker.Model, lines: checker.Segments) -> checker.Parts:
         # Where nothing goes on, the next part begins.
         goes_on = (at >= 0) & (parts.line[at] == line)
         chosen = best[np.maximum(at, 0)]
-        goes_on &= parts.high[chosen] > reach + 1e-12
+        goes_on &= parts.high[chosen] > reach + ROUNDING
         chosen = np.where(goes_on, chosen, at + 1)
         kept = chosen < last[line]
         line, reach, chosen, goes_on = line[kept], reach[kept], chosen[kept], goes_on[kept]
@@ -312,7 +310,7 @@ def assert_certified(
     style: Style | str | None = None,
     hidden: Literal["none", "dashed", "solid"] | None = None,
     size_mm: float = SIZE_MM,
-    width_mm: float = WIDTH_MM,
+    width_mm: float = CERTIFIED_MM,
 ) -> dict[str, int]:
     """How much was compared, where a drawing is proved; otherwise an AssertionError that names what is wrong.
 
@@ -333,11 +331,11 @@ def assert_certified(
     style : Style or str, optional
         As in `draw`.
     hidden : {"none", "dashed", "solid"}, optional
-        As in `draw`; where it is None and the style does not say it, hidden lines are dashed if there are any.
+        As in `draw`; where neither this nor the style says it, hidden lines are dashed if there are any.
     size_mm : float
-        Parts of lines that are shorter are not looked at; in mm on the page.
+        In mm, see `certificate`.
     width_mm : float
-        Beside the outlines of what is in front strips of this width are left open; in mm on the page.
+        In mm, see `certificate`.
 
     Returns
     -------
@@ -364,11 +362,6 @@ def assert_certified(
     >>> cube = geometry.box((2, 2, 2))
     >>> testing.assert_certified(cube, vp.draw(cube, "iso", hidden="solid"), "iso", hidden="solid")["lines"]
     12
-    >>> try:
-    ...     testing.assert_certified(cube, vp.draw(cube, "iso", lines="contour"), "iso")
-    ... except AssertionError as error:
-    ...     print(str(error).split(",")[0])
-    neither drawn nor hidden
     """
     how = {"page": page, "lines": lines, "crease_angle_deg": crease_angle_deg, "style": style, "hidden": hidden}
     made = certificate(scene, drawing, camera, **how, size_mm=size_mm, width_mm=width_mm)  # type: ignore[arg-type]

@@ -29,7 +29,7 @@ EDGE_KINDS = ("contour", "boundary", "crease")
 FACE_KINDS = ("intersection", "pattern", "section", "isophote")
 BLOCK, PAIRS = 64, 1 << 17
 """Segments that are compared with all others at once, and pairs that are held at once: all arrays are below 100 MB."""
-STRICT_MM, SEAM_MM, ANGLE_DEG, TINY = 1e-6, 1e-8, 1e-3, 1e-300
+STRICT_MM, SEAM_MM, ANGLE_DEG, LEAST = 1e-6, 1e-8, 1e-3, 1e-300
 """What is no farther behind a face is not hidden by it; faces hide so far beyond sides they share, and rounding moves
 points less; edges that turn by the crease angle, but for so much, may be drawn or not; the least divisor."""
 Fault = tuple[str, "Segments", "Parts", bool]
@@ -49,7 +49,7 @@ class Segments(NamedTuple):
 
     def least(self, mm: float) -> Floats:
         """(n,) the part of each that is so many mm long, but half of one that is short."""
-        return np.minimum(mm / np.maximum(self.length, TINY), 0.5)
+        return np.minimum(mm / np.maximum(self.length, LEAST), 0.5)
 
     @property
     def length(self) -> Floats:
@@ -131,7 +131,7 @@ def halves_of(corners: Floats) -> Floats:
     normal = np.cross(way[:, 0], way[:, 1])[:, None]
     sides = np.stack([-way[..., 1], way[..., 0], 0.0 * way[..., 2]], axis=2)
     rows = np.concatenate([sides, -normal], axis=1) * np.where(normal[..., 2:] < 0.0, -1.0, 1.0)
-    rows /= np.maximum(np.linalg.norm(rows, axis=2), TINY)[..., None]
+    rows /= np.maximum(np.linalg.norm(rows, axis=2), LEAST)[..., None]
     return np.concatenate([rows, -(rows * corners[:, [0, 1, 2, 0]]).sum(axis=2)[..., None]], axis=2)
 
 
@@ -144,7 +144,7 @@ def edges_of(world: Floats, image: Floats, triangles: Ints, angle_deg: float, do
     keys, first, edge, count = np.unique(key, return_index=True, return_inverse=True, return_counts=True)
     ends, edge = np.stack([keys // max(n, 1), keys % max(n, 1)], axis=1), edge.ravel()
     way, arm = (image[to] - image[ends[edge, 0]] for to in (ends[edge, 1], apex))
-    beside = (way[:, 0] * arm[:, 1] - way[:, 1] * arm[:, 0]) / np.maximum(np.hypot(way[:, 0], way[:, 1]), TINY)
+    beside = (way[:, 0] * arm[:, 1] - way[:, 1] * arm[:, 0]) / np.maximum(np.hypot(way[:, 0], way[:, 1]), LEAST)
     one_sided, facing = [], np.zeros(len(keys), dtype=np.bool_)
     for zero in (doubt, SEAM_MM):
         left, right = (np.bincount(edge, weights=s * beside > zero, minlength=len(keys)) > 0.0 for s in (1.0, -1.0))
@@ -152,9 +152,9 @@ def edges_of(world: Floats, image: Floats, triangles: Ints, angle_deg: float, do
         facing = left | right
     # The directions in which faces leave an edge: two faces are flat where these are opposite.
     way, arm = (world[to] - world[ends[edge, 0]] for to in (ends[edge, 1], apex))
-    arm -= ((arm * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), TINY))[:, None] * way
+    arm -= ((arm * way).sum(axis=1) / np.maximum((way * way).sum(axis=1), LEAST))[:, None] * way
     height = np.linalg.norm(arm, axis=1)
-    arm /= np.maximum(height, TINY)[:, None]
+    arm /= np.maximum(height, LEAST)[:, None]
     start = np.searchsorted(edge, np.arange(len(keys)), sorter=(order := np.argsort(edge, kind="stable")))
     f, g = (order[np.minimum(start + step, len(order) - 1)] for step in (0, 1))
     apart, alike = (np.linalg.norm(arm[f] + sign * arm[g], axis=1) for sign in (-1.0, 1.0))
@@ -171,7 +171,7 @@ def near(start: Floats, end: Floats, others_low: Floats, others_high: Floats) ->
     """Pairs of segments and boxes (m,3) that these may reach, in chunks: some neighbours at once against all boxes."""
     low, high = np.minimum(start, end), np.maximum(start, end)
     middle = 0.5 * (low[:, :2] + high[:, :2])
-    order = np.lexsort((middle[:, 1], *np.floor(middle * 32.0 / np.abs(middle).max(initial=TINY)).T))
+    order = np.lexsort((middle[:, 1], *np.floor(middle * 32.0 / np.abs(middle).max(initial=LEAST)).T))
     for own in (order[begin : begin + BLOCK] for begin in range(0, len(order), BLOCK)):
         over, under = others_high >= low[own].min(axis=0), others_low <= high[own].max(axis=0)
         other = np.flatnonzero((over & under).all(axis=1))
@@ -218,9 +218,9 @@ def parts_along(lines: Segments, others: Segments, tolerance: float, depth: floa
     """Parts of segments that are within a tolerance of other ones; depth: how much heights count, on the page 0."""
     start, end, one, two = (side * [1.0, 1.0, depth] for side in (*lines[:2], *others[:2]))
     length = np.linalg.norm(two - one, axis=1)
-    unit = (two - one) / np.maximum(length, TINY)[:, None]
+    unit = (two - one) / np.maximum(length, LEAST)[:, None]
     across = np.cross(unit, np.eye(3)[np.abs(unit).argmin(axis=1)])
-    across /= np.maximum(np.linalg.norm(across, axis=1), TINY)[:, None]
+    across /= np.maximum(np.linalg.norm(across, axis=1), LEAST)[:, None]
     frame = np.stack([unit, across, np.cross(unit, across)], axis=1)
     for line, by in near(start, end, np.minimum(one, two) - tolerance, np.maximum(one, two) + tolerance):
         room = length[by, None] * [1.0, 0.0, 0.0] + tolerance
@@ -379,7 +379,7 @@ def check_missing(model: Model, certificate: Any) -> Iterator[Fault]:
     yield "neither drawn nor hidden, of edge", lines, gaps(there, lines.least(size)), True
     if (gap := certificate["hidden_gap_mm"]) is not None:
         there = joined([*parts_along(lines, model.strokes, width, 0.0), outside])
-        shortest = lines.least(size) + gap / np.maximum(lines.length, TINY)
+        shortest = lines.least(size) + gap / np.maximum(lines.length, LEAST)
         yield "hidden lines are drawn, but not, of edge", lines, gaps(there, shortest), True
 
 
