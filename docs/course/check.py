@@ -1,4 +1,4 @@
-"""Says of the exercises of a chapter which are right: ``python docs/course/check.py 3``, or without a number, of all."""
+"""Says which exercises of a chapter are right: ``python docs/course/check.py 3``; without a number, of all chapters."""
 
 from __future__ import annotations
 

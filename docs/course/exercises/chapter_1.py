@@ -1,4 +1,7 @@
-"""Exercises of chapter 1, a projection. Fill in the functions; ``python docs/course/check.py 1`` says which are right."""
+"""Exercises of chapter 1, a projection.
+
+Fill in the functions; ``python docs/course/check.py 1`` says which are right.
+"""
 
 from __future__ import annotations
 

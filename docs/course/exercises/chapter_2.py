@@ -1,4 +1,7 @@
-"""Exercises of chapter 2, a hidden line. Fill in the functions; ``python docs/course/check.py 2`` says which are right."""
+"""Exercises of chapter 2, a hidden line.
+
+Fill in the functions; ``python docs/course/check.py 2`` says which are right.
+"""
 
 from __future__ import annotations
 

@@ -1,4 +1,7 @@
-"""Exercises of chapter 3, a zone. Fill in the functions; ``python docs/course/check.py 3`` says which are right."""
+"""Exercises of chapter 3, a zone.
+
+Fill in the functions; ``python docs/course/check.py 3`` says which are right.
+"""
 
 from __future__ import annotations
 

@@ -1,8 +1,12 @@
-"""Exercises of chapter 4, a zero manifold. Fill in the functions; ``python docs/course/check.py 4`` says which are right."""
+"""Exercises of chapter 4, a zero manifold.
+
+Fill in the functions; ``python docs/course/check.py 4`` says which are right.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 
@@ -16,10 +20,10 @@ def crossings(f: Callable[..., np.ndarray], a: np.ndarray, b: np.ndarray) -> np.
 
 
 def in_triangles(corners: np.ndarray, values: np.ndarray) -> np.ndarray:
-    """(s, 2, 2) the segments along which linear functions vanish in triangles (m, 3, 2), values (m, 3) at their corners.
+    """(s, 2, 2) the segments along which linear functions vanish in triangles (m, 3, 2).
 
-    A triangle whose values have one sign has none; no value is 0. They come in the order of the triangles; the ends of
-    each may be swapped.
+    values (m, 3) are those at the corners. A triangle whose values have one sign has none; no value is 0. They come in
+    the order of the triangles; the ends of each may be swapped.
     """
     raise NotImplementedError
 
@@ -83,7 +87,7 @@ def check_branches(answer: Callable[..., tuple[int, int]]) -> None:
         segments = []
         for _ in range(opened):
             line = rng.normal(size=(rng.integers(2, 9), 2))
-            segments += list(zip(line[:-1], line[1:], strict=True))
+            segments += list(pairwise(line))
         for _ in range(closed):
             line = rng.normal(size=(rng.integers(3, 9), 2))
             segments += list(zip(line, np.roll(line, -1, axis=0), strict=True))

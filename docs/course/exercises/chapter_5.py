@@ -1,4 +1,7 @@
-"""Exercises of chapter 5, a contour. Fill in the functions; ``python docs/course/check.py 5`` says which are right."""
+"""Exercises of chapter 5, a contour.
+
+Fill in the functions; ``python docs/course/check.py 5`` says which are right.
+"""
 
 from __future__ import annotations
 
@@ -30,8 +33,9 @@ def contour_of_sphere(centre: np.ndarray, radius: float, eye: np.ndarray) -> tup
 def bend_towards_eye(surface: Any, u: np.ndarray, v: np.ndarray, eye: np.ndarray) -> np.ndarray:
     """(k,) normal curvatures along the lines of sight, at parameters (k,) of points of the contour.
 
-    With the line of sight s = a X_u + b X_v, a unit vector, it is L a^2 + 2 M a b + N b^2, where L = n.X_uu, M = n.X_uv,
-    N = n.X_vv with the unit normal n. surface.second_partials(u, v) are X_uu, X_uv, X_vv. Its zeros are the cusps.
+    With the line of sight s = a X_u + b X_v, a unit vector, it is L a^2 + 2 M a b + N b^2, where L = n.X_uu,
+    M = n.X_uv, N = n.X_vv with the unit normal n. surface.second_partials(u, v) are X_uu, X_uv, X_vv. Its zeros are
+    the cusps.
     """
     raise NotImplementedError
 

@@ -1,4 +1,7 @@
-"""Exercises of chapter 6, a painter. Fill in the functions; ``python docs/course/check.py 6`` says which are right."""
+"""Exercises of chapter 6, a painter.
+
+Fill in the functions; ``python docs/course/check.py 6`` says which are right.
+"""
 
 from __future__ import annotations
 
@@ -16,7 +19,7 @@ def side(face: np.ndarray, points: np.ndarray, eye: np.ndarray) -> int:
 
 
 def ordered(count: int, demands: list[tuple[int, int]]) -> list[int] | None:
-    """An order of the numbers 0 to count - 1 in which b stands before a for each demand (b, a); None if there is none."""
+    """An order of 0 to count - 1 in which b stands before a for each demand (b, a); None if there is none."""
     raise NotImplementedError
 
 

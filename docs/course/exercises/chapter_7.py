@@ -1,4 +1,7 @@
-"""Exercises of chapter 7, a shadow. Fill in the functions; ``python docs/course/check.py 7`` says which are right."""
+"""Exercises of chapter 7, a shadow.
+
+Fill in the functions; ``python docs/course/check.py 7`` says which are right.
+"""
 
 from __future__ import annotations
 
@@ -36,7 +39,7 @@ def check_sun_shadow(answer: Callable[..., np.ndarray]) -> None:
     """Shadows lie on the ground, and on the rays."""
     rng = np.random.default_rng(1)
     for _ in range(20):
-        points, sun = rng.normal(size=(9, 3)) + (0, 0, 4), rng.normal(size=3)
+        points, sun = rng.normal(size=(9, 3)) + np.array([0, 0, 4]), rng.normal(size=3)
         sun[2] = abs(sun[2]) + 0.2
         found = np.asarray(answer(points, sun))
         assert found.shape == (9, 3), f"expected an array (9, 3), found {found.shape}"

@@ -1,4 +1,7 @@
-"""Exercises of chapter 8, a film. Fill in the functions; ``python docs/course/check.py 8`` says which are right."""
+"""Exercises of chapter 8, a film.
+
+Fill in the functions; ``python docs/course/check.py 8`` says which are right.
+"""
 
 from __future__ import annotations
 
@@ -21,8 +24,8 @@ def frame_times(frames: int, loop: bool) -> np.ndarray:
 def between_keys(times: np.ndarray, values: np.ndarray, t: np.ndarray, closed: bool) -> np.ndarray:
     """(n,) values at times t (n,), straight from key to key; keys (k,) with ascending times from 0 to 1.
 
-    Before the first key and behind the last one the value stays. If it is closed, the first key follows the last one, one
-    unit of time after its own time, and the value runs on to it.
+    Before the first key and behind the last one the value stays. If it is closed, the first key follows the last one,
+    one unit of time after its own time, and the value runs on to it.
     """
     raise NotImplementedError
 
@@ -30,9 +33,10 @@ def between_keys(times: np.ndarray, values: np.ndarray, t: np.ndarray, closed: b
 def akima(times: np.ndarray, values: np.ndarray, t: np.ndarray) -> np.ndarray:
     """(n,) values at times t (n,) within the keys, smooth, by Akima's rule; five or more keys (k,).
 
-    With the chords' slopes m[0] ... m[k-2], continued by two at either end (m[-1] = 2 m[0] - m[1], m[-2] = 2 m[-1] - m[0], likewise
-    on the right), the slope at key i is (w1 m[i-1] + w2 m[i]) / (w1 + w2), w1 = |m[i+1] - m[i]|, w2 = |m[i-1] - m[i-2]|;
-    where both are 0, the mean of m[i-1] and m[i]. Between keys runs the cubic with these values and slopes.
+    The chords between keys have the slopes m[0] ... m[k-2]. Two more are put at either end: m[-1] = 2 m[0] - m[1],
+    m[-2] = 2 m[-1] - m[0], likewise on the right. The slope at key i is (w1 m[i-1] + w2 m[i]) / (w1 + w2) with
+    w1 = |m[i+1] - m[i]| and w2 = |m[i-1] - m[i-2]|; where both are 0, the mean of m[i-1] and m[i]. Between two keys
+    runs the cubic with these values and slopes.
     """
     raise NotImplementedError
 
