@@ -48,6 +48,7 @@ CONTENTS = {
         "workshop",
         "for_notebooks",
         "for_tests",
+        "certificates",
         "how-to",
         "concepts",
         "gallery/README",
