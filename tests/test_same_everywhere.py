@@ -82,10 +82,10 @@ def pictures(scenes: list[str], **environment: str) -> str:
 @pytest.mark.slow
 @pytest.mark.hard(57)
 def test_other_processors_make_the_same_bytes():
-    """Bodies that pierce each other, mirrors and patterns; tests/support/frozen.py does it for all scenes."""
-    scenes = ["intersections", "mirror"]
+    """A spline surface, complex numbers, mirrors and patterns; tests/support/frozen.py does it for all scenes."""
+    scenes = ["asymptotic_lines", "mirror", "splines"]
     here = pictures(scenes, OPENBLAS_CORETYPE="Haswell")
-    assert here.count("\n") == 24
+    assert here.count("\n") == 36
     # Zen multiplies as Haswell does.
     for core in ("Prescott", "SkylakeX"):
         # The least of them without what numpy knows of newer instructions, by its names of today and of version 2.0.

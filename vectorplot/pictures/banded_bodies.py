@@ -113,9 +113,9 @@ def whole_bodies(shown: Scene, projection: Projection) -> WholeBodies | None:
     return WholeBodies(scene, view, bodies, ordered, boxes, charts.take(shown_bodies[charts.body]))
 
 
-def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, tolerance_mm: float) -> Fills:
-    """The bodies in bands of equal shade, back to front, as far as the picture shows them; casts: whether lights cast
-    shadows."""
+def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, tolerance_mm: float) -> tuple[Fills, float]:
+    """The bodies in bands of equal shade, back to front, as far as the picture shows them, and how far their outlines
+    are off on the page, in mm; casts: whether lights cast shadows."""
     view, bodies = whole.view, whole.bodies
     mm = _millimetres(whole, placement)
     charts = with_overlaps(whole.charts, (OVERLAP * tolerance_mm * mm / bodies.sizes[2])[whole.charts.body])
@@ -142,7 +142,8 @@ def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, toleranc
     shaded = ShadedCharts(
         charts, look, view, list(looks.values()), lights, placement, steps, loose, grain, cuts, shadows, cover
     )
-    return _fills(whole, scene.items, item, shade_bands(shaded, tolerance_mm), placement)
+    bands, off_mm = shade_bands(shaded, tolerance_mm)
+    return _fills(whole, scene.items, item, bands, placement), off_mm
 
 
 def _reaches(items: Sequence[Item], item: Ints) -> Floats:

@@ -291,7 +291,8 @@ def paint(
         page, world = placement.page, placement.page_from_world
         ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget)
         casts = pipeline.calls_for("shadows")
-        bodies = pipeline.run("bands", banded_fills, whole, placement, casts, tolerance_mm)
+        bodies, off_mm = pipeline.run("bands", banded_fills, whole, placement, casts, tolerance_mm)
+        pipeline.measured("bodies", "mm", lambda: off_mm)
         pipeline.measured("bands", "of 255", band_error_steps, whole, placement, tolerance_mm)
         polygons = Fills.joined(*background_of(scene, page), bodies)
     else:

@@ -34,7 +34,7 @@ def off_by_of(asked: float | str, *units: str) -> dict[str, float]:
     ``0.01mm,4shades``: lengths in mm on paper, pixels as px, colours as shades, steps of 255; InputError for what is
     none of the units, or no positive number."""
     if not isinstance(asked, str):
-        asked = f"{asked!r}"
+        asked = repr(float(asked))
     found: dict[str, float] = {}
     for part in asked.split(","):
         value, unit = _quantity(part)
@@ -178,8 +178,8 @@ def promised(verb: Callable[..., R], parameter: Parameter, arguments: Mapping[st
 
     For an error, the verb's parameter is set to what keeps it as a rule; what was reached is measured, and where that
     is more, a finer picture is made. For a time, a coarse picture is made first, then finer ones as long as they are
-    expected to be done in time; one that is not is given up. For both, the error decides, and what is not done in time
-    is given up.
+    expected to be done in time; one that is not is given up. For both, the error decides, and a finer picture
+    that is not done in time is given up.
 
     A listener (explain) is told the stages of the picture that is taken, and as "promise" or "broken promise" what was
     reached, and by how many pictures.

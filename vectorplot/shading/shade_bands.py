@@ -137,7 +137,7 @@ ROUNDS = 10
 """Triangles are halved so many times at most."""
 
 SHORTEST_MM = 0.1
-"""Sides that are no longer on the page are not halved any more."""
+"""Sides that are no longer on the page are not halved any more, but for those along outlines."""
 
 BENDS = 0.5
 """By so many bands shades are off in the middle of a side, at most."""
@@ -247,8 +247,10 @@ def _samples(shaded: ShadedCharts, chart: Ints, x: Floats, y: Floats) -> _Sample
     return _Samples(page, points, alpha, level[0], rest[:lines].reshape(-1, 3, len(chart)), rest[lines:])
 
 
-def _refined(shaded: ShadedCharts, mesh: ChartMesh, tolerance_mm: float) -> ChartMesh:
-    """The mesh with triangles halved until everything is nearly linear along their sides."""
+def _refined(shaded: ShadedCharts, mesh: ChartMesh, tolerance_mm: float) -> tuple[ChartMesh, float]:
+    """The mesh with triangles halved until everything is nearly linear along their sides; and how far sides along
+    outlines are off these on the page, at most, in their middles."""
+    off_mm = 0.0
     known = _samples(shaded, mesh.chart, mesh.x, mesh.y)
     active, done = mesh.triangles, []
     for _ in range(ROUNDS):
@@ -260,6 +262,7 @@ def _refined(shaded: ShadedCharts, mesh: ChartMesh, tolerance_mm: float) -> Char
         border |= (np.abs(y) == 1.0) & (mesh.y[one] == mesh.y[other])
         ends = known.take(one), known.take(other)
         bad = _bent(shaded, chart, border, ends, between, tolerance_mm)
+        off_mm = max(off_mm, float(_beside(*ends, between)[border & ~bad].max(initial=0.0)))
         if not bad.any():
             break
         cut = np.flatnonzero(bad)
@@ -270,7 +273,7 @@ def _refined(shaded: ShadedCharts, mesh: ChartMesh, tolerance_mm: float) -> Char
         active = _halved(active[split], bad[number[split]], fresh[number[split]])
         mesh = mesh.with_nodes(one[cut], other[cut], np.full(len(cut), 0.5), active)
         known = known.joined(between.take(cut))
-    return replace(mesh, triangles=np.concatenate([*done, active]))
+    return replace(mesh, triangles=np.concatenate([*done, active])), off_mm
 
 
 def _halved(triangles: Ints, bad: Bools, middles: Ints) -> Ints:
@@ -282,6 +285,13 @@ def _halved(triangles: Ints, bad: Bools, middles: Ints) -> Ints:
     nodes = np.concatenate([np.take_along_axis(rows, order, axis=1) for rows in (triangles, middles)], axis=1)
     found = [nodes[count == number][:, np.array(parts)].reshape(-1, 3) for number, parts in PARTS.items()]
     return np.concatenate(found)
+
+
+def _beside(one: _Samples, other: _Samples, middle: _Samples) -> Floats:
+    """(s,) how far the middles of curves between places are from their chords, in mm on the page."""
+    way = other.page - one.page
+    off = middle.page - 0.5 * (one.page + other.page)
+    return np.asarray(np.abs(way[0] * off[1] - way[1] * off[0]) / np.maximum(np.hypot(*way), LEAST_DIVISOR))
 
 
 def _bent(
@@ -297,9 +307,9 @@ def _bent(
     way = other.page - one.page
     length = np.hypot(*way)
     off = middle.page - 0.5 * (one.page + other.page)
-    beside = np.abs(way[0] * off[1] - way[1] * off[0]) / np.maximum(length, LEAST_DIVISOR)
-    bad = border & (np.maximum(beside, np.where(length > 0.0, 0.0, np.hypot(*off))) > CHORD * tolerance_mm)
-    bad |= beside > SAG * shaded.loose_mm[chart]
+    beside = _beside(one, other, middle)
+    outline = border & (np.maximum(beside, np.where(length > 0.0, 0.0, np.hypot(*off))) > CHORD * tolerance_mm)
+    bad = beside > SAG * shaded.loose_mm[chart]
     allowed = BENDS / shaded.steps[chart]
     alphas = np.stack([one.alpha, middle.alpha, other.alpha])
     bad |= (np.abs(alphas[1] - 0.5 * (alphas[0] + alphas[2])) > allowed).any(axis=0)
@@ -323,7 +333,7 @@ def _bent(
         # What is no larger than the grain could lie beside the side.
         bad |= on & (np.abs(m) < 0.5 * far) & (far > shaded.grain[chart])
     long = np.maximum(length, 2.0 * np.hypot(*(middle.page - one.page))) > SHORTEST_MM
-    return np.asarray(bad & long, dtype=np.bool_)
+    return np.asarray(outline | (bad & long), dtype=np.bool_)
 
 
 # Meshes cut where a function of places is zero.
@@ -443,23 +453,26 @@ class ShadeBands:
         return np.asarray(np.clip((self.level + 0.5) / self.steps[self.chart], 0.0, 1.0))
 
 
-def shade_bands(shaded: ShadedCharts, tolerance_mm: float) -> ShadeBands:
-    """The bands of equal shade of charts, each chart by itself: those in full light, then those in shadows.
+def shade_bands(shaded: ShadedCharts, tolerance_mm: float) -> tuple[ShadeBands, float]:
+    """The bands of equal shade of charts, each chart by itself: those in full light, then those in shadows; and how far
+    outlines are off on the page, at most, in mm.
 
     Shades are those of the surfaces themselves. Bands are off by half of their width, by what BENDS allows between the
     corners of isophotes, and by what outlines are off on the page, no more than tolerance_mm.
     Regions between isophotes are marched on triangles; the painter's algorithm makes each end at the next one.
     """
 
-    def of_part(some: slice) -> ShadeBands:
-        found = _bands_of(shaded.part(some), tolerance_mm)
-        return replace(found, chart=found.chart + some.start, steps=shaded.steps)
+    def of_part(some: slice) -> tuple[ShadeBands, float]:
+        found, off_mm = _bands_of(shaded.part(some), tolerance_mm)
+        return replace(found, chart=found.chart + some.start, steps=shaded.steps), off_mm
 
-    return joined(list(mapped(of_part, slices(len(shaded.charts), CHARTS_AT_ONCE))))
+    parts, off_mm = zip(*mapped(of_part, slices(len(shaded.charts), CHARTS_AT_ONCE)), strict=True)
+    return joined(parts), max(off_mm)
 
 
-def _bands_of(shaded: ShadedCharts, tolerance_mm: float) -> ShadeBands:
-    mesh = _refined(shaded, _first_mesh(shaded.charts), tolerance_mm)
+def _bands_of(shaded: ShadedCharts, tolerance_mm: float) -> tuple[ShadeBands, float]:
+    """The same of some charts."""
+    mesh, off_mm = _refined(shaded, _first_mesh(shaded.charts), tolerance_mm)
     if shaded.cover is not None:
         cover = shaded.cover(mesh.chart, shaded.charts.at(mesh.chart, mesh.x, mesh.y)[0])[mesh.triangles]
         # What a convex thing hides is convex.
@@ -474,7 +487,7 @@ def _bands_of(shaded: ShadedCharts, tolerance_mm: float) -> ShadeBands:
         mesh = _cut(mesh, shaded.cosines(number))[0]
     for _, margin in shaded.shadows:
         mesh = _cut(mesh, shaded.margins(margin))[0]
-    return _marched(shaded, mesh, _lacking(shaded, mesh), tolerance_mm)
+    return _marched(shaded, mesh, _lacking(shaded, mesh), tolerance_mm), off_mm
 
 
 def _lacking(shaded: ShadedCharts, mesh: ChartMesh) -> Ints:

@@ -11,6 +11,7 @@ from vectorplot.effects import shadows as grades
 from vectorplot.effects.shadows import Shadows, cast_shadows, graded, joined_shadows, shadow_decals, shadow_decals_of
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polygon_cuts import polygon_areas
 from vectorplot.scene.light import Light
 from vectorplot.scene.scene import Scene
@@ -144,13 +145,16 @@ def test_sixteen_lights_make_as_many_cells_as_their_borders_do(lights: int) -> N
 @pytest.mark.slow
 @pytest.mark.hard(78)
 def test_many_lights_on_a_mesh_see_its_outline_only() -> None:
-    ring = torus_mesh().transformed(np.diag([0.5, 0.5, 0.5, 1.0]) + np.pad([[2.2]], ((2, 1), (3, 0))))
+    # A ring without one face is no body: each of its faces throws a shadow of its own.
+    whole = torus_mesh()
+    open_ = Mesh(whole.vertices, whole.corners[:-4], whole.offsets[:-1])
+    ring = open_.transformed(np.diag([0.5, 0.5, 0.5, 1.0]) + np.pad([[2.2]], ((2, 1), (3, 0))))
     scene = numbered([box((-6, -6, -1), (6, 6, 0)), ring])
     view = look(scene, Camera((7, -12, 11), (0, 0, 0)))
     lamps = ring_of_lights(16)
     decals = shadow_decals(view, lamps)
-    # The ring has 576 faces, of which each lamp sees some half.
-    assert len(cast_shadows(view, lamps)) < 0.1 * 16 * 288 and len(decals) < 500
+    on_floor = [np.count_nonzero(view.face_item[found.face] == 0) for found in (decals, cast_shadows(view, lamps))]
+    assert on_floor[0] < 0.1 * on_floor[1]
     wrong, answered = wrong_points(view, lamps, decals, drawn_faces(view, project_faces(view)), 1000)
     assert wrong == 0 and answered > 900
 
