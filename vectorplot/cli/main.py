@@ -68,8 +68,17 @@ def stoppable() -> Iterator[None]:
             signal.signal(number, handler)
 
 
+def _ignore(*handlers: object) -> None:
+    """Ignores the signals of SAID, those that one of these handlers has."""
+    for number in (getattr(signal, name) for name in SAID if hasattr(signal, name)):
+        if signal.getsignal(number) in handlers:
+            signal.signal(number, signal.SIG_IGN)
+
+
 def stopped(stop: KeyboardInterrupt) -> int:
-    """The exit status after a stop, 128 and the signal's number as in shells; one line on stderr says what it was."""
+    """The exit status after a stop, 128 and the signal's number as in shells; one line on stderr says what it was. More
+    signals are ignored from here on, as far as stoppable lets them stop anything."""
+    _ignore(_stop)
     number = stop.number if isinstance(stop, Stopped) else signal.SIGINT
     line = f"vectorplot: {SAID[signal.Signals(number).name]}"
     try:
@@ -96,6 +105,9 @@ def main() -> None:
             status = run(sys.argv[1:])
     except KeyboardInterrupt as stop:
         status = stopped(stop)
+    if status > 128:
+        # The command has said why it ends: a second signal has no more to say.
+        _ignore(signal.SIG_DFL, signal.default_int_handler)
     sys.exit(status)
 
 
