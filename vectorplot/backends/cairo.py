@@ -78,6 +78,7 @@ def in_meshes(areas: Areas) -> Areas:
         areas.part[every],
         areas.fringe[every],
         areas.item[every],
+        areas.look[every],
     )
 
 
