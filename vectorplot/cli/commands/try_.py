@@ -73,12 +73,12 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
 
 def check_viewer(what: str) -> None:
     """Errors: InputError where what serves pages is not installed; said before any work."""
-    from vectorplot.errors import InputError
+    from vectorplot.errors import not_installed
 
     try:
         import aiohttp  # noqa: F401
     except ImportError:
-        raise InputError(f"{what} needs aiohttp: pip install 'vectorplot[viewer]'") from None
+        raise not_installed(what, "aiohttp", "viewer") from None
 
 
 def show_address(address: str, *, no_browser: bool) -> None:
