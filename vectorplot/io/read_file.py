@@ -164,9 +164,9 @@ _NAME = "standard input"
 
 
 def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
-    """The scene in the file of a name, as io.read_file.read has it, which is looked for as
-    io.named_files.data_file has it; of the name ``-`` the one in the scene language on
-    standard input, in which names of files are relative to the folder that one is in.
+    """The scene in the file of a name, as io.read_file.read has it, found as io.named_files.data_file has it; of the
+    name ``-`` the one in the scene language on standard input, in which names of files are relative to the folder that
+    one is in.
 
     Errors: InputError as in read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
     """
