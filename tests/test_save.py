@@ -133,9 +133,10 @@ from vectorplot.cli.main import run
 vectors, pictures = ("svg", "json", "dxf", "tex"), ("pdf", "ps", "eps", "png")
 for verb in ("draw", "paint"):
     print(*(run([verb, "box", "-o", f"{verb}.{suffix}"]) for suffix in (*vectors, *pictures)))
+print(run(["draw", "no such file", "-o", "early.pdf"]))
 print(run(["render", "box", "-o", "render.png", "--size", "40x30"]))
 print(run(["animate", "cubes", "-a", "cubes", "--frames", "1", "-o", "film.svg"]))
-print(run(["animate", "cubes", "-a", "cubes", "--frames", "1", "-o", "film.pdf"]))
+print(run(["animate", "cubes", "-a", "cubes", "-o", "film.pdf"]))
 drawing = vp.read("draw.json")
 print(drawing._repr_png_(), len(drawing._repr_svg_()) > 0)
 """
@@ -146,7 +147,7 @@ def test_without_cairo_vectors_and_pixels_of_render_are_written_and_the_rest_say
     told = subprocess.run(
         [sys.executable, "-c", WITHOUT_CAIRO], cwd=tmp_path, capture_output=True, text=True, check=True
     )
-    assert told.stdout.splitlines() == ["0 0 0 0 1 1 1 1", "0 0 0 0 1 1 1 1", "0", "0", "1", "None True"]
+    assert told.stdout.splitlines() == ["0 0 0 0 1 1 1 1", "0 0 0 0 1 1 1 1", "1", "0", "0", "1", "None True"]
     (line,) = set(told.stderr.splitlines())
     assert line.startswith("vectorplot: ") and "needs pycairo: pip install '.[cairo]'" in line
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(

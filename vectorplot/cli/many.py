@@ -298,6 +298,10 @@ def check_out(out: str | None, format_: str | None) -> None:
         from vectorplot.backends.video import library
 
         library()
+    elif kind == "pdf":
+        from vectorplot.save import backend
+
+        backend(kind)
     check_place(os.fspath(Path(out)))
 
 
