@@ -176,9 +176,14 @@ def write(drawing: Drawing | Image | Scene, format: str) -> bytes:
         if format.lower() != "png":
             raise InputError(f"a picture of pixels is written as png, not as {format}")
         return drawing.png()
+    return backend(format)(drawing)
+
+
+def backend(format: str) -> Callable[[Drawing], bytes]:
+    """What writes drawings in a format of FORMATS. Errors: InputError where the library for it is not installed."""
     module, function = _BACKENDS[format.lower()]
-    backend: Callable[[Drawing], bytes] = getattr(import_module(f"vectorplot.backends.{module}"), function)
-    return backend(drawing)
+    found: Callable[[Drawing], bytes] = getattr(import_module(f"vectorplot.backends.{module}"), function)
+    return found
 
 
 def _scene_text(scene: Scene, format: str) -> bytes:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 from collections.abc import Iterable
 from dataclasses import dataclass, field
+from importlib.util import find_spec
 from typing import Any
 
 import numpy as np
@@ -331,7 +332,10 @@ class Drawing:
 
         return svg_text(self)
 
-    def _repr_png_(self) -> bytes:
+    def _repr_png_(self) -> bytes | None:
+        # A notebook asks for all pictures that there are, and shows one.
+        if find_spec("cairo") is None:
+            return None
         from vectorplot.backends.cairo import png_bytes
 
         return png_bytes(self)
