@@ -202,8 +202,8 @@ class ConvexThings(Protocol):
     """Convex sets in the coordinates of a view."""
 
     @property
-    def centre(self) -> Floats:
-        """(3,n) a point in or near each of them."""
+    def middle(self) -> Floats:
+        """(3,n) a point within each of them."""
 
     def support(self, directions: Floats, which: Ints) -> Floats:
         """(3,m) the points of things which (m,) that reach farthest in directions (3,m)."""
@@ -243,7 +243,7 @@ def _images_apart(eye: Floats | None, ones: Some, others: Some) -> Bools:
     """(m,) whether a plane through the eye lies between two things: a support of the hulls of the one and of the other
     mirrored in the eye, or of the differences of their points along the image."""
     (a, one), (b, other) = ones, others
-    middles = a.centre[:, one], b.centre[:, other]
+    middles = a.middle[:, one], b.middle[:, other]
     if eye is None:
         flat = np.array([[1.0], [1.0], [0.0]])
 
@@ -271,7 +271,7 @@ def _in_front(eye: Floats | None, ones: Some, others: Some) -> Bools | None:
     def difference(direction: Floats, which: Ints) -> Floats:
         return a.support(-direction, one[which]) - b.support(direction, other[which])
 
-    apart, normal = _directions((difference, a.centre[:, one] - b.centre[:, other]), len(one))
+    apart, normal = _directions((difference, a.middle[:, one] - b.middle[:, other]), len(one))
     if not apart.all():
         return None
     low = dot(normal, a.support(-normal, one))
@@ -290,8 +290,8 @@ class _Hulls:
     offsets: Ints
 
     @property
-    def centre(self) -> Floats:
-        """(3,n) the middles of their points."""
+    def middle(self) -> Floats:
+        """(3,n) those of their points."""
         return np.add.reduceat(self.points, self.offsets[:-1], axis=1) / np.diff(self.offsets)
 
     def support(self, directions: Floats, which: Ints) -> Floats:

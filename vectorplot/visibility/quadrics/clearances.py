@@ -168,12 +168,10 @@ def clearance_of(bodies: QuadricBodies, receiver: Ints, light: Light) -> Clearan
 
 def balls_around(bodies: QuadricBodies) -> tuple[Floats, Floats]:
     """Middles (3,n) and radii (n,) of balls around bodies."""
-    half = 0.5 * (bodies.ends[0] + bodies.ends[1])
-    middle = bodies.centre + np.where(bodies.is_ball, 0.0, half) * bodies.frame[2]
     wide = np.sqrt((bodies.sizes[:2] ** 2).sum(axis=0))
     around = np.sqrt((bodies.sizes**2).sum(axis=0))
     around = np.where(bodies.is_ball & bodies.is_right, bodies.sizes[0], around)
-    return middle, np.where(bodies.is_ball, around, np.hypot(wide, 0.5 * bodies.sizes[2]))
+    return bodies.middle, np.where(bodies.is_ball, around, np.hypot(wide, 0.5 * bodies.sizes[2]))
 
 
 # Flat things that throw the shadows of bodies.
