@@ -30,7 +30,7 @@ from vectorplot.tolerances import LARGEST_VIEW
 from vectorplot.visibility.quadrics.visible_parts import QuadricBodies
 
 if TYPE_CHECKING:
-    from vectorplot.effects.scales import ColourBar
+    from vectorplot.effects.colour_maps import ColourBar
     from vectorplot.shading.seen_region import SeenRegion
 
 
@@ -92,7 +92,7 @@ def pixels_left_of_bar(size: tuple[int, int], bar: ColourBar | None) -> tuple[in
     """Columns and rows that a colour bar leaves of a picture."""
     if bar is None:
         return size
-    from vectorplot.effects.scales import strip_mm
+    from vectorplot.effects.colour_maps import strip_mm
 
     return max(1, size[0] - round(strip_mm(size[0] / PIXELS_PER_MM) * PIXELS_PER_MM)), size[1]
 
@@ -104,7 +104,7 @@ def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int
         return pixels
     from vectorplot.backends.raster import painted
     from vectorplot.drawing.drawing import Drawing
-    from vectorplot.effects.scales import with_colour_bar
+    from vectorplot.effects.colour_maps import with_colour_bar
 
     rows, columns = pixels.shape[:2]
     width, height = columns / PIXELS_PER_MM, rows / PIXELS_PER_MM
