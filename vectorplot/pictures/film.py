@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -20,6 +19,9 @@ from vectorplot.scene.placement import camera_around, page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.image import Image
 from vectorplot.words import check_word, unknown
+
+if TYPE_CHECKING:
+    from vectorplot.save import Destination
 
 # A film: the frames of an animation, each made when it is asked for.
 
@@ -89,17 +91,15 @@ class Film:
         """Whether frames are pixels."""
         return self.mode.verb == "render"
 
-    def save(
-        self, path: str | os.PathLike[str], *, format: str | None = None, progress: Progress | None = None
-    ) -> None:
+    def save(self, path: Destination, *, format: str | None = None, progress: Progress | None = None) -> None:
         """Make all frames and write them, as `vp.save_frames` does.
 
         Parameters
         ----------
-        path : str or path
-            A name that ends in .pdf, .svg, .mp4, .webm, .gif or .vd1, or a folder.
+        path : str, path or file object
+            A name that ends in .pdf, .svg, .mp4, .webm, .gif or .vd1, a folder, or an open file.
         format : str, optional
-            Of the files in a folder.
+            Of the files in a folder; needed for an open file.
         progress : callable, optional
             progress(stage, fraction) is called while it works.
 

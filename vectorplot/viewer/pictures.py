@@ -20,7 +20,7 @@ from vectorplot.io.scene_language import parse_scene
 from vectorplot.pictures.draw import draw
 from vectorplot.pictures.paint import paint
 from vectorplot.pictures.render import render
-from vectorplot.save import write
+from vectorplot.save import SHOWN, shown_as, write
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.image import Image
@@ -30,9 +30,6 @@ from vectorplot.viewer.state import ViewerState, camera_of_state, lights_of_stat
 
 PIXELS_HIGH = 720
 """Rows of pictures of pixels."""
-
-MOST_MARKS = 30_000
-"""A browser is given drawings with more of them as pixels."""
 
 OUTLINES = ("contour", "boundary")
 """The kinds of lines that outlines are."""
@@ -117,9 +114,8 @@ def drawable(state: ViewerState) -> ViewerState:
 
 def for_browser(made: Drawing | Image) -> tuple[bytes, str]:
     """A picture as SVG, or as PNG where it is of pixels or has very many marks, and its media type."""
-    if isinstance(made, Image) or sum(len(mark) for layer in made.layers for mark in layer.marks) > MOST_MARKS:
-        return write(made, "png"), "image/png"
-    return write(made, "svg"), "image/svg+xml"
+    format = "png" if isinstance(made, Image) else shown_as(made)
+    return write(made, format), SHOWN[format]
 
 
 # Pictures that are being made: of each page the latest wins, and what nobody waits for any more stops.
