@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import polylines, ragged, records
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.elementary import arcsin, arctan, tan
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
@@ -422,7 +423,7 @@ def virtual_points(view: View, sight_ways: SightWays, points: Floats, way: Ints 
     way = np.zeros(points.shape[1], dtype=np.intp) if way is None else way
     found, seen = np.empty_like(points), np.empty(points.shape[1], dtype=np.bool_)
     guided = _Guides.of(view, sight_ways)
-    for low in range(0, points.shape[1], POINTS_AT_ONCE):
+    for low in in_turn(range(0, points.shape[1], POINTS_AT_ONCE)):
         some = slice(low, low + POINTS_AT_ONCE)
         own, there = sight_ways.of(way[some]), points[:, some]
         frame = np.broadcast_to(_frames(own.normal[:, -1]), (2, 3, there.shape[1]))

@@ -16,7 +16,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
-from vectorplot.geometry.budget import slices
+from vectorplot.geometry.budget import in_turn, slices
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.elementary import arccos
@@ -233,12 +233,12 @@ def refined(net: Net, between: Between, criterion: Criterion, most: int) -> Net:
     """
     found = _Found(np.zeros(0, dtype=np.intp), np.zeros((3, 0)))
     front = _front(net.vertices, net.triangles, criterion)
-    for _ in range(ROUNDS):
+    for _ in in_turn(range(ROUNDS)):
         count = len(net.vertices.points)
         edges, sides, uses = edges_of(net.triangles, count)
         found, new = found.of(edges[:, 0] << 32 | edges[:, 1])
         extent = np.ptp(net.vertices.places, axis=0) if count else 0.0
-        for some in slices(len(new), SIDES_AT_ONCE):
+        for some in in_turn(slices(len(new), SIDES_AT_ONCE)):
             own = new[some]
             found.rows[:, own] = _splits(net, extent, edges[own], uses[own] == 1, between, criterion)
         error_ratio, as_border, part = found.rows

@@ -39,6 +39,7 @@ from vectorplot.features.intersection_grids import UNEVEN, seam_numbers
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL as DEFAULT_BUDGET
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
@@ -688,7 +689,7 @@ def facets_of_all(shapes: Sequence[Any], criterion: Callable[[int], Criterion], 
     for number, shape in enumerate(shapes):
         families.setdefault(_family(shape) or number, []).append(number)
     for family in families.values():
-        for start in range(0, len(family), LOT):
+        for start in in_turn(range(0, len(family), LOT)):
             batch = family[start : start + LOT]
             asked = [criterion(number) for number in batch]
             shared = [_shared_net(shapes[number], one) for number, one in zip(batch, asked, strict=True)]

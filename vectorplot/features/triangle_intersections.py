@@ -12,6 +12,7 @@ from vectorplot.features.patches import Patch
 from vectorplot.geometry import records
 from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.elementary import arccos
 from vectorplot.geometry.vectors import all_components, any_component, component_sum, cross, norm
 from vectorplot.geometry.weld import close_points
@@ -130,7 +131,7 @@ def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
     """
     origin = one.points[one.triangles[:1, 0]].reshape(-1, 3)[:1] if len(one.triangles) else np.zeros((1, 3))
     tables = [_empty(one, two)]
-    for start in range(0, len(pairs[0]), PAIRS_AT_ONCE):
+    for start in in_turn(range(0, len(pairs[0]), PAIRS_AT_ONCE)):
         i, j = (p[start : start + PAIRS_AT_ONCE] for p in pairs)
         tables.append(_meet(one, two, origin, i, j))
     key, place_one, place_two, triangles = (np.concatenate(column) for column in zip(*tables, strict=True))
