@@ -31,7 +31,7 @@ from vectorplot.geometry.regions import (
     without_holes,
     without_splinters,
 )
-from vectorplot.geometry.triangles import overlapping
+from vectorplot.geometry.triangles import PAIRS_AT_ONCE, overlapping
 from vectorplot.tolerances import CLEARANCE_MM, EDGE_ON_SINE, GRID_MM, STEP_BORDER_MM
 
 AREA_MM2 = GRID_MM * GRID_MM
@@ -200,7 +200,12 @@ def _common(regions: Any, below: Ints, above: Ints) -> Bools:
     corners = np.ascontiguousarray(triangles[:, :TRIANGLE].T)
     common = np.ones(len(below), dtype=np.bool_)
     plain = three[below] & three[above]
-    common[plain] = overlapping(corners[..., below[plain]], corners[..., above[plain]])
+    common[plain] = in_pieces(
+        lambda one, other: overlapping(corners[..., one], corners[..., other]),
+        PAIRS_AT_ONCE,
+        below[plain],
+        above[plain],
+    )
     # What each region is asked of many others is looked up in it once for all.
     shapely.prepare(regions)
     for asked, answer in ((shapely.intersects, True), (shapely.touches, False)):
