@@ -167,3 +167,19 @@ def test_a_stop_leaves_nobody_asked_behind():
 def test_what_is_no_listener_is_told_as_before():
     with pytest.raises(vp.InputError, match="progress"):
         vp.draw(box((1, 1, 1)), progress=7)
+
+
+def test_a_film_is_stopped_amid_a_frame(tmp_path, monkeypatch):
+    monkeypatch.setattr(pipeline, "ASKED_S", 0.0)
+    heard = []
+
+    def stop(name, fraction):
+        heard.append((name, fraction))
+        if heard[-3:] == 3 * [("frames", 0.5)]:
+            raise StopError
+
+    ball = vp.Item("ball", rough_sphere(3))
+    film = vp.animate(vp.Animation(lambda time: ball.turned("z", 90 * time), frames=2), page="60x40")
+    with pytest.raises(StopError):
+        film.save(tmp_path / "film.svg", progress=stop)
+    assert not list(tmp_path.iterdir())

@@ -188,7 +188,7 @@ def draw(
     jobs : int, optional
         On how many threads the stages that go over chunks work; where None, on all processors. The result is the same.
     progress : callable, optional
-        progress(stage, fraction) is called while it works.
+        progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
     explain : callable, optional
         explain(report) is called while it works, with a StageReport.
 

@@ -13,6 +13,7 @@ from vectorplot.animation.correspondence import corresponding, steady_fit, widen
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import VIEWS, Camera
+from vectorplot.pictures.pipeline import stoppable
 from vectorplot.pictures.pixels import raster_page
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import camera_around, page_of
@@ -91,6 +92,7 @@ class Film:
         """Whether frames are pixels."""
         return self.mode.verb == "render"
 
+    @stoppable
     def save(self, path: Destination, *, format: str | None = None, progress: Progress | None = None) -> None:
         """Make all frames and write them, as `vp.save_frames` does.
 
@@ -101,7 +103,7 @@ class Film:
         format : str, optional
             Of the files in a folder; needed for an open file.
         progress : callable, optional
-            progress(stage, fraction) is called while it works.
+            progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
 
         Raises
         ------
@@ -166,7 +168,7 @@ class Film:
         frame : int
             From 0.
         progress : callable, optional
-            progress(stage, fraction) is called while it works.
+            progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
 
         Returns
         -------
@@ -208,6 +210,7 @@ SIZE = (800, 600)
 """Columns and rows of frames of pixels if nobody says otherwise."""
 
 
+@stoppable
 def animate(
     animation: Animation,
     *,

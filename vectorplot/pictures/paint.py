@@ -198,7 +198,7 @@ def paint(
     jobs : int, optional
         As in draw.
     progress : callable, optional
-        progress(stage, fraction) is called while it works.
+        progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
     explain : callable, optional
         explain(report) is called while it works, with a StageReport.
 

@@ -175,7 +175,7 @@ def render(
     jobs : int, optional
         See draw.
     progress : callable, optional
-        progress(stage, fraction) is called while it works.
+        progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
     explain : callable, optional
         explain(report) is called while it works, with a StageReport.
 

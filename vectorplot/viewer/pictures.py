@@ -15,6 +15,7 @@ from typing import Any, TypeVar
 from vectorplot.animation.animation import MODES
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
+from vectorplot.geometry.budget import stopping
 from vectorplot.io.read_file import SCENE_SUFFIXES, read
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.pictures.draw import draw
@@ -149,8 +150,12 @@ class Job:
 
     def progress(self, stage: str, fraction: float) -> None:
         """Let the work go on, or stop it."""
+        self.go_on()
+
+    def go_on(self) -> None:
+        """The same, where nobody knows how far the work is."""
         if self.stopped.is_set():
-            raise SupersededError(stage)
+            raise SupersededError("nobody waits for it any more")
 
 
 class Jobs:
@@ -182,8 +187,9 @@ class Jobs:
                 before.stopped.set()
 
             def working() -> Made:
-                job.progress("begin", 0.0)
-                return work(job)
+                job.go_on()
+                with stopping(job.go_on):
+                    return work(job)
 
             return job, self.pool.submit(working)
 
