@@ -15,7 +15,7 @@ from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay, stacked
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import determinant, linear_solution
-from vectorplot.geometry.budget import in_pieces, in_turn, may_stop
+from vectorplot.geometry.budget import in_pieces, in_turn, may_stop, slices
 from vectorplot.geometry.mesh import TRIANGLE, next_positions
 from vectorplot.geometry.records import Elements
 from vectorplot.geometry.regions import (
@@ -175,7 +175,9 @@ def _overlaps(regions: Any, opaque: Bools) -> tuple[Ints, Ints, Bools]:
     if not len(regions):
         return none, none, np.zeros(0, dtype=np.bool_)
     over = np.flatnonzero(opaque)
-    below, above = shapely.STRtree(regions[over]).query(regions)
+    tree = shapely.STRtree(regions[over])
+    pieces = in_turn(slices(len(regions), REGIONS_AT_ONCE))
+    below, above = np.concatenate([np.add(tree.query(regions[some]), [[some.start], [0]]) for some in pieces], axis=1)
     above = over[above]
     later = above > below
     below, above = below[later], above[later]

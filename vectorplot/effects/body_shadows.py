@@ -164,6 +164,9 @@ def _crossed(ends: Floats) -> Floats:
     return np.asarray(x * v - y * u)
 
 
+POINTS_AT_ONCE = 1 << 13
+"""So many points are compared with outlines before work may stop."""
+
 MORE_STRIPS = 0.5
 """Strips in which the sides of an outline are sorted are so many that a side is in so many more than one, in the mean:
 a quarter of its sides where an outline is round."""
@@ -195,16 +198,18 @@ def _runs_around(points: Floats, of_point: Ints, ends: Floats, of: Ints, count: 
     met = ragged.ranges(first, crossed)
     sides = ragged.owner(crossed)[np.argsort(met, kind="stable")]
     begins = ragged.offsets(np.bincount(met, minlength=int(begin[-1])))
-    may_stop()
-    number, starts = ragged.take(begins, strip(points[1], of_point))
-    (x, y), (u, v) = ends[:, :, sides[number]]
-    may_stop()
-    a, b = np.repeat(points, np.diff(starts), axis=1)
-    upwards, downwards = (y <= b) & (v > b), (v <= b) & (y > b)
-    left = (u - x) * (b - y) - (v - y) * (a - x)
-    owner = ragged.owner(np.diff(starts))
-    turns = np.where(upwards & (left > 0.0), 1.0, 0.0) - np.where(downwards & (left < 0.0), 1.0, 0.0)
-    return np.bincount(owner, turns, minlength=len(of_point)).astype(np.intp)
+
+    def turns(across: Floats, height: Floats, body: Ints) -> Ints:
+        number, starts = ragged.take(begins, strip(height, body))
+        (x, y), (u, v) = ends[:, :, sides[number]]
+        owner = ragged.owner(np.diff(starts))
+        a, b = across[owner], height[owner]
+        upwards, downwards = (y <= b) & (v > b), (v <= b) & (y > b)
+        left = (u - x) * (b - y) - (v - y) * (a - x)
+        turned = np.where(upwards & (left > 0.0), 1.0, 0.0) - np.where(downwards & (left < 0.0), 1.0, 0.0)
+        return np.bincount(owner, turned, minlength=len(body)).astype(np.intp)
+
+    return in_pieces(turns, POINTS_AT_ONCE, *points, of_point)
 
 
 # Bodies that keep light from what lies beyond them as a whole: by their outlines, not face by face.

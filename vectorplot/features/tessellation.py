@@ -372,7 +372,7 @@ def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, cr
     going = np.arange(surfaces)
     while len(going):
         left = []
-        for count in np.unique(counts[going]).tolist():
+        for count in in_turn(np.unique(counts[going]).tolist()):
             own = going[counts[going] == count]
             sides = lines(count, own)
             # What lies in a hole is not cut at all.

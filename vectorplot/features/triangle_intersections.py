@@ -12,7 +12,7 @@ from vectorplot.features.patches import Patch
 from vectorplot.geometry import records
 from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
-from vectorplot.geometry.budget import in_turn
+from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.elementary import arccos
 from vectorplot.geometry.vectors import all_components, any_component, component_sum, cross, norm
 from vectorplot.geometry.weld import close_points
@@ -88,6 +88,7 @@ def overlapping_within(patch: Patch) -> Pair:
 
 def overlapping_in_cells(one: Boxes, two: Boxes) -> Pair:
     """Pairs of boxes that overlap, of shapes with the same number."""
+    may_stop()
     both = one, two
     starts = [np.flatnonzero(np.diff(boxes.cells, prepend=-1)) for boxes in both]
     if not len(starts[0]) or not len(starts[1]):
@@ -360,6 +361,7 @@ def _middles(patch: Patch, which: Ints) -> _Middles:
 
 def _near_pairs(one: Patch, two: Patch, same: bool) -> tuple[Ints, Ints]:
     """Pairs of triangles between which there may be a contact."""
+    may_stop()
     first, second = _beside(one, two), _beside(two, one)
     a = _middles(one, first)
     b = a if same else _middles(two, second)
@@ -406,7 +408,7 @@ def _stationary(one: Patch, two: Patch, i: Ints, j: Ints, same: bool) -> Contact
     cells = np.linalg.norm(high - low, axis=0)[i]
     arrived = np.zeros(len(a), dtype=np.bool_)
     active = np.arange(len(a))
-    for _ in range(STEPS):
+    for _ in in_turn(range(STEPS)):
         if not len(active):
             break
         near = _Pass.between(one, two, a[active], b[active])

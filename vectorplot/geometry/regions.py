@@ -191,6 +191,7 @@ def triangles_of(regions: Any) -> tuple[Any, Ints]:
     """Triangles that regions (n,) consist of, with no other corners than theirs, and the region of each."""
     import shapely
 
+    may_stop()
     parts, of = shapely.get_parts(insides_of(regions), return_index=True)
     full = np.flatnonzero(shapely.area(parts) > 0.0)
     triangles, part = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[full]), return_index=True)
@@ -246,6 +247,7 @@ def corners_of(parts: Any) -> tuple[Floats, Ints]:
     """Corners (2,c) and offsets (n+1,) of polygons (n,) without holes, counter-clockwise."""
     import shapely
 
+    may_stop()
     rings = shapely.get_exterior_ring(shapely.orient_polygons(parts))
     xy, of = shapely.get_coordinates(rings, return_index=True)
     # A ring of shapely repeats its first point at its end.

@@ -127,6 +127,7 @@ def turned_faces(mesh: Mesh, turn: Bools) -> Mesh:
     may_stop()
     where = np.arange(len(mesh.corners))
     face = mesh.corner_face
+    may_stop()
     mirrored = mesh.offsets[:-1][face] + mesh.offsets[1:][face] - 1 - where
     return Mesh(mesh.vertices, mesh.corners[np.where(turn[face], mirrored, where)], mesh.offsets, mesh.present)
 
