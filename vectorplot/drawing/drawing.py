@@ -334,10 +334,7 @@ class Drawing:
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
-        """What a notebook shows and stores: SVG, or PNG where there are very many marks; the other one if it is wanted.
-
-        Source: IPython, Integrating your objects with IPython, MyObject._repr_mimebundle_.
-        """
+        """What a notebook shows and stores: SVG, or PNG where there are very many marks; the other one if it is wanted."""
         from vectorplot.save import SHOWN, shown_as, write
 
         preferred = shown_as(self)
