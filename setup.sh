@@ -140,7 +140,7 @@ install_all() {
     rm -f "$stamp"
     echo "setup.sh: installing vectorplot and what it needs" >&2
     # For tests nothing is compiled before it is imported: of what they bring, most never is.
-    what=.
+    what='.[cairo]'
     now=1
     [ "$goal" = run ] || { what='.[test]'; now=0; }
     PIP_COMPILE=$now .venv/bin/python -m pip install --quiet --disable-pip-version-check -e "$what" ||

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib.metadata
 import re
 from pathlib import Path
 
@@ -12,6 +11,8 @@ from numpydoc import docscrape_sphinx
 from sphinx.application import Sphinx
 from sphinx.pycode.parser import Parser
 
+from vectorplot import __version__
+
 ROOMS = (
     "geometry curves surfaces features scene io visibility shading drawing effects textbook backends "
     "batch testing accuracy"
@@ -20,7 +21,7 @@ ROOMS = (
 
 project = "vectorplot"
 copyright = "the vectorplot authors, MIT licence"
-release = importlib.metadata.version("vectorplot")
+release = __version__
 extensions = ["myst_parser", "sphinx.ext.autodoc", "numpydoc", "sphinx_copybutton"]
 exclude_patterns = ["_build"]
 source_suffix = {".md": "markdown", ".rst": "restructuredtext"}

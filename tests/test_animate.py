@@ -178,7 +178,9 @@ def test_what_cannot_be_saved_is_told(tmp_path, monkeypatch):
     with pytest.raises(vp.InputError, match="frames of pixels do not go into a file of the format pdf"):
         vp.save(film(mode="pixels", size=(30, 20)), tmp_path / "film.pdf")
     monkeypatch.setitem(__import__("sys").modules, "av", None)
-    with pytest.raises(vp.InputError, match=r'^videos need the package av: pip install "vectorplot\[video\]"$'):
+    with pytest.raises(
+        vp.InputError, match=r"^a video needs av: pip install '\.\[video\]' in the checkout of vectorplot$"
+    ):
         vp.save(film(), tmp_path / "film.mp4")
     assert not list(tmp_path.iterdir())
 

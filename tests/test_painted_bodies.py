@@ -139,6 +139,13 @@ def assert_same_fills(one, other):
     assert (seen[0] != seen[1]).any(axis=1).mean() < 0.002
 
 
+def test_rods_that_begin_in_the_middle_of_one_ball_are_beside_each_other():
+    ways = np.concatenate([np.eye(3), -np.eye(3)])
+    rods = (rod((0, 0, 0), tuple(2.0 * way), 0.2) for way in ways)
+    scene = scene_of(Sphere(0.6), *rods, *(Sphere(0.4, tuple(2.0 * way)) for way in ways), lights=LAMPS[:1])
+    assert_right(scene, CENTRAL, steps=3.0, rarely=12.0)
+
+
 @pytest.mark.slow
 def test_jobs_make_the_same_picture(monkeypatch):
     monkeypatch.setattr(shade_bands, "CHARTS_AT_ONCE", 8)

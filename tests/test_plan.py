@@ -35,6 +35,7 @@ CLEAR = replace(PANE, material=Material("transparent", 0.5), occludes=False)
 GLASS = replace(PANE, material=Material("transparent", 0.5, 1.4), occludes=False)
 SPOT = replace(CUBE, patterns=(Pattern("SPOT", "red", 1, np.array([(0.0, 0.0), (0.5, 0.0), (0.0, 0.5)])),))
 BALL = Item("BALL", Sphere(0.5))
+RING = Item("RING", Torus(0.5, 0.1))
 CORNERS = CUBE.mesh.vertices
 BAND = replace(CUBE, normals=SurfaceNormals(CUBE.mesh, CORNERS / np.sqrt(3.0), np.zeros(len(CORNERS), dtype=bool)))
 CAMERA = Camera((4.0, -6.0, 5.0))
@@ -76,7 +77,8 @@ CALLS = [
     (Scene((CUBE, CLEAR), (SUN,)), {}, with_sheets("shadows", "transparent shadows")),
     (Scene((CUBE, GLASS)), {}, with_sheets("refraction")),
     (Scene((CUBE, GLASS), (SUN,)), {"shadows": "none"}, with_sheets("refraction")),
-    (Scene((CUBE, BALL)), {}, ["facets", *PLAIN[:3], "unseen facets", *PLAIN[3:]]),
+    (Scene((CUBE, BALL)), {}, ["bodies", *PLAIN, "bands"]),
+    (Scene((CUBE, RING)), {}, ["facets", *PLAIN[:3], "unseen facets", *PLAIN[3:]]),
     (Scene((BAND,)), {}, [*PLAIN[:3], "unseen facets", *PLAIN[3:]]),
     (Scene((CUBE,)), {"fills": "visible"}, [*PLAIN, "visible fills"]),
     (Scene((CUBE,)), {"lines": ("crease",)}, [*PLAIN, "lines"]),

@@ -133,6 +133,37 @@ def test_writing_svg_does_not_load_cairo_and_writing_ps_not_svgwrite():
         subprocess.run([sys.executable, "-c", check], check=True)
 
 
+WITHOUT_CAIRO = """
+import sys
+sys.modules["cairo"] = None
+import vectorplot as vp
+from vectorplot.cli.main import run
+vectors, pictures = ("svg", "json", "dxf", "tex"), ("pdf", "ps", "eps", "png")
+for verb in ("draw", "paint"):
+    print(*(run([verb, "box", "-o", f"{verb}.{suffix}"]) for suffix in (*vectors, *pictures)))
+print(run(["draw", "no such file", "-o", "early.pdf"]))
+print(run(["render", "box", "-o", "render.png", "--size", "40x30"]))
+print(run(["animate", "cubes", "-a", "cubes", "--frames", "1", "-o", "film.svg"]))
+print(run(["animate", "cubes", "-a", "cubes", "-o", "film.pdf"]))
+drawing = vp.read("draw.json")
+print(*drawing._repr_mimebundle_(), *drawing._repr_mimebundle_(include=["image/png"]))
+"""
+
+
+@pytest.mark.slow
+def test_without_cairo_vectors_and_pixels_of_render_are_written_and_the_rest_says_what_it_needs(tmp_path):
+    told = subprocess.run(
+        [sys.executable, "-c", WITHOUT_CAIRO], cwd=tmp_path, capture_output=True, text=True, check=True
+    )
+    assert told.stdout.splitlines() == ["0 0 0 0 1 1 1 1", "0 0 0 0 1 1 1 1", "1", "0", "0", "1", "image/svg+xml"]
+    (line,) = set(told.stderr.splitlines())
+    assert line.startswith("vectorplot: ") and "needs pycairo: pip install '.[cairo]'" in line
+    assert sorted(path.name for path in tmp_path.iterdir()) == sorted(
+        [f"{verb}.{suffix}" for verb in ("draw", "paint") for suffix in ("svg", "json", "dxf", "tex")]
+        + ["render.png", "film.svg"]
+    )
+
+
 def test_a_drawing_of_several_marks_keeps_them_all():
     n = np.zeros(1, dtype=np.intp)
     one = Paths(np.array([[1.0, 1.0], [2.0, 2.0]]), np.array([0, 2]), n > 0, n, n, n, np.zeros((2, 3)))

@@ -66,6 +66,11 @@ class InputWarning(UserWarning):
         super().__init__(_shortened(printable(message)))
 
 
+def not_installed(what: str, package: str, extra: str) -> InputError:
+    """The error for what needs a package that only an extra of this one brings."""
+    return InputError(f"{what} needs {package}: pip install '.[{extra}]' in the checkout of vectorplot")
+
+
 def printable(text: str) -> str:
     """The text in one line of letters that show: blanks of all kinds become one, and ? stands for everything that could
     steer a terminal (control characters of both sets, marks of direction, halves of surrogate pairs)."""

@@ -8,6 +8,7 @@ import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, Protocol, runtime_checkable
 
@@ -204,9 +205,14 @@ def write(drawing: Drawing | Image | Scene, format: str) -> bytes:
         if format.lower() != "png":
             raise InputError(f"a picture of pixels is written as png, not as {format}")
         return drawing.png()
+    return backend(format)(drawing)
+
+
+def backend(format: str) -> Callable[[Drawing], bytes]:
+    """What writes drawings in a format of FORMATS. Errors: InputError where the library for it is not installed."""
     module, function = _BACKENDS[format.lower()]
-    backend: Callable[[Drawing], bytes] = getattr(import_module(f"vectorplot.backends.{module}"), function)
-    return backend(drawing)
+    found: Callable[[Drawing], bytes] = getattr(import_module(f"vectorplot.backends.{module}"), function)
+    return found
 
 
 def _scene_text(scene: Scene, format: str) -> bytes:
@@ -227,9 +233,13 @@ SHOWN = {"svg": "image/svg+xml", "png": "image/png"}
 """The formats that pages show, and their media types."""
 
 
-def shown_as(drawing: Drawing) -> str:
-    """The format in which a page shows a drawing: svg, or png where it has very many marks."""
-    return "png" if sum(len(mark) for layer in drawing.layers for mark in layer.marks) > MOST_MARKS else "svg"
+def shown_as(drawing: Drawing) -> tuple[str, ...]:
+    """The formats in which a page can show a drawing, the one to be shown first: svg, or png where it has very many
+    marks. Without pycairo there is no png."""
+    if find_spec("cairo") is None:
+        return ("svg",)
+    many = sum(len(mark) for layer in drawing.layers for mark in layer.marks) > MOST_MARKS
+    return ("png", "svg") if many else ("svg", "png")
 
 
 # Where contents go: under a path, whole or not at all, or into an open file, all at once.

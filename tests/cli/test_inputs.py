@@ -165,8 +165,8 @@ def test_names_without_folder_and_suffix_are_found_in_data(verb, tmp_path, monke
             name
         )
     made = Path("out.png").stat().st_mtime_ns
-    assert run([verb, "pencil", "-o", "out.png"]) == 1 and Path("out.png").stat().st_mtime_ns == made
-    assert "pencil" in capsys.readouterr().err
+    assert run([verb, "dice", "-o", "out.png"]) == 1 and Path("out.png").stat().st_mtime_ns == made
+    assert "dice" in capsys.readouterr().err
     # What lies in the current folder comes first.
     Path("die").write_text("DIE box 1 1 nothing", encoding="utf-8")
     assert run([verb, "die", "-o", "out.png"]) == 1
@@ -178,3 +178,32 @@ def test_info_finds_them_too(tmp_path, monkeypatch, capsys):
     (tmp_path / "data" / "die.scene").write_text("DIE red box 1 1 1", encoding="utf-8")
     monkeypatch.chdir(tmp_path)
     assert run(["info", "die"]) == 0 and "DIE" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("name", ["box", "BOX", "box.scene", "data/box.scene", "DATA/Box"])
+def test_what_came_with_the_package_is_found_from_any_folder(name, tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    assert run(["info", name]) == 0 and "BOX: 8 vertices" in capsys.readouterr().out
+    # What lies here comes first, whatever its capitals.
+    (tmp_path / "DATA").mkdir()
+    (tmp_path / "DATA" / "BOX.SCENE").write_text("DIE red box 1 1 1", encoding="utf-8")
+    assert run(["info", name]) == 0 and "DIE: 8 vertices" in capsys.readouterr().out
+
+
+def test_a_file_that_is_called_exactly_so_comes_before_one_in_capitals(tmp_path, monkeypatch, capsys):
+    monkeypatch.chdir(tmp_path)
+    for name in ("DIE", "die"):
+        (tmp_path / f"{name}.scene").write_text(f"{name} red box 1 1 1", encoding="utf-8")
+    assert run(["info", "die"]) == 0 and "die: 8 vertices" in capsys.readouterr().out
+
+
+@pytest.mark.slow
+def test_a_sample_that_has_changed_is_drawn_again_into_a_folder(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "data").mkdir()
+    scene = tmp_path / "data" / "die.scene"
+    for size in ("1 1 1", "1 1 4"):
+        scene.write_text(f"DIE red box {size}", encoding="utf-8")
+        assert run(["draw", "die", "-o", "out/", "--quiet"]) == 0
+        made = (tmp_path / "out" / "die.svg").read_bytes()
+    assert run(["draw", "die", "-o", "once.svg", "--quiet"]) == 0 and (tmp_path / "once.svg").read_bytes() == made

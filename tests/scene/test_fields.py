@@ -8,7 +8,7 @@ import pytest
 import vectorplot as vp
 from vectorplot.cli.main import run
 from vectorplot.effects import cut_scene
-from vectorplot.effects.scales import coloured
+from vectorplot.effects.colour_maps import coloured
 from vectorplot.errors import InputError
 from vectorplot.geometry import box
 from vectorplot.io import parse_scene

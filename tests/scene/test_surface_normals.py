@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.effects.scales import coloured
+from vectorplot.effects.colour_maps import coloured
 from vectorplot.scene.item import SurfaceNormals
 from vectorplot.scene.scales import Colouring
 from vectorplot.shading.facet_resolution import FacetedScene

@@ -1,4 +1,4 @@
-"""What is seen of balls and capped frusta at places of a page, by rays: items, and their colours."""
+"""What is seen of balls, capped frusta and meshes at places of a page, by rays: items, and their colours."""
 
 from __future__ import annotations
 
@@ -7,11 +7,12 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 import vectorplot as vp
-from support.top_fills import fills_of, top_at
+from support.top_fills import colours_at, fills_of, top_at
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import Drawing
+from vectorplot.geometry import ragged
 from vectorplot.geometry.projections import Projection, projection_of
-from vectorplot.scene.view import view_of
+from vectorplot.scene.view import View, view_of
 from vectorplot.shading.illumination import shadow_shades
 from vectorplot.shading.palettes import COLOUR_MAP
 from vectorplot.shading.shaded_faces import exposed_scene, item_colours, point_shades
@@ -20,15 +21,15 @@ from vectorplot.visibility.quadrics.visible_parts import QuadricBodies, quadric_
 
 @dataclass(frozen=True)
 class Sight:
-    """What rays meet: bodies (n,), -1 for none, points and outer normals (3,n)."""
+    """What rays meet: items (n,), -1 for none, points and outer normals (3,n)."""
 
-    body: Ints
+    item: Ints
     points: Floats
     normals: Floats
 
 
-def first_hits(bodies: QuadricBodies, start: Floats, way: Floats, least: float = 0.0) -> Sight:
-    """The first bodies on rays (3,n) behind a part of their ways."""
+def first_hits(bodies: QuadricBodies, view: View, start: Floats, way: Floats, least: float = 0.0) -> Sight:
+    """The first bodies, and faces of the view, on rays (3,n) behind a part of their ways."""
     best, found = np.full(start.shape[1], np.inf), np.full(start.shape[1], -1)
     points, normals = np.zeros((2, 3, start.shape[1]))
     for k in range(len(bodies)):
@@ -38,10 +39,24 @@ def first_hits(bodies: QuadricBodies, start: Floats, way: Floats, least: float =
         for t, normal in _hits(bodies, k, p, d):
             near = (t > least) & (t < best)
             best = np.where(near, t, best)
-            found = np.where(near, k, found)
+            found = np.where(near, bodies.item[k], found)
             there = np.einsum("jn,ij->in", normal, inverse)
             points[:, near] = (start + np.where(np.isfinite(t), t, 0.0) * way)[:, near]
             normals[:, near] = (there / np.sqrt((there * there).sum(axis=0)))[:, near]
+    fans, of = ragged.fans(view.offsets)
+    for triangle, face in zip(view.corners[fans], of, strict=True):
+        a, b, c = view.points[:, triangle].T
+        normal = np.cross(b - a, c - a)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            t = (normal @ (a[:, None] - start)) / (normal @ way)
+            there = start + t * way
+        sides = [np.cross(q - p, (there.T - p)) @ normal for p, q in ((a, b), (b, c), (c, a))]
+        near = (np.stack(sides) >= 0.0).all(axis=0) & (t > least) & (t < best)
+        best = np.where(near, t, best)
+        found = np.where(near, view.face_item[face], found)
+        points[:, near] = there[:, near]
+        unit = (normal / np.sqrt(normal @ normal))[:, None]
+        normals[:, near] = (unit * -np.sign(unit.T @ way))[:, near]
     return Sight(found, points, normals)
 
 
@@ -99,8 +114,9 @@ class Seen:
 def seen_at(scene: vp.Scene, camera: vp.Camera, drawing: Drawing, places: Floats) -> Seen:
     """What is seen and what is painted at places (n,2) of the page."""
     projection = projection_of(camera, scene.bounds)
-    shapes = [item.shape for item in scene.items]
-    bodies = quadric_bodies(projection, shapes, range(len(shapes)))
+    some = [k for k, item in enumerate(scene.items) if not isinstance(item.shape, vp.Mesh)]
+    bodies = quadric_bodies(projection, [scene.items[k].shape for k in some], some)
+    meshes = view_of(scene, projection)
     if projection.eye is None:
         rows = np.vstack([drawing.page_from_world[:2, :3], projection.axes[2]])
         flat = places.T - drawing.page_from_world[:2, 3:]
@@ -110,35 +126,35 @@ def seen_at(scene: vp.Scene, camera: vp.Camera, drawing: Drawing, places: Floats
         way = np.repeat([[0.0], [0.0], [-1.0]], len(places), axis=1)
     else:
         start, way = rays_of(drawing, projection, places)
-    sight = first_hits(bodies, start, way)
-    hit = np.flatnonzero(sight.body >= 0)
+    sight = first_hits(bodies, meshes, start, way)
+    hit = np.flatnonzero(sight.item >= 0)
     every = np.arange(len(bodies))
     up = np.repeat([[0.0], [0.0], [1.0]], len(bodies), axis=1)
     ends = np.concatenate([bodies.support(up, every), bodies.support(-up, every)], axis=1)
-    view = replace(view_of(scene, projection), points=ends)
+    view = replace(meshes, points=np.concatenate([meshes.points, ends], axis=1))
     lit, lights = exposed_scene(view, scene)
-    body, points, normals = sight.body[hit], sight.points[:, hit], sight.normals[:, hit]
-    shade = point_shades(view, lit.items, lights, points.T, normals.T, body)
+    item, points, normals = sight.item[hit], sight.points[:, hit], sight.normals[:, hit]
+    shade = point_shades(view, lit.items, lights, points.T, normals.T, item)
     lacking = np.zeros(len(hit), dtype=np.intp)
     if scene.lights:
         for number, light in enumerate(lights):
             position = np.array(light.position)[:, None]
             to_light = np.broadcast_to(position, points.shape) if light.parallel else position - points
             facing = (normals * to_light).sum(axis=0) > 0.0
-            block = first_hits(bodies, points + 1e-9 * normals, to_light, 1e-9)
+            block = first_hits(bodies, meshes, points + 1e-9 * normals, to_light, 1e-9)
             arm = block.points - points
             far = (to_light * to_light).sum(axis=0)
             before = light.parallel | ((arm * to_light).sum(axis=0) < far)
-            lacking |= np.where((block.body >= 0) & before & facing, 1 << number, 0)
+            lacking |= np.where((block.item >= 0) & before & facing, 1 << number, 0)
     dark = ((lacking[None] >> np.arange(len(shade.shares))[:, None]) & 1) == 1
     shares = np.where(dark, shade.matt, shade.shares)
     total = np.where(lacking > 0, shadow_shades(shares, shade.intensity, lacking, shade.cue), shade.total)
     true = np.full((len(places), 3), 255.0)
-    true[hit] = item_colours(scene.items, body, total, COLOUR_MAP)
+    true[hit] = item_colours(scene.items, item, total, COLOUR_MAP)
     fills = fills_of(drawing)
     top = top_at(fills, places)
     painted = np.full((len(places), 3), 255.0)
     covered = top >= 0
-    painted[covered] = fills.colours[fills.offsets[top[covered]]]
+    painted[covered] = colours_at(fills, top[covered], places[covered])
     item = np.where(covered, fills.item[np.maximum(top, 0)], -1)
-    return Seen(true, np.where(sight.body >= 0, sight.body, -1), painted, item)
+    return Seen(true, sight.item, painted, item)

@@ -98,7 +98,7 @@ def test_what_is_wrong_is_said_in_the_cell(tmp_path, monkeypatch):
     with pytest.raises(FileNotFoundError):
         vp.show(tmp_path / "none.scene")
     monkeypatch.setitem(sys.modules, "vectorplot.viewer.widget", None)
-    with pytest.raises(InputError, match=r"vectorplot\[notebook\]"):
+    with pytest.raises(InputError, match=r"pip install '\.\[notebook\]'"):
         vp.show(SCENE)
 
 

@@ -8,7 +8,7 @@ from support.smooth_scenes import lit, views
 
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing
 from vectorplot.errors import InputError
-from vectorplot.features.implicit_surfaces import polygonized
+from vectorplot.features.polygonization import polygonized
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.winding import mesh_edges
 from vectorplot.io.scene_language import parse_scene

@@ -13,8 +13,8 @@ from vectorplot.drawing.drawing import Drawing
 from vectorplot.features.contours_and_isophotes import contour
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.grid_triangulation import mesh_of_grid
-from vectorplot.features.implicit_surfaces import polygonized
 from vectorplot.features.mesh_lines import mesh_contour_across_faces
+from vectorplot.features.polygonization import polygonized
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import dot

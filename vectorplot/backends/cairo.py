@@ -9,7 +9,7 @@ import zlib
 from collections.abc import Iterable
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,13 +30,14 @@ from vectorplot.backends.page import (
 from vectorplot.backends.shaded_triangles import Underlaps, grown, underlaps
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.fills import SEAM_MM
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, not_installed
 from vectorplot.geometry import ragged
 from vectorplot.shading.image import DPI, Bytes, with_meaning
 
-if TYPE_CHECKING:
+try:
     import cairo
-
+except ImportError:
+    raise not_installed("a drawing as PDF, PostScript, EPS, PNG or video", "pycairo", "cairo") from None
 
 # Small flat polygons among shaded triangles, as triangles of the same mesh.
 #
@@ -78,6 +79,7 @@ def in_meshes(areas: Areas) -> Areas:
         areas.part[every],
         areas.fringe[every],
         areas.item[every],
+        areas.look[every],
     )
 
 
@@ -256,8 +258,6 @@ def _clip_of(areas: Areas, place: _Place, first: int, last: int) -> tuple[Corner
 
 def _begin_part(context: cairo.Context[Any], corners: Corners, rings: list[int]) -> None:
     """Paint inside of an outline from now on."""
-    import cairo
-
     context.save()
     _outline(context, corners, rings)
     context.set_fill_rule(cairo.FILL_RULE_EVEN_ODD)
@@ -277,8 +277,6 @@ def _begin_group(context: cairo.Context[Any], corners: Corners) -> None:
 
 def _end_group(context: cairo.Context[Any], corners: Corners, rings: list[int], opacity: float) -> None:
     """Blend the group inside its outline: a clip set before would cover the pixels on its border twice."""
-    import cairo
-
     context.pop_group_to_source()
     _outline(context, corners, rings)
     context.set_fill_rule(cairo.FILL_RULE_EVEN_ODD)
@@ -301,8 +299,6 @@ def _outline(context: cairo.Context[Any], points: Corners, starts: list[int]) ->
 def _mesh(patches: Floats, colours: Floats, opacity: float) -> cairo.MeshPattern:
     """Patches (n,4,2) of four corners, the last of which may be the first one, shaded from colours (n,4,3). Cairo takes
     one corner a call."""
-    import cairo
-
     mesh = cairo.MeshPattern()
     begin, move_to, line_to, shade, end = (
         mesh.begin_patch,
@@ -460,8 +456,6 @@ FAMILY = "sans-serif"
 
 def show(context: cairo.Context[Any], texts: PageTexts, scale: float, height: float) -> None:
     """Write the texts; scale: device units per micron; height: of the page's lower border in them, from the top."""
-    import cairo
-
     context.select_font_face(FAMILY, cairo.FONT_SLANT_NORMAL, cairo.FONT_WEIGHT_NORMAL)
     for x, y, size, turn, anchor, colour, string in texts.lines(texts.plain):
         context.save()
@@ -529,8 +523,6 @@ def pdf_bytes(drawing: Drawing) -> bytes:
 
     Edge cases: an empty drawing is an empty page.
     """
-    import cairo
-
     page = page_marks(drawing)
     stream = io.BytesIO()
     height = page.height * POINTS_PER_MICRON
@@ -563,8 +555,6 @@ def drawing_pixels(drawing: Drawing, dpi: float = DPI) -> Bytes:
 
 
 def _raster(drawing: Drawing, dpi: float) -> cairo.ImageSurface:
-    import cairo
-
     page = page_marks(drawing)
     if not 0.0 < dpi < np.inf:
         raise InputError(f"resolution of {dpi:g} dpi")
@@ -585,8 +575,6 @@ def _raster(drawing: Drawing, dpi: float) -> cairo.ImageSurface:
 
 
 def _postscript(page: PageMarks, *, eps: bool) -> bytes:
-    import cairo
-
     stream = io.BytesIO()
     # Cairo flips y about the next whole point; with a whole height the page keeps its lower left corner at the origin.
     width, height = _whole_points(page)
@@ -635,8 +623,6 @@ def _with_exact_paper(text: bytes, page: PageMarks) -> bytes:
 
 def _ink_box(page: PageMarks, height: float) -> tuple[float, ...]:
     """Left, lower, right and upper end of all that is drawn on the page, in points; height: see draw_page."""
-    import cairo
-
     wide, high = _points(page)
     # Cairo tells whole units.
     finer = min(BOX_UNITS, LARGEST_BOX_UNITS / max(wide, high))
@@ -658,8 +644,6 @@ def _whole_points(page: PageMarks) -> tuple[int, int]:
 
 def draw_page(surface: cairo.Surface, page: PageMarks, height: float) -> None:
     """Draw a page of PostScript or PDF, and end it; height: of the page, in points."""
-    import cairo
-
     context = cairo.Context(surface)
     _ink(context, page, POINTS_PER_MICRON, height, SEAM_MM * 1000.0 * POINTS_PER_MICRON)
     context.show_page()
@@ -668,8 +652,6 @@ def draw_page(surface: cairo.Surface, page: PageMarks, height: float) -> None:
 def _ink(context: cairo.Context[Any], page: PageMarks, scale: float, height: float, seam: float) -> None:
     """Draw all inks; scale: device units per micron; height: of the page's lower border in them, from the top; seam:
     width of the line around opaque polygons."""
-    import cairo
-
     context.set_line_cap(cairo.LINE_CAP_ROUND)
     context.set_line_join(cairo.LINE_JOIN_ROUND)
     for ink in page.inks:
@@ -715,8 +697,6 @@ def pdf_pages_bytes(drawings: Iterable[Drawing], title: str = "") -> bytes:
 
     Edge cases: no drawings are a file without pages.
     """
-    import cairo
-
     stream = io.BytesIO()
     surface = cairo.PDFSurface(stream, 1.0, 1.0)
     surface.set_metadata(cairo.PDFMetadata.CREATE_DATE, "")

@@ -414,8 +414,9 @@ class Areas:
     microns (p,2) int64, y upwards; offsets (m+1,); colours (p,3) of the corners; opacity (m,) above 0; bare (m,):
     without an outline, as bands are; group (m,): transparency group, ascending, -1 for none, whose polygons are opaque
     and share one opacity; part (m,): runs of one item in a group that are clipped to their own outlines, -1 for the
-    first; fringe (m,): painted first in a group and no part of its outline; item (m,). A polygon of two corners is a
-    line; others are counter-clockwise, with area and without repeated corners, flat or linearly shaded triangles.
+    first; fringe (m,): painted first in a group and no part of its outline; item (m,); look (m,): alike for polygons of
+    one item and kind. A polygon of two corners is a line; others are counter-clockwise, with area and without repeated
+    corners, flat or linearly shaded triangles.
     """
 
     microns: Ints
@@ -427,6 +428,7 @@ class Areas:
     part: Ints
     fringe: Bools
     item: Ints
+    look: Ints
 
     def __len__(self) -> int:
         return len(self.offsets) - 1
@@ -511,12 +513,14 @@ def areas(fills: Fills, width_mm: float, height_mm: float) -> Areas:
     microns, offsets, colours, kept = rounded(drawn)
     source = drawn.source[kept]
     opacity, blank = solid.opacity[source], np.isin(solid.kind[source], (FillKind.BACKGROUND, FillKind.BAND))
-    item = solid.item[source]
+    item, kind = solid.item[source], solid.kind[source]
     run, part = _alike(solid, source, np.diff(offsets))
     group = groups_of(microns, offsets, run, part)
     bare = blank | ((opacity < 1.0) & (group < 0))
     none = np.full(len(group), -1), np.zeros(len(group), dtype=np.bool_)
-    return with_fringes(Areas(microns, offsets, colours, opacity, bare, group, *none, item))
+    return with_fringes(
+        Areas(microns, offsets, colours, opacity, bare, group, *none, item, len(FillKind) * item + kind)
+    )
 
 
 def with_fringes(areas: Areas) -> Areas:
@@ -543,6 +547,7 @@ def with_fringes(areas: Areas) -> Areas:
         np.where(fringe, -1, part[every]),
         fringe,
         areas.item[every],
+        areas.look[every],
     )
 
 

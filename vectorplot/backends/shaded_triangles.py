@@ -278,11 +278,11 @@ class _Sides:
         return np.bincount(self.owner, doubled, count) / np.bincount(self.owner, length, count)
 
     def alike(self, one: Ints, two: Ints) -> Bools:
-        """(k,) whether polygons (k,) are of one item and have about one colour."""
+        """(k,) whether polygons (k,) are of one item and kind and have about one colour."""
         starts = self.areas.offsets[:-1]
         mean = np.add.reduceat(self.areas.colours.astype(np.float64), starts) / self.areas.sizes[:, None]
         near = (np.abs(mean[one] - mean[two]) <= ALIKE).all(axis=1)
-        return np.asarray(near & (self.areas.item[one] == self.areas.item[two]))
+        return np.asarray(near & (self.areas.look[one] == self.areas.look[two]))
 
 
 def underlaps(areas: Areas) -> Underlaps:
@@ -404,7 +404,7 @@ def _plainly_amid(sides: _Sides, which: Bools, ends: Ints) -> Bools:
         return np.zeros_like(which)
     starts = sides.areas.offsets[:-1]
     mean = np.add.reduceat(sides.areas.colours.astype(np.float64), starts) / sides.areas.sizes[:, None]
-    rows_of = np.column_stack([mean, sides.areas.item])[covers]
+    rows_of = np.column_stack([mean, sides.areas.look])[covers]
     within, first = cells(low, high)
     of = ragged.owner(np.diff(first))
     least, most = np.full((columns * rows, 4), np.inf), np.full((columns * rows, 4), -np.inf)

@@ -501,6 +501,7 @@ def _with_strips(areas: Areas) -> tuple[Areas, Strips, Ints, Ramps]:
         areas.part[source[order]],
         areas.fringe[source[order]],
         areas.item[source[order]],
+        areas.look[source[order]],
     )
     place = np.empty(len(order), dtype=np.intp)
     place[order] = np.arange(len(order))

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, not_installed
 from vectorplot.shading.image import Bytes
 
 CODECS = {"mp4": ("libx264", "yuv420p"), "webm": ("libvpx-vp9", "yuv420p"), "gif": ("gif", "pal8")}
@@ -28,7 +28,7 @@ def library() -> ModuleType:
     try:
         import av
     except ImportError:
-        raise InputError('videos need the package av: pip install "vectorplot[video]"') from None
+        raise not_installed("a video", "av", "video") from None
     return av
 
 

@@ -21,7 +21,7 @@ from types import TracebackType
 from typing import Any, Generic, Protocol, TypeVar
 
 from vectorplot import __version__
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, not_installed
 
 # The value Task: a file and how its content is made; and fingerprints, by which a file is known to be up to date.
 
@@ -304,7 +304,7 @@ def cluster(address: str) -> Iterator[Executor]:
     try:
         distributed: Any = import_module("distributed")
     except ImportError:
-        raise InputError("a cluster needs the extra: pip install 'vectorplot[cluster]'") from None
+        raise not_installed("a cluster", "distributed", "cluster") from None
     try:
         client = distributed.Client(address, timeout=ANSWERS_S, set_as_default=False)
     except (OSError, ValueError) as error:

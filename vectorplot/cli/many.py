@@ -199,12 +199,13 @@ def out_names(inputs: Sequence[str], folder: Path, format_: str) -> dict[str, st
 
 def _tasks(verb: str, params: Mapping[str, Any], outs: Mapping[str, str]) -> Iterator[Task]:
     from vectorplot.batch.tasks import Task, fingerprint
+    from vectorplot.io.named_files import data_file_or_name
 
     same = {name: value for name, value in sorted(params.items()) if name not in NO_MATTER}
     # Two that are pickled alike are alike; at worst, one that has not changed is made again.
     said = pickle.dumps(same, _PICKLE).hex()
     for source, out in outs.items():
-        files = files_of((source, *(value for value in same.values() if isinstance(value, str))))
+        files = files_of((data_file_or_name(source), *(value for value in same.values() if isinstance(value, str))))
         try:
             known = fingerprint(verb, source, said, files=files)
         except OSError:
@@ -297,6 +298,10 @@ def check_out(out: str | None, format_: str | None) -> None:
         from vectorplot.backends.video import library
 
         library()
+    elif kind == "pdf":
+        from vectorplot.save import backend
+
+        backend(kind)
     check_place(os.fspath(Path(out)))
 
 

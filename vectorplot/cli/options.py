@@ -566,6 +566,17 @@ Option = Callable[[Command], Command]
 DRAWING_FORMATS = ("svg", "ps", "eps", "pdf", "png", "tex", "dxf", "json")
 """What a drawing on a page is written as."""
 
+
+def drawing_format(path: str, given: str | None) -> str:
+    """The format to write a drawing in: the one given, or the suffix of the path. Bad usage for others, and an
+    InputError, before the work, where what writes it is not installed."""
+    from vectorplot.save import backend
+
+    written = format_of(path, given, DRAWING_FORMATS)
+    backend(written)
+    return written
+
+
 POSITIVE = between(0.0, math.inf)
 
 LIGHTS = click.option(
@@ -805,11 +816,12 @@ def picture_verb(
         def asked(params: Mapping[str, Any]) -> dict[str, Any]:
             """What is to be pictured and how, as make_picture and picture_contents take it."""
             told = Told.of({name: value for name, value in params.items() if name not in _OF_THE_FILE})
-            written, jobs = format_of(params["out"], params["format_"], formats), told.rest["jobs"]
+            out, given, jobs = params["out"], params["format_"], told.rest["jobs"]
+            written = drawing_format(out, given) if formats == DRAWING_FORMATS else format_of(out, given, formats)
             overlaid = told.rest.get("text") == "latex"
             if overlaid:
                 told = replace(told, rest={**told.rest, "text": "real"})
-                check_overlaid(params["out"], written)
+                check_overlaid(out, written)
 
             def picture(scene: Scene, report: Report) -> Drawing | Image:
                 lined, keywords = told.with_lines(scene)

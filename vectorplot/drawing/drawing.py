@@ -334,11 +334,10 @@ class Drawing:
     def _repr_mimebundle_(
         self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
     ) -> dict[str, str]:
-        """What a notebook shows and stores: SVG, or PNG where there are very many marks; the other one if it is wanted."""
+        """What a notebook shows and stores: SVG, or PNG where there are very many marks; the other one if asked for."""
         from vectorplot.save import SHOWN, shown_as, write
 
-        preferred = shown_as(self)
-        for format in sorted(SHOWN, key=lambda one: one != preferred):
+        for format in shown_as(self):
             kind = SHOWN[format]
             if (not include or kind in include) and kind not in (exclude or ()):
                 content = write(self, format)

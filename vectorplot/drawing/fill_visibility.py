@@ -627,6 +627,8 @@ def _colours_at(points: Floats, fills: Fills, source: Ints) -> Floats:
         better = inside > best[here]
         best[here[better]] = inside[better]
         share = np.clip(weights[:, better], 0.0, 1.0)
+        # Nothing of all three is left of a triangle that rounding makes of nothing.
+        share[:, share.sum(axis=0) == 0.0] = 1.0
         share /= share.sum(axis=0)
         found[point[better]] = np.einsum("kn,nkd->nd", share, fills.colours[corner[better]].astype(np.float64))
     return found

@@ -11,6 +11,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.effects.shadow_casters import Casters, FacePlanes, LightSystem, Receivers, turned_to_light
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.boxes import PAIRS_AT_ONCE
 from vectorplot.geometry.budget import in_pieces, in_turn, may_stop
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.mesh import next_positions
@@ -164,52 +165,77 @@ def _crossed(ends: Floats) -> Floats:
     return np.asarray(x * v - y * u)
 
 
-POINTS_AT_ONCE = 1 << 13
-"""So many points are compared with outlines before work may stop."""
-
-MORE_STRIPS = 0.5
-"""Strips in which the sides of an outline are sorted are so many that a side is in so many more than one, in the mean:
-a quarter of its sides where an outline is round."""
+CELLS_OF_SIDE = 4.0
+"""So many cells of a grid there are for each side of an outline."""
 
 
 def _runs_around(points: Floats, of_point: Ints, ends: Floats, of: Ints, count: int) -> Ints:
     """(n,) how often outlines with sides (2,2,s), of bodies (s,), run around points (2,n) of these.
 
-    A point is compared with the sides in its strip, of its body's own: others do not cross the level line through it.
+    The square around each outline is a grid of cells. Along the middle lines of its rows it is known from the sides
+    that cross these; from there to a point in the same cell it changes with the sides in this cell that are between.
     """
     may_stop()
-    low, high = ends[:, 1].min(axis=0), ends[:, 1].max(axis=0)
-    base, reach = np.full(count, np.inf), np.full(count, -np.inf)
-    np.minimum.at(base, of, low)
-    np.maximum.at(reach, of, high)
-    size = np.where(reach > base, reach - base, 1.0)
-    base[reach <= base] = 0.0
-    every = np.bincount(of, (high - low) / size[of], minlength=count)
-    most = MORE_STRIPS * np.bincount(of, minlength=count)
-    strips = np.maximum(np.divide(most, every, out=np.ones(count), where=every > 0.0).astype(np.intp), 1)
-    begin = ragged.offsets(strips)
+    box_low, box_high = np.full((2, count), np.inf), np.full((2, count), -np.inf)
+    for end in ends:
+        for axis in (0, 1):
+            np.minimum.at(box_low[axis], of, end[axis])
+            np.maximum.at(box_high[axis], of, end[axis])
+    size = np.where(box_high > box_low, box_high - box_low, 1.0)
+    base = np.where(box_high > box_low, box_low, 0.0)
+    rows = np.maximum(np.sqrt(CELLS_OF_SIDE * np.bincount(of, minlength=count)), 1.0).astype(np.intp)
+    first_row, first_cell = ragged.starts(rows), ragged.starts(rows * rows)
 
-    def strip(height: Floats, body: Ints) -> Ints:
-        part = (height - base[body]) / size[body] * strips[body]
-        return np.asarray(begin[body] + np.clip(part, 0, strips[body] - 1).astype(np.intp))
+    def places(at: Floats, body: Ints, axis: int) -> Ints:
+        part = (at - base[axis, body]) / size[axis, body] * rows[body]
+        return np.asarray(np.clip(part, 0, rows[body] - 1).astype(np.intp))
 
-    first = strip(low, of)
-    crossed = np.where(low < high, strip(high, of) - first + 1, 0)
-    met = ragged.ranges(first, crossed)
-    sides = ragged.owner(crossed)[np.argsort(met, kind="stable")]
-    begins = ragged.offsets(np.bincount(met, minlength=int(begin[-1])))
-
-    def turns(across: Floats, height: Floats, body: Ints) -> Ints:
-        number, starts = ragged.take(begins, strip(height, body))
-        (x, y), (u, v) = ends[:, :, sides[number]]
-        owner = ragged.owner(np.diff(starts))
-        a, b = across[owner], height[owner]
-        upwards, downwards = (y <= b) & (v > b), (v <= b) & (y > b)
-        left = (u - x) * (b - y) - (v - y) * (a - x)
-        turned = np.where(upwards & (left > 0.0), 1.0, 0.0) - np.where(downwards & (left < 0.0), 1.0, 0.0)
-        return np.bincount(owner, turned, minlength=len(body)).astype(np.intp)
-
-    return in_pieces(turns, POINTS_AT_ONCE, *points, of_point)
+    (x, y), (u, v) = ends
+    left, right = (places(f(x, u), of, 0) for f in (np.minimum, np.maximum))
+    low, high = (places(f(y, v), of, 1) for f in (np.minimum, np.maximum))
+    column, row = (places(points[axis], of_point, axis) for axis in (0, 1))
+    middle = base[1, of_point] + (row + 0.5) / rows[of_point] * size[1, of_point]
+    # The sides that cross the middle lines, those to the right of each point.
+    tall = high - low + 1
+    side = ragged.owner(tall)
+    at = low[side] + ragged.place(tall)
+    line = base[1, of[side]] + (at + 0.5) / rows[of[side]] * size[1, of[side]]
+    up, down = (y[side] <= line) & (v[side] > line), (v[side] <= line) & (y[side] > line)
+    met = np.flatnonzero(up | down)
+    side, at, line = side[met], at[met], line[met]
+    there = x[side] + (u[side] - x[side]) * (line - y[side]) / (v[side] - y[side])
+    may_stop()
+    along = np.concatenate([there, points[0]])
+    of_line = np.concatenate([first_row[of[side]] + at, first_row[of_point] + row])
+    order = np.lexsort((along, of_line))
+    sign = np.concatenate([np.where(up[met], 1, -1), np.zeros(len(of_point), dtype=np.intp)])
+    total = np.cumsum(sign[order])
+    # Of all that cross one line the turns add up to nothing.
+    turns = np.empty(len(order), dtype=np.intp)
+    turns[order] = -total
+    found = turns[len(side) :]
+    may_stop()
+    # The sides of cells of points, between these and the middle lines.
+    wide = right - left + 1
+    spread = wide * tall
+    side = ragged.owner(spread)
+    number = ragged.place(spread)
+    cell = first_cell[of[side]] + (low[side] + number // wide[side]) * rows[of[side]] + left[side] + number % wide[side]
+    by_cell = side[np.argsort(cell, kind="stable")]
+    begins = ragged.offsets(np.bincount(cell, minlength=int((rows * rows).sum())))
+    own = first_cell[of_point] + row * rows[of_point] + column
+    for begin, end in ragged.batches(np.diff(begins)[own], PAIRS_AT_ONCE):
+        position, starts = ragged.take(begins, own[begin:end])
+        near, point = by_cell[position], begin + ragged.owner(np.diff(starts))
+        a, b, level = points[0, point], points[1, point], middle[point]
+        rightwards, leftwards = (x[near] <= a) & (u[near] > a), (u[near] <= a) & (x[near] > a)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            height = y[near] + (v[near] - y[near]) * (a - x[near]) / (u[near] - x[near])
+        above = (height > level) & (height <= b)
+        below = (height <= level) & (height > b)
+        change = np.where(rightwards, 1, 0) - np.where(leftwards, 1, 0)
+        np.add.at(found, point, change * (np.where(above, 1, 0) - np.where(below, 1, 0)))
+    return found
 
 
 # Bodies that keep light from what lies beyond them as a whole: by their outlines, not face by face.

@@ -20,9 +20,9 @@ from vectorplot.features.contours_and_isophotes import plane_sections
 from vectorplot.features.curve_tracing import Tracing
 from vectorplot.features.implicit_curves import implicit_plane_sections
 from vectorplot.features.implicit_meshes import implicit_mesh
-from vectorplot.features.implicit_surfaces import BOXED, polygonized, sides_of
 from vectorplot.features.implicit_tracing import ImplicitTracing
 from vectorplot.features.parameter_curves import domain_borders
+from vectorplot.features.polygonization import BOXED, polygonized, sides_of
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera

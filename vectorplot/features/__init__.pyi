@@ -1,8 +1,8 @@
 from .contours_and_isophotes import contour, isophotes, plane_sections
 from .curve_tracing import Tracing
 from .grid_triangulation import mesh_of_grid, triangulate_surface
-from .implicit_surfaces import polygonized
 from .mesh_lines import mesh_level_lines
+from .polygonization import polygonized
 from .shortest_paths import mesh_shortest_paths
 from .surface_integration import Accuracy, geodesics, integral_curves
 from .surface_points import Sites, face_sites

@@ -14,14 +14,6 @@ from vectorplot.errors import InputError
 from vectorplot.features.conditions import MeetsPlane, SpatialCondition
 from vectorplot.features.contours_and_isophotes import direction_across, in_planes, levels_of
 from vectorplot.features.implicit_singular_lines import STRAYS, SingularEquations, onto_lines
-from vectorplot.features.implicit_surfaces import (
-    ImplicitCentralContour,
-    ImplicitIsophote,
-    ImplicitPointIsophote,
-    curve_in_space,
-    refined_chords,
-    sides_of,
-)
 from vectorplot.features.implicit_tracing import (
     ImplicitCurves,
     ImplicitTracing,
@@ -30,6 +22,14 @@ from vectorplot.features.implicit_tracing import (
     curves_of_lines,
     mesh_of,
     no_curves,
+)
+from vectorplot.features.polygonization import (
+    ImplicitCentralContour,
+    ImplicitIsophote,
+    ImplicitPointIsophote,
+    curve_in_space,
+    refined_chords,
+    sides_of,
 )
 from vectorplot.geometry.budget import unresolved
 from vectorplot.geometry.chord_refinement import Traces, refined

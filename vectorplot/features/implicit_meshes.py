@@ -9,8 +9,8 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.implicit_singular_lines import SingularLines, led_into_lines, singular_lines
-from vectorplot.features.implicit_surfaces import polygonized, settled_from
 from vectorplot.features.mesh_lines import split_at_middles
+from vectorplot.features.polygonization import polygonized, settled_from
 from vectorplot.geometry import records
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.records import Elements

@@ -9,7 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.conditions import SpatialCondition
-from vectorplot.features.implicit_surfaces import BOXED, Plane, checked_values, sides_of
+from vectorplot.features.polygonization import BOXED, Plane, checked_values, sides_of
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import matmul, pseudo_inverse, singular_decomposition, symmetric_eigen
 from vectorplot.geometry.connectivity import concat

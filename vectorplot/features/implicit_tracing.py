@@ -12,7 +12,8 @@ from vectorplot.errors import InputError
 from vectorplot.features.conditions import SpatialCondition
 from vectorplot.features.implicit_meshes import Band, ImplicitMesh, Nodes, curve_band, implicit_mesh, sheets_apart
 from vectorplot.features.implicit_singular_lines import SingularLines
-from vectorplot.features.implicit_surfaces import (
+from vectorplot.features.mesh_lines import level_segments
+from vectorplot.features.polygonization import (
     CurveInSpace,
     Picture,
     checked_values,
@@ -21,7 +22,6 @@ from vectorplot.features.implicit_surfaces import (
     refined_chords,
     sides_of,
 )
-from vectorplot.features.mesh_lines import level_segments
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse, symmetric_eigen
 from vectorplot.geometry.budget import USUAL, Budget, unresolved

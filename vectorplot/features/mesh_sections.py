@@ -9,13 +9,13 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.curve_tracing import SurfaceCurves, Tracing, no_curves
-from vectorplot.features.implicit_surfaces import BOXED, sides_of
 from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing, mesh_of
 from vectorplot.features.implicit_tracing import no_curves as no_curves_of_implicit_tracing
 from vectorplot.features.intersection_grids import FREE, Tessellation, finer_grids
 from vectorplot.features.intersection_tracing import at_border
 from vectorplot.features.intersections import Joined, doubts_about, joined, repeats_dropped
 from vectorplot.features.patches import MeshPatch, SingleShape, SurfacePatch
+from vectorplot.features.polygonization import BOXED, sides_of
 from vectorplot.features.triangle_intersections import contacts, overlapping_triangles, piercings
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh

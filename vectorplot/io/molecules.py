@@ -13,7 +13,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
-from vectorplot.errors import InputError
+from vectorplot.errors import InputError, not_installed
 from vectorplot.geometry import ragged
 from vectorplot.io.mesh_file import check_announced, check_file, file_bytes, shown
 from vectorplot.scene.extent import check_range
@@ -60,7 +60,7 @@ def gemmi_library() -> ModuleType:
     try:
         import gemmi
     except ImportError:
-        raise InputError("molecules need the library gemmi: pip install 'vectorplot[molecules]'") from None
+        raise not_installed("a molecule", "gemmi", "molecules") from None
     return gemmi
 
 

@@ -71,6 +71,8 @@ class NamedFiles:
 
 # Where data files, animation files and movies lie, and what they are called where only a part of the name is given.
 #
+# Names are found whatever their capitals: those of the book are all in capitals.
+#
 # Source: Glaeser, appendix A.1 to A.3.
 
 DATA, ANIMATIONS, VIDEOS = Path("data"), Path("anim"), Path("video")
@@ -83,21 +85,43 @@ VIDEO = VIDEOS / "tmp"
 """The name of a movie that has none."""
 
 
+def samples() -> Path:
+    """The folder of the data files that come with the package: data/ of the checkout, or what a wheel makes of it."""
+    package = Path(__file__).parents[1]
+    installed = package / "samples"
+    return installed if installed.is_dir() else package.parent / DATA
+
+
 def data_file(name: str) -> Path:
-    """The data file of a name: in the current folder, then in DATA; as it is, then with the suffix SCENE.
+    """The data file of a name: in the current folder, then in DATA, then among the samples; as it is, then with the
+    suffix SCENE.
 
     Errors: InputError where there is none.
     """
-    return _found(name, (Path(), DATA), SCENE, "data file")
+    found = _found(name, (Path(), DATA), ("", SCENE))
+    if found is None:
+        raise InputError(f"no such data file, nor in {DATA}/", file=name)
+    return found
+
+
+def data_file_or_name(name: str) -> str:
+    """The data file of a name; the name itself where there is none, which whoever opens it will say."""
+    try:
+        return str(data_file(name))
+    except InputError:
+        return name
 
 
 def animation_file(name: str) -> Path:
-    """The animation file of a name: in the current folder, then in ANIMATIONS, then in DATA; as it is, then
-    with the suffix ANIMATION.
+    """The animation file of a name: in the current folder, then in ANIMATIONS, in DATA and among the samples; as it
+    is, then with the suffix ANIMATION.
 
     Errors: InputError where there is none.
     """
-    return _found(name, (Path(), ANIMATIONS, DATA), ANIMATION, "animation file")
+    found = _found(name, (Path(), ANIMATIONS, DATA), ("", ANIMATION))
+    if found is None:
+        raise InputError(f"no such animation file, nor in {ANIMATIONS}/ or {DATA}/", file=name)
+    return found
 
 
 def movie_to_write(name: str | None) -> Path:
@@ -107,25 +131,40 @@ def movie_to_write(name: str | None) -> Path:
 
 
 def movie_to_read(name: str) -> Path:
-    """The movie of a name, with or without a suffix: in the current folder, then in VIDEOS, then in DATA.
+    """The movie of a name, with or without a suffix: in the current folder, then in VIDEOS, in DATA and among the
+    samples.
 
     Errors: InputError where there is none.
     """
     path = Path(name)
-    bare = path.with_suffix("") if path.suffix in (".vd1", ".vd2") else path
-    for folder in (Path(), VIDEOS, DATA):
-        if (folder / bare.parent / f"{bare.name}.vd1").is_file():
-            return folder / bare
-    raise InputError(f"no such movie: neither {bare}.vd1 nor {VIDEOS / bare}.vd1", file=name)
+    bare = path.with_suffix("") if path.suffix.lower() in (".vd1", ".vd2") else path
+    found = _found(str(bare), (Path(), VIDEOS, DATA), (".vd1",))
+    if found is None:
+        raise InputError(f"no such movie: neither {bare}.vd1 nor {VIDEOS / bare}.vd1", file=name)
+    return found.with_suffix("")
 
 
-def _found(name: str, folders: tuple[Path, ...], suffix: str, what: str) -> Path:
-    tried = [folder / named for folder in folders for named in (name, name + suffix)]
-    for path in tried:
-        try:
-            if path.is_file():
-                return path
-        except (OSError, ValueError):
-            break
-    elsewhere = " or ".join(f"{folder}/" for folder in folders[1:])
-    raise InputError(f"no such {what}, nor in {elsewhere}", file=name)
+def _found(name: str, folders: Sequence[Path], suffixes: Sequence[str]) -> Path | None:
+    """The first file of a name, with one of the suffixes, in one of the folders or among the samples."""
+    inside = Path(name).parts
+    sample = samples().joinpath(*(inside[1:] if inside and inside[0].lower() == str(DATA) else inside))
+    try:
+        for path in (*(folder / name for folder in folders), sample):
+            for suffix in suffixes:
+                file = _in_any_case(Path(f"{path}{suffix}"))
+                if file is not None and file.is_file():
+                    return file
+    except (OSError, ValueError):
+        # No file can be called so.
+        return None
+    return None
+
+
+def _in_any_case(path: Path) -> Path | None:
+    """What is called so; where there is no such thing, the first that is called so but for capitals."""
+    if path.exists() or path == path.parent:
+        return path
+    folder = _in_any_case(path.parent)
+    if folder is None or not folder.is_dir():
+        return None
+    return min((one for one in folder.iterdir() if one.name.lower() == path.name.lower()), default=None)

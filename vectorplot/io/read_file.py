@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import os
 import sys
-from contextlib import suppress
 from pathlib import Path
 
 from vectorplot.errors import InputError
 from vectorplot.io.mesh_file import check_file, shown
-from vectorplot.io.named_files import data_file
+from vectorplot.io.named_files import data_file_or_name
 from vectorplot.io.read_mesh import MESH_SUFFIXES, mesh_scene
 from vectorplot.scene.scene import Scene
 
@@ -165,16 +164,14 @@ _NAME = "standard input"
 
 
 def read_named(name: str, *, exaggeration: float | None = None) -> Scene:
-    """The scene in the file of a name, as io.read_file.read has it, which is looked for in the current folder and then
-    in data/, as it is and with the suffix .scene; of the name ``-`` the one in the scene language on
-    standard input, in which names of files are relative to the folder that one is in.
+    """The scene in the file of a name, as io.read_file.read has it, found as io.named_files.data_file has it; of the
+    name ``-`` the one in the scene language on standard input, in which names of files are relative to the folder that
+    one is in.
 
     Errors: InputError as in read; for a text that is empty, larger than 64 MiB, not UTF-8 or something else.
     """
     if name != STANDARD_INPUT:
-        with suppress(InputError):
-            name = os.fspath(data_file(name))
-        return read(name, exaggeration=exaggeration)
+        return read(data_file_or_name(name), exaggeration=exaggeration)
     from vectorplot.io.scene_language import MAX_FILE_BYTES, parse_scene
 
     if exaggeration is not None:

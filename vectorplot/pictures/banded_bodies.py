@@ -9,22 +9,23 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.fills import FillKind, Fills
+from vectorplot.drawing.painted_fills import Overlay, stacked
 from vectorplot.geometry import ragged
-from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
 from vectorplot.geometry.projections import Projection
-from vectorplot.scene.annotations import is_annotation
+from vectorplot.pictures.plan import is_whole
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import Placement, field_of_vision, fitted_picture
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.view import View, view_of
+from vectorplot.scene.view import NOTHING, View, view_of
 from vectorplot.shading.facet_resolution import SHADE_ERROR, shade_error, without_curved_mirror
 from vectorplot.shading.palettes import COLOUR_MAP
 from vectorplot.shading.shade_bands import Margin, ShadeBands, ShadedCharts, shade_bands
 from vectorplot.shading.shaded_faces import exposed_scene, item_colours, view_eye
 from vectorplot.visibility.painter.body_order import BodyCuts, BodyOrder, body_order
+from vectorplot.visibility.painter.image_faces import ImageFaces
 from vectorplot.visibility.quadrics.clearances import clearance_of
 from vectorplot.visibility.quadrics.visible_parts import (
     Charts,
@@ -62,11 +63,12 @@ half a millimetre may be."""
 
 @dataclass(frozen=True, eq=False)
 class WholeBodies:
-    """The bodies of a scene in the painter's order: scene: what is painted of them; solids: all of them as they are;
-    view: of the scene, whose points are the nearest and the farthest of the bodies; boxes (4,n) in the image; charts of
-    what the eye sees."""
+    """The bodies of a scene in the painter's order: scene: what is painted of it; rest: the same with the nearest and
+    the farthest point of each body in its place, and view: of that; solids: all bodies as they are; boxes (4,n) in the
+    image; charts of what the eye sees."""
 
     scene: Scene
+    rest: Scene
     view: View
     solids: QuadricBodies
     ordered: BodyOrder
@@ -78,22 +80,38 @@ class WholeBodies:
         """Those that are in order, rods without their parts in balls."""
         return self.ordered.bodies
 
-    def placement(self, page: Page, fit: bool, beside: Floats) -> Placement:
-        """The place of a picture of the bodies, and of places beside them (n,3) in the world."""
+    @property
+    def places(self) -> Ints:
+        """(n,) of all bodies in their order, 0 for those that are hidden in others."""
+        place = np.zeros(len(self.bodies), dtype=np.intp)
+        place[self.ordered.order] = np.arange(len(self.ordered.order))
+        return place
+
+    def placement(self, page: Page, fit: bool, beside: Floats, faces: ImageFaces | None = None) -> Placement:
+        """The place of a picture of the bodies, of places beside them (n,3) in the world, and of faces in the image."""
         view, others = self.view, self.view.points_of(beside)
         corners = np.stack([self.boxes[:2].ravel(), self.boxes[2:].ravel()])
+        if faces is not None:
+            corners = np.concatenate([corners, faces.points[:2]], axis=1)
         if not fit or view.reaches_too_far(view.points, view.in_image_plane(corners), others):
             return field_of_vision(view, page, fit)
         return fitted_picture(view, page, np.concatenate([corners, view.image_of(others)], axis=1))
 
 
+@dataclass(frozen=True, eq=False)
+class Shade:
+    """What things that are no bodies keep dark of charts: a margin as of a light, and how narrow shadows may be."""
+
+    margin: Margin
+    narrowest: float
+
+
 def whole_bodies(shown: Scene, projection: Projection) -> WholeBodies | None:
-    """The bodies of a scene, as in consists_of_bodies, in the painter's order; None where they cannot be painted as
-    wholes: where they pierce each other but for balls and rods in these, where the eye is in one or near it, or sees a
-    mantle all around."""
+    """The bodies of a scene, as in has_bodies, in the painter's order; None where they cannot be painted as wholes:
+    where they pierce each other but for balls and rods in these, where the eye is in one or near it, or sees a mantle
+    all around."""
     scene = replace(shown, items=tuple(without_curved_mirror(item) for item in shown.items))
-    some = [number for number, item in enumerate(scene.items) if not isinstance(item.shape, Mesh)]
-    some = [number for number in some if not is_annotation(scene.items[number])]
+    some = [number for number, item in enumerate(scene.items) if is_whole(item)]
     bodies = quadric_bodies(projection, [scene.items[number].shape for number in some], some)
     if bodies is None or not len(bodies):
         return None
@@ -109,15 +127,27 @@ def whole_bodies(shown: Scene, projection: Projection) -> WholeBodies | None:
         return None
     shown_bodies = np.zeros(len(bodies), dtype=np.bool_)
     shown_bodies[ordered.order] = True
-    view = replace(view_of(scene, projection), points=np.ascontiguousarray(extremes))
-    return WholeBodies(scene, view, bodies, ordered, boxes, charts.take(shown_bodies[charts.body]))
+    items = list(scene.items)
+    for number, ends in zip(some, projection.world_of(extremes).reshape(2, -1, 3).transpose(1, 0, 2), strict=True):
+        items[number] = replace(items[number], shape=replace(NOTHING, vertices=ends))
+    rest = replace(scene, items=tuple(items))
+    charts = charts.take(shown_bodies[charts.body])
+    return WholeBodies(scene, rest, view_of(rest, projection), bodies, ordered, boxes, charts)
 
 
-def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, tolerance_mm: float) -> tuple[Fills, float]:
-    """The bodies in bands of equal shade, back to front, as far as the picture shows them, and how far their outlines
-    are off on the page, in mm; casts: whether lights cast shadows."""
+def banded_fills(
+    whole: WholeBodies,
+    placement: Placement,
+    casts: bool,
+    tolerance_mm: float,
+    place: Ints,
+    shades: Sequence[Shade | None] = (),
+) -> tuple[Overlay, float]:
+    """The bodies in bands of equal shade, by their places (n,) in the painter's order, as far as the picture shows
+    them, and how far their outlines are off on the page, in mm; casts: whether lights cast shadows; shades: for each
+    light what else keeps it away."""
     view, bodies = whole.view, whole.bodies
-    mm = _millimetres(whole, placement)
+    mm = millimetres(whole, placement)
     charts = with_overlaps(whole.charts, (OVERLAP * tolerance_mm * mm / bodies.sizes[2])[whole.charts.body])
     scene, lights = exposed_scene(view, whole.scene)
     item = bodies.item[charts.body]
@@ -134,16 +164,21 @@ def banded_fills(whole: WholeBodies, placement: Placement, casts: bool, toleranc
     def cover(chart: Ints, points: Floats) -> Ints:
         return hidden.stopping(chart, points, deep)
 
-    shadows = []
+    shadows: list[tuple[int, Margin]] = []
     if casts:
         shining = [number for number, light in enumerate(lights) if light.intensity != 0.0]
         shadows = [(number, clearance_of(whole.solids, charts.body, lights[number])) for number in shining]
-    grain = np.maximum(_grain(whole, bool(shadows)), LEAST_GRAIN_MM * mm)[charts.body]
+    least = _grain(whole, bool(shadows))
+    for light, shade in enumerate(shades if casts else ()):
+        if shade is not None and lights[light].intensity != 0.0:
+            shadows.append((light, shade.margin))
+            least = np.minimum(least, GRAIN * shade.narrowest)
+    grain = np.maximum(least, LEAST_GRAIN_MM * mm)[charts.body]
     shaded = ShadedCharts(
         charts, look, view, list(looks.values()), lights, placement, steps, loose, grain, cuts, shadows, cover
     )
     bands, off_mm = shade_bands(shaded, tolerance_mm)
-    return _fills(whole, scene.items, item, bands, placement), off_mm
+    return _fills(whole, scene.items, item, bands, placement, place), off_mm
 
 
 def _reaches(items: Sequence[Item], item: Ints) -> Floats:
@@ -171,7 +206,7 @@ def _grain(whole: WholeBodies, casts: bool) -> Floats:
     return found
 
 
-def _millimetres(whole: WholeBodies, placement: Placement) -> Floats:
+def millimetres(whole: WholeBodies, placement: Placement) -> Floats:
     """(n,) how long a millimetre of the page is, in the view, at the depth of each body."""
     view, centre = whole.view, whole.bodies.centre
     near = np.ones(centre.shape[1]) if view.eye is None else view.focus / view.depth_of(centre)
@@ -185,7 +220,7 @@ def _widths(
     one, and fewer where a palette has fewer colours; and (n,) how far isophotes may be off on the page."""
     bodies, charts = whole.bodies, whole.charts
     colours = _reaches(items, bodies.item[charts.body])
-    radius = (bodies.sizes[0] / _millimetres(whole, placement))[charts.body]
+    radius = (bodies.sizes[0] / millimetres(whole, placement))[charts.body]
     wide = np.clip(np.sqrt(MIDDLING_MM / np.maximum(radius, MIDDLING_MM / 16.0)), NARROWEST, WIDEST)
     # Wider ones are seen, whatever the tolerance is.
     allowed = min(shade_error(tolerance_mm), SHADE_ERROR)
@@ -226,10 +261,9 @@ class _Cut:
         return found
 
 
-def _fills(whole: WholeBodies, items: Sequence[Item], item: Ints, bands: ShadeBands, placement: Placement) -> Fills:
-    rank = np.zeros(len(whole.bodies), dtype=np.intp)
-    rank[whole.ordered.order] = np.arange(len(whole.ordered.order))
-    order = np.argsort(rank[whole.charts.body[bands.chart]], kind="stable")
+def _fills(
+    whole: WholeBodies, items: Sequence[Item], item: Ints, bands: ShadeBands, placement: Placement, place: Ints
+) -> Overlay:
     found = Fills.flat(
         np.ascontiguousarray(bands.page.T),
         bands.offsets,
@@ -237,8 +271,11 @@ def _fills(whole: WholeBodies, items: Sequence[Item], item: Ints, bands: ShadeBa
         points3d=whole.view.world_of(bands.points),
         item=item[bands.chart],
         kind=FillKind.BAND,
-    ).take(order)
-    return found if placement.whole else _inside(found, placement)
+    )
+    found = found if placement.whole else _inside(found, placement)
+    of_item = np.zeros(len(items), dtype=np.intp)
+    of_item[whole.bodies.item] = place
+    return stacked([Overlay(found, of_item[found.item])])
 
 
 def _inside(fills: Fills, placement: Placement) -> Fills:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import cached_property, partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,15 +15,16 @@ from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay, fills_on_page, shown_faces, stacked
 from vectorplot.errors import InputWarning
-from vectorplot.features.edge_splitting import Allowed, Criterion
+from vectorplot.features.edge_splitting import Allowed, Criterion, Within
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import Budget, unresolved
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.mesh_cuts import level_bands
 from vectorplot.geometry.projections import Projection
 from vectorplot.pictures.pipeline import Pipeline
+from vectorplot.pictures.plan import has_surfaces
 from vectorplot.scene.page import Page
-from vectorplot.scene.placement import Placement
+from vectorplot.scene.placement import Placement, allowed_in_space
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.surface_lines import Section
 from vectorplot.scene.view import View, view_of
@@ -40,10 +41,11 @@ from vectorplot.shading.painted_colours import (
     colours_of,
     corner_shades_of,
     opacities,
+    painted_normals,
     smooth_faces,
 )
 from vectorplot.shading.palettes import palette as shades_of
-from vectorplot.shading.shaded_faces import Shades, at_corners, plane_numbers, view_normals
+from vectorplot.shading.shaded_faces import Shades, at_corners, exposed_scene, plane_numbers, view_normals
 from vectorplot.tolerances import SAME_SHADE, SIDE_BY_SIDE_MM
 from vectorplot.visibility.painter.height_fields import known_orders
 from vectorplot.visibility.painter.image_faces import ImageFaces, view_points
@@ -133,16 +135,17 @@ def off_surfaces(seen: VisiblePolygons, tolerance_mm: float) -> Floats:
     return np.asarray(off * np.maximum(nearest, view.near) / view.focus)
 
 
-def finer(seen: VisiblePolygons, lighting: Lighting, most: int, error: float) -> ImageFaces:
-    """The polygons, those that are shaded so small that shades are off by no more than error, or as many as may be."""
+def finer(seen: VisiblePolygons, lighting: Lighting, budget: Budget, tolerance_mm: float) -> VisiblePolygons:
+    """The same with polygons so small that shades on them are off by no more than is allowed, or as many as may be."""
     faces = seen.faces
-    shortest = SHORTEST_MM / seen.placement.scale
+    shortest, error = SHORTEST_MM / seen.placement.scale, shade_error(tolerance_mm)
     points, offsets, parent = refined(
-        seen.view, lighting, faces.points, faces.offsets, faces.source, shortest, most, error
+        seen.view, lighting, faces.points, faces.offsets, faces.source, shortest, budget.facets, error
     )
     if len(parent) == len(faces):
-        return faces
-    return ImageFaces(points, offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
+        return seen
+    found = ImageFaces(points, offsets, faces.planes[:, parent], faces.source[parent], faces.rank[parent])
+    return replace(seen, faces=found)
 
 
 def shades_of_faces(seen: VisiblePolygons, lighting: Lighting) -> Shades:
@@ -289,15 +292,16 @@ def coloured(
     aura_mm: float,
     tolerance_mm: float,
     budget: Budget,
+    cast: Callable[[VisiblePolygons], Decals] | None = None,
 ) -> Overlay:
-    """The polygons of the picture in their colours, with all that lies on them and is seen in them; after: the polygon
-    whose steps of shade they are, -1 for what lies on such, is seen in them, or is paper."""
-    seen = replace(seen, faces=finer(seen, lighting, budget.facets, shade_error(tolerance_mm)))
+    """The polygons of the picture, as of finer, in their colours, with all that lies on them and is seen in them;
+    after: the polygon whose steps of shade they are, -1 for what lies on such, is seen in them, or is paper; cast:
+    their shadows, where more throws some than these polygons."""
     shades = pipeline.run("shades", shades_of_faces, seen, lighting).total
     pipeline.measured("shades", "of 255", shade_error_steps, seen, lighting)
     seen, shades, whole = posterized(seen, lighting, shades)
     aura = aura_mm / seen.placement.scale
-    decals, lighting = _decals(pipeline, seen, lighting, aura, tolerance_mm, budget)
+    decals, lighting = _decals(pipeline, seen, lighting, aura, tolerance_mm, budget, cast)
     laid = _laid(seen, lighting, decals)
     overlays = _overlays(pipeline, seen, lighting, decals, aura, tolerance_mm, budget)
     painted = pipeline.run("fills", _fills, pipeline, seen, lighting, shades, laid, overlays, page)
@@ -307,7 +311,13 @@ def coloured(
 
 
 def _decals(
-    pipeline: Pipeline, seen: VisiblePolygons, lighting: Lighting, aura: float, tolerance_mm: float, budget: Budget
+    pipeline: Pipeline,
+    seen: VisiblePolygons,
+    lighting: Lighting,
+    aura: float,
+    tolerance_mm: float,
+    budget: Budget,
+    cast: Callable[[VisiblePolygons], Decals] | None,
 ) -> tuple[tuple[Decals, ...], Lighting]:
     """The polygons that lie on faces, in the order in which they are painted."""
     scene, view, projected = seen.scene, seen.view, seen.projected
@@ -316,9 +326,10 @@ def _decals(
     if pipeline.calls_for("shadows"):
         from vectorplot.effects.scene_decals import scene_shadows
 
-        found.append(
-            pipeline.run("shadows", scene_shadows, view, scene.items, scene.lights, projected, aura, off, budget)
-        )
+        def own(seen: VisiblePolygons) -> Decals:
+            return scene_shadows(seen.view, scene.items, scene.lights, projected, aura, off, budget)
+
+        found.append(pipeline.run("shadows", cast or own, seen))
     if pipeline.calls_for("mirror light"):
         from vectorplot.effects.scene_decals import scene_mirror_light
 
@@ -535,7 +546,8 @@ def ordered_faces(
 
     Warns: InputWarning for items that may be in a wrong order.
     """
-    if pipeline.calls_for("facets"):
+    # Bodies that are painted as wholes are not among what is shown.
+    if pipeline.calls_for("facets") and has_surfaces(shown):
         facets = pipeline.run("facets", faceted, shown, criterion(), budget)
     else:
         facets = FacetedScene.of_meshes(shown)
@@ -561,7 +573,7 @@ def ordered_faces(
     tell_cyclic_overlaps(pipeline, scene, painted)
     tell_groups(pipeline, scene, painted)
     faces = painted.faces
-    if pipeline.calls_for("unseen facets"):
+    if pipeline.calls_for("unseen facets") and smooth_items(facets).any():
         faces = pipeline.run("unseen facets", without_unseen_facets, facets, view, projected, painted, budget)
     return OrderedFaces(facets, view, projected, faces)
 
@@ -629,3 +641,71 @@ def _groups(scene: Scene) -> Ints | None:
     names = group_names(scene)
     number = {"": -1, **{name: k for k, name in enumerate(names)}}
     return np.array([number.get(item.group, -1) for item in scene.items], dtype=np.intp) if names else None
+
+
+@dataclass(frozen=True, eq=False)
+class FacePainter:
+    """How the faces of a scene are painted on a page: pipeline, and what its stages are to do; casts: whether lights
+    throw shadows; the rest as in paint."""
+
+    pipeline: Pipeline
+    scene: Scene
+    projection: Projection
+    sheet: Page
+    fit: bool
+    casts: bool
+    smooth: bool
+    fills: str
+    palette: int
+    crease_angle_deg: float
+    aura_mm: float
+    tolerance_mm: float
+    budget: Budget
+
+    @property
+    def steps(self) -> int | None:
+        """In how many steps smooth surfaces are shaded; None for gradients."""
+        return self.palette if self.fills == "visible" else None
+
+    @cached_property
+    def allowed(self) -> Allowed:
+        """How far triangles may be off smooth surfaces."""
+        return allowed_in_space(self.scene, self.projection, self.sheet, self.fit, self._fine_mm)
+
+    @property
+    def _fine_mm(self) -> float:
+        return self.tolerance_mm if self.steps is None else border_tolerance_mm(self.tolerance_mm, self.steps)
+
+    def ordered(self, shown: Scene) -> OrderedFaces:
+        """The faces of what is shown of the scene, back to front."""
+
+        def criterion() -> Callable[[int], Criterion]:
+            # Where each triangle has one shade they have to be so small that nobody sees it.
+            if not self.smooth or self.fills == "erasing":
+                return lambda _: Within(self.allowed)
+            return fineness(self.pipeline, shown, self.projection, self.casts, self.allowed, self._fine_mm)
+
+        return ordered_faces(self.pipeline, self.scene, shown, self.projection, criterion, self.budget)
+
+    def seen(self, ordered: OrderedFaces, placement: Placement) -> tuple[VisiblePolygons, Lighting]:
+        """What is seen of faces on the page, and how they are lit."""
+        seen, plane = seen_on_page(self.pipeline, ordered, placement, self.budget)
+        given, here = exposed_scene(seen.view, seen.scene)
+        seen = replace(seen, scene=given)
+        normals, items, true = np.full((3, len(seen.view.corners)), np.nan), self.scene.items, ordered.facets.normals
+        if self.smooth and self.fills == "painted":
+            normals = painted_normals(seen.view, items, here, true, plane, self.crease_angle_deg)
+        elif self.smooth and self.fills == "visible":
+            # Pens have no gradients: smooth surfaces have steps, meshes and planes one shade for each of their faces.
+            normals = painted_normals(seen.view, items, (), true, plane, 0.0)
+        lighting = Lighting(items, here, normals, plane, self.palette, smooth_size=self.steps)
+        if self.fills != "erasing":
+            seen = finer(seen, lighting, self.budget, self.tolerance_mm)
+        return seen, lighting
+
+    def coloured(
+        self, seen: VisiblePolygons, lighting: Lighting, cast: Callable[[VisiblePolygons], Decals] | None = None
+    ) -> Overlay:
+        """As of coloured."""
+        page = seen.placement.page
+        return coloured(self.pipeline, seen, lighting, page, self.aura_mm, self.tolerance_mm, self.budget, cast)

@@ -298,7 +298,7 @@ def animate(
 
     room = sheet
     if first.colouring is not None:
-        from vectorplot.effects.scales import narrower
+        from vectorplot.effects.colour_maps import narrower
 
         room = narrower(sheet)
     fitted, zoom = steady_fit(views(), room)

@@ -43,6 +43,7 @@ from vectorplot.geometry.vectors import cross, norm
 from vectorplot.pictures.fills import (
     coloured,
     fineness,
+    finer,
     ordered_faces,
     seen_on_page,
     with_clear_items,
@@ -962,6 +963,7 @@ class HatchedPicture:
         # Planes have one shade each: no light varies on them.
         normals = painted_normals(seen.view, toned.items, (), ordered.facets.normals, plane, self.crease_angle_deg)
         lighting = Lighting(toned.items, lights, normals, plane, TONES, ambient=AMBIENT)
+        seen = finer(seen, lighting, budget, rough)
         fills = coloured(pipeline, seen, lighting, page, 0.0, rough, budget).fills
         regions = pipeline.run("visible fills", toned_regions, fills)
         return hatched_regions(regions, how, self.placement.page_from_world, self._followed(seen.view, how))

@@ -484,14 +484,14 @@ def balls(pipeline: Pipeline, scene: Scene, view: View, kinds: frozenset[LineKin
 
 def _seen_among_balls(pipeline: Pipeline, stage: str, view: View) -> Seen:
     """What becomes of the arcs on balls: all of them, the visible parts, or all parts counted."""
-    from vectorplot.visibility.quadrics import hidden_arcs
+    from vectorplot.visibility.quadrics import hidden_intervals
 
     if pipeline.calls_for("all lines"):
-        return lambda bodies, arcs, sides: hidden_arcs.whole_arcs(arcs)
+        return lambda bodies, arcs, sides: hidden_intervals.whole_arcs(arcs)
     done = pipeline.fraction(stage)
     if pipeline.calls_for("visible lines"):
-        return partial(hidden_arcs.visible_arcs, progress=done)
-    return partial(hidden_arcs.counted_arcs, items=len(view.occludes), progress=done)
+        return partial(hidden_intervals.visible_arcs, progress=done)
+    return partial(hidden_intervals.counted_arcs, items=len(view.occludes), progress=done)
 
 
 def behind_balls(pipeline: Pipeline, view: View, forms: ClosedForms | None, lines: Lines) -> Lines:

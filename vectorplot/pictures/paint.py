@@ -8,6 +8,7 @@ from typing import Literal
 
 import numpy as np
 
+from vectorplot.arrays import Floats
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.fills import Colours, FillKind, Fills
 from vectorplot.drawing.layers import letter_pen
@@ -15,38 +16,32 @@ from vectorplot.drawing.painted_fills import fills_on_page, placement_of_faces
 from vectorplot.drawing.pen_layers import overlaid_pens
 from vectorplot.drawing.pens import Pens, Style, check_targets
 from vectorplot.errors import InputError
-from vectorplot.features.edge_splitting import Criterion, Within
 from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.facet_errors import outline_error
 from vectorplot.pictures.fills import (
+    FacePainter,
     VisiblePolygons,
-    border_tolerance_mm,
-    coloured,
-    fineness,
-    ordered_faces,
     paper,
-    seen_on_page,
 )
 from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
 from vectorplot.pictures.options import SHADOWS, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
-from vectorplot.pictures.plan import accuracy_of_paint, consists_of_bodies, plan_bodies, plan_paint, with_accuracy
+from vectorplot.pictures.plan import accuracy_of_paint, has_bodies, plan_bodies, plan_paint, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
 from vectorplot.pictures.promises import PAINTING, promised
 from vectorplot.scene.added_lines import with_default_lines
 from vectorplot.scene.light import Exposure, Light
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue, depth_cue_of
-from vectorplot.scene.placement import FittedPage, allowed_in_space, page_of
+from vectorplot.scene.placement import FittedPage, page_of
 from vectorplot.scene.scene import Scene
-from vectorplot.scene.view import without_coincident
-from vectorplot.shading.painted_colours import Lighting, painted_normals
+from vectorplot.scene.view import View, without_coincident
 from vectorplot.shading.palettes import PALETTE_SIZE, shaded_colours
-from vectorplot.shading.shaded_faces import exposed_scene, item_colours
+from vectorplot.shading.shaded_faces import item_colours
 from vectorplot.words import LINE_WORDS, LineKind, check_word, line_kinds
 
 # Blank polygons with the visible lines on them: hidden lines by erasing.
@@ -272,7 +267,7 @@ def paint(
     check_targets(over.rules, names)
     sheet, strip = left_of_bar(sheet, bar)
     stages = with_accuracy(plan_paint(scene, shadows, fills, kinds), accuracy_of_paint(tolerance_mm))
-    if smooth and fills == "painted" and subject.chart is None and consists_of_bodies(scene) and not aura_mm:
+    if smooth and fills == "painted" and subject.chart is None and has_bodies(scene) and not aura_mm:
         stages = plan_bodies(stages)
     pipeline = Pipeline(stages, explain, progress, threads)
     projection = projection_of(subject.camera, scene.bounds)
@@ -280,60 +275,50 @@ def paint(
     shown = scene if kinds or fills == "erasing" else without_coincident(scene)
 
     drawn = kinds or line_kinds(LINE_WORDS if fills == "erasing" else ())
-    whole = None
+    casts, limits = shadows != "none" and bool(scene.lights), budget_of(budget)
+    painter = FacePainter(
+        pipeline,
+        scene,
+        projection,
+        sheet,
+        fit,
+        casts,
+        smooth,
+        fills,
+        palette,
+        crease_angle_deg,
+        aura_mm,
+        tolerance_mm,
+        limits,
+    )
+    among = None
     if pipeline.calls_for("bodies"):
-        from vectorplot.pictures.banded_bodies import band_error_steps, banded_fills, whole_bodies
+        from vectorplot.pictures.bodies_among_faces import painted_bodies
 
-        whole = pipeline.run("bodies", whole_bodies, shown, projection)
-    if whole is not None:
-        view = whole.view
-        beside = places_beside_faces(scene, view, None, sheet, fit, drawn, tolerance_mm, budget)
-        placement = whole.placement(sheet, fit, beside)
-        page, world = placement.page, placement.page_from_world
+        def beside_bodies(view: View) -> Floats:
+            return places_beside_faces(scene, view, None, sheet, fit, drawn, tolerance_mm, budget)
+
+        among = painted_bodies(painter, shown, beside_bodies)
+    if among is not None:
+        view, placement, polygons = among
         ruler = LineOverlay(scene, view, None, placement, crease_angle_deg, tolerance_mm, budget)
-        casts = pipeline.calls_for("shadows")
-        bodies, off_mm = pipeline.run("bands", banded_fills, whole, placement, casts, tolerance_mm)
-        pipeline.measured("bodies", "mm", lambda: off_mm)
-        pipeline.measured("bands", "of 255", band_error_steps, whole, placement, tolerance_mm)
-        polygons = Fills.joined(*background_of(scene, page), bodies)
     else:
-        steps = palette if fills == "visible" else None
-        fine_mm = tolerance_mm if steps is None else border_tolerance_mm(tolerance_mm, steps)
-
-        def criterion() -> Callable[[int], Criterion]:
-            allowed = allowed_in_space(scene, projection, sheet, fit, fine_mm)
-            # Where each triangle has one shade they have to be so small that nobody sees it.
-            if not smooth or fills == "erasing":
-                return lambda _: Within(allowed)
-            casts = shadows != "none" and bool(scene.lights)
-            return fineness(pipeline, shown, projection, casts, allowed, fine_mm)
-
-        ordered = ordered_faces(pipeline, scene, shown, projection, criterion, budget_of(budget))
+        ordered = painter.ordered(shown)
         beside = places_beside_faces(scene, ordered.view, None, sheet, fit, drawn, tolerance_mm, budget)
         placement = placement_of_faces(ordered.view, ordered.faces, sheet, fit, beside)
         if fit:
             placement = subject.around(placement, ordered.view, sheet)
         pipeline.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
-        seen, plane = seen_on_page(pipeline, ordered, placement, budget_of(budget))
-        view, true = seen.view, ordered.facets.normals
-        page, world = placement.page, placement.page_from_world
-        lit, here = exposed_scene(view, seen.scene)
-        seen = replace(seen, scene=lit)
-        normals = np.full((3, len(view.corners)), np.nan)
-        if smooth and fills == "painted":
-            normals = painted_normals(view, scene.items, here, true, plane, crease_angle_deg)
-        elif smooth and fills == "visible":
-            # Pens have no gradients: smooth surfaces have steps, meshes and planes one shade for each of their faces.
-            normals = painted_normals(view, scene.items, (), true, plane, 0.0)
-        lighting = Lighting(scene.items, here, normals, plane, palette, smooth_size=steps)
-        ruler = LineOverlay(scene, view, seen.projected, seen.placement, crease_angle_deg, tolerance_mm, budget)
+        seen, lighting = painter.seen(ordered, placement)
+        ruler = LineOverlay(scene, seen.view, seen.projected, placement, crease_angle_deg, tolerance_mm, budget)
         if pipeline.calls_for("erasing"):
             polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
         else:
-            painted = coloured(pipeline, seen, lighting, page, aura_mm, tolerance_mm, budget_of(budget))
+            painted = painter.coloured(seen, lighting)
             polygons = painted.fills
         for stage in ("order", "shadows"):
-            pipeline.measured(stage, "mm", lambda: view.tolerance * placement.scale)
+            pipeline.measured(stage, "mm", lambda: seen.view.tolerance * placement.scale)
+    page, world = placement.page, placement.page_from_world
     if pipeline.calls_for("visible fills"):
         from vectorplot.drawing.fill_visibility import visible_shades
 

@@ -23,12 +23,14 @@ from vectorplot.scene.view import View
 from vectorplot.shading.image import Bytes, averaged
 from vectorplot.shading.lighting import Blocked, Lighting, lighting_of
 from vectorplot.shading.map_settings import MapSettings
+from vectorplot.shading.quadric_pixels import boxes_around
 from vectorplot.shading.scene_pixels import Picture, opaque_buffer, shaded, with_glass, with_mirrors
 from vectorplot.shading.screen import LARGEST_RASTER_PIXELS, LARGEST_SIDE_PIXELS, SceneTriangles
 from vectorplot.tolerances import LARGEST_VIEW
+from vectorplot.visibility.quadrics.visible_parts import QuadricBodies
 
 if TYPE_CHECKING:
-    from vectorplot.effects.scales import ColourBar
+    from vectorplot.effects.colour_maps import ColourBar
     from vectorplot.shading.seen_region import SeenRegion
 
 
@@ -90,7 +92,7 @@ def pixels_left_of_bar(size: tuple[int, int], bar: ColourBar | None) -> tuple[in
     """Columns and rows that a colour bar leaves of a picture."""
     if bar is None:
         return size
-    from vectorplot.effects.scales import strip_mm
+    from vectorplot.effects.colour_maps import strip_mm
 
     return max(1, size[0] - round(strip_mm(size[0] / PIXELS_PER_MM) * PIXELS_PER_MM)), size[1]
 
@@ -102,7 +104,7 @@ def pixels_beside_bar(pixels: Bytes, bar: ColourBar | None, size: tuple[int, int
         return pixels
     from vectorplot.backends.raster import painted
     from vectorplot.drawing.drawing import Drawing
-    from vectorplot.effects.scales import with_colour_bar
+    from vectorplot.effects.colour_maps import with_colour_bar
 
     rows, columns = pixels.shape[:2]
     width, height = columns / PIXELS_PER_MM, rows / PIXELS_PER_MM
@@ -172,8 +174,8 @@ def check_lights(lights: Sequence[Light]) -> None:
 
 @dataclass(frozen=True, eq=False)
 class ShadowMaps:
-    """How shadows of some triangles are found: by which way, with what maps, tapered for what is seen (None: not).
-    sides (i,): of items that are closed, see outer_sides."""
+    """How shadows of some triangles and quadric bodies are found: by which way, with what maps, tapered for what is
+    seen (None: not). sides (i,): of items that are closed, see outer_sides. Those of bodies are exact anyway."""
 
     triangles: SceneTriangles
     lights: tuple[Light, ...]
@@ -181,15 +183,21 @@ class ShadowMaps:
     settings: MapSettings
     region: SeenRegion | None
     sides: Ints
+    bodies: QuadricBodies | None
 
     def of_items(self, casts: Bools) -> tuple[Blocked, ...]:
         """For every light what it does not reach as items (i,) stand before it."""
+        found = self._of_triangles(casts)
+        return found if self.bodies is None else with_bodies(found, self.lights, self.bodies, casts)
+
+    def _of_triangles(self, casts: Bools) -> tuple[Blocked, ...]:
         triangles = self.triangles
         shown = casts[triangles.item]
         if self.shadows == "exact":
             from vectorplot.shading.shadow_rays import exact_shadows
 
-            number = np.where(shown, np.cumsum(shown) - 1, -1)
+            # The last one is that of what is no triangle.
+            number = np.append(np.where(shown, np.cumsum(shown) - 1, -1), -1)
             return exact_shadows(self.lights, triangles.points, triangles.corners[shown], number)
         from vectorplot.shading.shadow_maps import shadow_buffers
 
@@ -211,6 +219,29 @@ class ShadowMaps:
         return tuple((colour, opacity, self.of_items(casts)) for (colour, opacity), casts in groups.items())
 
 
+def with_bodies(
+    blocked: tuple[Blocked, ...], lights: Sequence[Light], bodies: QuadricBodies, casts: Bools
+) -> tuple[Blocked, ...]:
+    """For every light what it does not reach because of triangles, or of bodies of items that cast shadows (i,)."""
+    from vectorplot.shading.quadric_shadows import QuadricShadows
+
+    some = bodies.take(casts[bodies.item])
+    if not len(some):
+        return blocked
+
+    def either(one: Blocked, other: Blocked) -> Blocked:
+        def both(places: Floats, normals: Floats, triangle: Ints) -> Bools:
+            found = one(places, normals, triangle)
+            left = np.flatnonzero(~found)
+            found[left] = other(places[left], normals[left], triangle[left])
+            return found
+
+        return both
+
+    pairs = zip(blocked, lights, strict=True)
+    return tuple(either(own, QuadricShadows.of(light, some)) for own, light in pairs)
+
+
 def scene_lighting(pipeline: Pipeline, scene: Scene, view: View, maps: ShadowMaps) -> Lighting:
     """The lights and their shadows, as far as the plan has any."""
     blocked: tuple[Blocked, ...] = ()
@@ -224,14 +255,22 @@ def scene_lighting(pipeline: Pipeline, scene: Scene, view: View, maps: ShadowMap
 
 
 def tapered_for(
-    triangles: SceneTriangles, system: CoordinateSystem, size: tuple[int, int], shadows: str
+    triangles: SceneTriangles,
+    bodies: QuadricBodies | None,
+    system: CoordinateSystem,
+    size: tuple[int, int],
+    shadows: str,
 ) -> SeenRegion | None:
     """What is seen, for shadow maps that are tapered for it; None for others."""
     if shadows not in ("trapezoid", "perspective"):
         return None
     from vectorplot.shading.seen_region import region_in_picture
 
-    return region_in_picture(system, *size, triangles.points, triangles.corners)
+    points, corners = triangles.points, triangles.corners
+    if bodies is not None:
+        boxes, sides = boxes_around(bodies)
+        points, corners = np.concatenate([points, boxes]), np.concatenate([corners, len(points) + sides])
+    return region_in_picture(system, *size, points, corners)
 
 
 # How many places shadow maps say a wrong thing of, measured against exact shadows.
@@ -240,7 +279,9 @@ PLACES = 1024
 """So many places are asked about."""
 
 
-def wrong_shadows(scene: Scene, triangles: SceneTriangles, lighting: Lighting) -> float | None:
+def wrong_shadows(
+    scene: Scene, triangles: SceneTriangles, bodies: QuadricBodies | None, lighting: Lighting
+) -> float | None:
     """Of how many of 100 places, spread over the triangles of a scene by their area, maps say wrongly whether a light
     reaches them; None for a scene without area."""
     corners, points = triangles.corners, triangles.points
@@ -255,11 +296,13 @@ def wrong_shadows(scene: Scene, triangles: SceneTriangles, lighting: Lighting) -
     s, t = np.where(s + t > 1.0, 1.0 - s, s), np.where(s + t > 1.0, 1.0 - t, t)
     places = a[which] + s * (b - a)[which] + t * (c - a)[which]
     normals = cross(b - a, c - a)[which] / area[which, None]
-    casts = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)[triangles.item]
+    items = np.array([item.casts_shadow for item in scene.items], dtype=np.bool_)
+    casts = items[triangles.item]
     number = np.where(casts, np.cumsum(casts) - 1, -1)
     from vectorplot.shading.shadow_rays import exact_shadows
 
     true = exact_shadows(lighting.lights, points, corners[casts], number)
+    true = true if bodies is None else with_bodies(true, lighting.lights, bodies, items)
     wrong = [
         (says(places, normals, which) != is_so(places, normals, which)).mean()
         for says, is_so in zip(lighting.blocked, true, strict=True)

@@ -194,7 +194,7 @@ def chosen_shadows(scene: Scene, camera: Camera, size: tuple[int, int], fit: boo
 def plan_render(scene: Scene, shadows: str, lines: bool, why: str = "") -> tuple[Stage, ...]:
     """The stages that rendering this scene calls for, in their order; nothing else runs. why: of such shadows."""
     stages = []
-    if any(not isinstance(item.shape, Mesh) for item in scene.items):
+    if has_surfaces(scene):
         stages.append(Stage("facets", "smooth surfaces become triangles smaller than pixels can show"))
     stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
     stages.append(Stage("triangles", "all faces, with the normals at their corners"))
@@ -259,7 +259,7 @@ def _shading_stages(scene: Scene, shadows: str) -> list[Stage]:
 def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind]) -> tuple[Stage, ...]:
     """The stages that painting this scene calls for, in their order; nothing else runs."""
     stages = []
-    if any(not isinstance(item.shape, Mesh) for item in scene.items):
+    if has_surfaces(scene):
         stages.append(Stage("facets", "smooth surfaces become triangles within the tolerance"))
     stages.append(Stage("look", "the scene in the camera's axes, in the unit box"))
     stages.append(Stage("faces", "the faces in the image, and which side they show"))
@@ -289,6 +289,11 @@ def plan_paint(scene: Scene, shadows: str, fills: str, kinds: frozenset[LineKind
     return tuple(stages)
 
 
+def has_surfaces(scene: Scene) -> bool:
+    """Whether there are shapes in a scene that are no meshes."""
+    return any(not isinstance(item.shape, Mesh) for item in scene.items)
+
+
 def is_whole(item: Item) -> bool:
     """Whether an item is a body that bands of shade can show: opaque, of one colour and whole."""
     plain = item.material.opacity >= 1.0 and item.material.refraction == 1.0 and item.hides
@@ -296,18 +301,26 @@ def is_whole(item: Item) -> bool:
     return plain and item.fields is None and item.face_looks is None and is_quadric_body(item.shape)
 
 
-def consists_of_bodies(scene: Scene) -> bool:
-    """Whether bands of shade can show all of a scene, in white light that does not fade."""
+def has_bodies(scene: Scene) -> bool:
+    """Whether bands of shade can show some of a scene, in white light that does not fade, and all else is opaque, no
+    mirror, and of no group."""
+    if scene.exposure == "fitted" or not all(light.colour == "white" and not light.fading for light in scene.lights):
+        return False
     drawn = [item for item in scene.items if not is_annotation(item)]
-    white = all(light.colour == "white" and not light.fading for light in scene.lights)
-    return bool(drawn) and white and scene.exposure != "fitted" and all(map(is_whole, drawn))
+    whole = [is_whole(item) for item in drawn]
+    return any(whole) and all(own or _is_plain(item) for item, own in zip(drawn, whole, strict=True))
+
+
+def _is_plain(item: Item) -> bool:
+    plain = item.material.opacity >= 1.0 and item.material.refraction == 1.0 and item.hides
+    mirrors = item.material.is_mirror and isinstance(item.shape, Mesh)
+    return plain and not (mirrors or item.group or item.curves.slices)
 
 
 def plan_bodies(stages: Sequence[Stage]) -> tuple[Stage, ...]:
-    """The stages of painting, before them those of a scene of bodies that are painted as wholes, in their place where
-    that can be."""
+    """The stages of painting, before them those of bodies that are painted as wholes where that can be."""
     return (
-        Stage("bodies", "everything is a ball, a rod or another quadric body: back to front as wholes"),
+        Stage("bodies", "balls, rods and other quadric bodies: back to front as wholes"),
         Stage("bands", "their visible parts in bands of equal shade (--tolerance)"),
         *stages,
     )

@@ -31,7 +31,7 @@ from vectorplot.scene.view import View, without_seams
 
 if TYPE_CHECKING:
     from vectorplot.drawing.labels import SceneLabels
-    from vectorplot.effects.scales import ColourBar, Scaled
+    from vectorplot.effects.colour_maps import ColourBar, Scaled
 
 
 # Items without faces that stand for the looks of single faces: whatever asks an item how it looks asks them too.
@@ -131,7 +131,7 @@ def _chart_of(scene: Scene, camera: Camera | str | None, paper: Paper) -> Scaled
     """The scene with what its colouring and its box ask for, if it has one."""
     if scene.colouring is None and scene.box is None:
         return None
-    from vectorplot.effects.scales import scaled
+    from vectorplot.effects.colour_maps import scaled
 
     return scaled(scene, camera, paper.seen_from(camera_of(camera, scene)))
 
@@ -166,7 +166,7 @@ def left_of_bar(sheet: Page, bar: ColourBar | None) -> tuple[Page, float]:
     """The part of a sheet that a colour bar leaves, and the width of the strip that it takes."""
     if bar is None:
         return sheet, 0.0
-    from vectorplot.effects.scales import narrower
+    from vectorplot.effects.colour_maps import narrower
 
     rest = narrower(sheet)
     return rest, sheet.width_mm - rest.width_mm
@@ -178,7 +178,7 @@ def beside_bar(
     """The drawing with a colour bar in a strip (mm) beside it; paper: the colour of that, where it has one."""
     if bar is None:
         return drawing
-    from vectorplot.effects.scales import with_colour_bar
+    from vectorplot.effects.colour_maps import with_colour_bar
     from vectorplot.shading.palettes import palette
 
     shade = None if paper is None else "#{:02x}{:02x}{:02x}".format(*palette(paper)[-1].tolist())

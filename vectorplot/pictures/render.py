@@ -255,7 +255,7 @@ def render(
     facets, bodies = FacetedScene.of_meshes(seen), None
     if pipeline.calls_for("facets"):
         shown, criterion = without_coincident(seen), Within(allowed_in_space(seen, projection, page, fit, FACET_PIXELS))
-        if not pipeline.calls_for("shadows") and not pipeline.calls_for("mirrors"):
+        if not pipeline.calls_for("mirrors"):
             bodies = bodies_in_pixels(shown.items, projection)
             shown = shown if bodies is None else with_extents(shown, bodies, projection)
         facets = pipeline.run("facets", faceted, shown, lambda number: criterion, budget_of(budget))
@@ -273,12 +273,12 @@ def render(
     pipeline.measured("facets", "samples", facet_error, facets, view, placement)
     system = pixel_system(placement)
     (seen, here), sides = exposed_scene(view, seen), outer_sides(view)
-    region = tapered_for(triangles, system, fine, how) if pipeline.calls_for("shadows") else None
-    lighting = scene_lighting(pipeline, seen, view, ShadowMaps(triangles, here, how, settings, region, sides))
+    region = tapered_for(triangles, bodies, system, fine, how) if pipeline.calls_for("shadows") else None
+    lighting = scene_lighting(pipeline, seen, view, ShadowMaps(triangles, here, how, settings, region, sides, bodies))
     if lighting.blocked and how != "exact":
         from vectorplot.pictures.pixels import wrong_shadows
 
-        pipeline.measured("shadows", "% wrong", wrong_shadows, seen, triangles, lighting)
+        pipeline.measured("shadows", "% wrong", wrong_shadows, seen, triangles, bodies, lighting)
     opacity = np.array([item.material.opacity for item in seen.items])
     mirror = np.array([item.material.is_mirror for item in seen.items], dtype=np.bool_)
     coplanar = pipeline.run("coplanar", coplanar_faces, view)

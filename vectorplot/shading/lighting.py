@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from typing import TypeVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
@@ -193,7 +193,8 @@ def _numbered(values: Sequence[_Value]) -> tuple[list[_Value], Ints]:
 
 @dataclass(frozen=True, eq=False)
 class _Lit:
-    """What m points get of l lights: places (m, 3), faces (m, 3) their normals, triangle (m,), item (m,); given (l, m):
+    """What m points get of l lights: places (m, 3), faces (m, 3) their normals, triangle (m,), -1 for points of bodies,
+    item (m,); given (l, m):
     shares of what they would send of each; gone (l, m): whether they are in its shadow, and facing (l, m) turned to it;
     cue (m,): of being near."""
 
@@ -218,8 +219,20 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
     to_eye = towards(places, lighting.eye)
     faces, normals = _normals(triangles, found, to_eye)
     lit = _lit(places, to_eye, faces, normals, found.triangle, triangles.item[found.triangle], lighting)
+    return ShadedPoints(places, faces, _shown(lit, lighting))
+
+
+def shaded_bodies(found: QuadricPoints, lighting: Lighting) -> Colours:
+    """(m, 3) the colours of points of quadric bodies."""
+    to_eye = towards(found.places, lighting.eye)
+    none = np.full(len(found.item), -1)
+    return _shown(_lit(found.places, to_eye, found.normals, found.normals, none, found.item, lighting), lighting)
+
+
+def _shown(lit: _Lit, lighting: Lighting) -> Colours:
+    """(m, 3) the colours of points."""
     kept = np.where(lit.gone, SHADOW_SHARE, 1.0)
-    colours = _colours(lighting, lighting.palette[lit.item], lit, kept, np.arange(len(found)))
+    colours = _colours(lighting, lighting.palette[lit.item], lit, kept, np.arange(len(lit.item)))
     for casters in lighting.clear:
         for number in range(len(lighting.lights)):
             reached = np.flatnonzero(lit.facing[number] & ~lit.gone[number] & lighting.receives[lit.item])
@@ -230,17 +243,7 @@ def shaded_points(triangles: SceneTriangles, found: VisiblePoints, lighting: Lig
             own = np.full(len(which), casters.palette, dtype=np.intp)
             tint = _colours(lighting, own, lit, less, which)
             colours[which] += casters.opacity * (tint - colours[which])
-    return ShadedPoints(lit.places, lit.faces, np.rint(colours).astype(np.uint8))
-
-
-def shaded_bodies(found: QuadricPoints, lighting: Lighting) -> NDArray[np.uint8]:
-    """(m, 3) the colours of points of quadric bodies, on which no shadows fall."""
-    to_eye = towards(found.places, lighting.eye)
-    none = np.full(len(found.item), -1)
-    unshadowed = replace(lighting, blocked=())
-    lit = _lit(found.places, to_eye, found.normals, found.normals, none, found.item, unshadowed)
-    kept = np.ones(lit.given.shape)
-    return np.rint(_colours(lighting, lighting.palette[lit.item], lit, kept, np.arange(len(none)))).astype(np.uint8)
+    return np.rint(colours).astype(np.uint8)
 
 
 def _lit(

@@ -62,6 +62,17 @@ def with_extents(scene: Scene, bodies: QuadricBodies, projection: Projection) ->
     return replace(scene, items=tuple(items))
 
 
+def boxes_around(bodies: QuadricBodies) -> tuple[Floats, Ints]:
+    """(8n,3) the corners of boxes around bodies, along the axes, and (12n,3) triangles of these."""
+    low, high = (np.stack([_farthest(bodies, way)[k] for k, way in enumerate(ways)]) for ways in (AXES[3:], AXES[:3]))
+    bits = np.arange(8)[:, None] >> np.arange(3) & 1
+    points = np.where(bits[None], high.T[:, None], low.T[:, None]).reshape(-1, 3)
+    sides = np.array([(a, a + p, a + q) for p, q, r in ((1, 2, 4), (2, 4, 1), (4, 1, 2)) for a in (0, r)])
+    others = np.array([(a + p + q, a + q, a + p) for p, q, r in ((1, 2, 4), (2, 4, 1), (4, 1, 2)) for a in (0, r)])
+    corners = np.concatenate([sides, others]) + 8 * np.arange(len(bodies))[:, None, None]
+    return points, corners.reshape(-1, 3)
+
+
 @dataclass(frozen=True, eq=False)
 class PixelBodies:
     """Quadric bodies in pixels. middle (n,3): column, row and depth of their centres; unit (n,4,4): homogeneous

@@ -17,6 +17,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.boxes import PAIRS_AT_ONCE
 from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.scene.added_lines import UPPER_LEFT
@@ -491,15 +492,19 @@ def _with_creases(
     vertex, triangle, corner = vertex[order], triangle[order], corner[order]
     starts = np.flatnonzero(np.diff(vertex, prepend=-1))
     count = np.diff(np.append(starts, len(vertex)))
-    run = ragged.owner(count)
-    # Every corner beside every other one at its vertex.
-    one = ragged.owner(count[run])
-    other = ragged.place(count[run]) + starts[run[one]]
-    alike = np.einsum("ij,ij->i", own[triangle[one]], own[triangle[other]]) >= np.cos(np.radians(angle_deg)) - ROUNDING
-    one, other = one[alike], other[alike]
+    ends = np.append(starts, len(vertex))
+    cosine = np.cos(np.radians(angle_deg)) - ROUNDING
     sums = np.zeros((len(corner), 3))
-    for k in range(3):
-        sums[:, k] = np.bincount(one, weights=faces[triangle[other], k], minlength=len(corner))
+    # Every corner beside every other one at its vertex.
+    for first, last in ragged.batches(count * count, PAIRS_AT_ONCE):
+        here = slice(int(ends[first]), int(ends[last]))
+        sizes = np.repeat(count[first:last], count[first:last])
+        one, other = ragged.owner(sizes), ragged.ranges(np.repeat(starts[first:last], count[first:last]), sizes)
+        there = triangle[other]
+        alike = np.einsum("ij,ij->i", own[triangle[here][one]], own[there]) >= cosine
+        one, there = one[alike], there[alike]
+        for k in range(3):
+            sums[here, k] = np.bincount(one, weights=faces[there, k], minlength=here.stop - here.start)
     index = triangles.copy()
     index.ravel()[corner] = len(mean) + np.arange(len(corner))
     normals = np.where((sums != 0.0).any(axis=1)[:, None], unit(sums), own[triangle])

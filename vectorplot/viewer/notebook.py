@@ -6,15 +6,12 @@ import os
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from vectorplot.errors import InputError
+from vectorplot.errors import not_installed
 from vectorplot.io.anything import scene_of
 from vectorplot.viewer.pictures import Given, Source
 
 if TYPE_CHECKING:
     from vectorplot.viewer.widget import ViewerWidget
-
-
-MISSING = "show needs anywidget: pip install 'vectorplot[notebook]'"
 
 
 def show(scene: object) -> ViewerWidget:
@@ -53,7 +50,7 @@ def show(scene: object) -> ViewerWidget:
     try:
         from vectorplot.viewer.widget import ViewerWidget
     except ImportError:
-        raise InputError(MISSING) from None
+        raise not_installed("show", "anywidget", "notebook") from None
     if isinstance(scene, str | os.PathLike):
         source = Source(Path(scene))
         source.scene(None)

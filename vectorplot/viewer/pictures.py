@@ -115,7 +115,7 @@ def drawable(state: ViewerState) -> ViewerState:
 
 def for_browser(made: Drawing | Image) -> tuple[bytes, str]:
     """A picture as SVG, or as PNG where it is of pixels or has very many marks, and its media type."""
-    format = "png" if isinstance(made, Image) else shown_as(made)
+    format = "png" if isinstance(made, Image) else shown_as(made)[0]
     return write(made, format), SHOWN[format]
 
 

@@ -34,6 +34,7 @@ def areas(*polygons: list[tuple[int, int]], items: tuple[int, ...] = (), opacity
         none,
         np.zeros(count, dtype=bool),
         np.array(items or [0] * count),
+        np.array(items or [0] * count),
     )
 
 

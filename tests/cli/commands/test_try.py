@@ -104,4 +104,4 @@ def test_what_is_wrong_is_one_line_before_anything_is_served(cube, capsys, monke
     assert run(["try", str(cube), "--no-browser"]) == 1
     told = capsys.readouterr()
     assert told.out == ""
-    assert len(told.err.splitlines()) == 3 and "pip install 'vectorplot[viewer]'" in told.err
+    assert len(told.err.splitlines()) == 3 and "pip install '.[viewer]'" in told.err

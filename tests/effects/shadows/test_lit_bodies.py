@@ -186,9 +186,9 @@ def test_a_lamp_in_a_closed_body_reaches_nothing_beyond_its_box(cut: bool, shut:
 def test_smooth_balls_throw_less_shadows_than_they_have_facets() -> None:
     balls = (Sphere(1.0, (0, 0, 0)), Sphere(1.0, (0.0, 0.0, -2.5)))
     items = [vp.Item(f"ball{k}", some, "gray") for k, some in enumerate(balls)]
-    # Beside a mesh balls are triangles.
+    # Beside what is painted with a group balls are triangles.
     leaf = vp.Mesh.from_triangles([(-2, 2, -4), (-1, 2, -4), (-2, 3, -4)], [(0, 1, 2)])
-    scene = vp.Scene((*items, vp.Item("leaf", leaf, "gray")), lights=(LAMPS[1],))
+    scene = vp.Scene((*items, vp.Item("leaf", leaf, "gray", group="leaves")), lights=(LAMPS[1],))
     counts: dict[str, int] = {}
     vp.paint(
         scene,

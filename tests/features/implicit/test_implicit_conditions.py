@@ -5,7 +5,7 @@ import pytest
 
 from vectorplot.errors import InputError
 from vectorplot.features.conditions import MeetsPlane
-from vectorplot.features.implicit_surfaces import (
+from vectorplot.features.polygonization import (
     ImplicitCentralContour,
     ImplicitIsophote,
     ImplicitPointIsophote,

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from vectorplot.errors import InputError
-from vectorplot.features.implicit_surfaces import polygonized, settled_mesh
+from vectorplot.features.polygonization import polygonized, settled_mesh
 from vectorplot.geometry.winding import edge_uses, is_closed_oriented
 from vectorplot.surfaces.implicit import implicit_of_function
 from vectorplot.surfaces.quadrics import implicit_cone, implicit_cylinder, implicit_plane, implicit_sphere

@@ -8,7 +8,6 @@ from support.effort import examples
 
 from vectorplot.errors import InputError
 from vectorplot.features.grid_triangulation import mesh_of_grid
-from vectorplot.features.implicit_surfaces import polygonized
 from vectorplot.features.mesh_lines import (
     NO_FACE,
     mesh_contour_across_faces,
@@ -20,6 +19,7 @@ from vectorplot.features.mesh_lines import (
     mesh_point_light_isophotes,
     vertex_normals,
 )
+from vectorplot.features.polygonization import polygonized
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_repair import repaired
 from vectorplot.geometry.solids import box

@@ -139,7 +139,7 @@ def test_without_the_library_one_line_says_what_to_install(tmp_path, monkeypatch
         return real(name, *rest, **more)
 
     monkeypatch.setattr(builtins, "__import__", without)
-    with pytest.raises(vp.InputError, match=r"pip install 'vectorplot\[molecules\]'"):
+    with pytest.raises(vp.InputError, match=r"pip install '\.\[molecules\]'"):
         vp.read(written(tmp_path, "water.xyz", WATER))
 
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import vectorplot as vp
-from vectorplot.effects.scales import axis_numbers, coloured, with_box
+from vectorplot.effects.colour_maps import axis_numbers, coloured, with_box
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.io.read_file import read
 from vectorplot.io.terrain_files import default_exaggeration, read_terrain

@@ -7,7 +7,13 @@ from math import comb
 import numpy as np
 import pytest
 
-from vectorplot.visibility.quadrics.hidden_arcs import roots_of_four, roots_of_two, squares, value_of_four, value_of_two
+from vectorplot.visibility.quadrics.hidden_intervals import (
+    roots_of_four,
+    roots_of_two,
+    squares,
+    value_of_four,
+    value_of_two,
+)
 
 
 def power_basis(coefficients):

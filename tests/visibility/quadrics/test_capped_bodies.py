@@ -25,7 +25,7 @@ from vectorplot.testing.shapes import box
 from vectorplot.visibility.polyhedra.lines import straight_lines
 from vectorplot.visibility.quadrics import closed_forms as first_engine
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
-from vectorplot.visibility.quadrics.hidden_arcs import visible_arcs
+from vectorplot.visibility.quadrics.hidden_intervals import visible_arcs
 from vectorplot.visibility.smooth.hidden_curves import whole_lines_and_chords
 from vectorplot.visibility.smooth.scene_curves import scene_sheets, traced_scene
 from vectorplot.words import DRAWN, LineKind, line_kinds

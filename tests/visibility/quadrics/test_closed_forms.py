@@ -22,7 +22,7 @@ from vectorplot.surfaces.quadrics import Ellipsoid, Sphere
 from vectorplot.surfaces.tori import Torus
 from vectorplot.testing.shapes import box
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
-from vectorplot.visibility.quadrics.hidden_arcs import visible_arcs
+from vectorplot.visibility.quadrics.hidden_intervals import visible_arcs
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 LINES = SurfaceLines(columns=5, rows=4, isophotes=(-0.4, 0.3), sections=(Section((1, 2, 3), (9.0, 13.0, 17.0, 21.0)),))

@@ -7,7 +7,7 @@ import pytest
 
 from vectorplot.features.conditions import MeetsPlane
 from vectorplot.features.curve_tracing import Tracing
-from vectorplot.features.implicit_surfaces import ImplicitIsophote
+from vectorplot.features.polygonization import ImplicitIsophote
 from vectorplot.geometry.camera import Camera
 from vectorplot.scene.item import Item
 from vectorplot.scene.scene import Scene

@@ -75,7 +75,8 @@ def animate(
     to OUT, or record them as a movie of polygons.
 
     SCENE is looked for in the current folder and in the folder data, with and without .scene; the animation in the
-    current folder and in the folder anim, with and without .anim. One fit holds for the whole film. Options are those
+    current folder and in the folders anim and data, with and without .anim; and both among the samples that came with
+    vectorplot. One fit holds for the whole film. Options are those
     of the verb that makes the frames: draw (modes wire and lines), paint (shading, shadows and erasing) or render
     (pixels). Camera options replace the fields of the camera in the scene file one by one, before it moves; sections
     and levels are of the scene at rest and move with its items, and cuts stand still.

@@ -15,8 +15,17 @@ import click
 from vectorplot.cli.commands.draw import draw
 from vectorplot.cli.commands.paint import paint
 from vectorplot.cli.many import WORKER_OPTIONS, PictureVerb, WorkerOptions, inputs_of, picture_of
-from vectorplot.cli.option_values import at_least, format_of, page_size
-from vectorplot.cli.options import DRAWING_FORMATS, INPUT, LANDSCAPE, OUT, QUIET, format_option, with_options
+from vectorplot.cli.option_values import at_least, page_size
+from vectorplot.cli.options import (
+    DRAWING_FORMATS,
+    INPUT,
+    LANDSCAPE,
+    OUT,
+    QUIET,
+    drawing_format,
+    format_option,
+    with_options,
+)
 from vectorplot.cli.picture import check_place, progress_bar, reported_warnings, write_out
 
 if TYPE_CHECKING:
@@ -104,7 +113,7 @@ def contact_sheet(
     from vectorplot.save import write
     from vectorplot.scene.page import Page
 
-    written, workers = format_of(out, format_, DRAWING_FORMATS), WorkerOptions.of(told)
+    written, workers = drawing_format(out, format_), WorkerOptions.of(told)
     cells = _cells(inputs_of(scene_file), told["vary"])
     width, height = _size("--cell", told["cell"])
     page = Page(*_size("--page", told["page"]))

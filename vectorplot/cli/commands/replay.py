@@ -36,8 +36,9 @@ def replay(
     timeout: float | None,
     quiet: bool,
 ) -> None:
-    """Show the movie NAME.vd1 and NAME.vd2, from the current folder or the folders video and data, in a web page on
-    this machine, again and again, and say what it holds; or write its frames to OUT. Ctrl-C stops it."""
+    """Show the movie NAME.vd1 and NAME.vd2, from the current folder, the folders video and data, or the samples
+    that came with vectorplot, in a web page on this machine, again and again, and say what it holds; or write its
+    frames to OUT. Ctrl-C stops it."""
     from vectorplot.animation.movies import FPS as USUAL
     from vectorplot.animation.movies import frame_drawings, read_movie
     from vectorplot.io.named_files import movie_to_read

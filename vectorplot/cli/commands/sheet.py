@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.option_values import format_of, upwards
+from vectorplot.cli.option_values import upwards
 from vectorplot.cli.options import (
     CUT_SPACING,
     DRAWING_FORMATS,
@@ -20,6 +20,7 @@ from vectorplot.cli.options import (
     QUIET,
     VIEW_WORDS,
     crease_angle_option,
+    drawing_format,
     format_option,
     with_options,
 )
@@ -111,7 +112,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
         warn_of_nothing(Source((scene_file[number],)), made, lambda: why_nothing(scene, None, Page()))
         return made
 
-    written = format_of(out, format_, DRAWING_FORMATS)
+    written = drawing_format(out, format_)
     if len(scene_file) > 1:
         if written != "pdf":
             raise click.UsageError("several INPUTs become the pages of a PDF: OUT must end in .pdf")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import click
 
-from vectorplot.cli.option_values import format_of
+from vectorplot.cli.options import drawing_format
 from vectorplot.cli.picture import progress_bar
 
 
@@ -29,13 +29,13 @@ def speed(
     Takes a minute or two. Costs in points (of projecting and sorting one) can be compared between machines.
     """
     from vectorplot.errors import InputError
-    from vectorplot.save import FORMATS, save
+    from vectorplot.save import save
     from vectorplot.speed.measure import SERIES, measure
     from vectorplot.speed.results import comparison, plot, read_log, tables, write_log
     from vectorplot.words import nearest
 
     if picture is not None:
-        format_of(picture, None, FORMATS)
+        drawing_format(picture, None)
     names = [series.name for series in SERIES]
     for name in only:
         if name not in names:

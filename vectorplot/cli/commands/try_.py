@@ -41,7 +41,8 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
     """Show SCENE, any file that draw takes, in a web page on this machine: turned by mouse and keys, drawn with exact
     hidden lines, painted or shaded, edited beside its picture, and saved as PS, SVG, PDF, DXF or PNG.
 
-    A file without a folder is looked for in the current one and then in data/; its suffix .scene may be left out.
+    A file without a folder is looked for in the current one, then in data/, then among the samples that came with
+    vectorplot; its suffix .scene may be left out.
     An animation moves it there, frame by frame; together with -v it becomes a movie, and no page is shown. Key v in the
     page records what one does there.
     Ctrl-C stops it, and q in the page.
@@ -73,12 +74,12 @@ def try_(scene_file: str, animation: str | None, video: str | None, no_browser: 
 
 def check_viewer(what: str) -> None:
     """Errors: InputError where what serves pages is not installed; said before any work."""
-    from vectorplot.errors import InputError
+    from vectorplot.errors import not_installed
 
     try:
         import aiohttp  # noqa: F401
     except ImportError:
-        raise InputError(f"{what} needs aiohttp: pip install 'vectorplot[viewer]'") from None
+        raise not_installed(what, "aiohttp", "viewer") from None
 
 
 def show_address(address: str, *, no_browser: bool) -> None:

@@ -1,17 +1,22 @@
-"""The painter's order of quadric bodies as wholes, and the planes at which those that pierce each other are cut."""
+"""The painter's order of quadric bodies as wholes, of polygons among them, and the planes at which bodies that pierce
+each other are cut."""
 
 from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import Protocol
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
+from vectorplot.geometry import ragged
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.records import APART, IN_COLUMNS, Elements, joined
 from vectorplot.tolerances import LEAST_DIVISOR
-from vectorplot.visibility.painter.priority_tests import box_pairs
+from vectorplot.visibility.painter.image_faces import ImageFaces
+from vectorplot.visibility.painter.painters_order import overlapping_pairs
+from vectorplot.visibility.painter.priority_tests import box_pairs, boxes_over
 from vectorplot.visibility.painter.topological_order import topological_order
 from vectorplot.visibility.quadrics.visible_parts import QuadricBodies
 
@@ -39,11 +44,13 @@ class BodyCuts(Elements):
 @dataclass(frozen=True, eq=False)
 class BodyOrder:
     """Bodies without the parts of rods in balls, but for what these cover, their order (m,) back to front, without
-    those that are hidden in others, and the cuts of those that pierce others behind them."""
+    those that are hidden in others, the cuts of those that pierce others behind them, and demands (2,k): what of them
+    is painted before what."""
 
     bodies: QuadricBodies = field(metadata=APART)
     order: Ints
     cuts: BodyCuts
+    demands: Ints
 
 
 def body_order(bodies: QuadricBodies, box: Floats, tolerance: float) -> BodyOrder | None:
@@ -66,24 +73,25 @@ def body_order(bodies: QuadricBodies, box: Floats, tolerance: float) -> BodyOrde
     bodies, done = sticking.outside, sticking.done
     hidden |= sticking.inside
     one, two = first[~balls][~done], second[~balls][~done]
-    apart, _ = _directions(_between_images(bodies, one, two), len(one))
+    apart = _images_apart(bodies.eye, (bodies, one), (bodies, two))
     one, two = one[~apart], two[~apart]
     gone = hidden[one] | hidden[two]
     one, two = one[~gone], two[~gone]
-    others = _planes(bodies, one, two)
-    if others is None:
+    in_front = _in_front(bodies.eye, (bodies, one), (bodies, two))
+    if in_front is None:
         return None
-    before, after = np.concatenate([of_balls, sticking.demands, others], axis=1)
-    shown = ~(hidden[before] | hidden[after])
-    found = topological_order(len(bodies), before[shown], after[shown])
+    others = np.stack([np.where(in_front, two, one), np.where(in_front, one, two)])
+    demands = np.concatenate([of_balls, sticking.demands, others], axis=1)
+    demands = demands[:, ~hidden[demands].any(axis=0)]
+    found = topological_order(len(bodies), *demands)
     if len(found.cycle):
         return None
-    return BodyOrder(sticking.painted, found.order[~hidden[found.order]], joined([cuts, sticking.cuts]))
+    return BodyOrder(sticking.painted, found.order[~hidden[found.order]], joined([cuts, sticking.cuts]), demands)
 
 
-def _eye_side(bodies: QuadricBodies, normal: Floats, height: Floats) -> Floats:
+def _eye_side(eye: Floats | None, normal: Floats, height: Floats) -> Floats:
     """(m,) how far the eye is beyond planes normal.p = height; of a parallel projection the sign alone counts."""
-    return normal[2] if bodies.eye is None else dot(bodies.eye, normal) - height
+    return normal[2] if eye is None else dot(eye, normal) - height
 
 
 # Balls: by power, cut along their radical planes.
@@ -170,7 +178,7 @@ def _rods(bodies: QuadricBodies, sphere: Bools, one: Ints, other: Ints, toleranc
     rim = z + sign * half
     axis = sign * bodies.frame[2][:, stick] / bodies.sizes[2, stick]
     height = dot(axis, bodies.centre[:, stick] + rim * bodies.frame[2][:, stick])
-    in_front = _eye_side(bodies, axis, height) > 0.0
+    in_front = _eye_side(bodies.eye, axis, height) > 0.0
     outside, painted = bodies.ends.copy(), bodies.ends.copy()
     under = np.where(in_front, rim, rim - UNDER * sign * half)
     for ends, place in ((outside, rim), (painted, under)):
@@ -184,10 +192,25 @@ def _rods(bodies: QuadricBodies, sphere: Bools, one: Ints, other: Ints, toleranc
     return _Sticking(demands, cuts, outer, shown, done, inside)
 
 
-# Bodies with a plane between them.
+# Convex things with a plane between them.
 
 Support = Callable[[Floats, Ints], Floats]
 """(3,m) the points of convex sets which (m,) that reach least far in directions (3,m)."""
+
+
+class ConvexThings(Protocol):
+    """Convex sets in the coordinates of a view."""
+
+    @property
+    def middle(self) -> Floats:
+        """(3,n) a point within each of them."""
+
+    def support(self, directions: Floats, which: Ints) -> Floats:
+        """(3,m) the points of things which (m,) that reach farthest in directions (3,m)."""
+
+
+Some = tuple[ConvexThings, Ints]
+"""Things, and the numbers (m,) of some of them."""
 
 
 def _directions(support: tuple[Support, Floats], count: int) -> tuple[Bools, Floats]:
@@ -216,41 +239,131 @@ def _directions(support: tuple[Support, Floats], count: int) -> tuple[Bools, Flo
     return apart, found
 
 
-def _between_images(bodies: QuadricBodies, one: Ints, other: Ints) -> tuple[Support, Floats]:
-    """For planes through the eye between bodies: the hulls of the one and of the other mirrored in the eye, or of the
-    differences of their points along the image."""
-    eye = bodies.eye
+def _images_apart(eye: Floats | None, ones: Some, others: Some) -> Bools:
+    """(m,) whether a plane through the eye lies between two things: a support of the hulls of the one and of the other
+    mirrored in the eye, or of the differences of their points along the image."""
+    (a, one), (b, other) = ones, others
+    middles = a.middle[:, one], b.middle[:, other]
     if eye is None:
         flat = np.array([[1.0], [1.0], [0.0]])
 
         def difference(direction: Floats, which: Ints) -> Floats:
-            return flat * (bodies.support(-direction, one[which]) - bodies.support(direction, other[which]))
+            return flat * (a.support(-direction, one[which]) - b.support(direction, other[which]))
 
-        return difference, flat * (bodies.centre[:, one] - bodies.centre[:, other])
+        return _directions((difference, flat * (middles[0] - middles[1])), len(one))[0]
     place = eye[:, None]
 
     def hull(direction: Floats, which: Ints) -> Floats:
-        a = bodies.support(-direction, one[which]) - place
-        b = place - bodies.support(direction, other[which])
-        return np.where(dot(direction, a) < dot(direction, b), a, b)
+        to_one = a.support(-direction, one[which]) - place
+        from_other = place - b.support(direction, other[which])
+        return np.where(dot(direction, to_one) < dot(direction, from_other), to_one, from_other)
 
-    to_one, to_other = bodies.centre[:, one] - place, bodies.centre[:, other] - place
+    to_one, to_other = (middle - place for middle in middles)
     size = np.sqrt(dot(to_one, to_one)), np.sqrt(dot(to_other, to_other))
-    return hull, 0.5 * (to_one / size[0] - to_other / size[1]) * np.minimum(*size)
+    return _directions((hull, 0.5 * (to_one / size[0] - to_other / size[1]) * np.minimum(*size)), len(one))[0]
 
 
-def _planes(bodies: QuadricBodies, one: Ints, other: Ints) -> Ints | None:
-    """What of pairs of bodies is painted before what (2,k); None where there is no plane between two of them."""
+def _in_front(eye: Floats | None, ones: Some, others: Some) -> Bools | None:
+    """(m,) whether the first of two things is on the eye's side of a plane between them; None where there is no plane
+    between two of them."""
+    (a, one), (b, other) = ones, others
 
     def difference(direction: Floats, which: Ints) -> Floats:
-        return bodies.support(-direction, one[which]) - bodies.support(direction, other[which])
+        return a.support(-direction, one[which]) - b.support(direction, other[which])
 
-    start = bodies.centre[:, one] - bodies.centre[:, other]
-    apart, normal = _directions((difference, start), len(one))
+    apart, normal = _directions((difference, a.middle[:, one] - b.middle[:, other]), len(one))
     if not apart.all():
         return None
-    low = dot(normal, bodies.support(-normal, one))
-    high = dot(normal, bodies.support(normal, other))
-    side = _eye_side(bodies, normal, 0.5 * (low + high))
-    front = side > 0.0
-    return np.stack([np.where(front, other, one), np.where(front, one, other)])
+    low = dot(normal, a.support(-normal, one))
+    high = dot(normal, b.support(normal, other))
+    return np.asarray(_eye_side(eye, normal, 0.5 * (low + high)) > 0.0)
+
+
+# Polygons among bodies.
+
+
+@dataclass(frozen=True, eq=False)
+class _Hulls:
+    """The hulls of groups of points (3,c), one behind the other; offsets (n+1,)."""
+
+    points: Floats
+    offsets: Ints
+
+    @property
+    def middle(self) -> Floats:
+        """(3,n) those of their points."""
+        return np.add.reduceat(self.points, self.offsets[:-1], axis=1) / np.diff(self.offsets)
+
+    def support(self, directions: Floats, which: Ints) -> Floats:
+        """As of ConvexThings."""
+        position, offsets = ragged.take(self.offsets, which)
+        points = self.points[:, position]
+        reach = dot(points, np.repeat(directions, np.diff(offsets), axis=1))
+        farthest = np.maximum.reduceat(reach, offsets[:-1])
+        candidates = np.flatnonzero(reach == np.repeat(farthest, np.diff(offsets)))
+        return points[:, candidates[np.searchsorted(candidates, offsets[:-1])]]
+
+
+def order_among_bodies(
+    ordered: BodyOrder, box: Floats, faces: ImageFaces, points: Floats, planes: Floats, plane: Ints, tolerance: float
+) -> tuple[Ints, Ints] | None:
+    """The places (n,) of polygons, and (m,) of all bodies, in one order back to front.
+
+    box (4,m) of bodies as in body_order; faces: polygons in the painter's order, points (3,c) their corners in the
+    view, planes (4,n) of unit normals and constants there; plane (n,): those in a row with the same number are in one
+    plane, and keep together. Polygons that overlap stay in their order. Of a body and the polygons of a plane the one
+    on the eye's side of the plane is in front, if the body lies on one side of it, give or take TOUCHING tolerances;
+    otherwise that on the eye's side of a plane between them.
+    Edge cases: None where there is no such plane, and where things lie on one another in circles.
+    """
+    new = np.append(True, plane[1:] != plane[:-1])[: len(plane)]
+    first = np.flatnonzero(new)
+    run = np.cumsum(new) - 1
+    before, after, known = overlapping_pairs(faces, np.arange(len(faces)), tolerance)
+    if len(known) < len(faces):
+        return None
+    own = ordered.order
+    extremes = [f.reduceat(row, first) for row, f in zip(faces.box[:4], (np.minimum, np.maximum) * 2, strict=True)]
+    pairs = [np.stack(pair) for pair in boxes_over(np.stack(extremes), box[:, own], tolerance)]
+    face, body = np.concatenate([np.zeros((2, 0), dtype=np.intp), *pairs], axis=1)
+    body = own[body]
+    hulls = _Hulls(points, faces.offsets[np.append(first, len(plane))])
+    found = _hides_bodies(ordered.bodies, body, hulls, face, planes[:, first], TOUCHING * tolerance)
+    if found is None:
+        return None
+    apart, in_front = found
+    thing = np.stack([face, len(first) + body])[:, ~apart]
+    demands = [
+        run[np.stack([before, after])],
+        np.where(in_front[~apart], thing[::-1], thing),
+        len(first) + ordered.demands,
+    ]
+    before, after = np.concatenate(demands, axis=1)
+    count = len(first) + len(ordered.bodies)
+    mikado = topological_order(count, before[before != after], after[before != after])
+    if len(mikado.cycle):
+        return None
+    rank = np.empty(count, dtype=np.intp)
+    rank[mikado.order] = np.arange(count)
+    return rank[run], rank[len(first) :]
+
+
+def _hides_bodies(
+    bodies: QuadricBodies, body: Ints, hulls: _Hulls, face: Ints, planes: Floats, touching: float
+) -> tuple[Bools, Bools] | None:
+    """Of pairs (m,) of bodies and flat things: whether their images are apart, and whether the flat one is in front;
+    None where one pierces the other."""
+    apart = _images_apart(bodies.eye, (bodies, body), (hulls, face))
+    in_front = np.zeros(len(body), dtype=np.bool_)
+    left = np.flatnonzero(~apart)
+    normal, height = planes[:3, face[left]], planes[3, face[left]]
+    above = dot(normal, bodies.support(-normal, body[left])) - height >= -touching
+    below = dot(normal, bodies.support(normal, body[left])) - height <= touching
+    eye_above = _eye_side(bodies.eye, normal, height) > 0.0
+    in_front[left] = np.where(above, ~eye_above, eye_above)
+    rest = left[~(above | below)]
+    behind = _in_front(bodies.eye, (bodies, body[rest]), (hulls, face[rest]))
+    if behind is None:
+        return None
+    in_front[rest] = ~behind
+    return apart, in_front

@@ -418,7 +418,7 @@ def side_by_side(faces: ImageFaces, plane: Ints, tolerance: float) -> Ints:
     scattered = _scattered(group)
     if not len(scattered):
         return order
-    before, after, known = _overlaps_of(faces, _largest_first(faces, group, scattered), tolerance)
+    before, after, known = overlapping_pairs(faces, _largest_first(faces, group, scattered), tolerance)
     group = np.where(_wholly(group, scattered, known), group, -1)
     runs = _runs_of_units(group)
     for turn in range(MOST_TURNS):
@@ -482,7 +482,7 @@ def _wholly(group: Ints, members: Ints, known: Ints) -> Bools:
     return ~np.isin(group, group[unknown])
 
 
-def _overlaps_of(faces: ImageFaces, some: Ints, tolerance: float) -> tuple[Ints, Ints, Ints]:
+def overlapping_pairs(faces: ImageFaces, some: Ints, tolerance: float) -> tuple[Ints, Ints, Ints]:
     """Pairs of polygons whose images overlap, the earlier one first: some of all with any; and for which of these all
     pairs are there, the first ones."""
     outlines = Outlines.of(faces.points, faces.offsets, tolerance)

@@ -1,4 +1,5 @@
-"""How far the ways from places to a light, or to the eye, run beside quadric bodies: where these are in the way."""
+"""How far the ways from places to a light, or to the eye, run beside quadric bodies: where these are in the way; and
+what throws the same shadows as they do."""
 
 from __future__ import annotations
 
@@ -10,7 +11,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE
-from vectorplot.geometry.component_arrays import dot
+from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.elementary import arccos, arcsin
 from vectorplot.scene.light import Light
 from vectorplot.tolerances import LEAST_DIVISOR
@@ -132,7 +133,7 @@ def clearance_of(bodies: QuadricBodies, receiver: Ints, light: Light) -> Clearan
 
     Casters are those whose balls around them the light sees before, or in, the ball around a receiver.
     """
-    middle, radius = _balls_around(bodies)
+    middle, radius = balls_around(bodies)
     place = np.array(light.position)
     casters, counts = [], []
     rows = max(1, PAIRS_AT_ONCE // max(len(bodies), 1))
@@ -165,11 +166,96 @@ def clearance_of(bodies: QuadricBodies, receiver: Ints, light: Light) -> Clearan
     return Clearance(bodies, light, caster[position], ends)
 
 
-def _balls_around(bodies: QuadricBodies) -> tuple[Floats, Floats]:
+def balls_around(bodies: QuadricBodies) -> tuple[Floats, Floats]:
     """Middles (3,n) and radii (n,) of balls around bodies."""
-    half = 0.5 * (bodies.ends[0] + bodies.ends[1])
-    middle = bodies.centre + np.where(bodies.is_ball, 0.0, half) * bodies.frame[2]
     wide = np.sqrt((bodies.sizes[:2] ** 2).sum(axis=0))
     around = np.sqrt((bodies.sizes**2).sum(axis=0))
     around = np.where(bodies.is_ball & bodies.is_right, bodies.sizes[0], around)
-    return middle, np.where(bodies.is_ball, around, np.hypot(wide, 0.5 * bodies.sizes[2]))
+    return bodies.middle, np.where(bodies.is_ball, around, np.hypot(wide, 0.5 * bodies.sizes[2]))
+
+
+# Flat things that throw the shadows of bodies.
+
+FEWEST, MOST = 12, 720
+"""Corners of a circle."""
+
+
+@dataclass(frozen=True, eq=False)
+class Silhouettes:
+    """Convex polygons: points (3,c) in the view, offsets (m+1,); body (m,): whose shadow each makes, or part of it."""
+
+    points: Floats
+    offsets: Ints
+    body: Ints
+
+
+def silhouettes(bodies: QuadricBodies, light: Light, allowed: Floats) -> Silhouettes:
+    """What throws the shadows of bodies, in the coordinates of the light, on what is outside of them: the section of a
+    ball with the polar plane of the light; of a frustum both ends, and what is between the two rulings in this plane.
+
+    allowed (n,): how far circles may be off. Edge cases: nothing for bodies with the light inside.
+    """
+    place = np.array(light.position)[:, None]
+    way = np.broadcast_to(place, bodies.centre.shape) if light.parallel else place - bodies.centre
+    every = np.arange(len(bodies))
+    source, one = _local(way, bodies.inverse, every), 0.0 if light.parallel else 1.0
+    square = dot(source, source)
+    is_ball = bodies.is_ball
+    along = np.where(is_ball, one / np.maximum(square, LEAST_DIVISOR), 0.0)
+    ball = np.flatnonzero(is_ball & (one * along < 1.0))
+    axis = source[:, ball] / np.sqrt(square[ball])
+    discs = [_discs(bodies, ball, along[ball] * source[:, ball], axis, np.sqrt(1.0 - one * along[ball]), allowed)]
+    for end in (0, 1):
+        own = np.flatnonzero(~is_ball & (bodies.radius_at(end) > 0.0))
+        middle = np.zeros((3, len(own)))
+        middle[2] = bodies.ends[end, own]
+        up = np.repeat([[0.0], [0.0], [1.0]], len(own), axis=1)
+        discs.append(_discs(bodies, own, middle, up, bodies.radius_at(end)[own], allowed))
+    own, points = _between_rulings(bodies, source, one)
+    discs.append(Silhouettes(points, 4 * np.arange(len(own) + 1), own))
+    sizes = np.concatenate([np.diff(some.offsets) for some in discs])
+    body = np.concatenate([some.body for some in discs])
+    return Silhouettes(np.concatenate([some.points for some in discs], axis=1), ragged.offsets(sizes), body)
+
+
+def _discs(
+    bodies: QuadricBodies, own: Ints, middle: Floats, axis: Floats, radius: Floats, allowed: Floats
+) -> Silhouettes:
+    """Circles of unit bodies, as polygons that are as far outside as inside of them."""
+    part = allowed[own] / np.maximum(radius * bodies.sizes.max(axis=0)[own], LEAST_DIVISOR)
+    # The middle of a side of n is off by 1 - cos(pi / n) of the radius.
+    count = np.clip(np.ceil(np.pi / np.sqrt(2.0 * np.maximum(part, LEAST_DIVISOR))), FEWEST, MOST).astype(np.intp)
+    of = ragged.owner(count)
+    turn = 2.0 * np.pi * ragged.place(count) / count[of]
+    radius = radius * 2.0 / (1.0 + np.cos(np.pi / count))
+    first = np.stack(
+        [np.where(np.abs(axis[0]) < 0.5, 1.0, 0.0), np.where(np.abs(axis[0]) < 0.5, 0.0, 1.0), 0.0 * radius]
+    )
+    right = cross(axis, first)
+    right = right / np.sqrt(dot(right, right))
+    ahead = cross(axis, right)
+    local = middle[:, of] + radius[of] * (np.cos(turn) * right[:, of] + np.sin(turn) * ahead[:, of])
+    return Silhouettes(_in_view(bodies, own[of], local), ragged.offsets(count), own)
+
+
+def _between_rulings(bodies: QuadricBodies, source: Floats, one: float) -> tuple[Ints, Floats]:
+    """Frusta with two rulings in the polar plane of the light, and the quadrangles (3,4m) between these."""
+    across = np.maximum(np.hypot(source[0], source[1]), LEAST_DIVISOR)
+    ratio = (bodies.growth * source[2] + bodies.radii[0] * one) / across
+    own = np.flatnonzero(~bodies.is_ball & (np.abs(ratio) < 1.0))
+    ratio, source, across = ratio[own], source[:, own], across[own]
+    aside = np.sqrt((1.0 - ratio) * (1.0 + ratio))
+    x, y = source[0] / across, source[1] / across
+    corners = np.empty((3, len(own), 4))
+    for k, (end, sign) in enumerate(((0, 1.0), (1, 1.0), (1, -1.0), (0, -1.0))):
+        radius = bodies.radius_at(end)[own]
+        corners[0, :, k] = radius * (ratio * x - sign * aside * y)
+        corners[1, :, k] = radius * (ratio * y + sign * aside * x)
+        corners[2, :, k] = bodies.ends[end, own]
+    return own, _in_view(bodies, np.repeat(own, 4), corners.reshape(3, -1))
+
+
+def _in_view(bodies: QuadricBodies, body: Ints, local: Floats) -> Floats:
+    """(3,k) points (3,k) of unit bodies (k,) in the view."""
+    frame = bodies.frame[..., body]
+    return np.asarray(bodies.centre[:, body] + local[0] * frame[0] + local[1] * frame[1] + local[2] * frame[2])

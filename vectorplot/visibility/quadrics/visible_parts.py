@@ -77,6 +77,12 @@ class QuadricBodies(Elements):
         """(n,) by how much the radius of a frustum grows from z = 0 to 1."""
         return np.asarray(np.where(self.is_ball, 0.0, self.radii[1] - self.radii[0]))
 
+    @property
+    def middle(self) -> Floats:
+        """(3,n) the centres of balls, and what is half-way between the ends of frusta."""
+        half = np.where(self.is_ball, 0.0, 0.5 * (self.ends[0] + self.ends[1]))
+        return np.asarray(self.centre + half * self.frame[2])
+
     def radius_at(self, end: int) -> Floats:
         """(n,) the radii of frusta at the one and the other of their ends."""
         return np.asarray(self.radii[0] + self.growth * self.ends[end])

@@ -23,14 +23,14 @@ from vectorplot.features.implicit_curves import (
     without_touching,
 )
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, DoubleLines
-from vectorplot.features.implicit_surfaces import (
+from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing, all_curves
+from vectorplot.features.mesh_feature_lines import implicit_feature_lines
+from vectorplot.features.polygonization import (
     ImplicitCentralContour,
     ImplicitIsophote,
     ImplicitPointIsophote,
     sides_of,
 )
-from vectorplot.features.implicit_tracing import ImplicitCurves, ImplicitTracing, all_curves
-from vectorplot.features.mesh_feature_lines import implicit_feature_lines
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.polylines import closed_round
 from vectorplot.scene.added_lines import curve_light

@@ -16,7 +16,7 @@ from vectorplot.features.hole_rims import cut_at_holes, grid_triangles
 from vectorplot.features.holes import along_rims, in_domain, inside, into_surface, is_known
 from vectorplot.features.implicit_meshes import ImplicitMesh, mesh_with_lines
 from vectorplot.features.implicit_singular_lines import CuspidalEdges, default_gradient, singular_lines
-from vectorplot.features.implicit_surfaces import polygonized, sides_of
+from vectorplot.features.polygonization import polygonized, sides_of
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
 from vectorplot.geometry.vectors import cross, dot, from_components, norm
 from vectorplot.scene.view import View

@@ -10,8 +10,8 @@ import pytest
 
 from vectorplot.features.implicit_curves import implicit_plane_sections, refined_line
 from vectorplot.features.implicit_singular_lines import SingularLines, singular_lines
-from vectorplot.features.implicit_surfaces import polygonized
 from vectorplot.features.implicit_tracing import ImplicitTracing
+from vectorplot.features.polygonization import polygonized
 from vectorplot.geometry.polylines import Polylines
 from vectorplot.io.expressions import parse_expression
 from vectorplot.io.shape_arguments import Formulas, formula_implicit

@@ -3,7 +3,7 @@ import pytest
 
 from vectorplot.features.edge_splitting import Within
 from vectorplot.features.implicit_singular_lines import led_into_lines, led_into_singular_set, singular_lines
-from vectorplot.features.implicit_surfaces import polygonized, settled_mesh
+from vectorplot.features.polygonization import polygonized, settled_mesh
 from vectorplot.features.tessellation import facets
 from vectorplot.io.expressions import parse_expression
 from vectorplot.io.shape_arguments import Formulas, formula_implicit

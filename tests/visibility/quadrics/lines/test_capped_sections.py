@@ -17,7 +17,7 @@ from vectorplot.surfaces.capped_bodies import Capped, Frustum
 from vectorplot.surfaces.placed_surface import PlacedSurface
 from vectorplot.surfaces.quadrics import Cone, Cylinder, Sphere
 from vectorplot.visibility.quadrics.closed_forms import closed_forms
-from vectorplot.visibility.quadrics.hidden_arcs import whole_arcs
+from vectorplot.visibility.quadrics.hidden_intervals import whole_arcs
 from vectorplot.words import LineKind
 
 EVERY = [

@@ -11,7 +11,7 @@ import shapely
 
 import vectorplot as vp
 from vectorplot.drawing import typeset
-from vectorplot.effects.scales import COLOUR_MAPS, axis_numbers, coloured, map_colours, scaled, with_box
+from vectorplot.effects.colour_maps import COLOUR_MAPS, axis_numbers, coloured, map_colours, scaled, with_box
 from vectorplot.errors import InputError
 from vectorplot.geometry import box as solid_box
 from vectorplot.geometry import ragged
