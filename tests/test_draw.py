@@ -249,12 +249,6 @@ def test_progress_names_the_stage_and_grows() -> None:
     assert seen == sorted(seen) and seen[0] >= 0.0 and seen[-1] == 1.0
 
 
-def test_reprs_for_notebooks() -> None:
-    drawing = draw(CUBE)
-    assert drawing._repr_svg_().startswith("<?xml") or drawing._repr_svg_().startswith("<svg")
-    assert drawing._repr_png_()[:8] == b"\x89PNG\r\n\x1a\n"
-
-
 @pytest.mark.parametrize(
     ("options", "cause"),
     [

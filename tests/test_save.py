@@ -1,11 +1,17 @@
 from __future__ import annotations
 
+import gzip
 import hashlib
+import io
 import os
 import subprocess
 import sys
+import tempfile
 import time
+from base64 import b64encode
 from dataclasses import replace
+from functools import partial
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,10 +19,12 @@ from support.paths import DATA
 
 import vectorplot as vp
 from vectorplot.drawing.drawing import Drawing, Layer, Paths, Pen
+from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
-from vectorplot.save import FORMATS, save, write, write_together, write_whole
+from vectorplot.geometry import box
+from vectorplot.save import FORMATS, MOST_MARKS, save, write, write_together, write_whole
 from vectorplot.surfaces import Domain, surface_of_function
-from vectorplot.testing import assert_drawings_equal
+from vectorplot.testing import assert_drawings_equal, certificate
 
 # Also run in processes of their own.
 BUILD = """
@@ -138,7 +146,7 @@ print(run(["render", "box", "-o", "render.png", "--size", "40x30"]))
 print(run(["animate", "cubes", "-a", "cubes", "--frames", "1", "-o", "film.svg"]))
 print(run(["animate", "cubes", "-a", "cubes", "-o", "film.pdf"]))
 drawing = vp.read("draw.json")
-print(drawing._repr_png_(), len(drawing._repr_svg_()) > 0)
+print(*drawing._repr_mimebundle_(), *drawing._repr_mimebundle_(include=["image/png"]))
 """
 
 
@@ -147,7 +155,7 @@ def test_without_cairo_vectors_and_pixels_of_render_are_written_and_the_rest_say
     told = subprocess.run(
         [sys.executable, "-c", WITHOUT_CAIRO], cwd=tmp_path, capture_output=True, text=True, check=True
     )
-    assert told.stdout.splitlines() == ["0 0 0 0 1 1 1 1", "0 0 0 0 1 1 1 1", "1", "0", "0", "1", "None True"]
+    assert told.stdout.splitlines() == ["0 0 0 0 1 1 1 1", "0 0 0 0 1 1 1 1", "1", "0", "0", "1", "image/svg+xml"]
     (line,) = set(told.stderr.splitlines())
     assert line.startswith("vectorplot: ") and "needs pycairo: pip install '.[cairo]'" in line
     assert sorted(path.name for path in tmp_path.iterdir()) == sorted(
@@ -290,3 +298,181 @@ def test_a_movie_of_which_one_file_cannot_be_written_stays_as_it_was(drawing, tm
         vp.save_frames([drawing, replace(drawing, layers=())], tmp_path / "m.vd1")
     assert error.value.filename == str(tmp_path / f"m.{bad}")
     assert {path.name: path.read_bytes() for path in tmp_path.iterdir()} == old
+
+
+# Into open files.
+
+
+@pytest.fixture
+def lettered(drawing) -> Drawing:
+    """A drawing with a title and a text that are not ASCII."""
+    one = np.ones(1)
+    text = Texts(
+        ("Größe α",), np.full((1, 2), 20.0), 5.0 * one, 0.0 * one, 0.0 * one, 30.0 * one, np.zeros(1, dtype=np.intp)
+    )
+    return replace(drawing, layers=(*drawing.layers, Layer("text", Pen(), (text,))), title="Höhe")
+
+
+def content_of(made: object, format: str, path: Path) -> bytes:
+    """What stands in a file with a name, once it is saved there."""
+    vp.save(made, path.with_suffix(f".{format}"))
+    return path.with_suffix(f".{format}").read_bytes()
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_a_binary_file_gets_the_bytes_of_the_path(lettered, tmp_path, format):
+    expected = content_of(lettered, format, tmp_path / "a")
+    for word in (format, format.upper()):
+        memory = io.BytesIO()
+        vp.save(lettered, memory, format=word)
+        assert memory.getvalue() == expected and not memory.closed
+    with open(tmp_path / "buffered", "wb") as file:
+        lettered.save(file, format=format)
+    with open(tmp_path / "unbuffered", "wb", buffering=0) as file:
+        lettered.save(file, format=format)
+    with gzip.open(tmp_path / "packed", "wb") as packed:
+        lettered.save(packed, format=format)
+    with gzip.open(tmp_path / "packed") as packed:
+        found = packed.read()
+    assert found == (tmp_path / "buffered").read_bytes() == (tmp_path / "unbuffered").read_bytes() == expected
+    vp.save(lettered, tmp_path / "no_suffix", format=format)
+    assert (tmp_path / "no_suffix").read_bytes() == expected
+
+
+@pytest.mark.parametrize("format", FORMATS)
+def test_a_text_file_gets_what_is_text(lettered, tmp_path, format):
+    memory, file = io.StringIO(), tempfile.NamedTemporaryFile("w+", encoding="utf-8", newline="")
+    with file:
+        if format in ("pdf", "png"):
+            for text in (memory, file):
+                with pytest.raises(InputError, match=f"a text file takes svg, .*; {format} needs a binary one"):
+                    vp.save(lettered, text, format=format)
+            assert not memory.getvalue() and not file.tell()
+            return
+        expected = content_of(lettered, format, tmp_path / "a").decode("utf-8")
+        for text in (memory, file):
+            vp.save(lettered, text, format=format)
+        file.seek(0)
+        assert memory.getvalue() == file.read() == expected
+
+
+@pytest.mark.parametrize("encoding", ["latin-1", "ascii", "utf-16"])
+def test_a_text_file_that_would_change_the_letters_is_refused(lettered, encoding):
+    below = io.BytesIO()
+    text = io.TextIOWrapper(below, encoding=encoding)
+    with pytest.raises(InputError, match=f"a text file in {encoding} cannot hold it: open it with encoding='utf-8'"):
+        vp.save(lettered, text, format="svg")
+    text.flush()
+    assert not below.getvalue()
+
+
+def test_pixels_scenes_pages_films_and_certificates_go_into_files_too(drawing, tmp_path):
+    cube = vp.Item("cube", box((2, 2, 2)))
+    film = vp.animate(vp.Animation(lambda time: cube, frames=2), page="40x30")
+    made = {
+        "png": vp.render(vp.Scene((cube,)), size=(20, 10)),
+        "scene": vp.Scene((cube,)),
+        "pdf": [drawing, drawing],
+        "svg": film,
+        "json": certificate(vp.Scene((cube,)), vp.draw(vp.Scene((cube,)))),
+    }
+    for format, one in made.items():
+        memory, path = io.BytesIO(), tmp_path / f"a.{format}"
+        told = {} if format == "json" else {"format": format}
+        (one.save if hasattr(one, "save") else partial(vp.save, one))(memory, **told)
+        (one.save if hasattr(one, "save") else partial(vp.save, one))(path)
+        assert memory.getvalue() == path.read_bytes() != b""
+    memory = io.BytesIO()
+    vp.save(film, memory, format="PDF")
+    assert memory.getvalue() == content_of(film, "pdf", tmp_path / "film")
+
+
+@pytest.mark.parametrize(
+    ("target", "format", "cause"),
+    [
+        (io.BytesIO(), None, "an open file has no suffix: name the format, as in format='svg'"),
+        (io.StringIO(), None, "an open file has no suffix"),
+        (io.BytesIO(), "gif", "unknown format 'gif'; known are svg"),
+        (io.BytesIO(), "hpgl", "unknown format 'hpgl'; .*; vpype writes it from an .svg"),
+        (io.BytesIO(), "scene", "only a scene is written as scene"),
+        (io.StringIO(), "svgg", "a text file takes svg, .*; svgg needs"),
+        (None, None, "expected a path or an open file to save into, not NoneType"),
+        (7, "svg", "expected a path or an open file to save into, not int"),
+    ],
+)
+def test_what_cannot_be_written_into_is_told(drawing, target, format, cause):
+    with pytest.raises(InputError, match=cause):
+        vp.save(drawing, target, format=format)
+    assert target in (None, 7) or not target.getvalue()
+
+
+@pytest.mark.parametrize("format", ["vd1", "vd2", "frames", "dxf"])
+def test_films_of_several_files_need_a_path(drawing, format):
+    memory = io.BytesIO()
+    with pytest.raises(InputError, match=f"{format}: .*; an open file takes pdf, svg, mp4, webm, gif"):
+        vp.save_frames([drawing], memory, format=format)
+    with pytest.raises(InputError, match="name the format"):
+        vp.save_frames([drawing], memory)
+    assert not memory.getvalue()
+
+
+def test_a_file_is_given_nothing_of_a_picture_that_fails(drawing):
+    def frames():
+        yield drawing
+        raise InputError("no second frame")
+
+    for format in ("pdf", "svg"):
+        memory = io.BytesIO()
+        with pytest.raises(InputError, match="no second frame"):
+            vp.save_frames(frames(), memory, format=format)
+        with pytest.raises(InputError):
+            vp.save(replace(drawing, width_mm=np.nan), memory, format=format)
+        assert not memory.getvalue()
+
+
+class Trickling(io.RawIOBase):
+    """A file without a buffer that takes a thousand bytes at once."""
+
+    def __init__(self) -> None:
+        self.taken = b""
+
+    def writable(self) -> bool:
+        return True
+
+    def write(self, content: memoryview) -> int:
+        self.taken += content[:1000]
+        return len(content[:1000])
+
+
+def test_a_file_without_a_buffer_gets_all_of_it(drawing):
+    file = Trickling()
+    vp.save(drawing, file, format="pdf")
+    assert file.taken == write(drawing, "pdf") and len(file.taken) > 1000
+
+
+# In notebooks.
+
+
+def many_marks() -> Drawing:
+    """A drawing with one mark more than notebooks are given as SVG."""
+    ends = np.zeros((2 * MOST_MARKS + 2, 2))
+    ends[:, 0] = np.arange(len(ends)) / len(ends) * 90.0
+    return Drawing(100.0, 90.0, (Layer("a", Pen(), (Paths.of_polylines(ends.reshape(-1, 2, 2)),)),))
+
+
+def test_a_notebook_stores_a_drawing_once(drawing):
+    assert drawing._repr_mimebundle_() == {"image/svg+xml": write(drawing, "svg").decode()}
+    many = many_marks()
+    assert drawing._repr_mimebundle_(include=["image/png"]) == {"image/png": b64encode(write(drawing, "png")).decode()}
+    assert list(many._repr_mimebundle_()) == ["image/png"]
+    assert list(many._repr_mimebundle_(include={"image/svg+xml", "text/plain"})) == ["image/svg+xml"]
+    assert list(drawing._repr_mimebundle_(exclude={"image/svg+xml"})) == ["image/png"]
+    assert drawing._repr_mimebundle_(include=["text/plain"]) == {}
+
+
+def test_what_ipython_makes_of_drawings_and_pixels_is_one_picture_and_a_text(drawing):
+    formatter = pytest.importorskip("IPython.core.formatters").DisplayFormatter()
+    pixels = vp.Image(np.zeros((2, 3, 3), dtype=np.uint8))
+    for shown, kind in ((drawing, "image/svg+xml"), (pixels, "image/png")):
+        assert set(formatter.format(shown)[0]) == {kind, "text/plain"}
+    assert set(formatter.format(drawing, include={"image/png"})[0]) == {"image/png"}

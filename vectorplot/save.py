@@ -1,14 +1,16 @@
-"""Saving a drawing, a picture of pixels or a scene under a name whose suffix says the format."""
+"""Saving a drawing, a picture of pixels or a scene under a name whose suffix says the format, or into an open file."""
 
 from __future__ import annotations
 
+import io
 import os
 import shutil
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from importlib import import_module
+from importlib.util import find_spec
 from pathlib import Path
-from typing import Protocol, runtime_checkable
+from typing import Any, Protocol, runtime_checkable
 
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
@@ -36,6 +38,21 @@ FORMATS = tuple(_BACKENDS)
 _SCENE = "scene"
 """The one format of scenes."""
 
+_TEXTS = ("svg", "ps", "eps", "tex", "dxf", "json", _SCENE)
+"""The formats that text files take."""
+
+
+class File(Protocol):
+    """An open file, or what is written to as to one."""
+
+    def write(self, content: Any, /) -> Any:
+        """Take bytes, or text where it has an encoding."""
+        ...
+
+
+Destination = str | os.PathLike[str] | File
+"""Where things are saved: a path, or an open file, binary or text."""
+
 
 @runtime_checkable
 class Frames(Protocol):
@@ -46,13 +63,15 @@ class Frames(Protocol):
         """Frames a second."""
         ...
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write them in the format of the suffix."""
+    def save(self, path: Destination, *, format: str | None = None) -> None:
+        """Write them in the format of the suffix, or in that of the name."""
         ...
 
 
-def save(drawing: Drawing | Image | Scene | Frames | Sequence[Drawing], path: str | os.PathLike[str]) -> None:
-    """Write a drawing, a picture of pixels, a scene or a film in the format of the suffix.
+def save(
+    drawing: Drawing | Image | Scene | Frames | Sequence[Drawing], path: Destination, *, format: str | None = None
+) -> None:
+    """Write a drawing, a picture of pixels, a scene or a film in the format of the suffix, or in a named one.
 
     Parameters
     ----------
@@ -60,20 +79,25 @@ def save(drawing: Drawing | Image | Scene | Frames | Sequence[Drawing], path: st
         What is written: a drawing as svg, ps, eps, pdf, png, tex (PGF/TikZ, for LaTeX), dxf or json; a picture of
         pixels as png; a scene as scene, a text in the scene language; a film as pdf, svg, mp4, webm, gif or vd1, or
         into a folder, as `vp.save_frames` writes it; several drawings, such as sheets, as the pages of one pdf.
-    path : str or path
-        The file, whose suffix says the format.
+    path : str, path or file object
+        The file, whose suffix says the format; or an open file, which is not closed: a binary one, or a text file for
+        svg, ps, eps, tex, dxf, json and scene.
+    format : str, optional
+        In place of the suffix; needed for a file object. Of a film in a folder that of its files.
 
     Raises
     ------
     InputError
-        For an unknown suffix or one that is not for such a thing, for what page_marks.sheet refuses, and for shapes of
-        a scene that the language has no word for.
+        For an unknown suffix or format or one that is not for such a thing, for a file object without a format, a
+        text file that cannot hold it, for what page_marks.sheet refuses, and for shapes of a scene that the language
+        has no word for.
     OSError
         Where the file cannot be written; it names the path.
 
     Notes
     -----
-    The file is written whole or not at all; an old one stays until the new one is complete.
+    The file is written whole or not at all; an old one stays until the new one is complete. A file object is given all
+    at once, when the picture is complete.
 
     Examples
     --------
@@ -86,22 +110,27 @@ def save(drawing: Drawing | Image | Scene | Frames | Sequence[Drawing], path: st
     ...     again = vp.read(pathlib.Path(folder, "triangle.json"))
     >>> again.items
     ('triangle',)
+    >>> import io
+    >>> answer = io.BytesIO()
+    >>> vp.save(drawing, answer, format="svg")
+    >>> answer.getvalue()[:5]
+    b'<?xml'
     """
     if isinstance(drawing, Frames):
-        drawing.save(path)
+        drawing.save(path, format=format)
         return
-    suffix = Path(path).suffix
+    word = format_for(path, format)
     if isinstance(drawing, Sequence):
-        if suffix.lower() != ".pdf" or not drawing:
-            raise InputError("several drawings are the pages of a .pdf; one at least", file=os.fspath(path))
+        if word.lower() != "pdf" or not drawing:
+            raise InputError("several drawings are the pages of a .pdf; one at least", file=name_of(path))
         from vectorplot.backends.cairo import pdf_pages_bytes
 
-        write_whole(path, pdf_pages_bytes(drawing, drawing[0].title))
+        put(path, pdf_pages_bytes(drawing, drawing[0].title))
         return
-    if suffix[1:].lower() not in (*_BACKENDS, _SCENE):
-        known = f"known are .{', .'.join(FORMATS)}{format_hint(suffix[1:])}"
-        raise InputError(f"unknown suffix {suffix!r}; {known}", file=os.fspath(path))
-    write_whole(path, write(drawing, suffix[1:]))
+    if format is None and word.lower() not in (*_BACKENDS, _SCENE):
+        known = f"known are .{', .'.join(FORMATS)}{format_hint(word)}"
+        raise InputError(f"unknown suffix {'.' + word if word else ''!r}; {known}", file=name_of(path))
+    put(path, write(drawing, word))
 
 
 OVERLAID = ("pdf", "eps")
@@ -167,7 +196,7 @@ def write(drawing: Drawing | Image | Scene, format: str) -> bytes:
     Same drawing, same bytes. Errors: InputError for an unknown format and for what page_marks.sheet refuses.
     """
     if format.lower() not in (*_BACKENDS, _SCENE):
-        raise InputError(f"unknown format {format!r}; known are {', '.join(FORMATS)}")
+        raise InputError(f"unknown format {format!r}; known are {', '.join(FORMATS)}{format_hint(format)}")
     if isinstance(drawing, Scene):
         return _scene_text(drawing, format)
     if format.lower() == _SCENE:
@@ -192,6 +221,77 @@ def _scene_text(scene: Scene, format: str) -> bytes:
     from vectorplot.io.scene_writer import write_scene
 
     return write_scene(scene).encode("ascii")
+
+
+# What is shown in a page, of the viewer or of a notebook.
+
+MOST_MARKS = 30_000
+"""Browsers and notebooks are given drawings with more of them as pixels."""
+
+
+SHOWN = {"svg": "image/svg+xml", "png": "image/png"}
+"""The formats that pages show, and their media types."""
+
+
+def shown_as(drawing: Drawing) -> tuple[str, ...]:
+    """The formats in which a page can show a drawing, the one to be shown first: svg, or png where it has very many
+    marks. Without pycairo there is no png."""
+    if find_spec("cairo") is None:
+        return ("svg",)
+    many = sum(len(mark) for layer in drawing.layers for mark in layer.marks) > MOST_MARKS
+    return ("png", "svg") if many else ("svg", "png")
+
+
+# Where contents go: under a path, whole or not at all, or into an open file, all at once.
+
+
+def name_of(destination: Destination) -> str | None:
+    """The path; None of an open file."""
+    return os.fspath(destination) if isinstance(destination, (str, os.PathLike)) else None
+
+
+def format_for(destination: Destination, format: str | None) -> str:
+    """The format that is named, or that of the suffix, without its point.
+
+    Errors: InputError for an open file for which none is named, a text file where the format is no text, and what is no
+    destination.
+    """
+    name = name_of(destination)
+    if name is not None:
+        return Path(name).suffix[1:] if format is None else format
+    if not hasattr(destination, "write"):
+        raise InputError(f"expected a path or an open file to save into, not {type(destination).__name__}")
+    if format is None:
+        raise InputError("an open file has no suffix: name the format, as in format='svg'")
+    if hasattr(destination, "encoding") and format.lower() not in _TEXTS:
+        raise InputError(f"a text file takes {', '.join(_TEXTS)}; {format} needs a binary one, opened with mode 'wb'")
+    return format
+
+
+def put(destination: Destination, content: bytes) -> None:
+    """Write the content under a path, as write_whole does, or into an open file, which must take it as format_for says.
+
+    Errors: InputError for a text file whose encoding would not keep it; OSError.
+    """
+    if isinstance(destination, (str, os.PathLike)):
+        write_whole(destination, content)
+    elif hasattr(destination, "encoding"):
+        destination.write(_text(content, destination.encoding))
+    elif isinstance(destination, io.RawIOBase):
+        rest = memoryview(content)
+        while rest:
+            # Files without a buffer may take a part only.
+            rest = rest[destination.write(rest) or 0 :]
+    else:
+        destination.write(content)
+
+
+def _text(content: bytes, encoding: str | None) -> str:
+    """The content, which is UTF-8, for a text file with this encoding, or none."""
+    text = content.decode("utf-8")
+    if encoding is not None and text.encode(encoding, "replace") != content:
+        raise InputError(f"a text file in {encoding} cannot hold it: open it with encoding='utf-8', or mode 'wb'")
+    return text
 
 
 def write_whole(path: str | os.PathLike[str], content: bytes) -> None:

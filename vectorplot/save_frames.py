@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from vectorplot.animation.animation import check_fps
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
-from vectorplot.save import FORMATS, write, write_together, write_whole
+from vectorplot.save import FORMATS, Destination, format_for, name_of, put, write, write_together, write_whole
 from vectorplot.shading.image import Bytes, Image
 
 if TYPE_CHECKING:
@@ -34,7 +34,7 @@ Picture = Drawing | Image
 
 def save_frames(
     pictures: Iterable[Picture],
-    path: str | os.PathLike[str],
+    path: Destination,
     *,
     fps: float = 25.0,
     format: str | None = None,
@@ -45,19 +45,21 @@ def save_frames(
     ----------
     pictures : iterable of Drawing or Image
         The frames in their order; each is made, written and forgotten before the next one.
-    path : str or path
+    path : str, path or file object
         A name that ends in .pdf (a page for each frame), .svg (it moves by itself), .mp4, .webm, .gif (a video), .vd1
         or .vd2 (a movie of polygons, both files); any other one is a folder with a file for each frame, which is made
-        where there is none.
+        where there is none. Or an open file, which takes pdf, svg and videos; it is not closed.
     fps : float
         Frames a second.
     format : str, optional
-        Of the files in a folder; svg for drawings and png for pixels where None.
+        Of the files in a folder; svg for drawings and png for pixels where None. Of an open file: pdf, svg, mp4, webm
+        or gif.
 
     Raises
     ------
     InputError
-        For pixels in formats of drawings, unknown formats, and videos where the package av is not installed.
+        For pixels in formats of drawings, unknown formats, an open file without a format, and videos where the package
+        av is not installed.
     OSError
         Where a file cannot be written; it names the path.
 
@@ -77,15 +79,16 @@ def save_frames(
     ['0001.svg', '0002.svg']
     """
     check_fps(fps)
-    kind = kind_of(path)
-    if kind == "folder":
-        _save_folder(pictures, Path(path), format)
-    elif kind in MOVIES:
+    name = name_of(path)
+    kind = _kind_in_file(format_for(path, format).lower()) if name is None else kind_of(name)
+    if name is None or kind in ONE_FILE:
+        put(path, write_frames(pictures, kind, fps))
+    elif kind == "folder":
+        _save_folder(pictures, Path(name), format)
+    else:
         from vectorplot.animation.movies import movie_of
 
-        save_movie(movie_of(_drawings(pictures, "a movie of polygons")), Path(path).with_suffix(""))
-    else:
-        write_whole(path, write_frames(pictures, kind, fps))
+        save_movie(movie_of(_drawings(pictures, "a movie of polygons")), Path(name).with_suffix(""))
 
 
 def save_movie(movie: Movie, path: Path) -> None:
@@ -121,6 +124,14 @@ def kind_of(path: str | os.PathLike[str]) -> str:
         return suffix
     known = ", ".join(f".{one}" for one in (*ONE_FILE, MOVIES[0]))
     raise InputError(f"{text}: frames are written as {known}, or into a folder, whose name ends in /")
+
+
+def _kind_in_file(format: str) -> str:
+    """The format, one of ONE_FILE. Errors: InputError for another one."""
+    if format not in ONE_FILE:
+        why = "a movie of polygons is two files, and needs a path" if format in MOVIES else "unknown to films"
+        raise InputError(f"{format}: {why}; an open file takes {', '.join(ONE_FILE)}")
+    return format
 
 
 def write_frames(pictures: Iterable[Picture], format: str, fps: float) -> bytes:

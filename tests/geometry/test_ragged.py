@@ -75,6 +75,6 @@ def test_products_by_component_are_those_by_row():
 
 @given(SIZES, st.integers(1, 9))
 def test_batches_follow_each_other_and_exceed_the_size_by_one_group_at_the_most(sizes, most):
-    runs = ragged.batches(sizes, most)
+    runs = list(ragged.batches(sizes, most))
     assert [k for low, high in runs for k in range(low, high)] == list(range(len(sizes)))
     assert all(low < high and sum(sizes[low : high - 1]) < most + 5 for low, high in runs)

@@ -369,6 +369,76 @@ def test_a_frame_of_which_half_has_arrived_is_given_up_without_a_word(opened, fi
         other.stop()
 
 
+LATE = """window.late = [];
+const whole = window.fetch, decode = HTMLImageElement.prototype.decode;
+window.fetch = async (what, how) => {
+  const answer = await whole(what, how);
+  if (what !== LATE) return answer;
+  await new Promise((go) => window.late.push(go));
+  return answer;
+};
+if (LATE === "decode") HTMLImageElement.prototype.decode = async function () {
+  await decode.call(this).catch(() => {});
+  await new Promise((go) => window.late.push(go));
+};
+null;"""
+"""Answers of one kind, or pictures, are held back until they are let go."""
+
+
+def held_back(page, what):
+    page.evaluate(LATE.replace("LATE", json.dumps(what)))
+
+
+def test_a_frame_that_is_decoded_late_does_not_cover_what_moves(opened, file):
+    other = Served(file, lambda scene: animate(Animation(lambda time: scene.items[0].turned("z", time), frames=3)))
+    try:
+        page = opened(other.address)
+        held_back(page, "decode")
+        page.locator("#frame").fill("2")
+        until(page, "window.late.length === 1")
+        page.locator("#stage").press("a")
+        until(page, "document.getElementById('stage').classList.contains('moves')")
+        page.evaluate("window.late.shift()()")
+        until(page, "window.late.length === 1")
+        assert page.locator("#stage.moves[data-exact=no]").count() == 1
+        assert page.locator("#stage[data-frame]").count() == 0
+        page.evaluate("window.late.shift()()")
+        still(page)
+        assert page.locator("#stage.moves").count() == 0
+    finally:
+        other.stop()
+
+
+def test_a_scene_that_comes_late_does_not_replace_that_of_a_newer_text(opened):
+    page = opened()
+    held_back(page, "ask/scene")
+    page.locator("#text").fill(TEXT.replace("Die", "Older"))
+    until(page, "window.late.length === 1")
+    page.locator("#text").fill(TEXT.replace("Die", "Newer"))
+    until(page, "window.late.length === 2")
+    page.evaluate("window.late.pop()()")
+    until(page, "document.getElementById('exact').alt.startsWith('Newer')")
+    page.evaluate("window.late.pop()()")
+    page.wait_for_timeout(100)
+    assert page.locator("#exact").get_attribute("alt").startswith("Newer")
+
+
+@pytest.mark.parametrize(("what", "asked"), [("ask/fit", "#fit"), ("ask/keys", "[data-key='6']")])
+def test_an_answer_that_comes_late_leaves_what_has_changed_since(opened, what, asked):
+    page = opened()
+    before = state(page)
+    held_back(page, what)
+    page.locator(asked).first.click()
+    until(page, "window.late.length === 1")
+    page.locator("[name=mode][value=wire]").check(force=True)
+    assert state(page)["mode"] == "wire" and state(page)["azimuth"] == before["azimuth"]
+    page.evaluate("window.late.shift()()")
+    changed = "fov_deg" if what == "ask/fit" else "azimuth"
+    until(page, f"JSON.parse(decodeURIComponent(location.hash.slice(1))).{changed} !== {before[changed]!r}")
+    assert state(page)["mode"] == "wire"
+    still(page)
+
+
 def recorded(page, *keys):
     """Record a few keys."""
     page.locator("#stage").press("v")

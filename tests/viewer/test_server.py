@@ -13,6 +13,7 @@ import aiohttp
 import pytest
 
 from vectorplot.animation.animation import Animation
+from vectorplot.geometry.budget import in_turn
 from vectorplot.pictures.film import animate
 from vectorplot.viewer.answers import Answers
 from vectorplot.viewer.pictures import Jobs, Source, SupersededError
@@ -179,6 +180,29 @@ def test_the_latest_question_of_a_page_wins_and_pages_do_not_disturb_each_other(
     first, queued, other, last = asyncio.run(all_of_it())
     assert isinstance(first, SupersededError) and (other, last) == ("other", "last")
     assert done == [] and isinstance(queued, SupersededError)
+
+
+def test_work_without_a_listener_stops_where_it_may_when_the_page_asks_for_something_newer():
+    """Reading, fitting and writing have no progress."""
+    began = threading.Event()
+
+    def long(job):
+        began.set()
+        for _ in in_turn(range(3000)):
+            time.sleep(0.01)
+        return "done"
+
+    async def all_of_it():
+        jobs = Jobs()
+        first = asyncio.create_task(jobs.run("one", long))
+        await asyncio.to_thread(began.wait)
+        last = await jobs.run("one", lambda job: "last")
+        results = await asyncio.gather(first, return_exceptions=True)
+        jobs.close()
+        return last, *results
+
+    last, first = asyncio.run(all_of_it())
+    assert last == "last" and isinstance(first, SupersededError)
 
 
 def test_the_end_stops_what_is_running():

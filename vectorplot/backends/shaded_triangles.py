@@ -14,7 +14,7 @@ from vectorplot.backends.page import Areas, places_of
 from vectorplot.errors import InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes, overlapping_pairs
-from vectorplot.geometry.budget import slices
+from vectorplot.geometry.budget import in_turn, slices
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.regions import polygons_of
 from vectorplot.tolerances import LEAST_DIVISOR
@@ -509,7 +509,7 @@ def _partly_common(sides: _Sides, alone: Ints) -> _Parts:
     pair = np.column_stack(overlapping_pairs(low, high))
     pair = np.concatenate((pair, pair[:, ::-1]))
     pair = alone[pair[np.lexsort(pair.T[::-1])]]
-    parts = [_common_parts(sides, *pair[chunk].T) for chunk in slices(max(len(pair), 1), PAIRS_AT_ONCE)]
+    parts = [_common_parts(sides, *pair[chunk].T) for chunk in in_turn(slices(max(len(pair), 1), PAIRS_AT_ONCE))]
     joined = [np.concatenate([getattr(part, name) for part in parts]) for name in ("side", "other", "low", "high")]
     return _Parts(*joined)
 

@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
-from collections.abc import Iterable
+from base64 import b64encode
+from collections.abc import Collection, Iterable
 from dataclasses import dataclass, field
-from importlib.util import find_spec
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -20,6 +19,9 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT
 from vectorplot.words import LineKind
+
+if TYPE_CHECKING:
+    from vectorplot.save import Destination
 
 NO_CURVE = -1
 """Of what is no curve, or nobody knows which."""
@@ -299,18 +301,20 @@ class Drawing:
         layers = ", ".join(f"{layer.name} {sum(map(len, layer.marks))}" for layer in self.layers)
         return f"<Drawing {self.title!r}: {self.width_mm:g}x{self.height_mm:g} mm, marks: {layers or 'none'}>"
 
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the drawing in the format of the suffix, as `vp.save` does.
+    def save(self, path: Destination, *, format: str | None = None) -> None:
+        """Write the drawing in the format of the suffix, or in a named one, as `vp.save` does.
 
         Parameters
         ----------
-        path : str or path
-            The file: svg, ps, eps, pdf, png, tex, dxf, json.
+        path : str, path or file object
+            The file: svg, ps, eps, pdf, png, tex, dxf, json; or an open one.
+        format : str, optional
+            In place of the suffix; needed for an open file.
 
         Raises
         ------
         InputError
-            For an unknown suffix.
+            For an unknown suffix or format.
         OSError
             Where the file cannot be written.
 
@@ -325,17 +329,17 @@ class Drawing:
         """
         from vectorplot.save import save
 
-        save(self, path)
+        save(self, path, format=format)
 
-    def _repr_svg_(self) -> str:
-        from vectorplot.backends.svg import svg_text
+    def _repr_mimebundle_(
+        self, include: Collection[str] | None = None, exclude: Collection[str] | None = None
+    ) -> dict[str, str]:
+        """What a notebook shows and stores: SVG, or PNG where there are very many marks; the other one if asked for."""
+        from vectorplot.save import SHOWN, shown_as, write
 
-        return svg_text(self)
-
-    def _repr_png_(self) -> bytes | None:
-        # A notebook asks for all pictures that there are, and shows one.
-        if find_spec("cairo") is None:
-            return None
-        from vectorplot.backends.cairo import png_bytes
-
-        return png_bytes(self)
+        for format in shown_as(self):
+            kind = SHOWN[format]
+            if (not include or kind in include) and kind not in (exclude or ()):
+                content = write(self, format)
+                return {kind: content.decode() if format == "svg" else b64encode(content).decode()}
+        return {}

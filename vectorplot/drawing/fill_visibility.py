@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -14,10 +15,12 @@ from vectorplot.drawing.fills import FillKind, Fills
 from vectorplot.drawing.painted_fills import Overlay, stacked
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.algebra import determinant, linear_solution
+from vectorplot.geometry.budget import in_pieces, in_turn, may_stop, slices
 from vectorplot.geometry.mesh import TRIANGLE, next_positions
 from vectorplot.geometry.records import Elements
 from vectorplot.geometry.regions import (
     POLYGON,
+    REGIONS_AT_ONCE,
     corners_of,
     grown,
     insides_of,
@@ -28,7 +31,7 @@ from vectorplot.geometry.regions import (
     without_holes,
     without_splinters,
 )
-from vectorplot.geometry.triangles import overlapping
+from vectorplot.geometry.triangles import PAIRS_AT_ONCE, overlapping
 from vectorplot.tolerances import CLEARANCE_MM, EDGE_ON_SINE, GRID_MM, STEP_BORDER_MM
 
 AREA_MM2 = GRID_MM * GRID_MM
@@ -130,7 +133,8 @@ def visible_parts(fills: Fills, whole: Ints) -> PartsOfWholes:
     starts, count = ragged.starts(counts := np.bincount(of, minlength=len(wholes))), counts[number[row]]
     by_whole = np.argsort(of, kind="stable")
     part = by_whole[ragged.ranges(starts[number[row]], count)]
-    cut = shapely.intersection(np.repeat(seen[row], count), regions[part], grid_size=GRID_MM)
+    whole_of = np.repeat(seen[row], count)
+    cut = in_pieces(partial(shapely.intersection, grid_size=GRID_MM), REGIONS_AT_ONCE, whole_of, regions[part])
     cut, of_cut = without_splinters(cut, GRID_MM)
     parts = np.concatenate([regions[left], seen[alone], cut])
     source = np.concatenate([left, first[number[alone]], part[of_cut]])
@@ -147,7 +151,7 @@ def _seen(regions: Any, opaque: Bools) -> tuple[Any, Ints]:
     cut, of = np.unique(below, return_inverse=True)
     if len(cut):
         covers = unions(regions[above], of, GRID_MM)
-        regions[cut] = shapely.difference(regions[cut], covers, grid_size=GRID_MM)
+        regions[cut] = in_pieces(partial(shapely.difference, grid_size=GRID_MM), REGIONS_AT_ONCE, regions[cut], covers)
     left = np.flatnonzero(~hidden)
     parts, number = without_splinters(regions[left], GRID_MM)
     return parts, left[number]
@@ -158,7 +162,8 @@ def _regions(fills: Fills) -> Any:
     overlay takes areas and lines at once."""
     import shapely
 
-    return shapely.make_valid(polygons_of(fills.points.T, fills.offsets), method="structure", keep_collapsed=False)
+    mended = partial(shapely.make_valid, method="structure", keep_collapsed=False)
+    return in_pieces(mended, REGIONS_AT_ONCE, polygons_of(fills.points.T, fills.offsets))
 
 
 def _overlaps(regions: Any, opaque: Bools) -> tuple[Ints, Ints, Bools]:
@@ -170,14 +175,16 @@ def _overlaps(regions: Any, opaque: Bools) -> tuple[Ints, Ints, Bools]:
     if not len(regions):
         return none, none, np.zeros(0, dtype=np.bool_)
     over = np.flatnonzero(opaque)
-    below, above = shapely.STRtree(regions[over]).query(regions)
+    tree = shapely.STRtree(regions[over])
+    pieces = in_turn(slices(len(regions), REGIONS_AT_ONCE))
+    below, above = np.concatenate([np.add(tree.query(regions[some]), [[some.start], [0]]) for some in pieces], axis=1)
     above = over[above]
     later = above > below
     below, above = below[later], above[later]
     common = _common(regions, below, above)
     below, above = below[common], above[common]
     hidden = np.zeros(len(regions), dtype=np.bool_)
-    hidden[below[shapely.covers(regions[above], regions[below])]] = True
+    hidden[below[in_pieces(shapely.covers, REGIONS_AT_ONCE, regions[above], regions[below])]] = True
     hidden |= shapely.area(regions) <= AREA_MM2
     # What hides a hidden one hides whatever that one would.
     needed = ~hidden[below] & ~hidden[above]
@@ -195,16 +202,23 @@ def _common(regions: Any, below: Ints, above: Ints) -> Bools:
     corners = np.ascontiguousarray(triangles[:, :TRIANGLE].T)
     common = np.ones(len(below), dtype=np.bool_)
     plain = three[below] & three[above]
-    common[plain] = overlapping(corners[..., below[plain]], corners[..., above[plain]])
+    common[plain] = in_pieces(
+        lambda one, other: overlapping(corners[..., one], corners[..., other]),
+        PAIRS_AT_ONCE,
+        below[plain],
+        above[plain],
+    )
     # What each region is asked of many others is looked up in it once for all.
     shapely.prepare(regions)
-    common[common] = shapely.intersects(regions[below[common]], regions[above[common]])
-    common[common] = ~shapely.touches(regions[below[common]], regions[above[common]])
+    for asked, answer in ((shapely.intersects, True), (shapely.touches, False)):
+        pairs = regions[below[common]], regions[above[common]]
+        common[common] = in_pieces(asked, REGIONS_AT_ONCE, *pairs) == answer
     return common
 
 
 def listed(fills: Fills, parts: Any, source: Ints, page_from_world: Floats) -> Fills:
     """Polygons of shapely, without holes, in the colours of the fills they are parts of."""
+    may_stop()
     flat, offsets = corners_of(parts)
     sizes = np.diff(offsets)
     total = np.add.reduceat(fills.colours.astype(np.float64), fills.offsets[:-1]) if len(fills) else fills.colours
@@ -226,6 +240,7 @@ def in_space(fills: Fills, points: Floats, source: Ints, page_from_world: Floats
 
     Edge cases: of a fill that is seen edge-on, or has no area, the nearest place on its border.
     """
+    may_stop()
     if not len(points):
         return np.zeros((0, 3))
     normal, place = planes_of_fills(fills)
@@ -458,11 +473,13 @@ def _cut_apart(base: Fills, stack: Ints, layers: _Layers, fills: Fills) -> _Laye
     ground = unions(parts, np.searchsorted(numbers, stack[below]), None)
     inside = grown(insides_of(ground), -MARGIN_MM)
     above = _above(layers)
-    hidden = shapely.covers(above, layers.region)
-    cover = shapely.difference(above, inside[of])
+    hidden = in_pieces(shapely.covers, REGIONS_AT_ONCE, above, layers.region)
+    cover = in_pieces(shapely.difference, REGIONS_AT_ONCE, above, inside[of])
     covered = np.flatnonzero(~shapely.is_empty(cover))
     region = layers.region.copy()
-    region[covered] = insides_of(shapely.difference(region[covered], insides_of(cover[covered])))
+    region[covered] = insides_of(
+        in_pieces(shapely.difference, REGIONS_AT_ONCE, region[covered], insides_of(cover[covered]))
+    )
     return replace(layers, region=region).take(np.flatnonzero(~hidden))
 
 
@@ -475,7 +492,7 @@ def _above(layers: _Layers) -> NDArray[np.object_]:
     last = np.append(layers.stack[1:] != layers.stack[:-1], True)[:count]
     ends = np.flatnonzero(last)
     from_top = np.repeat(ends, np.diff(ends, prepend=-1)) - np.arange(count)
-    for depth in range(1, int(from_top.max(initial=0)) + 1):
+    for depth in in_turn(range(1, int(from_top.max(initial=0)) + 1)):
         here = np.flatnonzero(from_top == depth)
         result[here] = insides_of(shapely.union(result[here + 1], layers.region[here + 1]))
     return np.asarray(insides_of(grown(result, CLEARANCE_MM)))
@@ -486,6 +503,7 @@ def _mixed(layers: _Layers, fills: Fills) -> _Layers:
     import shapely
 
     while True:
+        may_stop()
         clear = np.flatnonzero(layers.opacity < 1.0)
         if not len(clear):
             return layers

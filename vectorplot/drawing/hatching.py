@@ -16,7 +16,7 @@ from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import workers
+from vectorplot.geometry.budget import in_turn, workers
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.tolerances import (
@@ -626,7 +626,7 @@ def stippled(regions: TonedRegions, stippling: Stippling, page_from_world: Float
     count = min(stippling.dots, len(places))
     start = np.searchsorted(total, (np.arange(count) + 0.5) / count * total[-1])
     dots = places[np.unique(np.minimum(start, len(places) - 1))]
-    for _ in range(ROUNDS):
+    for _ in in_turn(range(ROUNDS)):
         nearest = cKDTree(dots).query(places, workers=workers(len(places)))[1]
         mass = np.bincount(nearest, weight, len(dots))
         middle = np.stack([np.bincount(nearest, weight * places[:, k], len(dots)) for k in (0, 1)], axis=1)

@@ -12,6 +12,7 @@ from vectorplot.effects.shadow_casters import Casters, FacePlanes, LightSystem, 
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE
+from vectorplot.geometry.budget import in_pieces, in_turn, may_stop
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import PlaneBundles, planes_of
@@ -73,6 +74,7 @@ def reach(view: View, system: LightSystem, face: Ints, body: Ints) -> Floats:
 def outlines(view: View, face: Ints, body: Ints) -> tuple[Ints, Ints, Ints]:
     """(s,) first and last vertices of the sides of faces of bodies (n,) that are not sides of others of these, with the
     face on their left, and of which body each is."""
+    may_stop()
     position, offsets = ragged.take(view.offsets, face)
     start, end = view.corners[position], view.corners[view.after(position)]
     low, high = np.minimum(start, end), np.maximum(start, end)
@@ -100,6 +102,7 @@ def hulls(points: Floats, of: Ints, count: int) -> tuple[Any, Floats, Ints]:
     """The convex hulls of the points (2,n) of each body, and their corners (2,c) counter-clockwise, first (k+1,)."""
     import shapely
 
+    may_stop()
     order = np.argsort(of, kind="stable")
     hull = shapely.convex_hull(shapely.multipoints(points.T[order], indices=of[order], out=np.full(count, None)))
     filled = shapely.get_type_id(hull) == POLYGON
@@ -118,11 +121,15 @@ def meets_once(ends: Floats, of: Ints, hull: Any, slack: Floats) -> Bools:
     border, area = shapely.boundary(hull), shapely.area(hull)
     # How far inside the hull a point is, is concave along a side: at most twice as far as in its middle.
     deep = np.zeros(len(hull))
-    for point, times in zip((*ends, ends.mean(axis=0)), (1.0, 1.0, 2.0), strict=True):
+    for point, times in in_turn(zip((*ends, ends.mean(axis=0)), (1.0, 1.0, 2.0), strict=True)):
         np.maximum.at(deep, of, times * shapely.distance(shapely.points(point.T), border[of]))
     around = 0.5 * np.abs(np.bincount(of, _crossed(ends), minlength=len(hull)))
     wide = area > 2.0 * slack * shapely.length(border)
     return np.asarray(wide & (deep <= slack) & (np.abs(around - area) <= HALF * area), dtype=np.bool_)
+
+
+BODIES_AT_ONCE = 16
+"""The outlines of so many bodies are cut where they cross before work may stop."""
 
 
 def covered(ends: Floats, of: Ints, count: int, tolerance: float) -> Any:
@@ -137,7 +144,10 @@ def covered(ends: Floats, of: Ints, count: int, tolerance: float) -> Any:
     ends, of = ends[:, :, order], of[order]
     sides = shapely.linestrings(ends.transpose(2, 0, 1))
     lines = shapely.multilinestrings(sides, indices=of, out=np.full(count, None))
-    cells = shapely.polygonize(shapely.union_all(lines[:, None], axis=1, grid_size=tolerance)[:, None])
+    noded = in_pieces(lambda some: shapely.union_all(some[:, None], axis=1, grid_size=tolerance), BODIES_AT_ONCE, lines)
+    may_stop()
+    cells = shapely.polygonize(noded[:, None])
+    may_stop()
     cell, body = shapely.get_parts(cells, return_index=True)
     inner = shapely.get_coordinates(shapely.point_on_surface(cell)).T
     turned = np.sign(np.bincount(of, _crossed(ends), minlength=count))
@@ -165,6 +175,7 @@ def _runs_around(points: Floats, of_point: Ints, ends: Floats, of: Ints, count: 
     The square around each outline is a grid of cells. Along the middle lines of its rows it is known from the sides
     that cross these; from there to a point in the same cell it changes with the sides in this cell that are between.
     """
+    may_stop()
     box_low, box_high = np.full((2, count), np.inf), np.full((2, count), -np.inf)
     for end in ends:
         for axis in (0, 1):
@@ -193,6 +204,7 @@ def _runs_around(points: Floats, of_point: Ints, ends: Floats, of: Ints, count: 
     met = np.flatnonzero(up | down)
     side, at, line = side[met], at[met], line[met]
     there = x[side] + (u[side] - x[side]) * (line - y[side]) / (v[side] - y[side])
+    may_stop()
     along = np.concatenate([there, points[0]])
     of_line = np.concatenate([first_row[of[side]] + at, first_row[of_point] + row])
     order = np.lexsort((along, of_line))
@@ -202,6 +214,7 @@ def _runs_around(points: Floats, of_point: Ints, ends: Floats, of: Ints, count: 
     turns = np.empty(len(order), dtype=np.intp)
     turns[order] = -total
     found = turns[len(side) :]
+    may_stop()
     # The sides of cells of points, between these and the middle lines.
     wide = right - left + 1
     spread = wide * tall

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
@@ -141,6 +142,7 @@ class FaceFrames:
 
 def convex_decals(view: View, decals: Decals, chosen: Bools) -> Decals:
     """The decals, those on chosen faces (f,) that are not convex cut into triangles."""
+    may_stop()
     which = np.flatnonzero(chosen[decals.face] & (np.diff(decals.offsets) > 3))
     if not len(which):
         return decals
@@ -163,6 +165,7 @@ def convex_decals(view: View, decals: Decals, chosen: Bools) -> Decals:
 
 def _bent(flat: Floats, offsets: Ints, tolerance: float) -> Bools:
     """(m,) polygons (2,c) that turn both ways."""
+    may_stop()
     along = flat[:, next_positions(offsets, np.arange(flat.shape[1]))] - flat
     after = along[:, next_positions(offsets, np.arange(flat.shape[1]))]
     turn = along[0] * after[1] - along[1] * after[0]
@@ -194,6 +197,7 @@ def laid(view: View, decals: Decals, points: Floats, offsets: Ints, source: Ints
     points (2 or more, c), offsets (p+1,) and source (p,): convex polygons of the image and their faces in the view, as
     of Painted.faces; or doubles in a mirror, with mirrored decals.
     """
+    may_stop()
     shape, offset, which = _in_front(view, decals)
     order = np.argsort(source, kind="stable")
     first, last = (np.searchsorted(source[order], decals.face[which], side=side) for side in ("left", "right"))
@@ -264,6 +268,7 @@ def _regions(decals: Decals, frames: FaceFrames, tolerance: float) -> tuple[Any,
     """The union of the decals that are alike, in the frames of their faces, and for each the first of its decals."""
     import shapely
 
+    may_stop()
     sizes = np.diff(decals.offsets)
     owner = ragged.owner(sizes)
     rings = shapely.linearrings(frames.flat(decals.points, owner).T, indices=owner)
@@ -276,6 +281,7 @@ def _regions(decals: Decals, frames: FaceFrames, tolerance: float) -> tuple[Any,
 
 def _listed(decals: Decals, frames: FaceFrames, region: Any, leader: Ints, tolerance: float) -> Decals:
     """Regions, in the frames of the decals that lead them, as decals without holes."""
+    may_stop()
     parts, of = without_splinters(region, tolerance)
     parts, of = without_holes(parts, leader[of])
     flat, offsets = corners_of(parts)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -28,6 +28,7 @@ from vectorplot.effects.windows import (
 )
 from vectorplot.geometry import ragged, regions
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.elementary import arccos, tan
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import PlaneBundles, cut_by_planes, planes_of, polygon_areas
@@ -210,12 +211,12 @@ def _cut(soup: Soup, bundles: PlaneBundles, batch: slice, tolerance: float) -> S
     return Soup(parts.points, parts.offsets, soup.source[polygon[parts.pair]], way[parts.pair])
 
 
-def _batches(sizes: Ints) -> list[slice]:
-    """Consecutive runs whose sizes add up to about PAIRS_AT_ONCE."""
+def _batches(sizes: Ints) -> Iterator[slice]:
+    """Consecutive runs whose sizes add up to about PAIRS_AT_ONCE; before each of them the work may stop."""
     if not len(sizes):
-        return []
+        return
     ends = np.unique(np.cumsum(sizes) // PAIRS_AT_ONCE, return_index=True)[1].tolist()
-    return [slice(low, high) for low, high in zip(ends, [*ends[1:], len(sizes)], strict=True)]
+    yield from in_turn(slice(low, high) for low, high in zip(ends, [*ends[1:], len(sizes)], strict=True))
 
 
 def _meeting(view: View, solid: Solid, front: Ints) -> tuple[Ints, Ints]:
@@ -472,7 +473,7 @@ def seen_in_glass(
     below 1) parts near the angle of total reflection may be missing. Source: Glaeser, section 6.6, figure 12.
     """
     parts = []
-    for item in np.flatnonzero(refracting_items(scene, view, projected)).tolist():
+    for item in in_turn(np.flatnonzero(refracting_items(scene, view, projected)).tolist()):
         solid = Solid.of(view, item, scene.items[item].material.refraction)
         shown = (view.face_item[painted.source] == item) & (projected.facing[painted.source] > 0)
         window = np.flatnonzero(shown)

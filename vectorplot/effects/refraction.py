@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import polylines, ragged, records
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.component_arrays import dot
 from vectorplot.geometry.elementary import arcsin, arctan, tan
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements
@@ -189,7 +190,7 @@ def tangents_of_rays(p1: ArrayLike, p2: ArrayLike, a: ArrayLike, c: ArrayLike) -
     near = np.maximum(near, IN_SURFACE_OF_DISTANCE * (far + target))
     t = np.zeros(target.shape)
     error_ratio = (ratio - 1.0) * (ratio + 1.0)
-    for _ in range(MOST_STEPS):
+    for _ in in_turn(range(MOST_STEPS)):
         root = np.sqrt(ratio * ratio + error_ratio * t * t)
         slope = near + far * (ratio / root) ** 2 / root
         step = (target - near * t - far * t / root) / slope
@@ -422,7 +423,7 @@ def virtual_points(view: View, sight_ways: SightWays, points: Floats, way: Ints 
     way = np.zeros(points.shape[1], dtype=np.intp) if way is None else way
     found, seen = np.empty_like(points), np.empty(points.shape[1], dtype=np.bool_)
     guided = _Guides.of(view, sight_ways)
-    for low in range(0, points.shape[1], POINTS_AT_ONCE):
+    for low in in_turn(range(0, points.shape[1], POINTS_AT_ONCE)):
         some = slice(low, low + POINTS_AT_ONCE)
         own, there = sight_ways.of(way[some]), points[:, some]
         frame = np.broadcast_to(_frames(own.normal[:, -1]), (2, 3, there.shape[1]))
@@ -441,7 +442,7 @@ def _met(view: View, sight_ways: SightWays, frame: Floats, points: Floats, image
     off = np.where(rays.passes, np.hypot(*miss), np.inf)
     share = np.ones(points.shape[1])
     going = np.flatnonzero(~(off <= SETTLED_OF_EXTENT))
-    for _ in range(MOST_RAY_STEPS):
+    for _ in in_turn(range(MOST_RAY_STEPS)):
         if not len(going):
             break
         own, axes = sight_ways.of(going), frame[:, :, going]
@@ -609,7 +610,7 @@ def bent(view: View, sight_ways: SightWays, soup: Soup, windows: Floats, toleran
         return _moved(view, sight_ways, soup, windows)
     going = _fans(soup)
     done = []
-    for number in range(MOST_ROUNDS + 1):
+    for number in in_turn(range(MOST_ROUNDS + 1)):
         points, seen = going.virtual(view, sight_ways)
         off, near = _bends(view, points, seen, windows[:, going.way])
         partly = ~seen.all(axis=0)

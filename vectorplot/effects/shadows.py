@@ -26,7 +26,7 @@ from vectorplot.effects.shadow_casters import (
 )
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
-from vectorplot.geometry.budget import USUAL, Budget, mapped, unresolved
+from vectorplot.geometry.budget import USUAL, Budget, in_turn, mapped, unresolved
 from vectorplot.geometry.polygon_cuts import Crossings, Parts, crossings_of, parts_of
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, joined
 from vectorplot.geometry.records import IN_COLUMNS
@@ -327,7 +327,7 @@ def cast_within(
     seen = drawn_faces(view, projected)
     seen = seen if receivers is None else seen[receivers[seen]]
     found, missing = [], [np.zeros((3, 0), dtype=np.intp)]
-    for number, light in enumerate(lights):
+    for number, light in in_turn(enumerate(lights)):
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
         lit = seen[facing[seen] * projected.facing[seen] > 0]
@@ -391,7 +391,7 @@ def _thrown(
     that one."""
     parts = []
     dark = np.zeros(len(receivers.face), dtype=np.bool_)
-    for caster, receiver in pairs:
+    for caster, receiver in in_turn(pairs):
         light = np.flatnonzero(~dark[receiver])
         caster, receiver = caster[light], receiver[light]
         found = shadow_crossings(view, casters, receivers, caster, receiver)

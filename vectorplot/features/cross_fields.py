@@ -14,6 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.mesh_integration import NO_SIDE, MeshSides, mesh_sides
 from vectorplot.features.surface_points import BentFaces, FaceSites, TangentPlanes, unit
 from vectorplot.features.tangent_fields import principal
+from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.geometry.winding import face_barycentres
@@ -69,12 +70,14 @@ class CombedCurvature:
 
 def _combed(bent: BentFaces, sides: MeshSides) -> Floats:
     """(f,3) the arms of the first family in the parts of faces."""
+    may_stop()
     mesh = sides.mesh
     normals = np.nan_to_num(unit(mesh.face_normals))
     first = unit(np.nan_to_num(sides.along[mesh.offsets[:-1]]))
     frame = np.stack([first, cross(normals, first)])
     places = FaceSites(face_barycentres(bent.mesh)[sides.source], normals, bent, sides.source)
     (most, _), (larger, smaller) = principal(places, "combed directions")
+    may_stop()
     known = np.asarray(np.isfinite(most).all(axis=1), dtype=np.bool_)
     most = np.where(known[:, None], most, _level(normals))
     with np.errstate(invalid="ignore", divide="ignore"):

@@ -22,7 +22,7 @@ from vectorplot.features.scalar_fields import scalar_fields
 from vectorplot.features.zero_curves import ALONG_A_LINE, ZeroManifold, check_grid, zero_manifolds
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import USUAL, Budget, slices
+from vectorplot.geometry.budget import USUAL, Budget, in_turn, slices
 from vectorplot.geometry.polylines import DOUBTS, EACH_LINE, EACH_POINT, NumberedLines, joined, take
 from vectorplot.geometry.records import APART
 from vectorplot.geometry.vectors import all_finite, from_components, norm
@@ -349,7 +349,7 @@ def curves_on_levels(
     Errors: InputError for a grid that is too coarse.
     """
     found: list[SurfaceCurves] = []
-    for part in slices(len(levels), max(1, MOST_PARAMETERS // tracing.nodes)):
+    for part in in_turn(slices(len(levels), max(1, MOST_PARAMETERS // tracing.nodes))):
         conditions = on_levels(surface, condition, levels[part])
         found += curves_on_each(conditions, [size] * len(conditions), roundings[part].tolist(), tracing)
     return [replace(curves, levels=np.full(len(curves), c)) for curves, c in zip(found, levels, strict=True)]

@@ -16,7 +16,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import records
-from vectorplot.geometry.budget import slices
+from vectorplot.geometry.budget import in_turn, may_stop, slices
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.elementary import arccos
@@ -233,12 +233,12 @@ def refined(net: Net, between: Between, criterion: Criterion, most: int) -> Net:
     """
     found = _Found(np.zeros(0, dtype=np.intp), np.zeros((3, 0)))
     front = _front(net.vertices, net.triangles, criterion)
-    for _ in range(ROUNDS):
+    for _ in in_turn(range(ROUNDS)):
         count = len(net.vertices.points)
         edges, sides, uses = edges_of(net.triangles, count)
         found, new = found.of(edges[:, 0] << 32 | edges[:, 1])
         extent = np.ptp(net.vertices.places, axis=0) if count else 0.0
-        for some in slices(len(new), SIDES_AT_ONCE):
+        for some in in_turn(slices(len(new), SIDES_AT_ONCE)):
             own = new[some]
             found.rows[:, own] = _splits(net, extent, edges[own], uses[own] == 1, between, criterion)
         error_ratio, as_border, part = found.rows
@@ -341,6 +341,7 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, c
     count = len(start.points)
     looks = _looks(start, end, border, between)
     nodes = start.joined(looks).joined(end)
+    may_stop()
     values = criterion.folds(nodes.points, nodes.normals)
     values = values.reshape(len(values), len(LOOKS) + 2, count)
     root, number, at_root = _roots(start, end, values, border, between, criterion)
@@ -359,7 +360,9 @@ def _in_sight(start: Vertices, end: Vertices, border: Bools, between: Between, c
         fold[:-1][found_on[own]] = own
     fold[-1] = number
     edges = Edges(start, end, at, t, fold)
+    may_stop()
     error_ratio = np.nan_to_num(criterion.too_coarse(edges), nan=0.0)
+    may_stop()
     as_border = np.nan_to_num(criterion.border_error_ratio(edges), nan=0.0).max(axis=0)
     part = np.full(count, 0.5)
     at_fold = np.flatnonzero((error_ratio[-1] > 1.0) & (number != NONE))
@@ -431,7 +434,7 @@ def _roots(
     low, high = nodes[step], nodes[step + 1]
     at_low, at_high = values[fold, step, which], values[fold, step + 1, which]
     first, last = start.take(which), end.take(which)
-    for _ in range(STEPS):
+    for _ in in_turn(range(STEPS)):
         t = low + (high - low) * at_low / (at_low - at_high)
         found = between(first, last, t, border[which])
         at_t = criterion.folds(found.points, found.normals)[fold, np.arange(len(which))]

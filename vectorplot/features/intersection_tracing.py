@@ -13,6 +13,7 @@ from vectorplot.features.intersection_grids import FREE
 from vectorplot.features.patches import OnSurfaces, Patch, SurfacePatch
 from vectorplot.features.triangle_intersections import Contacts
 from vectorplot.geometry.algebra import least_squares, matmul
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.chord_refinement import Traces, refined
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import DOUBTS, EACH_LINE, EACH_POINT, NumberedLines
@@ -91,7 +92,7 @@ def meetings(one: Patch, two: Patch, at_one: Floats, at_two: Floats, bound: Boun
     met = np.zeros(len(a), dtype=np.bool_)
     zero = np.broadcast_to(np.asarray(zero, dtype=np.float64), len(a))
     active = np.arange(len(a))
-    for _ in range(MOST_STEPS):
+    for _ in in_turn(range(MOST_STEPS)):
         if not len(active):
             break
         own = bound.of(active)

@@ -42,7 +42,7 @@ from vectorplot.features.triangle_intersections import (
     zero_height,
 )
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import unresolved
+from vectorplot.geometry.budget import in_turn, unresolved
 from vectorplot.geometry.chord_refinement import Traces
 from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.rotations import axis_frame
@@ -91,7 +91,7 @@ def parts(pairs: Sequence[Couple]) -> Iterator[Part]:
         yield Part((0,), *pairs[0])
         return
     most = max(1, MOST_NODES // ((first.columns + 1) * (first.rows + 1)))
-    for begin in range(0, len(pairs), most):
+    for begin in in_turn(range(0, len(pairs), most)):
         some = pairs[begin : begin + most]
         cells = _near_cells(some)
         sizes = np.array([min(map(len, own)) and sum(map(len, own)) for own in cells])

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged, records
-from vectorplot.geometry.budget import mapped, slices
+from vectorplot.geometry.budget import in_turn, mapped, slices
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh, next_positions
@@ -205,10 +205,10 @@ def _sharp_vertices(faces: Faces, angle_deg: float) -> Bools:
     count = len(faces.offsets) - 1
     blocks = slices(count, BLOCK)
     normals = list(mapped(partial(_packed_normals, faces), blocks))
-    for block, normal in zip(blocks, normals, strict=True):
+    for block, normal in in_turn(zip(blocks, normals, strict=True)):
         for corners, at_corner in _corner_runs(faces, block, normal):
             chosen[corners] = at_corner
-    for block, normal in zip(blocks, normals, strict=True):
+    for block, normal in in_turn(zip(blocks, normals, strict=True)):
         for corners, at_corner in _corner_runs(faces, block, normal):
             pairs = chosen[corners].view(np.float32).reshape(-1, 4), at_corner.view(np.float32).reshape(-1, 4)
             sharp[corners[np.einsum("ij,ij->i", *pairs) < limit]] = True

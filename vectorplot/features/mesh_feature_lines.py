@@ -31,7 +31,7 @@ from vectorplot.features.mesh_lines import (
     level_segments,
 )
 from vectorplot.geometry.algebra import linear_solution
-from vectorplot.geometry.budget import slices
+from vectorplot.geometry.budget import in_turn, slices
 from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, dot, norm
@@ -73,7 +73,7 @@ def noisy_bending(faces: FaceTriangles, trust: Floats) -> tuple[Bending, Floats]
     starts = np.searchsorted(first, np.arange(count + 1))
     forms, noise = np.full((count, UNKNOWN), np.nan), np.full(count, np.inf)
     rounding = ROUNDING_OF_POINTS * float(np.abs(mesh.bounds).max())
-    for part in slices(count, VERTICES_AT_ONCE):
+    for part in in_turn(slices(count, VERTICES_AT_ONCE)):
         pairs = slice(int(starts[part.start]), int(starts[part.stop]))
         own, other = first[pairs], second[pairs]
         forms[part], left, usual = _fitted(

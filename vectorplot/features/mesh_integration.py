@@ -17,6 +17,7 @@ from vectorplot.features.surface_integration import DEFAULT_LENGTH
 from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, FaceSites, unit
 from vectorplot.features.tangent_fields import TangentField
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
@@ -409,7 +410,7 @@ def mesh_traces(
     first_point, first_way = np.full((count, 3), np.nan), np.zeros((count, 3))
     first_face = np.full(count, -1)
     segments: list[tuple[Ints, Floats, Floats, Ints]] = []
-    for step in range(MOST_FACES):
+    for step in in_turn(range(MOST_FACES)):
         alive = all_finite(now.directions) & (now.face >= 0)
         if not alive.all():
             line, here, now = line[alive], here[alive], now.rows(alive)

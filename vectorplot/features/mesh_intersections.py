@@ -12,7 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.features.mesh_edge_lines import Faces, unit_normals
 from vectorplot.geometry import ragged, records
 from vectorplot.geometry.boxes import overlapping_boxes, overlapping_pairs
-from vectorplot.geometry.budget import mapped, slices
+from vectorplot.geometry.budget import in_turn, mapped, may_stop, slices
 from vectorplot.geometry.component_arrays import cross, dot, first_of_equal
 from vectorplot.geometry.connectivity import pieces_of_faces
 from vectorplot.geometry.elementary import arctan2
@@ -138,6 +138,7 @@ def _on_both_sides(lying: Intersections, side: Ints, tolerance: float) -> Ints:
 def _crossing_edges(faces: Faces, part: Ints, tolerance: float) -> Intersections:
     """The edges of four faces of a part, in one place, about which the faces of two surfaces alternate: those of the
     same two vertices are of one surface, or where all four have these, the first and the third one in turn."""
+    may_stop()
     place = _places(np.round(faces.points / (8.0 * tolerance))).astype(np.uint32)
     a = place[faces.corners]
     b = a[next_positions(faces.offsets, np.arange(len(a)))]
@@ -222,6 +223,7 @@ def _pairs_in_groups(low: Floats, high: Floats, group: Ints, face: Ints) -> tupl
 def _patches(faces: Faces, part: Ints, low: Floats, high: Floats, face: Ints) -> Ints:
     """(f,) a patch of every one of some faces, -1 of the others: those of a part in a cell of a grid that are connected
     by vertices."""
+    may_stop()
     middle = (low.take(face, axis=1) + high.take(face, axis=1)) / 2.0
     size = (high - low).take(face, axis=1)
     base, reach = middle.min(axis=1), middle.max(axis=1) - middle.min(axis=1)
@@ -230,6 +232,7 @@ def _patches(faces: Faces, part: Ints, low: Floats, high: Floats, face: Ints) ->
     cells = ((middle - base[:, None]) / (width or 1.0)).astype(np.intp)
     key = ((part[face] << 11 | cells[0]) << 11 | cells[1]) << 11 | cells[2]
     group = np.unique(key, return_inverse=True)[1]
+    may_stop()
     corners, offsets = ragged.take(faces.offsets, face)
     vertex, of = faces.corners[corners], group[ragged.owner(np.diff(offsets))]
     # Every group has vertices of its own.
@@ -246,6 +249,7 @@ def _patches(faces: Faces, part: Ints, low: Floats, high: Floats, face: Ints) ->
 def _pairs_of_patches(faces: Faces, part: Ints, patch: Ints, low: Floats, high: Floats) -> list[tuple[Ints, Ints]]:
     """Pairs of faces with overlapping boxes (3,f), of patches (f,) that do not lie side by side, and of each patch
     that does not face one way."""
+    may_stop()
     face = np.flatnonzero(patch >= 0)
     face = face[np.argsort(patch[face], kind="stable")]
     starts = np.flatnonzero(np.diff(patch[face], prepend=-1))
@@ -257,6 +261,7 @@ def _pairs_of_patches(faces: Faces, part: Ints, patch: Ints, low: Floats, high: 
     least = np.minimum.reduceat(cosine, starts)
     patch_low = np.minimum.reduceat(low.take(face, axis=1), starts, axis=1)
     patch_high = np.maximum.reduceat(high.take(face, axis=1), starts, axis=1)
+    may_stop()
     found = [_pairs_in_groups(low, high, patch, face[least[patch[face]] <= LEAST_COSINE])]
     one, two = overlapping_pairs(patch_low, patch_high)
     of = part[face[starts]]
@@ -283,6 +288,7 @@ def _cosine_beyond(one: Floats, two: Floats) -> Floats:
 
 def _touch(faces: Faces, patch: Ints, one: Ints, two: Ints) -> Bools:
     """(n,) which pairs of patches have a vertex in common."""
+    may_stop()
     owner = patch[ragged.owner(np.diff(faces.offsets))]
     patches = int(patch.max()) + 1
     last = np.zeros(faces.points.shape[1], dtype=np.intp)
@@ -290,11 +296,12 @@ def _touch(faces: Faces, patch: Ints, one: Ints, two: Ints) -> Bools:
     shared = np.zeros(len(last), dtype=np.bool_)
     shared[faces.corners[last[faces.corners] != owner]] = True
     inside = (owner >= 0) & shared[faces.corners]
+    may_stop()
     key = np.unique(faces.corners[inside] * patches + owner[inside])
     vertex, of = np.divmod(key, patches)
     touching = [np.zeros(0, dtype=np.intp)]
     # The patches about a vertex are a run, in order; a pair that is far apart in a long one is looked at in vain only.
-    for step in range(1, 5):
+    for step in in_turn(range(1, 5)):
         same = np.flatnonzero(vertex[step:] == vertex[:-step])
         touching.append(of[same] * patches + of[same + step])
     return np.isin(one * patches + two, np.concatenate(touching))

@@ -16,7 +16,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.mesh_edge_lines import apart_at_creases
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import slices
+from vectorplot.geometry.budget import in_turn, slices
 from vectorplot.geometry.connectivity import concat
 from vectorplot.geometry.convex_polygons import convex_faces
 from vectorplot.geometry.elementary import arctan2
@@ -186,7 +186,7 @@ def curves_of_values(faces: FaceTriangles, levels: Floats, values: Callable[[Flo
     face where the values are zero it is drawn if they are negative beyond.
     """
     some = slices(len(levels), max(1, TRIANGLES_AT_ONCE // max(1, len(faces.triangles))))
-    return all_mesh_curves([_between_values(faces, levels[part], values(levels[part, None])) for part in some])
+    return all_mesh_curves([_between_values(faces, levels[part], values(levels[part, None])) for part in in_turn(some)])
 
 
 def _between_values(faces: FaceTriangles, levels: Floats, values: Floats) -> MeshCurves:

@@ -38,7 +38,7 @@ from vectorplot.features.surface_points import USUAL_CREASE_DEG, BentFaces, Face
 from vectorplot.features.tangent_fields import TangentField, TurnedField
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import overlapping_boxes
-from vectorplot.geometry.budget import workers
+from vectorplot.geometry.budget import in_turn, may_stop, workers
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polylines import closed_round, joined, take
 from vectorplot.geometry.vectors import norm
@@ -252,6 +252,7 @@ def free_around(found: PlacedCurves, trees: Sequence[cKDTree], reach: float) -> 
         left, look = np.flatnonzero(free[found.seeds]), FIRST_LOOK
         place = found.seeds[left]
         while len(left):
+            may_stop()
             room = place - bounds[left] if way < 0 else bounds[left + 1] - 1 - place
             sizes = np.minimum(room, look)
             at = np.repeat(place, sizes) + way * (1 + ragged.place(sizes))
@@ -323,7 +324,7 @@ def placed_streamlines(shape: StreamlineMesh) -> MeshCurves:
     where = shape.where(places)
     taken = np.zeros((0, 6))
     found: list[MeshCurves] = [all_mesh_curves([])]
-    for _ in range(MOST_ROUNDS):
+    for _ in in_turn(range(MOST_ROUNDS)):
         tree = cKDTree(taken, balanced_tree=False) if len(taken) else None
         if tree is not None:
             open_ = ~beside([tree], where, WIDEST * apart)
@@ -336,6 +337,7 @@ def placed_streamlines(shape: StreamlineMesh) -> MeshCurves:
         # A gap that nothing fits into is one no more.
         every = [taken, where[gaps]]
         while len(seeds):
+            may_stop()
             new = _compared(shape, shape.along(seeds[:some]), spots[:some])
             kept, own = _without_dense_groups(shape, new, trees)
             found += kept
@@ -460,6 +462,7 @@ def _without_dense_groups(
     cell = cells.of(found.where[:, :3])
     left = np.flatnonzero(free[found.seeds])
     while len(left):
+        may_stop()
         group, left = np.split(left, [max(1, int(np.searchsorted(np.cumsum(np.diff(bounds)[left]), GROUP)))])
         kept = _kept(found, group, free, apart)
         if not len(kept):

@@ -16,6 +16,7 @@ from vectorplot.features.conditions import SpatialCondition, check_cosine
 from vectorplot.features.scalar_fields import bracketed_zeros
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul, pseudo_inverse
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.chord_refinement import Refined, Traces, refined
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import divided_mesh, nothing_beside
@@ -178,7 +179,7 @@ class _Lattice:
         x, y, z = (self.points(side)[:, axis] for axis, side in enumerate(sides))
         result = np.empty((len(x), len(y), len(z)))
         step = max(1, SLAB // (len(y) * len(z)))
-        for first in range(0, len(x), step):
+        for first in in_turn(range(0, len(x), step)):
             points = from_components(x[first : first + step, None, None], y[:, None], z)
             result[first : first + step] = checked_values(surface, points)
         result[~np.isfinite(result)] = np.nan

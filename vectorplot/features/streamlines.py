@@ -26,7 +26,7 @@ from vectorplot.features.surface_integration import (
 from vectorplot.features.surface_points import Charts, Sites, charts, check_parametrised
 from vectorplot.features.tangent_fields import TangentField, TurnedField
 from vectorplot.geometry import ragged
-from vectorplot.geometry.budget import workers
+from vectorplot.geometry.budget import in_pieces, may_stop, workers
 from vectorplot.geometry.vectors import all_finite, from_components, norm
 from vectorplot.surfaces.surface import Surface
 from vectorplot.tolerances import INTEGRATED_AS_DRAWN
@@ -168,9 +168,7 @@ class Ground:
     def on_one_sheet(self, one: Floats, two: Floats, reach: float) -> Bools:
         """(k,) whether places, u and v (k,2) each, that are within reach in space are near along the surface."""
         if len(one) > PAIRS_AT_ONCE:
-            bounds = range(0, len(one), PAIRS_AT_ONCE)
-            parts = [slice(first, first + PAIRS_AT_ONCE) for first in bounds]
-            return np.concatenate([self.on_one_sheet(one[part], two[part], reach) for part in parts])
+            return in_pieces(lambda some, other: self.on_one_sheet(some, other, reach), PAIRS_AT_ONCE, one, two)
         way = self.charts.near_to(two, one) - one
         stops = one + np.array(ON_THE_WAY)[:, None, None] * way
         points = self.surface.points(*self.charts.within(stops.reshape(-1, 2))).reshape(*stops.shape[:2], 3)
@@ -422,6 +420,7 @@ def well_separated(lines: PlacesAlong, separation: SeparationTest) -> tuple[Floa
     kept, own = [np.zeros((0, 3), dtype=np.intp)], SeparationTest(ground)
     left = np.arange(len(lines.around))
     while len(left):
+        may_stop()
         seeds = lines.seeds[left]
         left = left[~own.near(lines.places[seeds], where[seeds], wide)]
         first, last = lines.reached(free)
@@ -691,6 +690,7 @@ def _without_dense_groups(runs: Courses, places: Floats, separation: SeparationT
     left = _that_run(runs)
     spans = [np.zeros((0, 3))]
     while len(left):
+        may_stop()
         # As many as have few enough places, of those that do not begin beside what is taken by now.
         seeds = places[left]
         left = left[~separation.near(seeds, ground.where(seeds), WIDEST * ground.apart)]

@@ -39,6 +39,7 @@ from vectorplot.features.polygonization import BOXED, onto_surface, polygonized,
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import USUAL as DEFAULT_BUDGET
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.chord_refinement import bisected
 from vectorplot.geometry.connectivity import edges_of
 from vectorplot.geometry.mesh import Mesh
@@ -371,7 +372,7 @@ def _enough(lines: Callable[[int, Ints], Edges], closed: bool, surfaces: int, cr
     going = np.arange(surfaces)
     while len(going):
         left = []
-        for count in np.unique(counts[going]).tolist():
+        for count in in_turn(np.unique(counts[going]).tolist()):
             own = going[counts[going] == count]
             sides = lines(count, own)
             # What lies in a hole is not cut at all.
@@ -688,7 +689,7 @@ def facets_of_all(shapes: Sequence[Any], criterion: Callable[[int], Criterion], 
     for number, shape in enumerate(shapes):
         families.setdefault(_family(shape) or number, []).append(number)
     for family in families.values():
-        for start in range(0, len(family), LOT):
+        for start in in_turn(range(0, len(family), LOT)):
             batch = family[start : start + LOT]
             asked = [criterion(number) for number in batch]
             shared = [_shared_net(shapes[number], one) for number, one in zip(batch, asked, strict=True)]

@@ -12,6 +12,7 @@ from vectorplot.features.patches import Patch
 from vectorplot.geometry import records
 from vectorplot.geometry.algebra import symmetric_eigen
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
+from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.elementary import arccos
 from vectorplot.geometry.vectors import all_components, any_component, component_sum, cross, norm
 from vectorplot.geometry.weld import close_points
@@ -87,6 +88,7 @@ def overlapping_within(patch: Patch) -> Pair:
 
 def overlapping_in_cells(one: Boxes, two: Boxes) -> Pair:
     """Pairs of boxes that overlap, of shapes with the same number."""
+    may_stop()
     both = one, two
     starts = [np.flatnonzero(np.diff(boxes.cells, prepend=-1)) for boxes in both]
     if not len(starts[0]) or not len(starts[1]):
@@ -130,7 +132,7 @@ def piercings(one: Tessellation, two: Tessellation, pairs: Pair) -> Piercings:
     """
     origin = one.points[one.triangles[:1, 0]].reshape(-1, 3)[:1] if len(one.triangles) else np.zeros((1, 3))
     tables = [_empty(one, two)]
-    for start in range(0, len(pairs[0]), PAIRS_AT_ONCE):
+    for start in in_turn(range(0, len(pairs[0]), PAIRS_AT_ONCE)):
         i, j = (p[start : start + PAIRS_AT_ONCE] for p in pairs)
         tables.append(_meet(one, two, origin, i, j))
     key, place_one, place_two, triangles = (np.concatenate(column) for column in zip(*tables, strict=True))
@@ -359,6 +361,7 @@ def _middles(patch: Patch, which: Ints) -> _Middles:
 
 def _near_pairs(one: Patch, two: Patch, same: bool) -> tuple[Ints, Ints]:
     """Pairs of triangles between which there may be a contact."""
+    may_stop()
     first, second = _beside(one, two), _beside(two, one)
     a = _middles(one, first)
     b = a if same else _middles(two, second)
@@ -405,7 +408,7 @@ def _stationary(one: Patch, two: Patch, i: Ints, j: Ints, same: bool) -> Contact
     cells = np.linalg.norm(high - low, axis=0)[i]
     arrived = np.zeros(len(a), dtype=np.bool_)
     active = np.arange(len(a))
-    for _ in range(STEPS):
+    for _ in in_turn(range(STEPS)):
         if not len(active):
             break
         near = _Pass.between(one, two, a[active], b[active])

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.vectors import component_sum, normalize
 
 # Boxes in space, and which of many overlap.
@@ -38,7 +39,7 @@ def overlapping_boxes(
         totals = [
             _starting_within(low[k], high[k], np.sort(other_low[k]), "left")
             + _starting_within(other_low[k], other_high[k], np.sort(low[k]), "right")
-            for k in range(3)
+            for k in in_turn(range(3))
         ]
         axis = int(np.argmin(totals))
     i, j = _sweep(axis, low, high, other_low, other_high, "left")
@@ -49,9 +50,10 @@ def overlapping_boxes(
 def overlapping_pairs(low: Floats, high: Floats) -> tuple[Ints, Ints]:
     """All (i, j), i < j, of boxes (3,n) that overlap: those of which the second one begins within the first come
     first."""
-    axis = int(np.argmin([_starting_within(low[k], high[k], np.sort(low[k]), "left") for k in range(3)]))
+    axis = int(np.argmin([_starting_within(low[k], high[k], np.sort(low[k]), "left") for k in in_turn(range(3))]))
     i, j = _sweep(axis, low, high, low, high, "left")
     # Of two that begin at one place each begins within the other.
+    may_stop()
     once = np.flatnonzero((i < j) | (i > j) & (low[axis][i] != low[axis][j]))
     i, j = i[once], j[once]
     order = np.argsort(i > j, kind="stable")
@@ -69,6 +71,7 @@ def _sweep(
     axis: int, low: Floats, high: Floats, other_low: Floats, other_high: Floats, side: Literal["left", "right"]
 ) -> tuple[Ints, Ints]:
     """Pairs (i, j) of overlapping boxes of which j begins within i on the axis, by i and then by where j begins."""
+    may_stop()
     order = np.argsort(other_low[axis], kind="stable")
     starts = other_low[axis][order]
     begin, end = np.searchsorted(starts, low[axis], side=side), np.searchsorted(starts, high[axis], side="right")
@@ -87,6 +90,7 @@ def _sweep(
         key, base = other_strip * (len(order) + 1) + place, strip * (len(order) + 1)
         begin, end = (np.searchsorted(key, base + edge[i]) for edge in (begin, end))
         thing = order[place]
+    may_stop()
     count = np.maximum(end - begin, 0)
     found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
     for from_, to in ragged.batches(count, PAIRS_AT_ONCE):
@@ -100,6 +104,7 @@ def _sweep(
             keep &= np.repeat(strip[from_:to], size) == np.maximum(first[at], other_first[j])
         found.append((at[keep], j[keep]))
     one, two = (np.concatenate(column) for column in zip(*found, strict=True))
+    may_stop()
     if across.count > 1:
         rank = np.empty(len(order), dtype=np.intp)
         rank[order] = np.arange(len(order))
@@ -123,6 +128,7 @@ class _Strips:
 
     def entries(self, low: Floats, high: Floats) -> tuple[Ints, Ints]:
         """The boxes (3,n) in each strip that they touch: box (e,), strip (e,). Empty ones touch none."""
+        may_stop()
         first = self.first(low[self.axis])
         many = np.maximum(self.first(high[self.axis]) - first + 1, 0)
         return ragged.owner(many), ragged.ranges(first, many)

@@ -1,4 +1,4 @@
-"""Limits to the work on a smooth surface, the doubts that are told, and work in chunks on several threads."""
+"""Limits to the work on a smooth surface, the doubts that are told, where work stops, and chunks on several threads."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from contextvars import ContextVar, copy_context
 from dataclasses import dataclass, fields
 from itertools import chain, islice
 from threading import Lock
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
 
 from vectorplot.errors import InputError
 
@@ -86,15 +89,57 @@ def line_each(doubts: Iterable[tuple[str, str]]) -> tuple[str, ...]:
     return tuple(f"{name}: {in_one_line(texts)}" for name, texts in about.items())
 
 
+# Where long work may be stopped: amid the loops of its stages, by whoever does not wait for it any more.
+
+WAIT_S = 0.05
+"""Who waits for other threads asks so often whether to stop."""
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+_ASKED: ContextVar[Callable[[], None]] = ContextVar("asked", default=lambda: None)
+"""What raises an exception where the work is to stop."""
+
+
+@contextmanager
+def stopping(ask: Callable[[], None]) -> Iterator[None]:
+    """Where may_stop calls ask, which raises an exception where the work is to stop."""
+    token = _ASKED.set(ask)
+    try:
+        yield
+    finally:
+        _ASKED.reset(token)
+
+
+def may_stop() -> None:
+    """A place amid long work where it may be stopped; loops over chunks are to have one at least every tenth of a
+    second."""
+    _ASKED.get()()
+
+
+def in_turn(chunks: Iterable[T]) -> Iterator[T]:
+    """The chunks of long work, one after the other; before each of them it may stop."""
+    for chunk in chunks:
+        may_stop()
+        yield chunk
+
+
+def in_pieces(function: Callable[..., NDArray[Any]], size: int, *columns: NDArray[Any]) -> NDArray[Any]:
+    """What a function that looks at each row by itself makes of columns: of so many rows at once, and may stop in
+    between."""
+    if len(columns[0]) <= size:
+        return function(*columns)
+    return np.concatenate(
+        [function(*(column[some] for column in columns)) for some in in_turn(slices(len(columns[0]), size))]
+    )
+
+
 # Work that falls into chunks, on several threads at once.
 #
 # Stages look at millions of pairs, faces or points a chunk at a time. Chunks do not depend on each other, and numpy
 # leaves the interpreter to other threads while it computes: so they are done side by side, and what comes out of them
 # is taken in their order. Which chunks there are never depends on the number of threads; so pictures do not either, to
 # the last bit.
-
-T = TypeVar("T")
-R = TypeVar("R")
 
 # Fewer things are done with before threads have begun.
 _FEW = 1 << 12
@@ -126,28 +171,29 @@ def threads(count: int | None) -> Iterator[None]:
 def mapped(function: Callable[[T], R], chunks: Iterable[T]) -> Iterator[R]:
     """What a function makes of each chunk, in order, on as many threads as are allowed. Chunks are taken on the calling
     thread, a few ahead of the results, so memory does not grow with their number. Exceptions are raised where the
-    result would come; then, or when nobody takes the rest, chunks not begun are dropped. What is mapped within a
-    chunk has one thread, and those idle by then.
+    result would come; then, or when nobody takes the rest, chunks not begun are dropped, and those begun end where they
+    may stop. Before each chunk the work may stop. What is mapped within a chunk has one thread, and those idle by then.
     Edge cases: a single chunk is done on the calling thread.
     """
     count, chunks = _THREADS.get()(), iter(chunks)
     first = list(islice(chunks, 2)) if count > 1 else []
     if len(first) < 2:
-        yield from map(function, chain(first, chunks))
+        yield from map(function, in_turn(chain(first, chunks)))
         return
     from concurrent.futures import ThreadPoolExecutor
 
     waiting: deque[Future[R]] = deque()
     pool, share = ThreadPoolExecutor(count), _Share(count)
     try:
-        for chunk in chain(first, chunks):
+        for chunk in in_turn(chain(first, chunks)):
             share.begin()
             waiting.append(pool.submit(copy_context().run, _shared, share, function, chunk))
             if len(waiting) > count:
-                yield waiting.popleft().result()
+                yield _taken(waiting.popleft())
         while waiting:
-            yield waiting.popleft().result()
+            yield _taken(waiting.popleft())
     finally:
+        share.dropped = True
         pool.shutdown(wait=True, cancel_futures=True)
 
 
@@ -157,11 +203,22 @@ def workers(count: int) -> int:
     return _THREADS.get()() if count > _FEW else 1
 
 
+def _taken(future: Future[R]) -> R:
+    """Its result; while it is waited for, the work may stop."""
+    from concurrent.futures import wait
+
+    while not future.done():
+        may_stop()
+        wait((future,), WAIT_S)
+    return future.result()
+
+
 class _Share:
-    """How many threads of a pool are idle."""
+    """How many threads of a pool are idle, and whether its work is dropped."""
 
     def __init__(self, count: int) -> None:
         self._count, self._begun, self._lock = count, 0, Lock()
+        self.dropped = False
 
     def begin(self) -> None:
         with self._lock:
@@ -175,11 +232,21 @@ class _Share:
         """On how many threads one of the chunks may work."""
         return 1 + max(self._count - self._begun, 0)
 
+    def ask(self) -> None:
+        """Ends a chunk whose result nobody takes."""
+        if self.dropped:
+            raise _DroppedError
+
+
+class _DroppedError(Exception):
+    """Nobody takes the result."""
+
 
 def _shared(share: _Share, function: Callable[[T], R], chunk: T) -> R:
     token = _THREADS.set(share.of_one)
     try:
-        return function(chunk)
+        with stopping(share.ask):
+            return function(chunk)
     finally:
         _THREADS.reset(token)
         share.end()

@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.budget import mapped, slices
+from vectorplot.geometry.budget import in_turn, mapped, may_stop, slices
 
 # Whether faces close and agree about the outside, told without a sort.
 
@@ -107,6 +107,7 @@ def pieces_of_sides(vertices: int, sides: Callable[[], Iterator[tuple[Ints, Ints
     No sort: every vertex hangs on a neighbour of smaller number, trees are flattened, and sides between different trees
     do the same with their roots until none is left.
     """
+    may_stop()
     root = np.arange(vertices)
     for one, other in sides():
         root[np.maximum(one, other)] = np.minimum(one, other)
@@ -126,6 +127,7 @@ def pieces_of_sides(vertices: int, sides: Callable[[], Iterator[tuple[Ints, Ints
 
 def _flattened(root: Ints) -> Ints:
     """The trees with everything hanging on the root itself."""
+    may_stop()
     while True:
         higher = root[root]
         if np.array_equal(higher, root):
@@ -142,7 +144,7 @@ def _apart(root: Ints, one: Ints, other: Ints) -> tuple[Ints, Ints]:
 
 def _sides(corners: Ints, offsets: Ints) -> Iterator[tuple[Ints, Ints]]:
     """The ends of all sides but the last one of every face, which connect it as well, in pieces."""
-    for start in range(0, len(offsets) - 1, _PIECE):
+    for start in in_turn(range(0, len(offsets) - 1, _PIECE)):
         bounds = offsets[start : start + _PIECE + 1]
         some = corners[bounds[0] : bounds[-1]]
         if len(some) == 3 * (len(bounds) - 1):

@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.clipping import Polygons, cut_polygons, left_corners
 from vectorplot.geometry.convex_polygons import convex_hulls
 from vectorplot.geometry.mesh import next_positions
@@ -112,7 +113,7 @@ def parts_of(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings,
     Source: Hodgman and Sutherland; Glaeser, section 6.2.
     """
     found = [_no_parts()]
-    for low in range(0, len(crossings), PARTS_AT_ONCE):
+    for low in in_turn(range(0, len(crossings), PARTS_AT_ONCE)):
         batch = crossings.take(np.arange(low, min(low + PARTS_AT_ONCE, len(crossings))))
         found.append(_cut(points, offsets, polygon, batch, tolerance))
     return joined(found)
@@ -152,7 +153,7 @@ def _sorted_out(corners: Floats, bundles: PlaneBundles, bundle: Ints, tolerance:
     here = np.arange(len(bundle))
     none = np.zeros(0, dtype=np.intp)
     gone, pairs, planes = [none], [none], [none]
-    for step in range(int(counts.max(initial=0))):
+    for step in in_turn(range(int(counts.max(initial=0)))):
         more = counts[here] > step
         if not more.all():
             here, corners = here[more], corners[:, :, more]
@@ -178,7 +179,7 @@ def _cut(points: Floats, offsets: Ints, polygon: Ints, crossings: Crossings, tol
     found: list[tuple[Ints, Polygons]] = []
     here = np.arange(len(crossings))
     now = take(Polygons(points.T, offsets), polygon[crossings.pair])
-    for step in range(int(counts.max(initial=0)) + 1):
+    for step in in_turn(range(int(counts.max(initial=0)) + 1)):
         done = counts[here] == step
         found.append((here[done], take(now, np.flatnonzero(done))))
         rest = np.flatnonzero(~done)

@@ -6,11 +6,12 @@ groups of corners, polylines groups of points, the neighbours of a cell groups o
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Ints
+from vectorplot.geometry.budget import in_turn
 
 Sizes = Ints | Bools | Sequence[int]
 """How many elements each group has; a mask counts as groups of one or none."""
@@ -46,17 +47,18 @@ def ranges(first: Ints, sizes: Ints) -> Ints:
     return np.arange(sizes.sum(), dtype=np.intp) + np.repeat(first - starts(sizes), sizes)
 
 
-def batches(sizes: Sizes, most: int) -> list[tuple[int, int]]:
-    """Consecutive runs of groups, from the first to before the last number, whose sizes add up to about most.
+def batches(sizes: Sizes, most: int) -> Iterator[tuple[int, int]]:
+    """Consecutive runs of groups, from the first to before the last number, whose sizes add up to about most; before
+    each of them the work may stop.
 
     A run exceeds it by one group at the most; there is none of no groups.
     """
     total = np.cumsum(sizes)
     if not len(total):
-        return []
+        return
     cuts = np.searchsorted(total, np.arange(most, int(total[-1]), most)) + 1
     ends = np.unique(np.append(cuts, len(total))).tolist()
-    return list(zip([0, *ends[:-1]], ends, strict=True))
+    yield from in_turn(zip([0, *ends[:-1]], ends, strict=True))
 
 
 def take(offsets_: Ints, which: Ints | Bools) -> tuple[Ints, Ints]:

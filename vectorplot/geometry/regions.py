@@ -5,12 +5,14 @@ Regions are shapely's geometries, in arrays; shapely is loaded when one of these
 
 from __future__ import annotations
 
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import in_pieces, may_stop
 from vectorplot.tolerances import UNITED_OF_EXTENT
 
 POLYGON, MULTIPOLYGON = 3, 6
@@ -50,6 +52,13 @@ def polygons_of(points: Floats, offsets: Ints) -> Any:
     return shapely.polygons(shapely.linearrings(points[:2, position].T, indices=of))
 
 
+POLYGONS_AT_ONCE = 1 << 11
+"""So many polygons are united before work may stop."""
+
+REGIONS_AT_ONCE = 1 << 11
+"""So many regions are compared with others, or cut, before work may stop."""
+
+
 def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
     """(g,) the unions of groups 0, 1, ... of polygons, which may cross themselves, on a grid: sides that nearly
     coincide leave no splinters. None: in floating numbers, where these lead to a union."""
@@ -57,10 +66,11 @@ def unions(polygons: Any, group: Ints, grid: float | None) -> Any:
 
     order = np.argsort(group, kind="stable")
     several = shapely.geometrycollections(insides_of(polygons[order]), indices=group[order])
-    united, found = _united(several)
+    parts = [_united(several[low:high]) for low, high in ragged.batches(np.bincount(group), POLYGONS_AT_ONCE)]
+    united, found = (np.concatenate(column) for column in zip(*parts, strict=True)) if parts else _united(several)
     if grid is not None:
         # A grid makes each side dear: those between polygons are gone by now.
-        return shapely.union_all(united[:, None], axis=1, grid_size=grid)
+        return in_pieces(lambda some: shapely.union_all(some[:, None], axis=1, grid_size=grid), REGIONS_AT_ONCE, united)
     for number in np.flatnonzero(~found).tolist():
         united[number] = shapely.union_all(several[number], grid_size=_finest_grid(several[number]))
     return united
@@ -94,6 +104,7 @@ def mosaics(polygons: Any, group: Ints) -> Any:
     between two of a group goes, in a tenth of the time of `unions`."""
     import shapely
 
+    may_stop()
     order = np.argsort(group, kind="stable")
     if not len(order):
         return polygons
@@ -149,19 +160,21 @@ def grown(regions: Any, distance: float) -> Any:
     import shapely
 
     with np.errstate(divide="ignore", invalid="ignore", over="ignore"):
-        return shapely.buffer(regions, distance, join_style="mitre")
+        return in_pieces(partial(shapely.buffer, distance=distance, join_style="mitre"), REGIONS_AT_ONCE, regions)
 
 
 def insides_of(regions: Any) -> Any:
     """(n,) valid regions with the insides of others, which may touch or cross themselves."""
     import shapely
 
+    may_stop()
     found = regions
     # Most are valid, which is told in a tenth of the time that mending takes.
     broken = ~shapely.is_valid(found)
     if broken.any():
         found = found.copy()
-        found[broken] = shapely.make_valid(found[broken], method="structure", keep_collapsed=False)
+        mended = partial(shapely.make_valid, method="structure", keep_collapsed=False)
+        found[broken] = in_pieces(mended, REGIONS_AT_ONCE, found[broken])
     changed = np.flatnonzero(broken | ~_are_areas(found))
     if not len(changed):
         return found
@@ -178,6 +191,7 @@ def triangles_of(regions: Any) -> tuple[Any, Ints]:
     """Triangles that regions (n,) consist of, with no other corners than theirs, and the region of each."""
     import shapely
 
+    may_stop()
     parts, of = shapely.get_parts(insides_of(regions), return_index=True)
     full = np.flatnonzero(shapely.area(parts) > 0.0)
     triangles, part = shapely.get_parts(shapely.constrained_delaunay_triangles(parts[full]), return_index=True)
@@ -189,6 +203,7 @@ def without_splinters(regions: Any, tolerance: float) -> tuple[Any, Ints]:
     out, and holes that narrow filled."""
     import shapely
 
+    may_stop()
     parts, of = shapely.get_parts(regions, return_index=True)
     kept = (shapely.get_type_id(parts) == POLYGON) & _wide(parts, tolerance)
     parts, of = parts[kept], of[kept]
@@ -232,6 +247,7 @@ def corners_of(parts: Any) -> tuple[Floats, Ints]:
     """Corners (2,c) and offsets (n+1,) of polygons (n,) without holes, counter-clockwise."""
     import shapely
 
+    may_stop()
     rings = shapely.get_exterior_ring(shapely.orient_polygons(parts))
     xy, of = shapely.get_coordinates(rings, return_index=True)
     # A ring of shapely repeats its first point at its end.
@@ -244,6 +260,7 @@ def _wide(polygons: Any, tolerance: float) -> Any:
     """(n,) which polygons are wider than a splinter."""
     import shapely
 
+    may_stop()
     return shapely.area(polygons) > WIDTH_KEPT * tolerance * shapely.length(polygons)
 
 

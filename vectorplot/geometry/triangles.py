@@ -10,7 +10,7 @@ import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.budget import slices
+from vectorplot.geometry.budget import in_turn, slices
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.mesh_cuts import nothing_beside
 from vectorplot.geometry.vectors import cross, dot
@@ -31,7 +31,7 @@ def overlapping(one: Floats, other: Floats) -> Bools:
     Source: the theorem of separating axes, of which sides are enough for convex polygons.
     """
     parts = [slice(first, first + PAIRS_AT_ONCE) for first in range(0, one.shape[2], PAIRS_AT_ONCE)]
-    found = [~(_beyond(one[..., k], other[..., k]) | _beyond(other[..., k], one[..., k])) for k in parts]
+    found = [~(_beyond(one[..., k], other[..., k]) | _beyond(other[..., k], one[..., k])) for k in in_turn(parts)]
     return np.concatenate([np.zeros(0, dtype=np.bool_), *found])
 
 
@@ -78,7 +78,7 @@ class PlacedTriangles:
         """
         triangles, face = self._triangles
         found = []
-        for piece in slices(len(points), PIECE):
+        for piece in in_turn(slices(len(points), PIECE)):
             which, triangle, weights, off = self._around(points[piece], 0.0)
             order = np.lexsort((off, which))
             first = order[np.diff(which[order], prepend=-1) > 0]
@@ -93,7 +93,7 @@ class PlacedTriangles:
         """Which of some points (n,3) are no farther than a distance from which faces (k,), of several where these meet:
         the numbers of both, some of them twice."""
         found = [(np.zeros(0, dtype=np.intp), np.zeros(0, dtype=np.intp))]
-        for piece in slices(len(points), PIECE):
+        for piece in in_turn(slices(len(points), PIECE)):
             which, triangle, _, off = self._around(points[piece], distance)
             near = off <= distance
             found.append((which[near] + piece.start, self._triangles[1][triangle[near]]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from vectorplot.arrays import Bools, Floats, Ints
-from vectorplot.geometry.budget import mapped, slices
+from vectorplot.geometry.budget import in_turn, mapped, may_stop, slices
 from vectorplot.geometry.component_arrays import cross, dot, triangle_corners
 from vectorplot.geometry.connectivity import circulation, pieces_of_sides, scrambled
 from vectorplot.geometry.mesh import Mesh
@@ -53,15 +53,18 @@ def edge_uses(mesh: Mesh) -> EdgeUses:
 
     mesh: with c corners and e edges; result: every edge once, whichever way faces run along it.
     """
+    may_stop()
     start, end = mesh.corners, mesh.corners[mesh.next_corner]
     keys = np.minimum(start, end) * len(mesh.vertices) + np.maximum(start, end)
     bits = len(keys).bit_length()
+    may_stop()
     if len(keys) and int(keys.max()).bit_length() + bits < 64:
         packed = np.sort((keys << bits) | np.arange(len(keys)))
         corner, keys = packed & ((1 << bits) - 1), packed >> bits
     else:
         corner = np.argsort(keys, kind="stable")
         keys = keys[corner]
+    may_stop()
     first = np.flatnonzero(np.concatenate([np.ones(min(len(keys), 1), dtype=np.bool_), keys[1:] != keys[:-1]]))
     count = np.diff(first, append=len(keys))
     return EdgeUses(corner, (start < end)[corner], first, count)
@@ -95,6 +98,7 @@ def _face_pairs(mesh: Mesh, uses: EdgeUses, chosen: Bools) -> tuple[Ints, Ints]:
 
 def components(mesh: Mesh, uses: EdgeUses) -> tuple[int, Ints]:
     """How many pieces the mesh has, and (f,) the piece of every face; pieces are joined across edges of two faces."""
+    may_stop()
     one, other = _face_pairs(mesh, uses, uses.count == 2)
     return _connected(mesh.face_count, one, other)
 
@@ -120,8 +124,10 @@ def consistent_winding(mesh: Mesh, uses: EdgeUses) -> tuple[Bools, bool]:
 
 def turned_faces(mesh: Mesh, turn: Bools) -> Mesh:
     """The mesh with the chosen faces (f,) listed the other way round."""
+    may_stop()
     where = np.arange(len(mesh.corners))
     face = mesh.corner_face
+    may_stop()
     mirrored = mesh.offsets[:-1][face] + mesh.offsets[1:][face] - 1 - where
     return Mesh(mesh.vertices, mesh.corners[np.where(turn[face], mirrored, where)], mesh.offsets, mesh.present)
 
@@ -188,7 +194,7 @@ def _boxed_in(low: Floats, high: Floats, inner: Ints, outer: Ints) -> Bools:
     """(k,) whether the box of each inner piece lies in the box of some outer one."""
     found = np.zeros(len(inner), dtype=np.bool_)
     rows = max(1, (1 << 20) // len(outer))
-    for start in range(0, len(inner), rows):
+    for start in in_turn(range(0, len(inner), rows)):
         some = inner[start : start + rows]
         above = np.all(low[some][:, None] > low[outer], axis=2)
         below = np.all(high[some][:, None] < high[outer], axis=2)

@@ -25,7 +25,7 @@ from vectorplot.pictures.lines import (
     traceable,
 )
 from vectorplot.pictures.options import check_look, check_options
-from vectorplot.pictures.pipeline import Pipeline, StageReport
+from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene
 from vectorplot.pictures.promises import DRAWING, promised
@@ -76,6 +76,7 @@ def hatched_in_place(
 # The verb draw: a scene becomes strokes on a page.
 
 
+@stoppable
 def draw(
     scene: object,
     camera: Camera | str | None = None,
@@ -187,7 +188,7 @@ def draw(
     jobs : int, optional
         On how many threads the stages that go over chunks work; where None, on all processors. The result is the same.
     progress : callable, optional
-        progress(stage, fraction) is called while it works.
+        progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
     explain : callable, optional
         explain(report) is called while it works, with a StageReport.
 

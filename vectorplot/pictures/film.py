@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -14,12 +13,16 @@ from vectorplot.animation.correspondence import corresponding, steady_fit, widen
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import VIEWS, Camera
+from vectorplot.pictures.pipeline import stoppable
 from vectorplot.pictures.pixels import raster_page
 from vectorplot.scene.page import Page
 from vectorplot.scene.placement import camera_around, page_of
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.image import Image
 from vectorplot.words import check_word, unknown
+
+if TYPE_CHECKING:
+    from vectorplot.save import Destination
 
 # A film: the frames of an animation, each made when it is asked for.
 
@@ -89,19 +92,18 @@ class Film:
         """Whether frames are pixels."""
         return self.mode.verb == "render"
 
-    def save(
-        self, path: str | os.PathLike[str], *, format: str | None = None, progress: Progress | None = None
-    ) -> None:
+    @stoppable
+    def save(self, path: Destination, *, format: str | None = None, progress: Progress | None = None) -> None:
         """Make all frames and write them, as `vp.save_frames` does.
 
         Parameters
         ----------
-        path : str or path
-            A name that ends in .pdf, .svg, .mp4, .webm, .gif or .vd1, or a folder.
+        path : str, path or file object
+            A name that ends in .pdf, .svg, .mp4, .webm, .gif or .vd1, a folder, or an open file.
         format : str, optional
-            Of the files in a folder.
+            Of the files in a folder; needed for an open file.
         progress : callable, optional
-            progress(stage, fraction) is called while it works.
+            progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
 
         Raises
         ------
@@ -166,7 +168,7 @@ class Film:
         frame : int
             From 0.
         progress : callable, optional
-            progress(stage, fraction) is called while it works.
+            progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
 
         Returns
         -------
@@ -208,6 +210,7 @@ SIZE = (800, 600)
 """Columns and rows of frames of pixels if nobody says otherwise."""
 
 
+@stoppable
 def animate(
     animation: Animation,
     *,

@@ -29,7 +29,7 @@ from vectorplot.pictures.fills import (
 from vectorplot.pictures.fills import background as background_of
 from vectorplot.pictures.lines import PEN, LineOverlay, places_beside_faces
 from vectorplot.pictures.options import SHADOWS, check_options
-from vectorplot.pictures.pipeline import Pipeline, StageReport
+from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import accuracy_of_paint, has_bodies, plan_bodies, plan_paint, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene, room_for_labels, titled
 from vectorplot.pictures.promises import PAINTING, promised
@@ -92,6 +92,7 @@ def _coloured_strokes(
 # The verb paint: a scene becomes filled polygons on a page, painted back to front.
 
 
+@stoppable
 def paint(
     scene: object,
     camera: Camera | str | None = None,
@@ -192,7 +193,7 @@ def paint(
     jobs : int, optional
         As in draw.
     progress : callable, optional
-        progress(stage, fraction) is called while it works.
+        progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
     explain : callable, optional
         explain(report) is called while it works, with a StageReport.
 

@@ -29,7 +29,7 @@ from vectorplot.geometry.projections import projection_of
 from vectorplot.io.anything import scene_of
 from vectorplot.pictures.lines import OutputStyle, lines_in_place
 from vectorplot.pictures.options import check_options
-from vectorplot.pictures.pipeline import Pipeline, StageReport
+from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.plan import plan_panorama
 from vectorplot.pictures.prepared_scene import with_face_looks
 from vectorplot.scene.added_lines import with_default_lines
@@ -43,6 +43,7 @@ from vectorplot.visibility.projected_faces import project_faces
 from vectorplot.words import DRAWN, LineKind, line_kinds
 
 
+@stoppable
 def panorama(
     scene: object,
     place: Panorama | Sequence[float],

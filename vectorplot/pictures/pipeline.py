@@ -5,12 +5,13 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 
 from vectorplot.errors import printable
-from vectorplot.geometry.budget import threads
+from vectorplot.geometry.budget import stopping, threads
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -132,6 +133,43 @@ class Pipeline:
             self._explain(StageReport(name, stage.why, seconds, _count(result), peak_mb()))
         self.fraction(name)(1.0)
         return result
+
+
+ASKED_S = 0.02
+"""A listener is asked no more often whether work that has not come farther is to stop."""
+
+
+def stoppable(verb: Callable[P, R]) -> Callable[P, R]:
+    """The verb, which asks its progress amid stages too, wherever they may stop: it is told once more how far the work
+    has come, and what it raises stops the work."""
+
+    @wraps(verb)
+    def asking(*args: P.args, **kwargs: P.kwargs) -> R:
+        listener: Any = kwargs.get("progress")
+        if not callable(listener):
+            return verb(*args, **kwargs)
+        asked = _Asked(listener)
+        kwargs["progress"] = asked
+        with stopping(asked.again):
+            return verb(*args, **kwargs)
+
+    return asking
+
+
+class _Asked:
+    """A listener, what it was told last, and when."""
+
+    def __init__(self, listener: Callable[[str, float], None]) -> None:
+        self._listener, self._told, self._when = listener, ("look", 0.0), time.perf_counter()
+
+    def __call__(self, stage: str, fraction: float) -> None:
+        self._told, self._when = (stage, fraction), time.perf_counter()
+        self._listener(stage, fraction)
+
+    def again(self) -> None:
+        """Tells the same once more, if that was a while ago."""
+        if time.perf_counter() - self._when > ASKED_S:
+            self(*self._told)
 
 
 def _count(result: Any) -> int:

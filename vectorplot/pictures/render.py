@@ -22,7 +22,7 @@ from vectorplot.io.anything import scene_of
 from vectorplot.pictures.facet_errors import facet_error
 from vectorplot.pictures.lines import LineOverlay, places_beside_faces
 from vectorplot.pictures.options import SHADOWS, check_options
-from vectorplot.pictures.pipeline import Pipeline, StageReport
+from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
 from vectorplot.pictures.pixels import (
     PIXELS_PER_MM,
     ShadowMaps,
@@ -80,6 +80,7 @@ BACKGROUND = "white"
 """The colour behind the scene where neither the scene nor the user names one."""
 
 
+@stoppable
 def render(
     scene: object,
     camera: Camera | str | None = None,
@@ -174,7 +175,7 @@ def render(
     jobs : int, optional
         See draw.
     progress : callable, optional
-        progress(stage, fraction) is called while it works.
+        progress(stage, fraction) is called while it works; what it raises stops the work, amid a stage too.
     explain : callable, optional
         explain(report) is called while it works, with a StageReport.
 

@@ -39,7 +39,7 @@ from vectorplot.geometry.vectors import dot
 from vectorplot.io.anything import scene_of
 from vectorplot.io.mesh_file import stood_up
 from vectorplot.pictures.draw import draw
-from vectorplot.pictures.pipeline import StageReport
+from vectorplot.pictures.pipeline import StageReport, stoppable
 from vectorplot.scene.annotations import (
     CROSS,
     annotation_points,
@@ -686,6 +686,7 @@ class _Part:
         return tuple(found)
 
 
+@stoppable
 def technical_sheet(
     scene: object,
     *,

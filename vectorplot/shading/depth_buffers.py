@@ -14,7 +14,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import determinant
-from vectorplot.geometry.budget import mapped, slices
+from vectorplot.geometry.budget import in_turn, mapped, may_stop, slices
 from vectorplot.scene.view import View
 from vectorplot.shading import pixel_coverage
 from vectorplot.shading.pixel_coverage import Boxes, Fragments, Snapped
@@ -320,7 +320,7 @@ def _keys(task: Task, planes: Planes, found: Fragments) -> Keys:
 def _cover_by_tiles(keys: Keys, task: Task, number: Ints, take: Take) -> None:
     """Offer the keys of triangles that are not small, the nearest first."""
     number = number[np.argsort(-task.nearest[number], kind="stable")]
-    for begin in range(0, len(number), SETUP_AT_ONCE):
+    for begin in in_turn(range(0, len(number), SETUP_AT_ONCE)):
         planes = _planes(task, number[begin : begin + SETUP_AT_ONCE])
         side = np.maximum(planes.box.right - planes.box.left, planes.box.bottom - planes.box.top)
         _tiles(keys, task, planes, np.flatnonzero(side >= LARGE_SIDE), TILE, take)
@@ -342,7 +342,7 @@ def _tiles(keys: Keys, task: Task, planes: Planes, chosen: Ints, side: int, take
         met = np.flatnonzero(pixel_coverage.may_cover(planes.triangles, index, left, top, side))
         index, left, top, tile = index[met], left[met], top[met], tile[met]
         step = max(1, pixel_coverage.CANDIDATES // side**2)
-        for first in range(0, len(index), step):
+        for first in in_turn(range(0, len(index), step)):
             part = slice(first, first + step)
             found = pixel_coverage.covered(
                 planes.triangles, index[part], left[part], top[part], (side, side), task.stride, np.int64
@@ -584,6 +584,7 @@ def ranked(
     """Triangles of a scene in pixels, those in one plane at exactly the same depths and, for the sake of equal depths,
     those first that are seen; homogeneous (n, 4): the points of the scene there; eye: where one looks from, in the
     scene's own space; outer_side (i,): 1 and -1 for items of which only the outside is seen."""
+    may_stop()
     face = scene.face[triangles.source]
     shared = np.flatnonzero(coplanar.plane[face] >= 0)
     if not len(shared):
@@ -596,6 +597,7 @@ def ranked(
     order[shared] = shared[np.lexsort((-coplanar.rank[face[shared]], ~outside))]
     sheet = np.full(len(triangles), -1, dtype=np.intp)
     names, sheet[shared] = np.unique(coplanar.plane[face[shared]], return_inverse=True)
+    may_stop()
     slopes, flat = _depth_planes(scene, homogeneous, coplanar, names)
     sheet[shared] = np.where(flat[sheet[shared]], sheet[shared], -1)
     corners, source = triangles.corners[order], triangles.source[order]
@@ -604,6 +606,7 @@ def ranked(
 
 def _planes_of_faces(view: View) -> Ints:
     """(f,) numbers of planes that several faces lie in, -1 for other faces."""
+    may_stop()
     count = view.face_count
     plane = np.full(count, -1, dtype=np.intp)
     if count < 2:
@@ -616,7 +619,7 @@ def _planes_of_faces(view: View) -> Ints:
     rows *= np.where(largest < 0.0, -1.0, 1.0)
     here = np.flatnonzero(largest != 0.0)
     label = np.zeros(len(here), dtype=np.intp)
-    for row, same in zip(rows[::-1], (SAME_DISTANCE, *[SAME_NORMAL] * 3), strict=True):
+    for row, same in in_turn(zip(rows[::-1], (SAME_DISTANCE, *[SAME_NORMAL] * 3), strict=True)):
         along = row[here]
         order = np.lexsort((along, label))
         new = (np.diff(label[order], prepend=-1) != 0) | (np.diff(along[order], prepend=-np.inf) > same)
@@ -632,10 +635,12 @@ def _depth_planes(
 ) -> tuple[Floats, Bools]:
     """(3, k) the depth at column 0 and row 0 of planes (k,), and how it grows with column and row; and (k,) which of
     them are not seen edge-on. Each is that of its largest triangle."""
+    may_stop()
     a, b, c = (scene.points[scene.corners[:, k]] for k in range(3))
     number = coplanar.plane[scene.face]
     own = np.flatnonzero(np.isin(number, names))
     area = np.linalg.norm(np.cross(b[own] - a[own], c[own] - a[own]), axis=1)
+    may_stop()
     order = own[np.lexsort((own, -area, number[own]))]
     leader = order[np.unique(number[order], return_index=True)[1]]
     p, q, r = (homogeneous[scene.corners[leader, k]] for k in range(3))

@@ -31,7 +31,7 @@ from vectorplot.features.edge_splitting import (
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE
-from vectorplot.geometry.budget import USUAL, Budget, slices, unresolved
+from vectorplot.geometry.budget import USUAL, Budget, in_turn, slices, unresolved
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.polygon_cuts import planes_of
 from vectorplot.geometry.projections import Projection
@@ -590,7 +590,7 @@ class PictureFineness:
         of = surface_numbers(edges.start.places)
         offsets, rows = self._bodies
         widest = int(np.diff(offsets).max(initial=1))
-        for some in slices(len(of), max(PAIRS_AT_ONCE // widest, 1)) if len(rows) else ():
+        for some in in_turn(slices(len(of), max(PAIRS_AT_ONCE // widest, 1))) if len(rows) else ():
             body, ends = ragged.take(offsets, of[some])
             side = some.start + ragged.owner(np.diff(ends))
             points = edges.at.points[middle][side]

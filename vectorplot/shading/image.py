@@ -2,11 +2,10 @@
 
 from __future__ import annotations
 
-import os
 import struct
 import zlib
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -14,6 +13,9 @@ from numpy.typing import ArrayLike, NDArray
 from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
 from vectorplot.geometry.elementary import power
+
+if TYPE_CHECKING:
+    from vectorplot.save import Destination
 
 # Pixels as a PNG file.
 
@@ -131,18 +133,20 @@ class Image:
         """How many rows of pixels there are."""
         return int(self.pixels.shape[0])
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: Destination, *, format: str | None = None) -> None:
         """Write the picture as PNG, as `vp.save` does.
 
         Parameters
         ----------
-        path : str or path
-            The file, whose name ends in .png.
+        path : str, path or file object
+            The file, whose name ends in .png, or an open one that takes bytes.
+        format : str, optional
+            ``png``; needed for an open file.
 
         Raises
         ------
         InputError
-            For another suffix.
+            For another suffix or format.
         OSError
             Where the file cannot be written.
 
@@ -158,7 +162,7 @@ class Image:
         """
         from vectorplot.save import save
 
-        save(self, path)
+        save(self, path, format=format)
 
     def png(self) -> bytes:
         """The picture as a PNG file. The same picture gives the same bytes."""

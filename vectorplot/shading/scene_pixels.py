@@ -9,7 +9,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry.algebra import linear_solution, matmul
-from vectorplot.geometry.budget import mapped, slices
+from vectorplot.geometry.budget import in_turn, mapped, slices
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import norm
 from vectorplot.shading.depth_buffers import CoplanarFaces, DepthBuffer, finest_code, layers_before, ranked, strip
@@ -145,7 +145,7 @@ def _veil(picture: Picture, buffer: DepthBuffer, colours: Colours, wanted: Bools
     clear = _veils(picture)[buffer.triangles.source]
     pixel, triangle, _ = layers_before(buffer, clear)
     pixel, triangle = pixel[wanted[pixel]], triangle[wanted[pixel]]
-    for begin in range(0, len(pixel), picture.shaded_at_once):
+    for begin in in_turn(range(0, len(pixel), picture.shaded_at_once)):
         part = slice(begin, begin + picture.shaded_at_once)
         found = points_in_pixels(buffer, pixel[part], triangle[part], picture.homogeneous, picture.triangles.corners)
         made = shaded_points(picture.triangles, found, picture.lighting)

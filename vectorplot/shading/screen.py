@@ -12,6 +12,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.camera import Camera, PixelWindow
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.scene.page import Page
@@ -204,7 +205,7 @@ def screen_triangles(
     for side in sides:
         p, corners, source = _kept(p, corners, source, matmul(p, np.asarray(side.normal)) - side.limit)
     # The near plane first, then the sides of the guard band.
-    for axis, sign in ((3, 1.0), (0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0)):
+    for axis, sign in in_turn(((3, 1.0), (0, 1.0), (0, -1.0), (1, 1.0), (1, -1.0))):
         inside = p[:, 3] - near if axis == 3 else sign * p[:, axis] + GUARD_BAND * p[:, 3]
         p, corners, source = _kept(p, corners, source, inside)
     # Points that no triangle is left of may have no image.
@@ -237,7 +238,7 @@ def _cut(points: Floats, corners: Ints, source: Ints, inside: Floats) -> tuple[F
     whole = outside == 0
     pieces, owners, made = [corners[whole]], [source[whole]], [points]
     first = len(points)
-    for number in (1, 2):
+    for number in in_turn((1, 2)):
         rows = np.flatnonzero(outside == number)
         # The corner that differs from the other two comes first.
         lone = np.argmax(out[rows] if number == 1 else ~out[rows], axis=1)
@@ -300,6 +301,7 @@ class SceneTriangles:
 
 def scene_triangles(view: View, normals: Sequence[TrueNormals | None], crease_angle_deg: float) -> SceneTriangles:
     """The faces of a view; normals and crease angle as in view_normals."""
+    may_stop()
     fans, face = ragged.fans(view.offsets)
     points = np.ascontiguousarray(view.points.T)
     corner_normals = view_normals(view, normals, crease_angle_deg)

@@ -18,6 +18,7 @@ from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE
+from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.component_arrays import cross
 from vectorplot.scene.added_lines import UPPER_LEFT
 from vectorplot.scene.item import Item
@@ -383,6 +384,7 @@ def view_normals(view: View, normals: Sequence[TrueNormals | None], crease_angle
     normals: for every item those of its true surface, None where its faces are flat or, where they meet at less than
     the crease angle, look round.
     """
+    may_stop()
     place, face = ragged.fans(view.offsets)
     triangles = view.corners[place]
     # Of a triangle between corners on one side of its face only the face can tell where it looks.
@@ -409,14 +411,15 @@ def at_corners(view: View, normals: CornerNormals) -> Floats:
 
 def mesh_face_normals(points: Floats, triangles: Ints) -> Floats:
     """(t, 3) normals of triangles (t, 3) of points (n, 3), as long as twice their area."""
-    a, b, c = (np.take(points, triangles[:, k], axis=0) for k in range(3))
+    may_stop()
+    a, b, c = (np.take(points, triangles[:, k], axis=0) for k in in_turn(range(3)))
     return product(b - a, c - a)
 
 
 def product(u: Floats, v: Floats) -> Floats:
     """(n, 3) the cross products of vectors (n, 3)."""
     result = np.empty(u.shape)
-    for k in range(3):
+    for k in in_turn(range(3)):
         i, j = (k + 1) % 3, (k + 2) % 3
         np.multiply(u[:, i], v[:, j], out=result[:, k])
         result[:, k] -= u[:, j] * v[:, i]
@@ -444,6 +447,7 @@ def corner_normals(
     of.
     Edge cases: triangles without area do not count; alone they get their faces' normals, or zeros.
     """
+    may_stop()
     faces = mesh_face_normals(points, triangles)
     if own is None:
         own = unit(faces)
@@ -456,7 +460,7 @@ def corner_normals(
     least = np.cos(np.radians(min(crease_angle_deg, 180.0)) / 2.0)
     sharp = np.zeros(len(points), dtype=np.bool_)
     beyond = np.zeros(triangles.shape, dtype=np.bool_)
-    for k in range(3):
+    for k in in_turn(range(3)):
         vertex = triangles[:, k]
         cosine = np.einsum("ij,ij->i", own, np.take(mean, vertex, axis=0))
         sharp[vertex[cosine < least]] = True
@@ -472,7 +476,7 @@ def corner_normals(
 def _sum_at(triangles: Ints, values: Floats, count: int) -> Floats:
     """(count,) for each vertex the sum of values (t,) of the triangles around it."""
     total = np.zeros(count)
-    for k in range(3):
+    for k in in_turn(range(3)):
         total += np.bincount(triangles[:, k], weights=values, minlength=count)
     return total
 
@@ -481,6 +485,7 @@ def _with_creases(
     faces: Floats, own: Floats, triangles: Ints, apart: Bools, mean: Floats, angle_deg: float
 ) -> CornerNormals:
     """The corners, some (t,3) of them apart from the others, with normals of their own."""
+    may_stop()
     corner = np.flatnonzero(apart)
     vertex, triangle = triangles.ravel()[corner], corner // 3
     order = np.argsort(vertex, kind="stable")
@@ -514,6 +519,7 @@ def plane_numbers(view: View) -> Ints:
     corner may be off by FLAT_OF_EXTENT; where that would bend a region more, only what is flat within the view's
     tolerance is taken together. Edge cases: faces wound against each other, or without area, stand alone.
     """
+    may_stop()
     count = view.face_count
     number = np.arange(count)
     if not count:

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import json
-import os
 from collections.abc import Iterable
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
@@ -30,6 +29,9 @@ from vectorplot.testing import check_certificate as checker
 from vectorplot.tolerances import CERTIFIED_MM, ROUNDING
 from vectorplot.visibility.polyhedra.lines import kinds_of
 from vectorplot.words import DRAWN, LineKind, line_kinds
+
+if TYPE_CHECKING:
+    from vectorplot.save import Destination
 
 SIZE_MM = 0.01
 """Parts of lines that are shorter are not looked at."""
@@ -69,16 +71,18 @@ class Certificate:
         tables = [f'"{key}": [{",".join(chr(10) + json.dumps(row) for row in value)}]' for key, value in rows.items()]
         return (json.dumps(head)[:-1] + ",\n" + ",\n".join(tables) + "}\n").encode("ascii")
 
-    def save(self, path: str | os.PathLike[str]) -> None:
+    def save(self, path: Destination) -> None:
         """Write the file, whole or not at all.
 
         Parameters
         ----------
-        path : str or path
-            The file.
+        path : str, path or file object
+            The file, or an open one.
 
         Raises
         ------
+        InputError
+            For what is neither.
         OSError
             Where the file cannot be written.
 
@@ -93,9 +97,10 @@ class Certificate:
         ...     os.listdir(folder)
         ['cube.json']
         """
-        from vectorplot.save import write_together
+        from vectorplot.save import format_for, put
 
-        write_together({path: bytes(self)})
+        format_for(path, "json")
+        put(path, bytes(self))
 
 
 _HEAD = ("page_from_world", "window_mm", "not_certified", "clear")

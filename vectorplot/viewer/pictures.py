@@ -15,12 +15,13 @@ from typing import Any, TypeVar
 from vectorplot.animation.animation import MODES
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.errors import InputError
+from vectorplot.geometry.budget import stopping
 from vectorplot.io.read_file import SCENE_SUFFIXES, read
 from vectorplot.io.scene_language import parse_scene
 from vectorplot.pictures.draw import draw
 from vectorplot.pictures.paint import paint
 from vectorplot.pictures.render import render
-from vectorplot.save import write
+from vectorplot.save import SHOWN, shown_as, write
 from vectorplot.scene.hatching import Hatching
 from vectorplot.scene.scene import Scene
 from vectorplot.shading.image import Image
@@ -30,9 +31,6 @@ from vectorplot.viewer.state import ViewerState, camera_of_state, lights_of_stat
 
 PIXELS_HIGH = 720
 """Rows of pictures of pixels."""
-
-MOST_MARKS = 30_000
-"""A browser is given drawings with more of them as pixels."""
 
 OUTLINES = ("contour", "boundary")
 """The kinds of lines that outlines are."""
@@ -117,9 +115,8 @@ def drawable(state: ViewerState) -> ViewerState:
 
 def for_browser(made: Drawing | Image) -> tuple[bytes, str]:
     """A picture as SVG, or as PNG where it is of pixels or has very many marks, and its media type."""
-    if isinstance(made, Image) or sum(len(mark) for layer in made.layers for mark in layer.marks) > MOST_MARKS:
-        return write(made, "png"), "image/png"
-    return write(made, "svg"), "image/svg+xml"
+    format = "png" if isinstance(made, Image) else shown_as(made)[0]
+    return write(made, format), SHOWN[format]
 
 
 # Pictures that are being made: of each page the latest wins, and what nobody waits for any more stops.
@@ -153,8 +150,12 @@ class Job:
 
     def progress(self, stage: str, fraction: float) -> None:
         """Let the work go on, or stop it."""
+        self.go_on()
+
+    def go_on(self) -> None:
+        """The same, where nobody knows how far the work is."""
         if self.stopped.is_set():
-            raise SupersededError(stage)
+            raise SupersededError("nobody waits for it any more")
 
 
 class Jobs:
@@ -186,8 +187,9 @@ class Jobs:
                 before.stopped.set()
 
             def working() -> Made:
-                job.progress("begin", 0.0)
-                return work(job)
+                job.go_on()
+                with stopping(job.go_on):
+                    return work(job)
 
             return job, self.pool.submit(working)
 

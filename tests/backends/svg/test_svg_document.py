@@ -103,11 +103,6 @@ def test_ids_follow_the_content(sample, empty):
     assert len(ids[0]) == 3 and ids[0] == ids[2] and not ids[0] & ids[1]
 
 
-def test_a_notebook_shows_the_drawing(sample):
-    ET.fromstring(sample._repr_svg_().encode())
-    assert sample._repr_png_().startswith(b"\x89PNG")
-
-
 @pytest.mark.slow
 def test_300_000_points_take_little_more_than_their_text():
     random = np.random.default_rng(0)

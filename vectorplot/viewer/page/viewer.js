@@ -21,6 +21,11 @@ export function viewer(root, program) {
 
   // --- state ----------------------------------------------------------------------------------------------------------
   function change(values) { become({ ...state, ...values }); }
+  // What an answer changed in the state that was asked about; what has changed since then stays.
+  function answered(about, answer) {
+    const differs = ([field, value]) => JSON.stringify(value) !== JSON.stringify(about[field]);
+    change(Object.fromEntries(Object.entries(answer).filter(differs)));
+  }
   const OVER = ["axes", "boxes", "lights", "colour_map", "former", "rotating", "wish"];
   const looks = (one) => JSON.stringify({ ...one, ...Object.fromEntries(OVER.map((field) => [field, null])) });
   function become(next) {
@@ -124,6 +129,7 @@ export function viewer(root, program) {
     exact.src = address;
     await exact.decode().catch(() => {});
     if (former) URL.revokeObjectURL(former);
+    if (mine.signal.aborted) throw new Superseded();
     stage.classList.remove("moves", "works", "night");
     clear(at("over"));
     at("frame").value = number;
@@ -164,9 +170,9 @@ export function viewer(root, program) {
     try {
       while (pending.length && !gone) {
         const keys = pending.splice(0, pending.length);
-        const answer = await asJson(ask("keys", { keys }));
+        const about = state, answer = await asJson(ask("keys", { keys }));
         const rotated = answer.state.rotating && !state.rotating;
-        become(answer.state);
+        answered(about, answer.state);
         if (rotated) requestAnimationFrame(turn);
         for (const wish of answer.wishes) await fulfil(wish);
       }
@@ -248,7 +254,12 @@ export function viewer(root, program) {
   at("hatch").addEventListener("change", () => change({ hatch: at("hatch").value }));
   for (const button of root.querySelectorAll("[data-key]")) button.addEventListener("click", () => press(button.dataset.key));
   at("rotate").addEventListener("click", () => press(state.rotating ? "f" : "F"));
-  at("fit").addEventListener("click", async () => { try { become((await asJson(ask("fit"))).state); } catch (error) { told(error); } });
+  at("fit").addEventListener("click", async () => {
+    try {
+      const about = state;
+      answered(about, (await asJson(ask("fit"))).state);
+    } catch (error) { told(error); }
+  });
   at("help").addEventListener("click", () => at("keys").showModal());
   at("save").addEventListener("click", () => save(at("format").value));
   at("copy").addEventListener("click", async () => {
@@ -310,9 +321,12 @@ export function viewer(root, program) {
     area.setAttribute("aria-invalid", "true");
     numbered(ours ? error.line : 0);
   }
+  let loads = 0;
   async function load() {
-    const answer = await ask("scene");
+    const mine = ++loads, answer = await ask("scene");
     const bytes = await answer.arrayBuffer();
+    // A slower answer about an earlier text.
+    if (mine !== loads) throw new Superseded();
     const size = new DataView(bytes).getUint32(0, true);
     const head = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, size)));
     const numbers = new Float32Array(bytes.slice(4 + size));

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.rotations import axis_frame
 from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View
@@ -83,7 +84,7 @@ def _crossing(places: Floats, corners: Ints, offsets: Ints) -> Ints:
         return none
     sides = shapely.linestrings(np.stack([places[:, start].T, places[:, end].T], axis=1))
     tree, met, found = shapely.STRtree(sides), 0, [none]
-    for low in range(0, len(sides), SIDES_AT_ONCE):
+    for low in in_turn(range(0, len(sides), SIDES_AT_ONCE)):
         one, other = tree.query(sides[low : low + SIDES_AT_ONCE])
         met += len(one)
         if met > MOST_NEIGHBOURS * (len(sides) + SIDES_AT_ONCE):

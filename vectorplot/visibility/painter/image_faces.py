@@ -9,6 +9,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import may_stop
 from vectorplot.geometry.clipping import Polygons, cut_polygons
 from vectorplot.geometry.mesh import next_positions
 from vectorplot.geometry.polygon_cuts import clipped_by_convex
@@ -62,6 +63,7 @@ class ImageFaces(LineElements):
 
 def over_corners(reduce: np.ufunc, row: Floats, offsets: Ints) -> Floats:
     """(n,) sums, or smallest or largest values, of a row (c,) over the corners of each polygon; none is empty."""
+    may_stop()
     count = len(offsets) - 1
     size = len(row) // count if count else 0
     if not count or (offsets != np.arange(0, len(row) + 1, size)[: count + 1]).any():
@@ -131,6 +133,7 @@ def image_faces(view: View, which: Ints) -> ImageFaces:
     >>> len(visibility.image_faces(view, np.arange(6)))  # the four sides are seen edge-on
     2
     """
+    may_stop()
     position, offsets = ragged.take(view.offsets, which)
     corner = view.corners[position]
     if view.eye is None or not (view.depth[corner] < view.near).any():
@@ -203,6 +206,7 @@ def polygons_of(points: Floats, offsets: Ints, source: Ints, tolerance: float) -
     Where faces lie in one plane the larger one is drawn first; of equal ones the lower, the left one, the one nearer
     to the lower border of the image, and at last the one listed first.
     """
+    may_stop()
     if not len(source):
         return ImageFaces(points[:, :0], np.zeros(1, dtype=np.intp), np.zeros((5, 0)), source, source)
     normal, middle = _area_vectors(points, offsets)
@@ -236,6 +240,7 @@ def _ranks(key: Floats, middle: Floats) -> Ints:
 
 def _area_vectors(points: Floats, offsets: Ints) -> tuple[Floats, Floats]:
     """(3,n) Newell's area vectors about the first corners, and the means of the corners."""
+    may_stop()
     starts, sizes = offsets[:-1], np.diff(offsets)
     arm = points - np.repeat(points[:, starts], sizes, axis=1)
     after = arm[:, next_positions(offsets, np.arange(points.shape[1]))]

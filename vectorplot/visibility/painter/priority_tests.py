@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.elementary import arccos
 from vectorplot.scene.view import View
@@ -372,7 +373,7 @@ def overlapping(outlines: Outlines, first: Ints, second: Ints, tolerance: float)
     Source: separating axes; of two convex polygons that do not overlap one side of one of them separates them.
     """
     result = np.zeros(len(first), dtype=np.bool_)
-    for one, row, two, other, part in outlines.groups(first, second):
+    for one, row, two, other, part in in_turn(outlines.groups(first, second)):
         near = np.flatnonzero(~_kept_apart(one, row, two, other, tolerance))
         result[part[near]] = ~_kept_apart(two, other[near], one, row[near], tolerance)
     return result
@@ -382,7 +383,7 @@ def _kept_apart(one: Table, row: Ints, two: Table, other: Ints, tolerance: float
     """(p,) whether a side of the first outlines has the second ones on its outer side."""
     x, y = two.x[:, other], two.y[:, other]
     apart = np.zeros(len(row), dtype=np.bool_)
-    for side in range(len(one)):
+    for side in in_turn(range(len(one))):
         apart |= one.distances(side, row, x, y).max(axis=0) <= tolerance
     return apart
 
@@ -430,6 +431,7 @@ def face_relations(faces: ImageFaces, first: Ints, second: Ints, tolerance: floa
     for surfaces of different items that may touch there, these are compared, as far as their bulges are known.
     Source: Glaeser, section 5.5 (intersection of outlines); errata G5-02, G6-06.
     """
+    may_stop()
     codes = np.zeros(len(first), dtype=np.int8)
     if not len(first):
         return codes
@@ -459,7 +461,7 @@ def _span(
     """The least and the largest height (p,) of faces above others where their images overlap; curved: of the surfaces
     that they stand for."""
     least, most = np.full(len(first), np.inf), np.full(len(first), -np.inf)
-    for one, row, two, other, part in outlines.groups(first, second):
+    for one, row, two, other, part in in_turn(outlines.groups(first, second)):
         a, b = first[part], second[part]
         for x, y, there in common_points(one, row, two, other, ON_OUTLINE * tolerance):
             above = faces.heights(a, x, y) - faces.heights(b, x, y)
@@ -544,7 +546,7 @@ def _on_chord(
     x, y = np.zeros((2, len(first)))
     found = np.zeros(len(first), dtype=np.bool_)
     centre = np.add.reduceat(bodies.corners, bodies.offsets[:-1], axis=1) / np.diff(bodies.offsets)
-    for one, row, two, other, part in outlines.groups(first, second):
+    for one, row, two, other, part in in_turn(outlines.groups(first, second)):
         start, end = centre[:, first[part]], centre[:, second[part]]
         leaves = 1.0 - _part_beyond(one, row, end, start)
         enters = _part_beyond(two, other, start, end)
@@ -569,7 +571,7 @@ def _part_beyond(table: Table, row: Ints, outer: Floats, inner: Floats) -> Float
 def _middles(outlines: Outlines, first: Ints, second: Ints, tolerance: float) -> tuple[Floats, Floats]:
     """Points (p,) inside the common part of pairs of outlines that overlap: the means of its corners."""
     x, y, count = np.zeros((3, len(first)))
-    for one, row, two, other, part in outlines.groups(first, second):
+    for one, row, two, other, part in in_turn(outlines.groups(first, second)):
         for u, v, there in common_points(one, row, two, other, ON_OUTLINE * tolerance):
             x[part] += np.where(there, u, 0.0).sum(axis=0)
             y[part] += np.where(there, v, 0.0).sum(axis=0)
@@ -684,11 +686,13 @@ def boxes_over(box: Floats, others: Floats, tolerance: float) -> Iterator[tuple[
         diagonals_2 = diagonals
     else:
         diagonals_2 = shapely.linestrings(np.stack([left_2, bottom_2, right_2, top_2], axis=1).reshape(-1, 2, 2))
+    may_stop()
     tree = shapely.STRtree(diagonals_2, node_capacity=16)
     # Even where all that is looked up lies on all the others, after much that does not.
     most = int(np.clip(PAIRS_AT_MOST // len(left_2), 1, QUERIES_AT_ONCE))
     low, step = 0, min(most, FIRST_QUERIES)
     while low < len(left):
+        may_stop()
         first, second = tree.query(diagonals[low : low + step])
         first = first + low
         wide = np.minimum(right[first], right_2[second]) - np.maximum(left[first], left_2[second]) > tolerance

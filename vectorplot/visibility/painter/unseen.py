@@ -8,10 +8,11 @@ from numpy.typing import NDArray
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_pairs
-from vectorplot.geometry.budget import Budget, slices
+from vectorplot.geometry.budget import Budget, in_turn, may_stop, slices
 from vectorplot.geometry.component_arrays import cross, dot
 from vectorplot.geometry.connectivity import unbalanced_vertices
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.weld import distinct_points
 from vectorplot.geometry.winding import components, edge_uses, inside_out, signed_volumes, turned_faces
 from vectorplot.scene.view import View
 from vectorplot.tolerances import LEAST_DIVISOR
@@ -138,6 +139,7 @@ def body_sides(view: View) -> Ints:
     sixfold = np.bincount(item, signed_volumes(body), minlength=len(side))
     side[:] = np.sign(sixfold)
     upright = turned_faces(body, sixfold[item] < 0.0)
+    may_stop()
     number, piece = components(upright, edge_uses(upright))
     volume = np.bincount(piece, signed_volumes(upright), minlength=number)
     # One at a time: cavities lie in pieces of their own item.
@@ -155,24 +157,28 @@ def body_sides(view: View) -> Ints:
 def crossing_items(view: View, face: Ints) -> Ints:
     """The items of which some faces (n,) meet others of the same item with which they share no corner, nor have one in
     one place alone, as at an apex."""
+    may_stop()
     position, offsets = ragged.take(view.offsets, face)
     fans, of = ragged.fans(offsets)
     triangles = view.corners[position[fans]]
+    may_stop()
     steps = np.round(view.points / (ONE_PLACE * view.tolerance))
-    place = np.unique(steps, axis=1, return_inverse=True)[1].ravel()[triangles]
+    place = distinct_points(np.ascontiguousarray(steps.T))[1][triangles]
+    may_stop()
     wide = np.flatnonzero((place != np.roll(place, 1, axis=1)).all(axis=1))
     triangles, place, of = triangles[wide], place[wide], of[wide]
     item = view.face_item[face[of]]
     left = ~_star_shaped(view, triangles, item)[item]
     triangles, place, of, item = triangles[left], place[left], of[left], item[left]
+    may_stop()
     points = view.points[:, triangles]
     shift = np.zeros((3, len(item)))
     shift[0] = AXIS_SHIFT * item
     low, high = points.min(axis=2) + shift - view.tolerance, points.max(axis=2) + shift + view.tolerance
     one, two = overlapping_pairs(low, high)
     found = np.zeros(len(view.item_vertices) - 1, dtype=np.bool_)
-    for start in range(0, len(one), PAIRS_AT_ONCE):
-        a, b = one[start : start + PAIRS_AT_ONCE], two[start : start + PAIRS_AT_ONCE]
+    for some in in_turn(slices(len(one), PAIRS_AT_ONCE)):
+        a, b = one[some], two[some]
         kept, common = ~found[item[a]] & (of[a] != of[b]), np.zeros(len(a), dtype=np.intp)
         for k in range(3):
             for m in range(3):
@@ -195,11 +201,11 @@ def _star_shaped(view: View, triangles: Ints, item: Ints) -> Bools:
     count, batches = len(view.item_vertices) - 1, slices(len(item), PAIRS_AT_ONCE)
     size = np.maximum(np.bincount(item, minlength=count), 1)
     corners = np.zeros((3, count))
-    for batch in batches:
+    for batch in in_turn(batches):
         mean = view.points[:, triangles[batch]].mean(axis=2)
         corners += [np.bincount(item[batch], along, minlength=count) for along in mean]
     middle, height = corners / size, np.empty(len(item))
-    for batch in batches:
+    for batch in in_turn(batches):
         a, b, c = np.moveaxis(view.points[:, triangles[batch]] - middle[:, item[batch], None], 2, 0)
         normal = cross(b - a, c - a)
         height[batch] = dot(a, normal) / np.maximum(np.sqrt(dot(normal, normal)), LEAST_DIVISOR)
@@ -208,7 +214,7 @@ def _star_shaped(view: View, triangles: Ints, item: Ints) -> Bools:
     number, first = np.unique(item, return_index=True)
     ray, met = np.zeros((3, count)), np.zeros(count)
     ray[:, number] = view.points[:, triangles[first]].sum(axis=2) - 3.0 * middle[:, number]
-    for batch in batches:
+    for batch in in_turn(batches):
         a, b, c = np.moveaxis(view.points[:, triangles[batch]] - middle[:, item[batch], None], 2, 0)
         turned = side[item[batch]]
         within = [turned * dot(ray[:, item[batch]], cross(*two)) >= 0.0 for two in ((a, b), (b, c), (c, a))]

@@ -10,6 +10,7 @@ import numpy as np
 from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.geometry import ragged
 from vectorplot.geometry.boxes import PAIRS_AT_ONCE, overlapping_boxes
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.records import joined
 from vectorplot.geometry.vectors import cross, dot
 from vectorplot.scene.view import View
@@ -31,7 +32,7 @@ def overlapping_balls(balls: Balls) -> tuple[Ints, Ints]:
     close = one < two
     one, two = one[close], two[close]
     near = np.zeros(len(one), dtype=np.bool_)
-    for first in range(0, len(one), PAIRS_AT_ONCE):
+    for first in in_turn(range(0, len(one), PAIRS_AT_ONCE)):
         block = slice(first, first + PAIRS_AT_ONCE)
         near[block] = _near(balls, one[block], two[block]) & _near(balls, two[block], one[block])
     return one[near], two[near]

@@ -11,6 +11,7 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import may_stop
 
 if TYPE_CHECKING:
     import shapely
@@ -107,6 +108,7 @@ def in_blocks(rows: Ints, pairs: int, partners: int, look: Callable[[Ints], Bloc
     done, size, close = 0, max(FIRST, min(AT_ONCE, pairs) // max(partners, 1)), 0
     most = max(pairs, len(rows) * (pairs // EACH))
     while done < len(rows) and close <= most:
+        may_stop()
         block = look(rows[done : done + size])
         found.append(block.found)
         done = min(done + size, len(rows))

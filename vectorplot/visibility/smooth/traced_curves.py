@@ -15,6 +15,7 @@ from vectorplot.features.conditions import ImplicitSection
 from vectorplot.features.curve_tracing import SurfaceCurves
 from vectorplot.features.pinch_points import ThroughPinchPoints
 from vectorplot.geometry import ragged
+from vectorplot.geometry.budget import in_turn
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import EACH_LINE, EACH_POINT, LineElements, closed_round, joined
 from vectorplot.geometry.records import APART, Elements
@@ -181,7 +182,7 @@ def _between(families: Sequence[Family], chords: Chords, family: Ints, part: Flo
     places, points, slopes = (np.empty((len(part), 3)) for _ in range(3))
     second = np.full((len(part), 3), np.nan)
     numbers = np.flatnonzero(np.bincount(family)).tolist()
-    for number in numbers:
+    for number in in_turn(numbers):
         which = np.flatnonzero(family == number) if len(numbers) > 1 else slice(None)
         found = families[number].between(chords.take(which), part[which])
         places[which], points[which], slopes[which] = found.places, found.points, found.slopes
