@@ -31,7 +31,7 @@ html_title = "vectorplot"
 html_static_path: list[str] = []
 html_show_sphinx = False
 myst_heading_anchors = 3
-myst_enable_extensions = ["colon_fence"]
+myst_enable_extensions = ["colon_fence", "html_image"]
 numpydoc_show_class_members = False
 autodoc_member_order = "alphabetical"
 autodoc_typehints = "none"
@@ -88,11 +88,13 @@ def with_contents(app: Sphinx, name: str, source: list[str]) -> None:
 
 def without_links_outside(app: Sphinx, name: str, source: list[str]) -> None:
     """Links to files of the repository that are no pages become their texts."""
+    folder = (Path(app.srcdir) / name).parent
 
     def shown(link: re.Match[str]) -> str:
-        return f"`{link[1].strip('`')}`"
+        inside = (folder / link[2]).resolve().is_relative_to(Path(app.srcdir).resolve())
+        return link[0] if inside else f"`{link[1].strip('`')}`"
 
-    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", shown, source[0])
+    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\((\.\./[^)#]*)[^)]*\)", shown, source[0])
 
 
 def setup(app: Sphinx) -> None:
