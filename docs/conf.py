@@ -28,7 +28,8 @@ source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 root_doc = "index"
 html_theme = "furo"
 html_title = "vectorplot"
-html_static_path: list[str] = []
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_show_sphinx = False
 myst_heading_anchors = 3
 myst_enable_extensions = ["colon_fence", "html_image"]
@@ -36,35 +37,6 @@ numpydoc_show_class_members = False
 autodoc_member_order = "alphabetical"
 autodoc_typehints = "none"
 autodoc_use_type_comments = False
-
-
-CHAPTERS = sorted(page.stem for page in (Path(__file__).parent / "course").glob("[1-8]-*.md"))
-"""Those of the course."""
-
-CONTENTS = {
-    "Start": (
-        "first-drawing",
-        "for_plotters",
-        "for_latex",
-        "workshop",
-        "for_notebooks",
-        "for_tests",
-        "certificates",
-        "how-to",
-        "concepts",
-        "gallery/README",
-    ),
-    "A course": ("course/README", *(f"course/{chapter}" for chapter in CHAPTERS)),
-    "What it does": (
-        *("drawing", "feature-lines", "cuts", "labels", "hatching", "paint", "render", "colour-maps"),
-        *("viewer", "animation", "movies", "many-pictures", "scene-language", "molecules", "landscapes"),
-        *("curves-on-surfaces", "own-surfaces", "textbook"),
-    ),
-    "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
-    "How exact, how fast": ("accuracy-and-limits", "accuracy", "stability", "speed", "tolerances"),
-    "About": ("errata", "bibliography", "coverage"),
-}
-"""The pages, by the headings they stand under."""
 
 
 def reference(app: Sphinx) -> None:
@@ -80,10 +52,16 @@ def reference(app: Sphinx) -> None:
 
 
 def with_contents(app: Sphinx, name: str, source: list[str]) -> None:
-    """The front page gets the table of contents that the site shows beside every page."""
+    """The front page gets the table of contents that the site shows beside every page: its headings, and the pages it
+    lists below them."""
     if name == "index":
-        for heading, pages in CONTENTS.items():
-            source[0] += "\n```{toctree}\n:hidden:\n:caption: " + heading + "\n\n" + "\n".join(pages) + "\n```\n"
+        for section in source[0].split("\n## ")[1:]:
+            heading, _, text = section.partition("\n")
+            pages = re.findall(r"^\| \[.*\]\((.*)\.md\)", text, flags=re.MULTILINE)
+            if heading == "Reference":
+                pages += [f"reference/{room}" for room in ("vectorplot", *ROOMS)]
+            if pages:
+                source[0] += "\n```{toctree}\n:hidden:\n:caption: " + heading + "\n\n" + "\n".join(pages) + "\n```\n"
 
 
 def without_links_outside(app: Sphinx, name: str, source: list[str]) -> None:
