@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from docutils import nodes
 from jinja2 import BaseLoader
 from jinja2.sandbox import SandboxedEnvironment
 from numpydoc import docscrape_sphinx
@@ -75,6 +76,13 @@ def without_links_outside(app: Sphinx, name: str, source: list[str]) -> None:
     source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\((\.\./[^)#]*)[^)]*\)", shown, source[0])
 
 
+def with_long_names(app: Sphinx, doctree: nodes.document) -> None:
+    """Names of tests and the like may break anywhere, so that tables of them fit their page."""
+    for literal in doctree.findall(nodes.literal):
+        if max(map(len, literal.astext().split()), default=0) > 30:
+            literal["classes"].append("long")
+
+
 def setup(app: Sphinx) -> None:
     """What sphinx calls."""
     environments: dict[type[BaseLoader], SandboxedEnvironment] = {}
@@ -90,3 +98,4 @@ def setup(app: Sphinx) -> None:
     app.connect("builder-inited", reference)
     app.connect("source-read", without_links_outside)
     app.connect("source-read", with_contents)
+    app.connect("doctree-read", with_long_names)
