@@ -43,6 +43,15 @@ def test_the_site_is_built_without_a_warning_from_all_pages(tmp_path: Path) -> N
     assert all((site / page).stat().st_size > 1000 for page in pages)
     front = (site / "index.html").read_text(encoding="utf-8")
     assert all(f'href="{page.as_posix()}"' in front for page in pages if page.stem != "index")
+    beside = front[front.index('class="sidebar-tree"') : front.index('<div class="main">')]
+    listed = re.findall(r"^\| \[.*\]\((.*)\.md\)", (DOCS / "index.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    assert [link for link in re.findall(r'href="(.*?)\.html"', beside) if "reference/" not in link] == listed
+    for page in site.rglob("*.html"):
+        pictures = re.findall(r'<img [^>]*src="([^"]+)"', page.read_text(encoding="utf-8"))
+        assert all((page.parent / picture).is_file() for picture in pictures), page.name
+    assert (site / "gallery" / "README.html").read_text(encoding="utf-8").count("<img ") > 200
+    film = (site / "course" / "8-film.html").read_text(encoding="utf-8")
+    assert 'href="../animation.html"' in film, "links between folders of pages stay links"
     surfaces = (site / "reference" / "surfaces.html").read_text(encoding="utf-8")
     assert re.search(r"vectorplot\.surfaces.*Torus", surfaces, re.DOTALL)
     assert "http-equiv" not in front and 'src="http' not in front, "nothing is loaded from elsewhere"
