@@ -6,9 +6,12 @@ import re
 import shutil
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import sync_playwright
+from support.browser import launched
 from support.paths import ROOT
 
 DOCS = ROOT / "docs"
@@ -26,6 +29,24 @@ sys.exit(main(sys.argv[1:]))
 """What ``sphinx-build`` does, without looking for garbage, of which there is little, without notes for who looks for
 mistakes in sphinx, and without the index of words in the pages, of which there is nothing to warn: a fifth of the
 time."""
+
+
+WIDER = "document.scrollingElement.scrollWidth - innerWidth"
+PAPER = "[...new Set([...document.querySelectorAll('article img')].map(i => getComputedStyle(i).backgroundColor))]"
+TALL = "Math.max(...[...document.querySelectorAll('article img')].map(i => i.getBoundingClientRect().height))"
+
+
+def assert_pages_fit_phones_and_the_dark(site: Path) -> None:
+    """No page is wider than a phone, and pictures, whose lines are black, lie on white paper where pages are dark."""
+    shown = "index gallery/README accuracy stability command scene-language course/2-hidden-line coverage".split()
+    with sync_playwright() as playwright, closing(launched(playwright)) as browser:
+        page = browser.new_page(viewport={"width": 390, "height": 800}, color_scheme="dark")
+        for name in shown:
+            page.goto((site / f"{name}.html").as_uri())
+            assert page.evaluate(WIDER) <= 0, name
+            assert page.evaluate(PAPER) in ([], ["rgb(255, 255, 255)"]), name
+            if name == "gallery/README":
+                assert page.evaluate(TALL) == 220, "as high as docs/gallery.py says"
 
 
 @pytest.mark.slow
@@ -54,4 +75,5 @@ def test_the_site_is_built_without_a_warning_from_all_pages(tmp_path: Path) -> N
     assert 'href="../animation.html"' in film, "links between folders of pages stay links"
     surfaces = (site / "reference" / "surfaces.html").read_text(encoding="utf-8")
     assert re.search(r"vectorplot\.surfaces.*Torus", surfaces, re.DOTALL)
+    assert_pages_fit_phones_and_the_dark(site)
     assert "http-equiv" not in front and 'src="http' not in front, "nothing is loaded from elsewhere"
