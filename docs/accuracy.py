@@ -25,7 +25,7 @@ INTRO = """# What accuracy costs
     vectorplot accuracy bezier-fit --values 1,0.3,0.1,0.03
 
 `vectorplot accuracy` measures every approximation of the package over its knob: the error of each result, and the
-time it took, beside the exact result or the finest one that there is. All of them take a minute or two, one of them
+time it took, beside the exact result or the finest one that there is. All of them take half a minute, one of them
 seconds. It prints tables; `-o` writes them as `table.csv` and `table.json` into a folder, with a plot for each
 approximation, drawn by vectorplot itself. `vectorplot accuracy --list` lists the names. In Python
 `vp.accuracy("zero-manifold")` gives the same as values, and `vectorplot.accuracy.plot` a drawing of each.

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from pathlib import Path
 
+from docutils import nodes
 from jinja2 import BaseLoader
 from jinja2.sandbox import SandboxedEnvironment
 from numpydoc import docscrape_sphinx
@@ -28,43 +29,15 @@ source_suffix = {".md": "markdown", ".rst": "restructuredtext"}
 root_doc = "index"
 html_theme = "furo"
 html_title = "vectorplot"
-html_static_path: list[str] = []
+html_static_path = ["_static"]
+html_css_files = ["site.css"]
 html_show_sphinx = False
 myst_heading_anchors = 3
-myst_enable_extensions = ["colon_fence"]
+myst_enable_extensions = ["colon_fence", "html_image"]
 numpydoc_show_class_members = False
 autodoc_member_order = "alphabetical"
 autodoc_typehints = "none"
 autodoc_use_type_comments = False
-
-
-CHAPTERS = sorted(page.stem for page in (Path(__file__).parent / "course").glob("[1-8]-*.md"))
-"""Those of the course."""
-
-CONTENTS = {
-    "Start": (
-        "first-drawing",
-        "for_plotters",
-        "for_latex",
-        "workshop",
-        "for_notebooks",
-        "for_tests",
-        "certificates",
-        "how-to",
-        "concepts",
-        "gallery/README",
-    ),
-    "A course": ("course/README", *(f"course/{chapter}" for chapter in CHAPTERS)),
-    "What it does": (
-        *("drawing", "feature-lines", "cuts", "labels", "hatching", "paint", "render", "colour-maps"),
-        *("viewer", "animation", "movies", "many-pictures", "scene-language", "molecules", "landscapes"),
-        *("curves-on-surfaces", "own-surfaces", "textbook"),
-    ),
-    "Reference": ("command", "python", "reference/vectorplot", *(f"reference/{room}" for room in ROOMS)),
-    "How exact, how fast": ("accuracy-and-limits", "accuracy", "stability", "speed", "tolerances"),
-    "About": ("errata", "bibliography", "coverage"),
-}
-"""The pages, by the headings they stand under."""
 
 
 def reference(app: Sphinx) -> None:
@@ -80,19 +53,34 @@ def reference(app: Sphinx) -> None:
 
 
 def with_contents(app: Sphinx, name: str, source: list[str]) -> None:
-    """The front page gets the table of contents that the site shows beside every page."""
+    """The front page gets the table of contents that the site shows beside every page: its headings, and the pages it
+    lists below them."""
     if name == "index":
-        for heading, pages in CONTENTS.items():
-            source[0] += "\n```{toctree}\n:hidden:\n:caption: " + heading + "\n\n" + "\n".join(pages) + "\n```\n"
+        for section in source[0].split("\n## ")[1:]:
+            heading, _, text = section.partition("\n")
+            pages = re.findall(r"^\| \[.*\]\((.*)\.md\)", text, flags=re.MULTILINE)
+            if heading == "Reference":
+                pages += [f"reference/{room}" for room in ("vectorplot", *ROOMS)]
+            if pages:
+                source[0] += "\n```{toctree}\n:hidden:\n:caption: " + heading + "\n\n" + "\n".join(pages) + "\n```\n"
 
 
 def without_links_outside(app: Sphinx, name: str, source: list[str]) -> None:
     """Links to files of the repository that are no pages become their texts."""
+    folder = (Path(app.srcdir) / name).parent
 
     def shown(link: re.Match[str]) -> str:
-        return f"`{link[1].strip('`')}`"
+        inside = (folder / link[2]).resolve().is_relative_to(Path(app.srcdir).resolve())
+        return link[0] if inside else f"`{link[1].strip('`')}`"
 
-    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\(\.\./[^)]*\)", shown, source[0])
+    source[0] = re.sub(r"(?<!!)\[([^\]]+)\]\((\.\./[^)#]*)[^)]*\)", shown, source[0])
+
+
+def with_long_names(app: Sphinx, doctree: nodes.document) -> None:
+    """Names of tests and the like may break anywhere, so that tables of them fit their page."""
+    for literal in doctree.findall(nodes.literal):
+        if max(map(len, literal.astext().split()), default=0) > 30:
+            literal["classes"].append("long")
 
 
 def setup(app: Sphinx) -> None:
@@ -110,3 +98,4 @@ def setup(app: Sphinx) -> None:
     app.connect("builder-inited", reference)
     app.connect("source-read", without_links_outside)
     app.connect("source-read", with_contents)
+    app.connect("doctree-read", with_long_names)

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import importlib.util
 import re
+import shlex
 import shutil
 import stat
+from pathlib import Path
 
 import pytest
 from support.paths import ROOT
 
 import vectorplot as vp
+from vectorplot.cli.main import run
 
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 BLOCKS = re.findall(r"```(\w+)\n(.*?)```", README, flags=re.DOTALL)
@@ -53,6 +56,20 @@ def test_the_drawing_of_the_readme_is_the_picture_beside_it():
     assert (ROOT / "data" / "house.scene").read_text(encoding="utf-8").endswith(text)
     commands = next(block for block in shell_blocks() if "mine.scene" in block).splitlines()
     assert commands[0] == ". .venv/bin/activate" and all(line.startswith("vectorplot ") for line in commands[1:])
+
+
+def test_the_certificate_of_the_readme_is_checked_as_it_says(tmp_path, monkeypatch):
+    scene = next(text for language, text in BLOCKS if language == "text" and "page A5" in text)
+    commands = next(block for block in shell_blocks() if "--certificate" in block).splitlines()[1:]
+    draw, check = (shlex.split(command) for command in commands)
+    assert draw[:1] == ["vectorplot"] and check[:2] == ["python", "-m"]
+    main = importlib.import_module(check[2]).main
+    monkeypatch.chdir(tmp_path)
+    without_ball = "".join(line for line in scene.splitlines(keepends=True) if not line.startswith("BALL"))
+    for text, status in ((scene, 2), (without_ball, 0)):
+        Path("mine.scene").write_text(text, encoding="utf-8")
+        assert run(draw[1:]) == 0
+        assert main(check[3:]) == status
 
 
 def test_the_stages_of_the_readme_are_those_of_its_pictures():

@@ -6,9 +6,12 @@ import re
 import shutil
 import subprocess
 import sys
+from contextlib import closing
 from pathlib import Path
 
 import pytest
+from playwright.sync_api import sync_playwright
+from support.browser import launched
 from support.paths import ROOT
 
 DOCS = ROOT / "docs"
@@ -28,6 +31,24 @@ mistakes in sphinx, and without the index of words in the pages, of which there 
 time."""
 
 
+WIDER = "document.scrollingElement.scrollWidth - innerWidth"
+PAPER = "[...new Set([...document.querySelectorAll('article img')].map(i => getComputedStyle(i).backgroundColor))]"
+TALL = "Math.max(...[...document.querySelectorAll('article img')].map(i => i.getBoundingClientRect().height))"
+
+
+def assert_pages_fit_phones_and_the_dark(site: Path) -> None:
+    """No page is wider than a phone, and pictures, whose lines are black, lie on white paper where pages are dark."""
+    shown = "index gallery/README accuracy stability command scene-language course/2-hidden-line coverage".split()
+    with sync_playwright() as playwright, closing(launched(playwright)) as browser:
+        page = browser.new_page(viewport={"width": 390, "height": 800}, color_scheme="dark")
+        for name in shown:
+            page.goto((site / f"{name}.html").as_uri())
+            assert page.evaluate(WIDER) <= 0, name
+            assert page.evaluate(PAPER) in ([], ["rgb(255, 255, 255)"]), name
+            if name == "gallery/README":
+                assert page.evaluate(TALL) == 220, "as high as docs/gallery.py says"
+
+
 @pytest.mark.slow
 def test_the_site_is_built_without_a_warning_from_all_pages(tmp_path: Path) -> None:
     source, site = tmp_path / "docs", tmp_path / "site"
@@ -43,6 +64,16 @@ def test_the_site_is_built_without_a_warning_from_all_pages(tmp_path: Path) -> N
     assert all((site / page).stat().st_size > 1000 for page in pages)
     front = (site / "index.html").read_text(encoding="utf-8")
     assert all(f'href="{page.as_posix()}"' in front for page in pages if page.stem != "index")
+    beside = front[front.index('class="sidebar-tree"') : front.index('<div class="main">')]
+    listed = re.findall(r"^\| \[.*\]\((.*)\.md\)", (DOCS / "index.md").read_text(encoding="utf-8"), flags=re.MULTILINE)
+    assert [link for link in re.findall(r'href="(.*?)\.html"', beside) if "reference/" not in link] == listed
+    for page in site.rglob("*.html"):
+        pictures = re.findall(r'<img [^>]*src="([^"]+)"', page.read_text(encoding="utf-8"))
+        assert all((page.parent / picture).is_file() for picture in pictures), page.name
+    assert (site / "gallery" / "README.html").read_text(encoding="utf-8").count("<img ") > 200
+    film = (site / "course" / "8-film.html").read_text(encoding="utf-8")
+    assert 'href="../animation.html"' in film, "links between folders of pages stay links"
     surfaces = (site / "reference" / "surfaces.html").read_text(encoding="utf-8")
     assert re.search(r"vectorplot\.surfaces.*Torus", surfaces, re.DOTALL)
+    assert_pages_fit_phones_and_the_dark(site)
     assert "http-equiv" not in front and 'src="http' not in front, "nothing is loaded from elsewhere"

@@ -5,6 +5,7 @@ import re
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from course.solutions import RIGHT, WRONG
 from support.paths import ROOT
@@ -38,6 +39,30 @@ def test_the_figures_of_a_page_are_those_that_its_python_draws(page):
         assert (FIGURES.FIGURES / name).read_bytes() == content, f"{name}: python docs/course.py {page.stem}"
 
 
+def changed(stem, old, new):
+    """What the first block of a page leaves, with one of its numbers changed, as the page asks its readers to."""
+    (page,) = (page for page in FIGURES.PAGES if page.stem == stem)
+    block = re.findall(r"```python\n(.*?)```", page.read_text("utf-8"), flags=re.DOTALL)[0]
+    assert old in block
+    names = {}
+    exec(compile(block.replace(old, new), page.name, "exec"), names)
+    return names
+
+
+def test_a_line_moved_before_the_triangle_pierces_it_as_the_page_says():
+    found = changed("2-hidden-line", "p, q = np.array([-2.0, 4.0, 0.0])", "p, q = np.array([-2.0, -1.0, 0.0])")
+    (piece,) = np.flatnonzero(found["is_hidden"])
+    begin = found["p"] + found["t"][piece] * (found["q"] - found["p"])
+    assert abs(found["heights"](begin)[3]) < 1e-12, "on the plane of the triangle"
+    found = changed("2-hidden-line", "p, q = np.array([-2.0, 4.0, 0.0])", "p, q = np.array([-2.0, -2.0, 0.0])")
+    assert not found["is_hidden"].any()
+
+
+def test_a_line_that_no_plate_hides_is_one_gap():
+    found = changed("3-zone", "np.array([-7.0, 4.0, -0.6])", "np.array([-7.0, 4.0, 60.0])")
+    assert found["gaps"]([]).tolist() == [[0.0, 1.0]]
+
+
 def test_every_figure_is_shown():
     shown = {name for page in FIGURES.PAGES for name in re.findall(r"figures/(\w+\.svg)\)", page.read_text("utf-8"))}
     assert {path.name for path in FIGURES.FIGURES.glob("*")} == shown
@@ -67,6 +92,12 @@ def test_every_exercise_has_a_wrong_answer_too():
     assert {(number, name) for number, name, *_ in WRONG} == {
         (n, answer.__name__) for n in RIGHT for answer in RIGHT[n]
     }
+
+
+def test_a_chapter_that_there_is_not_is_said():
+    command = [sys.executable, str(DOCS / "course" / "check.py"), "nine"]
+    done = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, timeout=60)
+    assert done.returncode == 1 and done.stderr == "no chapter nine: expected 1 to 8\n"
 
 
 def test_what_is_not_filled_in_is_not_done_yet():

@@ -388,7 +388,7 @@ def main(names: list[str]) -> int:
     try:
         wrong, unproven, counts = check(*(json.loads(Path(name).read_bytes()) for name in names))
     except (OSError, ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
-        sys.stderr.write(f"cannot check: {type(error).__name__}: {error}\n")
+        sys.stderr.write(f"cannot check: {type(error).__name__}: {error}; expected drawing.json certificate.json\n")
         return 3
     told = [*(f"wrong: {line}" for line in wrong), *(f"not proven: {line}" for line in unproven)]
     told.append(", ".join(f"{number} {name}" for name, number in counts.items()))

@@ -27,7 +27,7 @@ def accuracy(
     """Measure the error of every approximation of the package over its knob, and the time it takes, beside the exact or
     the finest result; or of those with a NAME.
 
-    All together takes a minute or two. Errors are the same on every run; seconds are those of the processor, on one
+    All together takes about half a minute. Errors are the same on every run; seconds are those of the processor, on one
     thread.
     """
     from vectorplot.accuracy.results import as_text, listed

@@ -80,7 +80,7 @@ if TYPE_CHECKING:
         "--certificate",
         type=click.Path(dir_okay=False),
         metavar="FILE",
-        help="Also write what proves each stroke visible or hidden, as JSON.",
+        help="Also write what proves each stroke visible or hidden, as JSON; it is checked beside OUT as JSON.",
     ),
 )
 def draw(scene: Scene, **told: Any) -> Drawing:
