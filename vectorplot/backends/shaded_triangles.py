@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import warnings
+from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cached_property
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -277,11 +279,15 @@ class _Sides:
         count = len(self.covers)
         return np.bincount(self.owner, doubled, count) / np.bincount(self.owner, length, count)
 
+    @cached_property
+    def mean(self) -> Floats:
+        """(m,3) the colours of polygons in the middle."""
+        sums = np.add.reduceat(self.areas.colours.astype(np.float64), self.areas.offsets[:-1])
+        return np.asarray(sums / self.areas.sizes[:, None])
+
     def alike(self, one: Ints, two: Ints) -> Bools:
         """(k,) whether polygons (k,) are of one item and kind and have about one colour."""
-        starts = self.areas.offsets[:-1]
-        mean = np.add.reduceat(self.areas.colours.astype(np.float64), starts) / self.areas.sizes[:, None]
-        near = (np.abs(mean[one] - mean[two]) <= ALIKE).all(axis=1)
+        near = (np.abs(self.mean[one] - self.mean[two]) <= ALIKE).all(axis=1)
         return np.asarray(near & (self.areas.look[one] == self.areas.look[two]))
 
 
@@ -402,9 +408,7 @@ def _plainly_amid(sides: _Sides, which: Bools, ends: Ints) -> Bools:
     spans = (((high - low) // cell) + 2).prod(axis=1).sum()
     if spans > _CELLS_A_POLYGON * len(covers) + _FEW_CELLS:
         return np.zeros_like(which)
-    starts = sides.areas.offsets[:-1]
-    mean = np.add.reduceat(sides.areas.colours.astype(np.float64), starts) / sides.areas.sizes[:, None]
-    rows_of = np.column_stack([mean, sides.areas.look])[covers]
+    rows_of = np.column_stack([sides.mean, sides.areas.look])[covers]
     within, first = cells(low, high)
     of = ragged.owner(np.diff(first))
     least, most = np.full((columns * rows, 4), np.inf), np.full((columns * rows, 4), -np.inf)
@@ -442,12 +446,13 @@ def _amid(sides: _Sides, which: Bools) -> Bools:
     solid = np.flatnonzero(sides.covers)
     corner, offsets = ragged.take(sides.areas.offsets, solid)
     tree = shapely.STRtree(polygons_of(sides.microns[corner].T.astype(np.float64), offsets))
-    place, found = _near(tree, shapely.points(places))
-    # What reaches there is painted over by later ones, and over earlier ones: the last one is seen but for it.
-    top = np.full(len(places), -1, dtype=np.intp)
-    np.maximum.at(top, place, solid[found])
-    hidden = (top > owner) | sides.alike(owner, top)
-    inside[place[sides.alike(owner[place], solid[found]) & hidden[place]]] = True
+    for some, (place, found) in _near(tree, places):
+        own, there = owner[some], solid[found]
+        # What reaches there is painted over by later ones, and over earlier ones: the last one is seen but for it.
+        top = np.full(len(own), -1, dtype=np.intp)
+        np.maximum.at(top, place, there)
+        hidden = (top > own) | sides.alike(own, top)
+        inside[some][place[sides.alike(own[place], there) & hidden[place]]] = True
     return np.asarray(which & (np.bincount(owner, weights=~inside, minlength=len(which)) == 0.0))
 
 
@@ -460,18 +465,16 @@ def _is_crowded(found: int, asked: int, count: int) -> bool:
     return crowded
 
 
-def _near(tree: shapely.STRtree, shapes: NDArray[np.object_]) -> NDArray[np.int64]:
-    """(2,k) the shapes and those of a tree that they meet, all of one shape before those of the next; none where they
-    are crowded."""
-    some = shapes[:: 1 + len(shapes) // _ASKED_AT_ONCE]
-    found = [np.zeros((2, 0), dtype=np.int64)]
-    if _is_crowded(tree.query(some).shape[1], len(some), len(shapes)):
-        return found[0]
-    for start in range(0, len(shapes), _ASKED_AT_ONCE):
-        near = tree.query(shapes[start : start + _ASKED_AT_ONCE], predicate="intersects")
-        near[0] += start
-        found.append(near)
-    return np.concatenate(found, axis=1)
+def _near(tree: shapely.STRtree, places: Floats) -> Iterator[tuple[slice, NDArray[np.int64]]]:
+    """Runs of places (n,2), and (2,k) which of each meet which shapes of a tree, all of one place before those of the
+    next; nothing where they are crowded."""
+    import shapely
+
+    some = shapely.points(places[:: 1 + len(places) // _ASKED_AT_ONCE])
+    if _is_crowded(tree.query(some).shape[1], len(some), len(places)):
+        return
+    for run in in_turn(slices(len(places), _ASKED_AT_ONCE)):
+        yield run, tree.query(shapely.points(places[run]), predicate="intersects")
 
 
 def _under_hollow(sides: _Sides, other: Ints) -> Floats:
