@@ -136,25 +136,6 @@ def test_modules_that_pages_name_exist():
         assert importlib.util.find_spec(f"vectorplot.{name}") is not None, name
 
 
-def test_the_numbers_of_the_pages_are_those_of_the_code():
-    from vectorplot.drawing.layers import PENS
-    from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG, ULPS
-    from vectorplot.tolerances import NEAR_OF_DISTANCE, ZERO_OF_EXTENT
-    from vectorplot.visibility.polyhedra.occluders import MAX_SOLID_FACES
-
-    limits = (DOCS / "accuracy-and-limits.md").read_text(encoding="utf-8")
-    for number in (
-        f"up to {MAX_SOLID_FACES} faces",
-        f"more than {FARTHEST_OFF_AXIS_DEG:g} degrees",
-        f"{ULPS:g} rounding steps",
-    ):
-        assert number in limits
-    assert ZERO_OF_EXTENT == 1e-9 and "1e-9 of the extent" in limits
-    assert NEAR_OF_DISTANCE == 1e-4 and "1e-4 of the smaller" in limits
-    widths = ", ".join(f"{pen.width_mm:g}" for pen in PENS.values())
-    assert f"{widths} mm" in (DOCS / "drawing.md").read_text(encoding="utf-8")
-
-
 def test_the_page_of_the_textbook_names_every_file_of_it():
     from vectorplot import textbook
 
