@@ -7,6 +7,7 @@ import re
 import pytest
 from support.paths import ROOT
 
+import vectorplot as vp
 from vectorplot.backends import shaded_triangles, svg
 from vectorplot.curves.derivatives import FENCE
 from vectorplot.drawing.drawing import Pen
@@ -25,10 +26,12 @@ from vectorplot.geometry.budget import USUAL
 from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG, ULPS
 from vectorplot.io import molecules
 from vectorplot.pictures import pixels
+from vectorplot.pictures.plan import plan_bodies, plan_paint
 from vectorplot.scene import pens
 from vectorplot.shading import facet_resolution, illumination, image, palettes, scene_pixels, screen, shadow_maps
 from vectorplot.shading.painted_colours import VARIED
 from vectorplot.shading.pixel_coverage import SUBPIXELS
+from vectorplot.surfaces import Sphere
 from vectorplot.testing.rays import CELLS
 from vectorplot.tolerances import (
     ARC_OF_TOLERANCE,
@@ -159,3 +162,32 @@ def test_kinds_layers_and_fills_of_a_drawing_stand_on_its_page() -> None:
     assert re.findall(r"`(\w+)`", "".join(re.findall(r"^\|([^|]*)\|", rows, re.M))) == [kind.word for kind in LineKind]
     assert ", ".join(f"`{number} {name}`" for number, name in enumerate(PENS, 1)) in re.sub(r" \([^)]*\)", "", text)
     assert {kind.name.lower() for kind in FillKind} <= set(re.findall(r"\w+", text.partition("`kind` is")[2][:200]))
+
+
+def test_the_table_of_materials_is_that_of_the_code() -> None:
+    text = (ROOT / "docs" / "render.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| `(\w+)` \| ([\d.]+) \| ([\d.]+) \| ?([\d.]*)", text, re.MULTILINE)
+    said = {word: (float(exponent), float(diffuse), float(sharp or 0)) for word, exponent, diffuse, sharp in rows}
+    finishes = illumination.FINISHES.items()
+    assert said == {word: (f.exponent, f.diffuse, f.sharpness if f.highlight else 0.0) for word, f in finishes}
+
+
+def test_the_stages_of_paint_stand_on_its_page() -> None:
+    text = (ROOT / "docs" / "paint.md").read_text(encoding="utf-8")
+    table = text.partition("| stage | when |")[2].partition("\n\n")[0]
+    stages = {name for row in re.findall(r"^\| ([^|]+) \|", table, re.MULTILINE) for name in row.split(", ")}
+    lamp, mesh = vp.Light((1.0, 2.0, 3.0)), vp.geometry.box((1.0, 1.0, 1.0))
+    glass_of, flag = vp.Material("transparent", refraction=1.5), vp.Pattern("", "red", 0, ((0, 0), (1, 0), (0, 1)))
+    items = (
+        vp.Item("mirror", mesh, material=vp.Material("mirror")),
+        vp.Item("glass", mesh, material=glass_of, patterns=(flag,)),
+        vp.Item("ball", Sphere(1.0)),
+    )
+    scenes = [vp.Scene(items, (lamp,)), vp.Scene(items[2:])]
+    planned = {
+        stage.name
+        for scene in scenes
+        for fills in ("painted", "visible", "erasing")
+        for stage in plan_bodies(plan_paint(scene, "auto", fills, frozenset({LineKind.CONTOUR})))
+    }
+    assert planned == stages - {"---"}
