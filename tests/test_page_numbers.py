@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from pathlib import Path
 
 import pytest
 from support.paths import ROOT
@@ -27,6 +28,7 @@ from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG, ULPS
 from vectorplot.io import molecules
 from vectorplot.pictures import pixels
 from vectorplot.pictures.plan import plan_bodies, plan_paint
+from vectorplot.save import write
 from vectorplot.scene import pens
 from vectorplot.shading import facet_resolution, illumination, image, palettes, scene_pixels, screen, shadow_maps
 from vectorplot.shading.painted_colours import VARIED
@@ -191,3 +193,20 @@ def test_the_stages_of_paint_stand_on_its_page() -> None:
         for stage in plan_bodies(plan_paint(scene, "auto", fills, frozenset({LineKind.CONTOUR})))
     }
     assert planned == stages - {"---"}
+
+
+@pytest.mark.parametrize(
+    ("row", "shape"),
+    [
+        ("sphere, in bands", "sphere 1"),
+        ("torus", "torus 3 1"),
+        ("Dupin's cyclide", "cyclide 3 1 centre 6.5 0 0 radius 5"),
+    ],
+)
+def test_files_are_as_large_as_the_page_says(row: str, shape: str, tmp_path: Path) -> None:
+    """Those in SVG at a tolerance of 0.2 mm, to five of a hundred."""
+    text = (ROOT / "docs" / "paint.md").read_text(encoding="utf-8")
+    said = re.search(rf"^\| {row} \|" + r" (?:\d+) \|" * 6 + r" (\d+) \|", text, re.MULTILINE)
+    (tmp_path / "one.scene").write_text(f"S gray surface {shape}\n", encoding="utf-8")
+    size = len(write(vp.paint(tmp_path / "one.scene", tolerance_mm=0.2), "svg")) / 1000.0
+    assert said is not None and size == pytest.approx(float(said[1]), rel=0.05)
