@@ -15,7 +15,7 @@ from vectorplot.drawing.drawing import Pen
 from vectorplot.drawing.fill_visibility import MOST_CLEAR, MOST_LAYERS
 from vectorplot.drawing.fills import SEAM_MM, FillKind
 from vectorplot.drawing.layers import PENS
-from vectorplot.effects import glass
+from vectorplot.effects import glass, soft_shadows
 from vectorplot.effects.shadow_casters import EACH, SAMPLE
 from vectorplot.effects.shadows import MANY_CELLS, MOST_CELLS, MOST_LIGHTS
 from vectorplot.features import geodesic_curves, parameter_curves, surface_integration
@@ -26,7 +26,7 @@ from vectorplot.features.pinch_points import COLUMNS, ROWS
 from vectorplot.geometry.budget import USUAL
 from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG, ULPS
 from vectorplot.io import molecules
-from vectorplot.pictures import pixels
+from vectorplot.pictures import banded_bodies, pixels, plan
 from vectorplot.pictures.plan import plan_bodies, plan_paint
 from vectorplot.save import write
 from vectorplot.scene import pens
@@ -153,6 +153,8 @@ def test_numbers_that_pages_say_in_words_are_those_of_the_code() -> None:
     assert VARIED == 2.0 / palettes.PALETTE_SIZE
     assert facet_resolution.SHADE_ERROR == 2.0 / 255.0 and facet_resolution.SHADE_LIMITS == (0.5, 4.0)
     assert (facet_resolution.DEEP_IN_LIGHT, facet_resolution.LEAST_DEEP) == (3.0, 5.0)
+    assert (banded_bodies.MIDDLING_MM, banded_bodies.NARROWEST, banded_bodies.WIDEST) == (10.0, 0.5, 2.0)
+    assert plan.DEEP == 2.0 and soft_shadows.LEVELS == 9
     assert molecules.BALL_OF_RADIUS == 0.25
     assert Pen().width_mm == 0.3
     assert screen.LARGEST_RASTER_PIXELS == 1 << 27 and shadow_maps.MOST_TEXELS == 1 << 28
