@@ -130,10 +130,44 @@ def test_the_names_that_pages_and_examples_use_are_public():
         assert getattr(vp, name) is not None
 
 
-def test_modules_that_pages_name_exist():
-    text = (DOCS / "python.md").read_text(encoding="utf-8") + (DOCS / "accuracy-and-limits.md").read_text("utf-8")
-    for name in re.findall(r"`((?:geometry|io|save|testing)\.\w+)(?:\.\w+)?`", text):
-        assert importlib.util.find_spec(f"vectorplot.{name}") is not None, name
+ROOMS = sorted(stub.parent.name for stub in (ROOT / "vectorplot").glob("*/__init__.pyi"))
+"""Those with a list of what they export."""
+
+
+def code_of(page: Path) -> list[str]:
+    """What a page shows as code within its sentences and tables."""
+    prose = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    return re.findall(r"`([^`\n]+)`", prose)
+
+
+def is_name(path: str) -> bool:
+    """Whether something in a room has a dotted name; what follows a class is not looked at."""
+    room, *parts = path.split(".")
+    found, place = importlib.import_module(f"vectorplot.{room}"), f"vectorplot.{room}"
+    for part in parts:
+        place += f".{part}"
+        if isinstance(found, type) or part == "py":
+            return True
+        if not hasattr(found, part) and importlib.util.find_spec(place) is None:
+            return False
+        found = getattr(found, part, None) or importlib.import_module(place)
+    return True
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_names_in_the_sentences_of_a_page_exist(page):
+    public = {name for room in ROOMS for name in importlib.import_module(f"vectorplot.{room}").__all__} | set(
+        vp.__all__
+    )
+    for code in code_of(page):
+        dotted = re.fullmatch(rf"(?:vectorplot\.)?((?:{'|'.join(ROOMS)}|io|save)(?:\.\w+)+)(?:\(.*)?", code)
+        # A drawing, painted polygons and the like have fields.
+        if dotted and not re.match(r"drawing\.[a-z]", code):
+            assert is_name(dotted[1]), code
+        for made in re.findall(r"(?<![\w./\"-])([A-Z][a-z]+[A-Z]\w*|[A-Z][a-z]+)\(", code):
+            assert made in public, code
+        if re.fullmatch(r"(?:vectorplot|docs|examples|data|tests)/[\w./-]+\.\w+", code):
+            assert (ROOT / code).exists(), code
 
 
 def test_the_page_of_the_textbook_names_every_file_of_it():
