@@ -36,6 +36,12 @@ def blocks(page: Path, language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", page.read_text(encoding="utf-8"), flags=re.DOTALL)
 
 
+def code_of(page: Path) -> list[str]:
+    """What a page shows as code within its sentences and tables."""
+    prose = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    return re.findall(r"`([^`\n]+)`", prose)
+
+
 COMMANDS = [
     line
     for page in PAGES
@@ -43,6 +49,11 @@ COMMANDS = [
     for line in block.splitlines()
     if line.startswith("vectorplot ") and "INPUT" not in line and "NAME" not in line
 ]
+
+VERBS = [accuracy, animate, contact_sheet, draw, info, paint, render, replay, sheet, speed, try_]
+
+FOREIGN = {"--help", "--no-deps", "--hypothesis-profile", "--nthreads"}
+"""Options of other programs that pages name, and of all commands."""
 
 FILES = {
     name: text
@@ -95,7 +106,7 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
 
 @pytest.mark.parametrize(
     "command",
-    [accuracy, animate, contact_sheet, draw, info, paint, render, replay, sheet, speed, try_],
+    VERBS,
     ids=lambda command: command.name,
 )
 def test_every_option_is_on_the_page_of_the_command(command):
@@ -104,6 +115,15 @@ def test_every_option_is_on_the_page_of_the_command(command):
         for option in (*parameter.opts, *parameter.secondary_opts):
             if option.startswith("-"):
                 assert f"`{option}" in page, option
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_options_in_the_sentences_of_a_page_exist(page):
+    named = {option for code in code_of(page) for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", code)}
+    known = {
+        option for verb in VERBS for parameter in verb.params for option in (*parameter.opts, *parameter.secondary_opts)
+    }
+    assert named <= known | FOREIGN
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -132,12 +152,6 @@ def test_the_names_that_pages_and_examples_use_are_public():
 
 ROOMS = sorted(stub.parent.name for stub in (ROOT / "vectorplot").glob("*/__init__.pyi"))
 """Those with a list of what they export."""
-
-
-def code_of(page: Path) -> list[str]:
-    """What a page shows as code within its sentences and tables."""
-    prose = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
-    return re.findall(r"`([^`\n]+)`", prose)
 
 
 def is_name(path: str) -> bool:
