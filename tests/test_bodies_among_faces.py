@@ -12,7 +12,7 @@ from support.top_fills import colours_at, fills_of, top_at
 import vectorplot as vp
 from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry import box as box_at_origin
-from vectorplot.surfaces import Capped, Frustum, Sphere, rod
+from vectorplot.surfaces import Capped, Frustum, Sphere, Torus, rod
 
 CAMERAS = {"central": vp.Camera((9, -12, 8), (1, 1, 1)), "parallel": vp.Camera((9, -12, 8), (1, 1, 1), parallel=True)}
 LAMP, SUN = vp.Light((7, -8, 9)), vp.Light((-4, -5, 7), intensity=0.4, parallel=True)
@@ -149,6 +149,7 @@ def test_an_open_sheet_throws_its_shadow(cast):
     "item",
     [
         pytest.param(cuboid("PIERCED", (1, 1, 1), (0.8, 0, 1)), id="a box that pierces it"),
+        pytest.param(vp.Item("RING", Torus(1.0, 0.3, (3.5, -4, 5)), "blue"), id="what is not convex before its lamp"),
         pytest.param(vp.Item("GLASS", box((1, 1, 1), origin=(3, 0, 0)), "blue", vp.Material(opacity=0.5)), id="glass"),
         pytest.param(vp.Item("MIRROR", box((1, 1, 1), origin=(3, 0, 0)), "blue", vp.Material("mirror")), id="mirror"),
     ],

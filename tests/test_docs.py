@@ -36,6 +36,12 @@ def blocks(page: Path, language: str) -> list[str]:
     return re.findall(rf"```{language}\n(.*?)```", page.read_text(encoding="utf-8"), flags=re.DOTALL)
 
 
+def code_of(page: Path) -> list[str]:
+    """What a page shows as code within its sentences and tables."""
+    prose = re.sub(r"```.*?```", "", page.read_text(encoding="utf-8"), flags=re.DOTALL)
+    return re.findall(r"`([^`\n]+)`", prose)
+
+
 COMMANDS = [
     line
     for page in PAGES
@@ -43,6 +49,11 @@ COMMANDS = [
     for line in block.splitlines()
     if line.startswith("vectorplot ") and "INPUT" not in line and "NAME" not in line
 ]
+
+VERBS = [accuracy, animate, contact_sheet, draw, info, paint, render, replay, sheet, speed, try_]
+
+FOREIGN = {"--help", "--no-deps", "--hypothesis-profile", "--nthreads"}
+"""Options of other programs that pages name, and of all commands."""
 
 FILES = {
     name: text
@@ -95,7 +106,7 @@ def test_the_commands_of_the_pages_work(command, checkout, capfdbinary):
 
 @pytest.mark.parametrize(
     "command",
-    [accuracy, animate, contact_sheet, draw, info, paint, render, replay, sheet, speed, try_],
+    VERBS,
     ids=lambda command: command.name,
 )
 def test_every_option_is_on_the_page_of_the_command(command):
@@ -104,6 +115,15 @@ def test_every_option_is_on_the_page_of_the_command(command):
         for option in (*parameter.opts, *parameter.secondary_opts):
             if option.startswith("-"):
                 assert f"`{option}" in page, option
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_options_in_the_sentences_of_a_page_exist(page):
+    named = {option for code in code_of(page) for option in re.findall(r"(?<![\w-])--[a-z][\w-]*", code)}
+    known = {
+        option for verb in VERBS for parameter in verb.params for option in (*parameter.opts, *parameter.secondary_opts)
+    }
+    assert named <= known | FOREIGN
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
@@ -130,29 +150,38 @@ def test_the_names_that_pages_and_examples_use_are_public():
         assert getattr(vp, name) is not None
 
 
-def test_modules_that_pages_name_exist():
-    text = (DOCS / "python.md").read_text(encoding="utf-8") + (DOCS / "accuracy-and-limits.md").read_text("utf-8")
-    for name in re.findall(r"`((?:geometry|io|save|testing)\.\w+)(?:\.\w+)?`", text):
-        assert importlib.util.find_spec(f"vectorplot.{name}") is not None, name
+ROOMS = sorted(stub.parent.name for stub in (ROOT / "vectorplot").glob("*/__init__.pyi"))
+"""Those with a list of what they export."""
 
 
-def test_the_numbers_of_the_pages_are_those_of_the_code():
-    from vectorplot.drawing.layers import PENS
-    from vectorplot.geometry.projections import FARTHEST_OFF_AXIS_DEG, ULPS
-    from vectorplot.tolerances import NEAR_OF_DISTANCE, ZERO_OF_EXTENT
-    from vectorplot.visibility.polyhedra.occluders import MAX_SOLID_FACES
+def is_name(path: str) -> bool:
+    """Whether something in a room has a dotted name; what follows a class is not looked at."""
+    room, *parts = path.split(".")
+    found, place = importlib.import_module(f"vectorplot.{room}"), f"vectorplot.{room}"
+    for part in parts:
+        place += f".{part}"
+        if isinstance(found, type) or part == "py":
+            return True
+        if not hasattr(found, part) and importlib.util.find_spec(place) is None:
+            return False
+        found = getattr(found, part, None) or importlib.import_module(place)
+    return True
 
-    limits = (DOCS / "accuracy-and-limits.md").read_text(encoding="utf-8")
-    for number in (
-        f"up to {MAX_SOLID_FACES} faces",
-        f"more than {FARTHEST_OFF_AXIS_DEG:g} degrees",
-        f"{ULPS:g} rounding steps",
-    ):
-        assert number in limits
-    assert ZERO_OF_EXTENT == 1e-9 and "1e-9 of the extent" in limits
-    assert NEAR_OF_DISTANCE == 1e-4 and "1e-4 of the smaller" in limits
-    widths = ", ".join(f"{pen.width_mm:g}" for pen in PENS.values())
-    assert f"{widths} mm" in (DOCS / "drawing.md").read_text(encoding="utf-8")
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_names_in_the_sentences_of_a_page_exist(page):
+    public = {name for room in ROOMS for name in importlib.import_module(f"vectorplot.{room}").__all__} | set(
+        vp.__all__
+    )
+    for code in code_of(page):
+        dotted = re.fullmatch(rf"(?:vectorplot\.)?((?:{'|'.join(ROOMS)}|io|save)(?:\.\w+)+)(?:\(.*)?", code)
+        # A drawing, painted polygons and the like have fields.
+        if dotted and not re.match(r"drawing\.[a-z]", code):
+            assert is_name(dotted[1]), code
+        for made in re.findall(r"(?<![\w./\"-])([A-Z][a-z]+[A-Z]\w*|[A-Z][a-z]+)\(", code):
+            assert made in public, code
+        if re.fullmatch(r"(?:vectorplot|docs|examples|data|tests)/[\w./-]+\.\w+", code):
+            assert (ROOT / code).exists(), code
 
 
 def test_the_page_of_the_textbook_names_every_file_of_it():

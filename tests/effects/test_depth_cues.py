@@ -72,6 +72,11 @@ def test_what_is_farthest_has_a_fifth_of_its_pen_and_its_colour():
         assert (pen.width_mm, pen.colour) == (pytest.approx(width), colour)
 
 
+def test_a_plotter_takes_five_pens_for_one_colour():
+    drawing = vp.draw(vp.geometry.box((1.0, 1.0, 1.0)), style="plotter", layers="colour", depth_cue="width")
+    assert [layer.pen.width_mm for layer in drawing.layers] == pytest.approx([0.06, 0.12, 0.18, 0.24, 0.3])
+
+
 def test_curves_keep_their_tolerance_and_hidden_lines_their_dashes():
     coil = vp.Scene((vp.Item("COIL", Helix(1.0, 0.1)), vp.Item("BALL", Sphere(0.9))))
     drawing = vp.draw(coil, CAMERA, depth_cue="width,6", curves="bezier", hidden="dashed")

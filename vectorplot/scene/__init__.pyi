@@ -2,7 +2,7 @@ from .added_lines import even_sections, round_sections, with_lines
 from .cuts import Cut, CutPlane
 from .face_looks import FaceLook, FaceLooks
 from .item import SurfaceNormals
-from .pens import DepthCue
+from .pens import DepthCue, PenOverrides
 from .scales import BoxAxes, Colouring, Fields
 from .surface_lines import (
     FieldLines,
@@ -31,6 +31,7 @@ __all__ = [
     "Fields",
     "GeodesicLines",
     "GeodesicsBetween",
+    "PenOverrides",
     "Roads",
     "Serpentine",
     "ShortestPaths",

@@ -33,8 +33,24 @@ FINEST_MM = 0.01
 class PenOverrides:
     """The style, the pens and the dashes that a scene asks for; what `vp.draw` is told comes before them.
 
-    style: the name of a style, or a file that ends in .toml; pens: see `vp.draw`: kinds of lines, items, or
-    item.kind, and WIDTH, COLOUR or WIDTH:COLOUR; dashes: see `vp.draw`: the same, and DASH,GAP or none.
+    Parameters
+    ----------
+    style : str, optional
+        The name of a style, or a file that ends in .toml.
+    pens : mapping of str
+        For kinds of lines, items, or item.kind: WIDTH, COLOUR or WIDTH:COLOUR, as in `vp.draw`.
+    dashes : mapping of str
+        For the same: DASH,GAP in mm, or none.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.scene import PenOverrides
+    >>> inks = PenOverrides("book", {"contour": "0.7:red"})
+    >>> cube = vp.Item("cube", vp.geometry.box((1, 1, 1)))
+    >>> drawing = vp.draw(vp.Scene((cube,), inks=inks))
+    >>> {layer.name: layer.pen.width_mm for layer in drawing.layers}["contour"]
+    0.7
     """
 
     style: str | None = None

@@ -249,3 +249,6 @@ def test_a_known_order_is_kept_where_nothing_is_between():
             assert own.tolist() == [f for f in faces.tolist() if f in set(own.tolist())]
     with pytest.raises(InputError, match="not its own"):
         painters_order(view, known={1: Precedence.of_order(order[1:])})
+    for wrong in (np.append(faces, faces[0]), faces + view.face_count):
+        with pytest.raises(InputError, match="names a face twice"):
+            painters_order(view, known={number: Precedence.of_order(wrong)})
