@@ -34,6 +34,7 @@ from vectorplot.pictures.banded_bodies import (
     whole_bodies,
 )
 from vectorplot.pictures.fills import FacePainter, VisiblePolygons, background, off_surfaces
+from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.scene.item import Item
 from vectorplot.scene.light import Light
 from vectorplot.scene.placement import Placement
@@ -193,6 +194,7 @@ def painted_bodies(
     casts = pipeline.calls_for("shadows")
     whole = pipeline.run("bodies", whole_bodies, shown, painter.projection)
     if whole is None:
+        _tell_undone(pipeline, "they pierce each other, lie on each other in circles, or are too near the eye")
         return None
     some = np.setdiff1d(np.arange(len(shown.items)), whole.solids.item)
     if all(is_curve(shown.items[number].shape) for number in some.tolist()):
@@ -206,7 +208,7 @@ def painted_bodies(
     lights = seen.scene.lights if casts else ()
     shades = None if places is None else shades_of_faces(whole, seen.view, seen.projected, lights)
     if places is None or shades is None:
-        pipeline.tell("bodies undone", "they pierce other things, or are in their shadows: triangles in their place", 0)
+        _tell_undone(pipeline, "they pierce other things, or are in their shadows")
         return None
     of_faces, of_bodies = places
 
@@ -221,6 +223,11 @@ def painted_bodies(
     for stage in ("order", "shadows"):
         pipeline.measured(stage, "mm", lambda: seen.view.tolerance * placement.scale)
     return whole.view, placement, stacked([replace(painted, after=place), bands]).fills
+
+
+def _tell_undone(pipeline: Pipeline, why: str) -> None:
+    """Tell the listener why there are triangles in place of bodies."""
+    pipeline.tell("bodies undone", f"{why}: triangles in their place", 0)
 
 
 def _banded(
