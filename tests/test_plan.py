@@ -142,7 +142,7 @@ def test_stages_measure_how_far_off_they_are() -> None:
 
 @pytest.mark.slow
 def test_triangles_and_shadow_maps_measure_how_far_off_they_are() -> None:
-    scene = Scene((replace(BALL, shape=Sphere(1.5)), replace(PANE, material=Material())), (SUN,))
+    scene = Scene((replace(RING, shape=Torus(1.2, 0.5)), replace(PANE, material=Material())), (SUN,))
     small = {"size": (60, 40), "samples": 1}
     fine, coarse = (errors_of(render, scene, shadows="buffer", shadow_size=n, **small) for n in (256, 16))
     assert 0.02 < fine["facets"][0] <= 0.2 and fine["facets"][1] == "samples"
