@@ -51,7 +51,7 @@ def test_a_movie_is_shown_in_a_page_at_its_rate(tmp_path, monkeypatch, capsys, t
     found = page_of(["replay", "turn", *told], monkeypatch)
     out = capsys.readouterr().out
     assert out.startswith("5 frames, 1 of them frozen") and "http://127.0.0.1:" in out
-    assert found[""][:2] == (200, "text/html") and '<img src="film.svg"' in found[""][2]
+    assert found[""][:2] == (200, "text/html") and f'data-frames="{len(places)}" data-fps="{fps:g}"' in found[""][2]
     status, kind, svg = found["film.svg"]
     assert (status, kind) == (200, "image/svg+xml")
     lasts = {float(text) for text in re.findall(r'dur="([\d.]+)s"', svg)}
@@ -68,3 +68,65 @@ def test_a_movie_that_is_written_opens_no_page(tmp_path, monkeypatch):
     vp.save_frames([frame(place) for place in (10, 20)], "turn.vd1")
     assert run(["replay", "turn", "-o", "again.svg"]) == 0
     assert run(["replay", "turn", "--no-browser", "--timeout", "0.01"]) == 0
+
+
+def looked_at(address):
+    """What the page does, in a browser: what it is told is forbidden or fails, and a place for each look at it."""
+    from playwright.sync_api import sync_playwright
+    from support.browser import launched
+
+    errors, places = [], {}
+    with sync_playwright() as playwright:
+        browser = launched(playwright)
+        page = browser.new_page(viewport={"width": 800, "height": 500})
+        page.on("pageerror", lambda error: errors.append(str(error)))
+        page.on("console", lambda said: errors.append(said.text) if said.type == "error" else None)
+        page.goto(address)
+        page.wait_for_selector("#film svg")
+        number = page.locator("output[for=frame]")
+        passed = set()
+        for _ in range(200):
+            passed.add(number.inner_text())
+            if len(passed) == 4:
+                break
+            page.wait_for_timeout(20)
+        places["passed"] = passed
+        page.keyboard.press(" ")
+        places["still"] = (number.inner_text(), page.locator("#pause").inner_text())
+        page.wait_for_timeout(600)
+        places["later"] = (number.inner_text(), page.locator("#pause").inner_text())
+        page.locator("#frame").fill("2")
+        places["second"] = (number.inner_text(), page.locator("#film svg").screenshot())
+        page.keyboard.press("ArrowRight")
+        places["third"] = (number.inner_text(), page.locator("#film svg").screenshot())
+        page.keyboard.press("ArrowLeft")
+        places["back"] = (number.inner_text(), page.locator("#film svg").screenshot())
+        page.evaluate("document.activeElement.blur()")
+        page.keyboard.press("Home")
+        page.keyboard.press("ArrowLeft")
+        places["last"] = number.inner_text()
+        page.get_by_role("button", name="Play").click()
+        places["plays"] = page.locator("#pause").inner_text()
+        browser.close()
+    quit_it = urllib.request.Request(f"{address}quit", b"{}", {"Content-Type": "application/json"})
+    with urllib.request.urlopen(quit_it, timeout=10):
+        return errors, places
+
+
+@pytest.mark.slow
+@pytest.mark.capability("G10.2-screen")
+def test_a_film_is_stopped_and_stepped_through(tmp_path, monkeypatch):
+    pytest.importorskip("playwright")
+    monkeypatch.chdir(tmp_path)
+    vp.save_frames([frame(place) for place in (10, 25, 40, 60)], "turn.vd1")
+    with ThreadPoolExecutor(1) as pool:
+        looks = []
+        monkeypatch.setattr("webbrowser.open", lambda address: looks.append(pool.submit(looked_at, address)))
+        assert run(["replay", "turn", "--fps", "5", "--timeout", "60"]) == 0
+        errors, places = looks[0].result(timeout=60)
+    assert errors == []
+    assert places["passed"] == {"1", "2", "3", "4"}
+    assert places["still"] == places["later"] and places["still"][1] == "Play"
+    assert (places["second"][0], places["third"][0], places["last"]) == ("2", "3", "4")
+    assert places["second"] == places["back"] and places["second"][1] != places["third"][1]
+    assert places["plays"] == "Pause"

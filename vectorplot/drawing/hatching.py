@@ -16,7 +16,7 @@ from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
-from vectorplot.geometry.budget import in_turn, workers
+from vectorplot.geometry.budget import in_turn, may_stop, workers
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.scene.hatching import Hatching, Stippling
 from vectorplot.tolerances import (
@@ -947,11 +947,13 @@ def _from_those_before(where: Floats, turn: Ints) -> Floats:
     away = np.full(len(where), np.inf)
     begin, count = 1, int(turn.max()) + 1
     while begin < count:
+        may_stop()
         end = max(begin + 1, int(GROWTH * begin))
         own = np.flatnonzero((turn >= begin) & (turn < end))
         # Trees of halves of boxes, not of places, are built in less time than they lose.
         before = cKDTree(where[turn < begin], balanced_tree=False)
         away[own] = before.query(where[own], workers=workers(len(own)))[0]
+        may_stop()
         if end > begin + 1 and len(own):
             beside, most = cKDTree(where[own], balanced_tree=False), float(away[own].max())
             far, which = beside.query(

@@ -383,6 +383,7 @@ def lit_bodies(
     far = reach(view, system, face, body)
     start, end, of = outlines(view, face, body)
     ends = np.stack([image_of(view, system, axes, some, of) for some in (start, end)])
+    may_stop()
     hull, corners, first = hulls(ends.transpose(1, 0, 2).reshape(2, -1), np.tile(of, 2), len(item))
     # In images of lamps all is smaller by its distance.
     scale = 1.0 if system.parallel else far

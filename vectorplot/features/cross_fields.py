@@ -14,7 +14,7 @@ from vectorplot.errors import InputError
 from vectorplot.features.mesh_integration import NO_SIDE, MeshSides, mesh_sides
 from vectorplot.features.surface_points import BentFaces, FaceSites, TangentPlanes, unit
 from vectorplot.features.tangent_fields import principal
-from vectorplot.geometry.budget import may_stop
+from vectorplot.geometry.budget import in_turn, may_stop
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.vectors import cross, dot, norm
 from vectorplot.geometry.winding import face_barycentres
@@ -146,6 +146,7 @@ def _smoothed(links: _Links, own: Floats, weight: Floats, turned: Callable[[Floa
     """(n,) the angles of unit vectors that are means of what is known, own (2,n) by weight (n,), and of neighbours'."""
     now = np.where(weight > 0.0, own, 0.0)
     while True:
+        may_stop()
         # From where something is known to where nothing is yet.
         near = _means(links, now, turned)
         empty = (now == 0.0).all(axis=0) & (near != 0.0).any(axis=0)
@@ -153,7 +154,7 @@ def _smoothed(links: _Links, own: Floats, weight: Floats, turned: Callable[[Floa
             break
         now = np.where(empty, _unit(near), now)
     now = np.where((now == 0.0).all(axis=0), own, now)
-    for _ in range(ROUNDS):
+    for _ in in_turn(range(ROUNDS)):
         now = _unit(weight * own + now + _means(links, now, turned))
     return arctan2(now[1], now[0])
 
@@ -174,11 +175,12 @@ def _voted(links: _Links, own: Floats, same: Floats) -> Floats:
     neighbours that have the same have the same number, 1 or -1."""
     now = np.sign(own)
     while True:
+        may_stop()
         near = np.sign(links.sums(same * now[links.other]))
         empty = (now == 0.0) & (near != 0.0)
         if not empty.any():
             break
         now = np.where(empty, near, now)
-    for _ in range(ROUNDS):
+    for _ in in_turn(range(ROUNDS)):
         now = np.clip(own + 0.5 * now + links.sums(same * now[links.other]), -1.0, 1.0)
     return np.asarray(np.where(now < 0.0, -1.0, 1.0))

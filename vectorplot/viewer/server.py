@@ -33,11 +33,8 @@ STATIC = {"": ("index.html", "text/html"), "viewer.css": ("viewer.css", "text/cs
 }
 """The files of the page and their media types, by the ends of their addresses."""
 
-FILM_PAGE = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>{title}</title></head>
-<body><img src="film.svg" alt="{title}" width="100%"></body></html>
-"""
-"""What shows a film."""
+FILM_FILES = {"viewer.css": "text/css", "icon.svg": "image/svg+xml", "film.js": "text/javascript"}
+"""The files of the page that shows a film, but for itself and the film, and their media types."""
 
 HEADERS = {
     "Content-Security-Policy": (
@@ -219,17 +216,23 @@ async def serve(answers: Answers, started: Callable[[str], None], timeout_s: flo
     await _served(Server(answers), started, timeout_s)
 
 
-async def serve_film(svg: bytes, title: str, started: Callable[[str], None], timeout_s: float | None) -> None:
-    """Serve a page that shows a film, an SVG that moves by itself, as serve does."""
-    page = FILM_PAGE.format(title=escape(title, quote=True)).encode()
-    pages = {"": (page, "text/html"), "film.svg": (svg, "image/svg+xml")}
+async def serve_film(
+    svg: bytes, title: str, frames: int, fps: float, started: Callable[[str], None], timeout_s: float | None
+) -> None:
+    """Serve a page that shows a film, an SVG of so many frames that moves by itself, as serve does."""
+    page = _page_file("film.html").decode().format(title=escape(title, quote=True), frames=frames, fps=fps)
+    pages = {"": (page.encode(), "text/html"), "film.svg": (svg, "image/svg+xml")}
+    pages |= {name: (_page_file(name), kind) for name, kind in FILM_FILES.items()}
     await _served(Server(None, pages), started, timeout_s)
 
 
 def viewer_pages() -> dict[str, tuple[bytes, str]]:
     """The files of the viewer."""
-    folder = files("vectorplot.viewer").joinpath("page")
-    return {end: (folder.joinpath(name).read_bytes(), kind) for end, (name, kind) in STATIC.items()}
+    return {end: (_page_file(name), kind) for end, (name, kind) in STATIC.items()}
+
+
+def _page_file(name: str) -> bytes:
+    return files("vectorplot.viewer").joinpath("page", name).read_bytes()
 
 
 async def _served(server: Server, started: Callable[[str], None], timeout_s: float | None) -> None:

@@ -37,8 +37,8 @@ def replay(
     quiet: bool,
 ) -> None:
     """Show the movie NAME.vd1 and NAME.vd2, from the current folder, the folders video and data, or the samples
-    that came with vectorplot, in a web page on this machine, again and again, and say what it holds; or write its
-    frames to OUT. Ctrl-C stops it."""
+    that came with vectorplot, in a web page on this machine, again and again, with a pause and a slider of frames,
+    and say what it holds; or write its frames to OUT. Ctrl-C stops it."""
     from vectorplot.animation.movies import FPS as USUAL
     from vectorplot.animation.movies import frame_drawings, read_movie
     from vectorplot.io.named_files import movie_to_read
@@ -53,7 +53,8 @@ def replay(
             from vectorplot.save_frames import write_frames as written
             from vectorplot.viewer.server import serve_film
 
-            shown = written(pictures, "svg", chosen(fps, USUAL))
-            asyncio.run(serve_film(shown, name, partial(show_address, no_browser=no_browser), timeout))
+            rate = chosen(fps, USUAL)
+            shown, started = written(pictures, "svg", rate), partial(show_address, no_browser=no_browser)
+            asyncio.run(serve_film(shown, name, len(movie), rate, started, timeout))
             return
         write_frames(pictures, len(movie), frames_out, None, chosen(fps, USUAL), frame_format, progress)
