@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib.util
+import io
 import os
 import re
 import shlex
@@ -157,6 +158,9 @@ ROOMS = sorted(stub.parent.name for stub in (ROOT / "vectorplot").glob("*/__init
 def is_name(path: str) -> bool:
     """Whether something in a room has a dotted name; what follows a class is not looked at."""
     room, *parts = path.split(".")
+    # Python has a room of this name, too.
+    if room == "io" and parts[0] in io.__all__:
+        return True
     found, place = importlib.import_module(f"vectorplot.{room}"), f"vectorplot.{room}"
     for part in parts:
         place += f".{part}"
