@@ -12,6 +12,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from support.line_distances import distances
+from support.top_fills import fills_of, top_at
 
 import vectorplot as vp
 from vectorplot.pictures import promises
@@ -65,6 +66,41 @@ def test_painted_outlines_and_shades_keep_their_errors() -> None:
     _, finer = told(vp.paint, scene, off_by="0.5mm,9shades")
     assert finer.name == "promise"
     assert float(re.findall(r"([0-9.]+) shades", finer.why)[0]) <= 9.0
+
+
+def placed(drawing: vp.Drawing, points: np.ndarray) -> np.ndarray:
+    """(n,2) where on a page points (n,3) of the world are."""
+    there = np.column_stack([points, np.ones(len(points))]) @ drawing.page_from_world.T
+    return there[:, :2] / there[:, 3:]
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["torus", "revolutions", "capped", "conic_section", "mixed"])
+def test_what_is_painted_beside_contours_is_what_a_finer_picture_shows_there(name: str) -> None:
+    error = 0.05
+    scene = vp.read(DATA / f"{name}.scene")
+    pictures = vp.paint(scene, off_by=error), vp.paint(scene, tolerance_mm=error / 8.0)
+    drawing = vp.draw(scene, lines="contour", tolerance_mm=error / 8.0)
+    ends = segments(drawing)
+    way = ends[:, 1] - ends[:, 0]
+    long = np.hypot(*way.T) > 1e-3
+    across = way[long] @ [[0.0, 1.0], [-1.0, 0.0]] / np.hypot(*way[long].T)[:, None]
+    middle = ends[long].mean(axis=1)
+    beside = np.concatenate([middle + 1.25 * error * across, middle - 1.25 * error * across])
+    beside = beside[np.random.default_rng(0).permutation(len(beside))[:600]]
+    # Pages that are fitted differ by a scale and a shift.
+    world = (
+        scene.bounds.mean(axis=0) + np.random.default_rng(1).normal(size=(9, 3)) * np.ptp(scene.bounds, axis=0) / 9.0
+    )
+    source = np.column_stack([placed(drawing, world), np.ones(len(world))])
+    seen = []
+    for picture in pictures:
+        onto = np.linalg.lstsq(source, placed(picture, world))[0]
+        fills, at = fills_of(picture), np.column_stack([beside, np.ones(len(beside))]) @ onto
+        top = top_at(fills, at)
+        seen.append(np.where(top >= 0, fills.item[np.maximum(top, 0)], -1))
+    assert len(beside) > 60 and (seen[0] >= 0).any()
+    assert (seen[0] != seen[1]).mean() < 0.005
 
 
 def test_pixels_get_as_many_samples_as_their_error_wants_and_exact_shadows() -> None:
