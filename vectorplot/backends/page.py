@@ -441,7 +441,7 @@ class Areas:
     @cached_property
     def shaded(self) -> Bools:
         """(m,) whether the corners of a polygon differ in colour."""
-        return _differ(self.colours, self.offsets)
+        return shaded(self.colours, self.offsets)
 
     @cached_property
     def solid(self) -> Bools:
@@ -591,7 +591,7 @@ def _in_order(parts: tuple[Polygons, ...], place: tuple[Ints, ...]) -> Polygons:
     return take(joined(parts), np.argsort(np.concatenate(place), kind="stable"))
 
 
-def _differ(colours: Colours, offsets: Ints) -> Bools:
+def shaded(colours: Colours, offsets: Ints) -> Bools:
     """(m,) whether the colours of a polygon's corners differ. Edge cases: those of none do not."""
     sizes = np.diff(offsets)
     other = any_component(colours != colours[np.repeat(np.minimum(offsets[:-1], max(len(colours) - 1, 0)), sizes)])
@@ -601,7 +601,7 @@ def _differ(colours: Colours, offsets: Ints) -> Bools:
 
 def _with_flat_lines(polygons: Polygons, line: Bools) -> Polygons:
     """The same, but both ends of lines have the mean of their colours."""
-    which = np.flatnonzero(line & _differ(polygons.colours, polygons.offsets))
+    which = np.flatnonzero(line & shaded(polygons.colours, polygons.offsets))
     if not len(which):
         return polygons
     colours = polygons.colours.copy()
@@ -614,7 +614,7 @@ def _with_flat_lines(polygons: Polygons, line: Bools) -> Polygons:
 def _fanned(polygons: Polygons) -> Polygons:
     """The same with the triangles of their fans instead of shaded polygons of more than three corners."""
     sizes = np.diff(polygons.offsets)
-    split = (sizes > 3) & _differ(polygons.colours, polygons.offsets)
+    split = (sizes > 3) & shaded(polygons.colours, polygons.offsets)
     if not split.any():
         return polygons
     others = np.flatnonzero(~split)

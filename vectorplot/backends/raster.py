@@ -10,7 +10,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.backends.page import LARGEST_PAGE_MM
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Paths
 from vectorplot.drawing.fills import Fills
@@ -120,6 +120,8 @@ def _fill(flat: Bytes, fills: Fills, points: Floats, columns: int, rows: int) ->
     same = (fills.colours == fills.colours[fills.offsets[:-1][polygon]]).all(axis=1)
     even = np.ones(len(fills), dtype=np.bool_)
     even[polygon[~same]] = False
+    # Convex ones may be painted as shaded ones are: so runs are long.
+    even &= ~_convex(points, fills.offsets)
     # Runs that are painted at once: flat opaque ones, shaded ones, and those one sees through, one by one.
     kind = np.where(fills.opacity < 1.0, 2 + np.arange(len(fills)), np.where(even, 0, 1))
     borders = np.append(np.flatnonzero(np.diff(kind, prepend=-1)), len(fills)).tolist()
@@ -132,6 +134,17 @@ def _fill(flat: Bytes, fills: Fills, points: Floats, columns: int, rows: int) ->
         for found in polygon_pixels(with_specks_grown(polygons), columns, rows):
             under = flat[found.pixel].astype(np.float64) if opacity < 1.0 else 0.0
             flat[found.pixel] = np.rint(opacity * found.values + (1.0 - opacity) * under).astype(np.uint8)
+
+
+def _convex(points: Floats, offsets: Ints) -> Bools:
+    """(m,) which polygons of no more than four corners are convex; of more they might run around twice."""
+    side = points[ragged.following(offsets)] - points
+    before = side[ragged.preceding(offsets)]
+    turn = before[:, 0] * side[:, 1] - before[:, 1] * side[:, 0]
+    least, most = (np.zeros(len(offsets) - 1) for _ in range(2))
+    filled = np.flatnonzero(np.diff(offsets))
+    least[filled], most[filled] = (f.reduceat(turn, offsets[filled]) for f in (np.minimum, np.maximum))
+    return np.asarray((np.diff(offsets) <= 4) & ((least >= 0.0) | (most <= 0.0)))
 
 
 def _fan_triangles(polygons: Polygons) -> Polygons:
