@@ -97,14 +97,15 @@ class Clearance:
         source, one = (way, 0.0) if self.light.parallel else (start + way, 1.0)
         across = np.maximum(np.hypot(source[0], source[1]), LEAST_DIVISOR)
         ratio = (growth * source[2] + low_radius * one) / across
-        turn = arccos(np.clip(ratio, -1.0, 1.0))
+        # The sine of the angle whose cosine it is.
+        sine_of_turn = np.sqrt(np.maximum((1.0 - ratio) * (1.0 + ratio), 0.0))
         cosine, sine = source[0] / across, source[1] / across
         # On the polar plane: c x + s y - ratio (radius at z) = 0.
         value = cosine * start[0] + sine * start[1] - ratio * (low_radius + growth * start[2])
         slope = cosine * way[0] + sine * way[1] - ratio * growth * way[2]
         part = self._part(-value, slope)
         there = start + np.where(np.isfinite(part), part, 0.0) * way
-        aside = np.abs(cosine * there[1] - sine * there[0]) - np.sin(turn) * (low_radius + growth * there[2])
+        aside = np.abs(cosine * there[1] - sine * there[0]) - sine_of_turn * (low_radius + growth * there[2])
         beyond = np.maximum(-there[2], there[2] - 1.0) * bodies.sizes[2, body]
         quad = np.maximum(aside * size, beyond)
         seen = np.isfinite(part) & (np.abs(ratio) < 1.0)
