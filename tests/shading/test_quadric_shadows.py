@@ -12,9 +12,9 @@ import vectorplot as vp
 from vectorplot.geometry.projections import projection_of
 from vectorplot.pictures import render as verb
 from vectorplot.scene.view import view_of
-from vectorplot.shading import quadric_shadows
 from vectorplot.shading.quadric_shadows import QuadricShadows
 from vectorplot.surfaces import Capped, Ellipsoid, Frustum, Sphere, rod
+from vectorplot.visibility.quadrics import light_windows
 from vectorplot.visibility.quadrics.visible_parts import QuadricBodies, quadric_bodies
 
 PROJECTION = projection_of(vp.Camera((5.0, 4.0, 3.0)), np.array([[-3.0] * 3, [3.0] * 3]))
@@ -111,9 +111,9 @@ def test_cells_are_few_where_bodies_fill_them(monkeypatch):
     bodies, light = bodies_of(4, 40), light_in_view(LIGHTS["lamp"])
     points = np.random.default_rng(3).uniform(-0.6, 0.6, (3000, 3))
     usual = shadows_at(light, bodies, points)
-    monkeypatch.setattr(quadric_shadows, "MOST_ENTRIES", 100)
+    monkeypatch.setattr(light_windows, "MOST_ENTRIES", 100)
     shadows = QuadricShadows.of(light, bodies)
-    assert len(shadows.windows[0].body) <= 100
+    assert len(shadows.windows.windows[0].body) <= 100
     assert (shadows(points, points, np.full(len(points), -1)) == usual).all()
 
 

@@ -23,7 +23,7 @@ from support.shaded_scenes import (
 from vectorplot.errors import InputError
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.projections import CoordinateSystem
-from vectorplot.scene.light import Light
+from vectorplot.scene.light import Light, is_amid
 from vectorplot.shading import shadow_maps as maps
 from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.screen import raster_system
@@ -33,7 +33,6 @@ from vectorplot.shading.shadow_maps import (
     ShadowBuffer,
     aimed_system,
     in_texels,
-    is_inside,
     light_plane,
     perspective_frame,
     shadow_buffer,
@@ -403,7 +402,7 @@ def test_a_lamp_in_the_scene_casts_shadows_away_from_itself_on_all_sides():
         room, *(box(c - 0.5, c + 0.5) for c in 2.0 * np.concatenate([np.eye(3), -np.eye(3)]))
     )
     lamp = Light((0.0, 0.0, 0.0))
-    assert is_inside(lamp, points)
+    assert is_amid(lamp, points)
     # A point on each wall, behind a box, and one beside its shadow.
     ways = np.concatenate([np.eye(3), -np.eye(3)])
     behind, beside = 4.0 * ways, 4.0 * ways + 2.5 * np.roll(ways, 1, axis=1)

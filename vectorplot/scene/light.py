@@ -5,7 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
+from vectorplot.arrays import Floats
 from vectorplot.errors import InputError
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.vectors import norm
 from vectorplot.words import check_colour
 
 Exposure = float | Literal["fitted"]
@@ -66,3 +71,19 @@ class Light:
         check_colour(self.colour, f"light {self.name}: " if self.name else "light: ")
         if self.intensity is not None and not 0.0 <= self.intensity <= 1.0:
             raise InputError(f"light {self.name}: an intensity of {self.intensity:g}: expected 0 to 1")
+
+
+WIDEST_COSINE = 0.5
+"""A lamp that sees a corner of something more than 60 degrees off its middle needs six images of it."""
+
+
+def is_amid(light: Light, points: Floats) -> bool:
+    """Whether a lamp stands in the box about points (n,3), or so close to it that one image would be too wide."""
+    if light.parallel:
+        return False
+    low, high = points.min(axis=0), points.max(axis=0)
+    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low) + low
+    place = np.asarray(light.position, dtype=np.float64)
+    arm, middle = corners - place, (low + high) / 2.0 - place
+    cosine = matmul(arm, middle)
+    return bool((cosine <= WIDEST_COSINE * np.linalg.norm(arm, axis=1) * norm(middle)).any())

@@ -17,7 +17,7 @@ from vectorplot.geometry.algebra import determinant, inverse_matrix, linear_solu
 from vectorplot.geometry.budget import mapped, slices
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import cross, norm
-from vectorplot.scene.light import Light
+from vectorplot.scene.light import Light, is_amid
 from vectorplot.shading.depth_buffers import DepthCode, depth_codes
 from vectorplot.shading.map_settings import MapSettings
 from vectorplot.shading.screen import HalfSpace, front_facing, screen_triangles
@@ -328,9 +328,6 @@ ALONG_VIEW = 0.9
 
 Blocks = Callable[[Floats, Floats, Ints], Bools]
 
-WIDEST_COSINE = 0.5
-"""A lamp that sees a corner of the scene more than 60 degrees off its middle needs six maps."""
-
 LONGEST = 4.0
 """A map is no longer than so many times its width."""
 
@@ -448,7 +445,7 @@ def shadow_buffer(
     biased = casting == "all"
     if not biased:
         corners = corners[~front_facing(p, corners, (*light.position, 0.0 if light.parallel else 1.0))]
-    if is_inside(light, p):
+    if is_amid(light, p):
         half = max(size // 2, 4), max((rows or size) // 2, 4)
         maps = (_side_map(light, way, p, corners, half, bits, biased) for way in SIDES)
         return ShadowBuffer(tuple(maps))
@@ -515,7 +512,7 @@ def shadow_buffers(
 def _affordable_size(lights: Sequence[Light], points: Floats, maps: MapSettings) -> int:
     """The size of maps, or the largest one of which the maps of all lights have room, grown for their focus too."""
     size, growth = maps.size, 1.0 if maps.wanted_focus is None else LONGEST**2
-    squares = growth * sum(len(SIDES) / 4.0 if len(points) and is_inside(light, points) else 1.0 for light in lights)
+    squares = growth * sum(len(SIDES) / 4.0 if len(points) and is_amid(light, points) else 1.0 for light in lights)
     # A size that one map alone cannot have is refused where maps are made.
     if squares * size * size <= MOST_TEXELS or size * size > MOST_TEXELS:
         return size
@@ -531,18 +528,6 @@ def aimed_system(light: Light, points: Floats) -> CoordinateSystem:
     if light.parallel:
         return CoordinateSystem.of_parallel_light(light.position, middle)
     return CoordinateSystem.of_light(light.position, middle)
-
-
-def is_inside(light: Light, points: Floats) -> bool:
-    """Whether a lamp stands in the box about points (n, 3), or so close to it that one map would be too wide."""
-    if light.parallel:
-        return False
-    low, high = points.min(axis=0), points.max(axis=0)
-    corners = np.array([(x, y, z) for x in (0, 1) for y in (0, 1) for z in (0, 1)]) * (high - low) + low
-    place = np.asarray(light.position, dtype=np.float64)
-    arm, middle = corners - place, (low + high) / 2.0 - place
-    cosine = matmul(arm, middle)
-    return bool((cosine <= WIDEST_COSINE * np.linalg.norm(arm, axis=1) * norm(middle)).any())
 
 
 def _side_map(

@@ -18,9 +18,9 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.projections import CoordinateSystem
 from vectorplot.geometry.vectors import cross
-from vectorplot.scene.light import Light
+from vectorplot.scene.light import Light, is_amid
 from vectorplot.shading.screen import ScreenTriangles, screen_triangles
-from vectorplot.shading.shadow_maps import SIDES, aimed_system, is_inside, standard_frame
+from vectorplot.shading.shadow_maps import SIDES, aimed_system, standard_frame
 from vectorplot.tolerances import INFINITE, LAMP_OF_EXTENT, ZERO_OF_EXTENT
 
 Blocks = Callable[[Floats, Floats, Ints], Bools]
@@ -47,7 +47,7 @@ def blocked_exactly(light: Light, points: ArrayLike, triangle: Ints, vertices: A
     if not len(p) or not len(corners):
         return result
     extent = float(np.ptp(v, axis=0).max())
-    if not is_inside(light, v):
+    if not is_amid(light, v):
         return _blocked(aimed_system(light, v), None, p, triangle, v, corners, extent)
     place = np.asarray(light.position, dtype=np.float64)
     for way in SIDES:

@@ -10,55 +10,53 @@ import numpy as np
 
 from vectorplot.arrays import Floats, Ints
 from vectorplot.geometry import ragged
-from vectorplot.geometry.boxes import PAIRS_AT_ONCE
 from vectorplot.geometry.component_arrays import cross, dot
-from vectorplot.geometry.elementary import arccos, arcsin
 from vectorplot.scene.light import Light
 from vectorplot.tolerances import LEAST_DIVISOR
+from vectorplot.visibility.quadrics.light_windows import LightWindows, end_balls
 from vectorplot.visibility.quadrics.visible_parts import QuadricBodies
 
 
 @dataclass(frozen=True, eq=False)
 class Clearance:
-    """A light, and for receivers one after the other the bodies that may keep it from them: caster (k,), offsets
-    (n+1,). Called with receivers and points of theirs it tells how far the way to the light runs beside all casters,
-    less than zero in shadow: no farther than points are from the border of a shadow."""
+    """A light, and receivers on bodies own (n,), which the others may shadow. Called with receivers and points of
+    theirs it tells how far the way to the light runs beside all of these, less than zero in shadow, and reach where it
+    is farther: no farther than points are from the border of a shadow."""
 
     bodies: QuadricBodies
     light: Light
-    caster: Ints
-    offsets: Ints
+    own: Ints
+    windows: LightWindows
+    reach: float
 
     def __call__(self, receiver: Ints, points: Floats) -> Floats:
         """(m,) in the view."""
-        least = np.ones(len(receiver))
-        for own, starts, _, beside in self._pairs(receiver, points):
-            least[own] = np.minimum(least[own], np.minimum.reduceat(beside, starts))
+        least = np.full(len(receiver), self.reach)
+        for place, starts, _, beside in self._pairs(receiver, points):
+            least[place] = np.minimum(least[place], np.minimum.reduceat(beside, starts))
         return least
 
     def stopping(self, receiver: Ints, points: Floats, deep: Floats) -> Ints:
         """(m,) the body on the way to the light that covers this best, -1 where none does by so much (n,) of bodies."""
         found = np.full(len(receiver), -1, dtype=np.intp)
-        for own, starts, body, beside in self._pairs(receiver, points):
+        for place, starts, body, beside in self._pairs(receiver, points):
             best = np.minimum.reduceat(beside, starts)
             count = np.diff(np.append(starts, len(beside)))
-            first = np.minimum.reduceat(
-                np.where(beside == np.repeat(best, count), np.arange(len(beside)), len(beside)), starts
-            )
-            found[own] = np.where(best < -deep[body[first]], body[first], -1)
+            # Of several the first one.
+            number = np.where(beside == np.repeat(best, count), body, len(self.bodies))
+            first = np.minimum.reduceat(number, starts)
+            found[place] = np.where(best < -deep[first], first, -1)
         return found
 
     def _pairs(self, receiver: Ints, points: Floats) -> Iterator[tuple[Ints, Ints, Ints, Floats]]:
         """Blocks of places with casters: their numbers, and of pairs of them and casters where those of each place
         begin, the casters, and how far the ways to the light run beside these."""
-        sizes = np.diff(self.offsets)[receiver]
-        some = np.flatnonzero(sizes)
-        step = max(1, PAIRS_AT_ONCE // max(int(sizes.max(initial=1)), 1))
-        for begin in range(0, len(some), step):
-            own = some[begin : begin + step]
-            count = sizes[own]
-            body = self.caster[ragged.ranges(self.offsets[receiver[own]], count)]
-            yield own, ragged.starts(count), body, self._beside(body, points[:, np.repeat(own, count)])
+        for place, body in self.windows.pairs(points):
+            others = body != self.own[receiver[place]]
+            place, body = place[others], body[others]
+            if len(place):
+                starts = np.flatnonzero(np.append(True, place[1:] != place[:-1]))
+                yield place[starts], starts, body, self._beside(body, points[:, place])
 
     def _beside(self, body: Ints, points: Floats) -> Floats:
         """(k,) how far the ways from points (3,k) to the light run beside bodies (k,)."""
@@ -129,42 +127,14 @@ def _local(vectors: Floats, inverse: Floats, body: Ints) -> Floats:
     return found
 
 
-def clearance_of(bodies: QuadricBodies, receiver: Ints, light: Light) -> Clearance:
-    """The margin of a light, in the coordinates of bodies, on receivers: the bodies (n,) that places are on.
+REACH = 0.3
+"""So many radii of the largest body clearances are told, and no more."""
 
-    Casters are those whose balls around them the light sees before, or in, the ball around a receiver.
-    """
-    middle, radius = balls_around(bodies)
-    place = np.array(light.position)
-    casters, counts = [], []
-    rows = max(1, PAIRS_AT_ONCE // max(len(bodies), 1))
-    own, which = np.unique(receiver, return_inverse=True)
-    for begin in range(0, len(own), rows):
-        some = own[begin : begin + rows]
-        a, b = middle[:, some, None], middle[:, None, :]
-        r, s = radius[some, None], radius[None]
-        if light.parallel:
-            unit = place / np.sqrt(dot(place, place))
-            way = b - a
-            along = dot(unit[:, None, None], way)
-            off = np.sqrt(np.maximum(dot(way, way) - along * along, 0.0))
-            near = (off < r + s) & (along > -(r + s))
-        else:
-            to_a, to_b = a - place[:, None, None], b - place[:, None, None]
-            far, close = np.sqrt(dot(to_a, to_a)), np.sqrt(dot(to_b, to_b))
-            angle = arccos(np.clip(dot(to_a, to_b) / np.maximum(far * close, LEAST_DIVISOR), -1.0, 1.0))
-            wide, narrow = (
-                arcsin(np.minimum(t / np.maximum(d, LEAST_DIVISOR), 1.0)) for t, d in ((r, far), (s, close))
-            )
-            near = ((angle < wide + narrow) | (far <= r) | (close <= s)) & (close - s < far + r)
-        near[np.arange(len(some)), some] = False
-        line, caster = np.nonzero(near)
-        casters.append(caster)
-        counts.append(np.bincount(line, minlength=len(some)))
-    caster = np.concatenate(casters or [own[:0]])
-    offsets = ragged.offsets(np.concatenate(counts or [own[:0]]))
-    position, ends = ragged.take(offsets, which.reshape(-1))
-    return Clearance(bodies, light, caster[position], ends)
+
+def clearance_of(bodies: QuadricBodies, receiver: Ints, light: Light) -> Clearance:
+    """The margin of a light, in the coordinates of bodies, on receivers: the bodies (n,) that places are on."""
+    reach = REACH * float(end_balls(bodies)[1].max())
+    return Clearance(bodies, light, receiver, LightWindows.of(light, bodies, reach), reach)
 
 
 def balls_around(bodies: QuadricBodies) -> tuple[Floats, Floats]:
