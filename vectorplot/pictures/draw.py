@@ -23,6 +23,7 @@ from vectorplot.pictures.lines import (
     lines_in_place,
     placed_lines,
     traceable,
+    with_outline,
 )
 from vectorplot.pictures.options import check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
@@ -286,6 +287,7 @@ def draw(
         beside = (prepared.anchors, strokes, hidden, finish.look, text)
         labels = pipeline.run("labels", labels_in_place, seen, view, faces, placement, *beside)
         strokes = labels.interrupted(strokes, placement.page_from_world)
+    strokes = with_outline(strokes, shapes, placement, tolerance_mm, allowed)
     hatches = Paths.empty()
     if pipeline.calls_for("hatching"):
         hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget)

@@ -75,12 +75,6 @@ MOST_ROUNDS = 6
 """So often what is still no Bézier curve is cut again: where weights change fast the fourth power comes late."""
 
 
-def fitted_lines(view: View, lines: Lines, seen: Visibility, page: Page) -> Placement:
-    """The place of a picture that fills the page with the parts of lines."""
-    ends = np.concatenate(lines.ends(view, seen.segment, seen.low, seen.high), axis=1)
-    return fitted_picture(view, page, view.image_of(ends))
-
-
 def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Placement) -> Paths:
     """The parts of lines as strokes on the page, each line once where several lie on each other.
 
@@ -647,6 +641,27 @@ class PlacedLines:
         return shapes.pipeline.run("strokes", strokes_on_page, shapes.view, self.lines, self.seen, self.placement)
 
 
+def with_outline(
+    strokes: Paths, shapes: LineSources, placement: Placement, tolerance_mm: float, budget: Budget
+) -> Paths:
+    """The strokes, and the outline of what is seen where the plan has it."""
+    if not shapes.pipeline.calls_for("outline"):
+        return strokes
+    from vectorplot.pictures.outline import outline
+
+    return concatenated((strokes, shapes.pipeline.run("outline", outline, shapes, placement, tolerance_mm, budget)))
+
+
+def _ends_to_fit(shapes: LineSources, lines: Lines, seen: Visibility, tolerance: float, budget: Budget) -> Floats:
+    """(3,n) the ends of what is drawn: of parts of lines, and of outlines where the plan has them."""
+    ends = lines.ends(shapes.view, seen.segment, seen.low, seen.high)
+    if not shapes.pipeline.calls_for("outline"):
+        return np.concatenate(ends, axis=1)
+    from vectorplot.pictures.outline import outline_ends
+
+    return np.concatenate([*ends, outline_ends(shapes, tolerance, budget)], axis=1)
+
+
 def placed_lines(shapes: LineSources, sheet: Page, fit: bool, tolerance_mm: float, budget: Budget) -> PlacedLines:
     """The lines of a scene, and their place on a sheet that they fill; without fit that of the field of vision."""
     pipeline, view, reached = shapes.pipeline, shapes.view, shapes.reached
@@ -658,8 +673,9 @@ def placed_lines(shapes: LineSources, sheet: Page, fit: bool, tolerance_mm: floa
         bounded = frame_of(view, every, sheet, fit)
         framed = shapes.framed(every, bounded)
         seen = shapes.seen(framed)
-        placement = bounded or fitted_lines(view, framed, seen, sheet)
-        if bounded is None and not len(seen) and pipeline.calls_for("hatching"):
+        ends = _ends_to_fit(shapes, framed, seen, tolerance, budget)
+        placement = bounded or fitted_picture(view, sheet, view.image_of(ends))
+        if bounded is None and not ends.shape[1] and pipeline.calls_for("hatching"):
             # Without lines the picture is that of the faces.
             placement = fitted_picture(view, sheet, view.image_of(reached))
         if (
@@ -750,7 +766,8 @@ def lines_in_place(
     # Lines may reach too far where what the picture was fitted to does not.
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
     framed = shapes.framed(every, placement if cut else None)
-    return PlacedLines(shapes, framed, shapes.seen(framed), placement).strokes()
+    strokes = PlacedLines(shapes, framed, shapes.seen(framed), placement).strokes()
+    return with_outline(strokes, shapes, placement, tolerance_mm, allowed)
 
 
 # The exact visible lines of a scene, and its labels, in their places on a picture of its faces.
