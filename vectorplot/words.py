@@ -311,7 +311,7 @@ _MEANT = {
     "rotate": ("rotation",),
     "sharp": ("crease",),
     "silent": ("quiet",),
-    "silhouette": ("outline", "contour"),
+    "silhouette": ("contour",),
     "size": ("page",),
     "soft-shadows": ("aura",),
     "stroke": ("pen",),
