@@ -725,7 +725,7 @@ def _outline(shapes: LineSources, placement: Placement, tolerance_mm: float, bud
 
     sources = _border_sources(shapes, budget)
     view, every = sources.view, sources.lines(0.5 * tolerance_mm / placement.scale, budget)
-    if view.reaches_too_far(every.start, every.end):
+    if view.reaches_too_far(every.start, every.end, view.points):
         raise InputError("outline: the scene reaches behind the eye, or too far to the side of it; step back")
 
     def covered(places: Floats) -> Bools:
