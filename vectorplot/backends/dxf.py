@@ -15,7 +15,7 @@ from vectorplot.backends.page import Areas, Ink, PageMarks, PageStrokes, PageTex
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.scene.labels import TYPE_SIZE
-from vectorplot.tolerances import HOMOTHETIC, WHOLE_TURN
+from vectorplot.tolerances import COINCIDENT_MM, WHOLE_TURN
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -138,7 +138,7 @@ def _arc(space: Modelspace, lines: PageStrokes, arc: int, own: dict[str, Any]) -
         second, start, end = -second, -end, -start
     whole = end - start >= 2.0 * np.pi - WHOLE_TURN
     sizes = np.hypot(*first), np.hypot(*second)
-    if abs(sizes[0] - sizes[1]) <= HOMOTHETIC * sizes[0]:
+    if abs(sizes[0] - sizes[1]) <= COINCIDENT_MM:
         if whole:
             space.add_circle(centre.tolist(), sizes[0], dxfattribs=own)
             return

@@ -264,7 +264,7 @@ def curved_strokes(paths: Paths, tolerance_mm: float) -> Paths | CurvedStrokes:
         corner_angle=STROKE_CORNER_ANGLE,
         deviation=CHORD_SHARE * tolerance_mm,
     )
-    beziers = _in_places((cubics, round_ones, fitted), (exact, arcs.stroke, which), paths)
+    beziers = in_places((cubics, round_ones, fitted), (exact, arcs.stroke, which), paths)
     return CurvedStrokes(paths, beziers, arcs)
 
 
@@ -287,7 +287,7 @@ def _polylines(paths: Paths) -> CurvedStrokes:
     return CurvedStrokes(paths, none, EllipseArcs.none())
 
 
-def _in_places(parts: tuple[BezierPaths, ...], strokes: tuple[Ints, ...], paths: Paths) -> BezierPaths:
+def in_places(parts: tuple[BezierPaths, ...], strokes: tuple[Ints, ...], paths: Paths) -> BezierPaths:
     """One path for each stroke, the numbers of which come with the parts; without segments where no part has one."""
     count, error = np.zeros(len(paths), dtype=np.intp), np.zeros(len(paths))
     for part, stroke in zip(parts, strokes, strict=True):

@@ -131,6 +131,11 @@ def plan_draw(
     return tuple(stages)
 
 
+def plan_arcs(stages: Sequence[Stage]) -> tuple[Stage, ...]:
+    """The stages of draw, and last the one that takes polygons for the arcs that they stand for."""
+    return (*stages, Stage("arcs", "polygons that stand for circles and ellipses leave as arcs of these"))
+
+
 def plan_panorama() -> tuple[Stage, ...]:
     """The stages of a panorama."""
     return (
