@@ -89,5 +89,5 @@ def test_the_plan_of_a_flange_for_the_laser_is_six_circles(tmp_path):
     circles = list(ezdxf.readfile(tmp_path / "flange.dxf").modelspace())
     assert {circle.dxftype() for circle in circles} == {"CIRCLE"}
     assert sorted(round(circle.dxf.radius, 4) for circle in circles) == [4.0, 4.0, 4.0, 4.0, 10.0, 40.0]
-    (error,) = [one.error for one in reports if one.stage == "arcs" and one.error is not None]
+    (error,) = [one.error for one in reports if one.name == "arcs" and one.error is not None]
     assert 40.0 * (1.0 - np.cos(np.pi / 96)) < error < 0.03
