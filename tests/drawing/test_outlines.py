@@ -118,3 +118,22 @@ def test_amid_the_scene_there_is_no_outline():
     with pytest.raises(vp.InputError, match="behind the eye"):
         vp.draw(around, lines="outline")
     assert not vp.draw(vp.Scene(()), lines="outline").layers
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        {"style": "wireframe"},
+        {"style": "depth-cue"},
+        {"layers": "object"},
+        {"layers": "colour"},
+        {"hidden": "dashed"},
+        {"pens": "outline=0.7:red"},
+        {"curves": "polyline"},
+        {"curves": "arcs"},
+    ],
+)
+def test_outlines_stay_closed_in_all_looks(how):
+    drawing = vp.draw(vp.read("data/mixed.scene"), lines="outline", **how)
+    found = [strokes for layer in drawing.layers for strokes in layer.strokes]
+    assert sum(map(len, found)) == 3 and all(strokes.closed.all() for strokes in found)
