@@ -6,7 +6,9 @@ import pytest
 import shapely
 
 import vectorplot as vp
+from vectorplot import geometry
 from vectorplot.io.scene_language import parse_scene
+from vectorplot.surfaces import Sphere
 from vectorplot.words import LineKind
 
 TOP = "page 100x100 margin 0\ncamera eye 0 0 100 target 0 0 0 up 0 1 0 parallel height 100\n"
@@ -86,6 +88,44 @@ def test_surfaces_and_meshes_have_one_outline_together():
     _, rings, areas = outline(parse_scene(TOP + together), fit=False)
     ball = 2.0 * (100.0 * np.arcsin(0.2) + 2.0 * np.sqrt(96.0))
     assert len(rings) == 1 and areas[0] == pytest.approx(100.0 * np.pi + 160.0 - ball, rel=1e-3)
+
+
+@pytest.mark.parametrize("seed", range(8))
+def test_random_boxes_and_balls_have_the_outline_of_the_union_of_their_images(seed):
+    random = np.random.default_rng(seed)
+    items, images = [], []
+    for _ in range(random.integers(3, 9)):
+        place = random.uniform(-25.0, 25.0, 3)
+        if random.random() < 0.5:
+            radius = random.uniform(2.0, 12.0)
+            items.append(vp.Item("BALL", Sphere(radius)).moved(*place))
+            images.append(shapely.Point(place[:2] + 50.0).buffer(radius, quad_segs=2000))
+        else:
+            box = vp.Item("BOX", geometry.box(tuple(random.uniform(2.0, 25.0, 3))))
+            items.append(box.turned(random.normal(size=3), random.uniform(0.0, 360.0)).moved(*place))
+            images.append(shapely.convex_hull(shapely.multipoints(items[-1].shape.vertices[:, :2] + 50.0)))
+    whole = shapely.union_all(images)
+    how = {"camera": vp.Camera((0, 0, 100), up=(0, 1, 0), parallel=True, height=100), "page": vp.Page(100, 100, 0)}
+    _, rings, areas = outline(vp.Scene(tuple(items)), fit=False, tolerance_mm=0.005, **how)
+    assert sum(areas) == pytest.approx(whole.area, abs=0.0025 * whole.length)
+    assert len(rings) == len(shapely.get_rings(whole))
+
+
+@pytest.mark.parametrize(
+    "shape", ["cylinder radius 3 top 9", "cone radius 4 height 8", "cylinder radius 3 top 9 capped"]
+)
+def test_of_an_open_body_the_inside_counts_as_covered(shape):
+    camera = "page 100x100 margin 0\ncamera eye 40 -90 60 target 0 0 0 field_of_vision 30\n"
+    scene = parse_scene(f"{camera}A red surface {shape}\n  rotation y 46\n  translation -10 4 10\n")
+    _, rings, areas = outline(scene, fit=False)
+    painted = [fills for layer in vp.paint(scene, fit=False, tolerance_mm=0.005).layers for fills in layer.fills]
+    polygons = [
+        shapely.Polygon(fills.points[low:high]).buffer(0)
+        for fills in painted
+        for low, high in zip(fills.offsets[:-1], fills.offsets[1:], strict=True)
+        if high - low > 2
+    ]
+    assert len(rings) == 1 and areas[0] == pytest.approx(shapely.union_all(polygons, grid_size=1e-4).area, abs=0.5)
 
 
 def test_items_may_ask_for_an_outline_of_their_own():

@@ -61,13 +61,30 @@ def outlines(borders: Paths, covered: Callable[[Floats], Bools], tolerance_mm: f
     if not len(borders):
         return borders
     ends = segments(borders)
-    network = shapely.union_all(shapely.linestrings(borders.points[ends]), grid_size=GRID_MM)
-    cells = shapely.get_parts(shapely.polygonize(shapely.get_parts(network)))
+    cells = shapely.get_parts(shapely.polygonize(_network(shapely.linestrings(borders.points[ends]), tolerance_mm)))
     if len(cells):
         cells = cells[covered(shapely.get_coordinates(shapely.point_on_surface(cells)))]
     regions = mosaics(cells, np.zeros(len(cells), dtype=np.intp))
     parts, _ = without_splinters(insides_of(regions), SPLINTER * tolerance_mm)
     return _around(parts, borders, ends, page_from_world) if len(parts) else Paths.empty()
+
+
+def _network(chords: Any, tolerance_mm: float) -> Any:
+    """Lines between the nodes at which chords meet or cross, loose ends tied to all lines within the tolerance: a
+    contour that ends on a border may do so beside its chord."""
+    import shapely
+
+    lines = shapely.get_parts(shapely.union_all(chords, grid_size=GRID_MM))
+    ends = np.concatenate([shapely.get_point(lines, place) for place in (0, -1)])
+    steps = np.rint(shapely.get_coordinates(ends) / GRID_MM)
+    _, first, count = np.unique(steps, axis=0, return_index=True, return_counts=True)
+    loose = ends[first[count == 1]]
+    end, line = shapely.STRtree(lines).query(loose, predicate="dwithin", distance=tolerance_mm)
+    ties = shapely.shortest_line(loose[end], lines[line])
+    ties = ties[shapely.length(ties) > 0.0]
+    if not len(ties):
+        return lines
+    return shapely.get_parts(shapely.union_all(np.concatenate([lines, ties]), grid_size=GRID_MM))
 
 
 def _around(parts: Any, strokes: Paths, ends: Ints, page_from_world: Floats) -> Paths:
