@@ -10,7 +10,7 @@ from typing import Literal
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.drawing.pen_layers import layer_words, line_list, pen_scale
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
-from vectorplot.drawing.round_polygons import rounding_error_mm, with_round_polygons
+from vectorplot.drawing.stroke_curves import rounding_error_mm, with_round_polygons
 from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh

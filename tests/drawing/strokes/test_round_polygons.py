@@ -6,7 +6,7 @@ import pytest
 
 import vectorplot as vp
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
-from vectorplot.drawing.round_polygons import rounding_error_mm, with_round_polygons
+from vectorplot.drawing.stroke_curves import rounding_error_mm, with_round_polygons
 from vectorplot.io.scene_language import parse_scene
 
 PLAN = vp.Camera((0, 0, 1000), up=(0, 1, 0), parallel=True, height=100)
