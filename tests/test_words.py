@@ -116,7 +116,7 @@ def test_kinds_come_once_and_none_is_none():
     assert line_words("none") == line_words(("none",)) == line_words(()) == ()
     kinds = {kind.word for kind in LineKind}
     features = {kind.word for kind in FEATURE_KINDS}
-    assert set(DRAWN) == set(LINE_WORDS) - {"edges"} - features
+    assert set(DRAWN) == set(LINE_WORDS) - {"edges", "outline"} - features
     assert set(LINE_WORDS) == kinds - {"hatch", "label", "centre", "ghost", "trace"}
 
 
@@ -151,7 +151,7 @@ def test_the_nearest_known_word(word, known, meant):
         (["draw", "x", "-o", "y.svg", "--linse", "contour"], "Did you mean '--lines'?"),
         (["paint", "x", "-o", "y.svg", "--field-of-view", "30"], "Did you mean '--fov'?"),
         (["draw", "x", "-o", "y.svg", "--lines", "creases"], "did you mean 'crease'?"),
-        (["render", "x", "-o", "y.png", "--lines", "outline"], "did you mean 'contour'?"),
+        (["render", "x", "-o", "y.png", "--lines", "silhouette"], "did you mean 'contour'?"),
     ],
 )
 def test_the_command_says_what_may_be_meant(arguments, hint, capsys):

@@ -150,6 +150,8 @@ class LineKind(IntEnum):
     """An outline of what was cut away."""
     TRACE = 21
     """A line along which parts were moved apart."""
+    OUTLINE = 22
+    """A closed path around all that things cover of the page together, or around a hole in it."""
 
     @property
     def word(self) -> str:
@@ -195,7 +197,10 @@ LINE_WORDS = tuple(kind.word for kind in LineKind if kind not in (LineKind.HATCH
 FEATURE_KINDS = (LineKind.SUGGESTIVE, LineKind.RIDGE, LineKind.VALLEY, LineKind.APPARENT)
 """The kinds of lines that curvature makes, which are drawn only where they are asked for."""
 
-_DEFAULT = tuple(word for word in LINE_WORDS if word not in [kind.word for kind in FEATURE_KINDS])
+ON_THINGS = tuple(word for word in LINE_WORDS if word != LineKind.OUTLINE.word)
+"""Those of them that lie on one thing each; an outline is that of all together."""
+
+_DEFAULT = tuple(word for word in ON_THINGS if word not in [kind.word for kind in FEATURE_KINDS])
 
 DRAWN = tuple(word for word in _DEFAULT if word != LineKind.EDGES.word)
 """The kinds of lines that are drawn where nothing else is said."""

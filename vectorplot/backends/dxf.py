@@ -10,12 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from vectorplot.arrays import Floats
+from vectorplot.arrays import Bools, Floats
 from vectorplot.backends.page import Areas, Ink, PageMarks, PageStrokes, PageTexts, page_marks
 from vectorplot.drawing.drawing import Drawing
+from vectorplot.geometry import ragged
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.scene.labels import TYPE_SIZE
-from vectorplot.tolerances import HOMOTHETIC, WHOLE_TURN
+from vectorplot.tolerances import COINCIDENT_MM, WHOLE_TURN
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing as Document
@@ -94,16 +95,35 @@ def _strokes(space: Modelspace, lines: PageStrokes, layer: str) -> None:
     own = {"layer": layer}
     arcs = np.full(len(lines), -1)
     arcs[lines.arcs.stroke] = np.arange(len(lines.arcs))
-    rows = zip(
-        pairwise(lines.offsets.tolist()), lines.closed.tolist(), lines.curved.tolist(), arcs.tolist(), strict=True
-    )
-    for (begin, end), closed, curved, arc in rows:
+    flags = np.stack([lines.closed, lines.curved, lines.curved & ~_are_straight(lines)], axis=1).tolist()
+    rows = zip(pairwise(lines.offsets.tolist()), flags, arcs.tolist(), strict=True)
+    for (begin, end), (closed, curved, bent), arc in rows:
         if arc >= 0:
             _arc(space, lines, arc, own)
+        elif bent:
+            _spline(space, points[begin:end], closed, own)
         elif curved:
-            _spline(space, points[begin:end], own)
+            space.add_lwpolyline(points[[begin, end - 1]].tolist(), dxfattribs=own)
         else:
             space.add_lwpolyline(points[begin:end].tolist(), close=closed, dxfattribs=own)
+
+
+def _are_straight(lines: PageStrokes) -> Bools:
+    """(m,) the strokes whose points, or control points, lie within a micron of the way from the first to the last one,
+    in order: as the meridians of what is seen from above."""
+    if not len(lines):
+        return np.zeros(0, dtype=np.bool_)
+    first, last = lines.offsets[:-1], lines.offsets[1:] - 1
+    points, way = lines.microns.astype(np.float64), (lines.microns[last] - lines.microns[first]).astype(np.float64)
+    owner = ragged.owner(np.diff(lines.offsets))
+    arm, along = points - points[first][owner], way[owner]
+    off = np.abs(arm[:, 0] * along[:, 1] - arm[:, 1] * along[:, 0])
+    part = (arm * along).sum(axis=1)
+    back = np.diff(part, prepend=part[:1]) < 0.0
+    back[first] = False
+    length = np.hypot(*way.T)
+    straight = (np.maximum.reduceat(off, first) <= length) & ~np.logical_or.reduceat(back, first)
+    return np.asarray(straight & (length > 0.0))
 
 
 def _texts(space: Modelspace, texts: PageTexts, layer: str) -> None:
@@ -138,7 +158,7 @@ def _arc(space: Modelspace, lines: PageStrokes, arc: int, own: dict[str, Any]) -
         second, start, end = -second, -end, -start
     whole = end - start >= 2.0 * np.pi - WHOLE_TURN
     sizes = np.hypot(*first), np.hypot(*second)
-    if abs(sizes[0] - sizes[1]) <= HOMOTHETIC * sizes[0]:
+    if abs(sizes[0] - sizes[1]) <= COINCIDENT_MM:
         if whole:
             space.add_circle(centre.tolist(), sizes[0], dxfattribs=own)
             return
@@ -155,11 +175,12 @@ def _arc(space: Modelspace, lines: PageStrokes, arc: int, own: dict[str, Any]) -
     )
 
 
-def _spline(space: Modelspace, control: Floats, own: dict[str, Any]) -> None:
-    """The Bézier segments of a path as a cubic B-spline with threefold knots."""
+def _spline(space: Modelspace, control: Floats, closed: bool, own: dict[str, Any]) -> None:
+    """The Bézier segments of a path as a cubic B-spline with threefold knots, whose ends meet where it is closed."""
     segments = (len(control) - 1) // 3
     knots = np.repeat(np.arange(segments + 1), 3)
     spline = space.add_spline(dxfattribs={**own, "degree": 3})
+    spline.closed = closed
     spline.control_points = np.column_stack([control, np.zeros(len(control))]).tolist()
     spline.knots = [0, *knots.tolist(), segments]
 

@@ -37,6 +37,7 @@ PENS = {
     "cut": Pen(0.7, BLACK),
     "ghost": Pen(0.13, BLACK),
     "trace": Pen(0.13, BLACK),
+    "outline": Pen(0.5, BLACK),
 }
 """The pens of layers by kind, as a draughtsman would choose them."""
 
@@ -63,6 +64,7 @@ KIND_LAYER = {
     LineKind.CUT: "cut",
     LineKind.GHOST: "ghost",
     LineKind.TRACE: "trace",
+    LineKind.OUTLINE: "outline",
 }
 
 COLOURS = {

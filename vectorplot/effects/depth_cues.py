@@ -136,12 +136,12 @@ def all_lines(lines: Lines) -> Visibility:
 def wire_layers(
     scene: Scene, view: View, strokes: Paths, page: Page, style: Literal["wireframe", "depth-cue"]
 ) -> tuple[Layer, ...]:
-    """The background, and a layer for every shade of every colour, the darkest first; strokes of two points. wireframe:
-    the middle shade of the item's palette, or its face's; depth-cue: the mean of the shades at its ends, from a
-    fifth of the palette for the farthest to its brightest for the nearest. Palettes have 32 shades.
+    """The background, and a layer for every shade of every colour, the darkest first; strokes of two points, or more.
+    wireframe: the middle shade of the item's palette, or its face's; depth-cue: the mean of the shades at its first and
+    last point, from a fifth of the palette for the farthest to its brightest for the nearest. Palettes have 32 shades.
     Source: Glaeser, section 4.4, figure 2; errata G4-03, G4-04.
     """
-    shade = np.full(len(strokes), MIDDLE) if style == "wireframe" else _cued(view, strokes.points3d)
+    shade = np.full(len(strokes), MIDDLE) if style == "wireframe" else _cued(view, strokes)
     names = list(dict.fromkeys(item.colour for item in scene.items))
     of_item = np.array([names.index(item.colour) for item in scene.items], dtype=np.intp)
     key = shade_numbers(shade, PALETTE_SIZE) * len(names) + of_item[shown_items(scene, strokes, view.world_eye)]
@@ -160,9 +160,10 @@ def _background(scene: Scene, page: Page) -> Layer:
     return Layer("background", Pen(), (Fills.whole_page(page.width_mm, page.height_mm, colour),), plotted=False)
 
 
-def _cued(view: View, world: Floats) -> Floats:
-    depths = view.points_of(world)[2]
-    return edge_shades(depths[::2], depths[1::2], *limited_depths(view, depths))
+def _cued(view: View, strokes: Paths) -> Floats:
+    depths = view.points_of(strokes.points3d)[2]
+    first, last = strokes.offsets[:-1], strokes.offsets[1:] - 1
+    return edge_shades(depths[first], depths[last], *limited_depths(view, depths))
 
 
 def _wire_pen(colour: str, shade: int) -> tuple[str, Pen, bool]:

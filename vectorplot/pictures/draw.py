@@ -10,6 +10,7 @@ from typing import Literal
 from vectorplot.drawing.drawing import Drawing, Paths
 from vectorplot.drawing.pen_layers import layer_words, line_list, pen_scale
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
+from vectorplot.drawing.stroke_curves import rounding_error_mm, with_round_polygons
 from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
@@ -23,10 +24,11 @@ from vectorplot.pictures.lines import (
     lines_in_place,
     placed_lines,
     traceable,
+    with_outline,
 )
 from vectorplot.pictures.options import check_look, check_options
 from vectorplot.pictures.pipeline import Pipeline, StageReport, stoppable
-from vectorplot.pictures.plan import accuracy_of_draw, plan_draw, plan_hatching, with_accuracy
+from vectorplot.pictures.plan import accuracy_of_draw, plan_arcs, plan_draw, plan_hatching, with_accuracy
 from vectorplot.pictures.prepared_scene import Paper, beside_bar, left_of_bar, prepared_scene
 from vectorplot.pictures.promises import DRAWING, promised
 from vectorplot.scene.added_lines import with_default_lines
@@ -98,7 +100,7 @@ def draw(
     hatch: Hatching | Stippling | None = None,
     layers: str | None = None,
     unplotted: str | Iterable[str] = "",
-    curves: Literal["bezier", "polyline"] = "bezier",
+    curves: Literal["bezier", "polyline", "arcs"] = "bezier",
     tolerance_mm: float = 0.02,
     title: str = "",
     frame: bool = False,
@@ -164,8 +166,9 @@ def draw(
     unplotted : str or iterable of str
         The names of layers that plotters skip; kinds, items and colours of which the picture shows nothing may be among
         them.
-    curves : {"bezier", "polyline"}
-        Strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or stay polylines.
+    curves : {"bezier", "polyline", "arcs"}
+        Strokes of smooth curves are fitted with cubic Béziers and elliptic arcs, or stay polylines. With "arcs"
+        polygons of meshes that stand for circles are arcs too, of ellipses where they are seen from the side.
     tolerance_mm : float
         How many mm strokes of smooth curves may be off the true curves; their points are exact but for the ends of
         dashes, straight lines are so whatever it is.
@@ -259,7 +262,7 @@ def draw(
         layers=layers,
         rules=rules if bar is None else bar.with_pens(rules),
         background=chosen.background if background is None else background,
-        curved_mm=tolerance_mm if curves == "bezier" else None,
+        curved_mm=None if curves == "polyline" else tolerance_mm,
         longest_mm=longest_mm,
         title=title,
         frame=frame,
@@ -270,7 +273,8 @@ def draw(
     )
     planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look)
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
-    smooth = curves == "bezier" and any(not isinstance(item.shape, Mesh) for item in seen.items)
+    planned = plan_arcs(planned) if curves == "arcs" else planned
+    smooth = curves != "polyline" and any(not isinstance(item.shape, Mesh) for item in seen.items)
     pipeline = Pipeline(with_accuracy(planned, accuracy_of_draw(tolerance_mm, smooth)), explain, progress, threads)
     view = pipeline.run("look", look, seen, prepared.camera)
     faces = pipeline.run("faces", project_faces, view)
@@ -286,6 +290,7 @@ def draw(
         beside = (prepared.anchors, strokes, hidden, finish.look, text)
         labels = pipeline.run("labels", labels_in_place, seen, view, faces, placement, *beside)
         strokes = labels.interrupted(strokes, placement.page_from_world)
+    strokes = with_outline(strokes, shapes, placement, tolerance_mm, allowed)
     hatches = Paths.empty()
     if pipeline.calls_for("hatching"):
         hatches = hatched_in_place(shapes, placement, hatch, crease_angle_deg, tolerance_mm, budget)
@@ -296,6 +301,9 @@ def draw(
         found = finish.cued(pipeline, found, view, cue, placement)
     inks = finish.inked(pipeline, found, placement)
     pipeline.measured("pen", "mm", fit_error_mm, inks)
+    if pipeline.calls_for("arcs"):
+        inks = pipeline.run("arcs", with_round_polygons, inks, tolerance_mm)
+        pipeline.measured("arcs", "mm", rounding_error_mm, inks)
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
     return beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)

@@ -19,7 +19,7 @@ from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_p
 from vectorplot.drawing.pen_layers import layer_words, not_plotted, pen_scale, sheet_layer, sorted_layers
 from vectorplot.drawing.pens import PenRule, frame_pen, pen_of, rules_by_target, scaled_pen
 from vectorplot.drawing.strokes import chosen, concatenated
-from vectorplot.errors import InputWarning
+from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import Budget, budget_of, line_each
 from vectorplot.geometry.elementary import arctan2
@@ -30,12 +30,14 @@ from vectorplot.pictures.plan import plan_draw
 from vectorplot.pictures.prepared_scene import room_for_labels, titled
 from vectorplot.scene.annotations import LabelAnchors, annotation_points, is_annotation, only_annotations
 from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.item import Item
 from vectorplot.scene.page import Page
 from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.placement import Placement, box_corners, fitted_picture, mm_per_image
 from vectorplot.scene.scene import Scene, tell_of_empty_surface
 from vectorplot.scene.view import View, view_of
 from vectorplot.tolerances import COINCIDENT_MM, EXACT_MM, FINEST_CHORD_OF_EXTENT
+from vectorplot.visibility.hidden_points import items_before
 from vectorplot.visibility.polyhedra.hidden_lines import (
     Segments,
     Visibility,
@@ -49,6 +51,7 @@ from vectorplot.visibility.polyhedra.lines import (
     frame_of,
     in_frame,
     intersection_lines,
+    items_wanting,
     joined_lines,
     mesh_curve_lines,
     pattern_lines,
@@ -73,12 +76,6 @@ their number."""
 
 MOST_ROUNDS = 6
 """So often what is still no Bézier curve is cut again: where weights change fast the fourth power comes late."""
-
-
-def fitted_lines(view: View, lines: Lines, seen: Visibility, page: Page) -> Placement:
-    """The place of a picture that fills the page with the parts of lines."""
-    ends = np.concatenate(lines.ends(view, seen.segment, seen.low, seen.high), axis=1)
-    return fitted_picture(view, page, view.image_of(ends))
 
 
 def strokes_on_page(view: View, lines: Lines, seen: Visibility, placement: Placement) -> Paths:
@@ -658,8 +655,9 @@ def placed_lines(shapes: LineSources, sheet: Page, fit: bool, tolerance_mm: floa
         bounded = frame_of(view, every, sheet, fit)
         framed = shapes.framed(every, bounded)
         seen = shapes.seen(framed)
-        placement = bounded or fitted_lines(view, framed, seen, sheet)
-        if bounded is None and not len(seen) and pipeline.calls_for("hatching"):
+        ends = _ends_to_fit(shapes, framed, seen, tolerance, budget)
+        placement = bounded or fitted_picture(view, sheet, view.image_of(ends))
+        if bounded is None and not ends.shape[1] and pipeline.calls_for("hatching"):
             # Without lines the picture is that of the faces.
             placement = fitted_picture(view, sheet, view.image_of(reached))
         if (
@@ -671,6 +669,77 @@ def placed_lines(shapes: LineSources, sheet: Page, fit: bool, tolerance_mm: floa
             return PlacedLines(shapes, framed, seen, placement)
         # Little of the scene is drawn, and that larger than thought.
         scale = placement.scale
+
+
+# The outline of what is seen, all items together.
+
+BORDERS = frozenset({LineKind.CONTOUR, LineKind.BOUNDARY})
+"""The lines in which the image of a thing can end."""
+
+BEHIND = 4.0
+"""A depth behind all of a scene, which is 2 wide, from its middle."""
+
+
+def _outlined(item: Item, asking: bool) -> Item:
+    """An item with all its borders if it asks for an outline; one that draws and hides nothing otherwise."""
+    if not asking or is_annotation(item):
+        return replace(item, lines=(), occludes=False)
+    curves = replace(item.curves, smooth_contours=False)
+    return replace(item, lines=None, occludes=True, curves=curves, drawn_edges=None, added_edges=None)
+
+
+def _border_sources(shapes: LineSources, budget: Budget) -> LineSources:
+    """What the borders are traced on of the items that ask for an outline: hidden ones too, and of meshes those of
+    their faces, also where their contours are those of smooth shapes."""
+    asking = items_wanting(LineKind.OUTLINE, shapes.scene, shapes.kinds).tolist()
+    alone = replace(shapes.scene, items=tuple(map(_outlined, shapes.scene.items, asking)))
+    view = replace(shapes.view, occludes=np.array([item.hides for item in alone.items], dtype=np.bool_))
+    pipeline = Pipeline(plan_draw(alone, BORDERS, "none", 0.0, "wireframe"), None, None)
+    return traceable(pipeline, alone, view, shapes.faces, BORDERS, 180.0, budget)
+
+
+def _ends_to_fit(shapes: LineSources, lines: Lines, seen: Visibility, tolerance: float, budget: Budget) -> Floats:
+    """(3,n) the ends of what is drawn: of parts of lines, and of outlines where the plan has them."""
+    ends = np.concatenate(lines.ends(shapes.view, seen.segment, seen.low, seen.high), axis=1)
+    if not shapes.pipeline.calls_for("outline"):
+        return ends
+    sources = _border_sources(shapes, budget)
+    borders = sources.framed(sources.lines(tolerance, budget), None)
+    return np.concatenate([ends, borders.start, borders.end], axis=1)
+
+
+def with_outline(
+    strokes: Paths, shapes: LineSources, placement: Placement, tolerance_mm: float, budget: Budget
+) -> Paths:
+    """The strokes of a picture, and its outline where the plan has it; see drawing.outlines.
+
+    Errors: InputError for an outline of what reaches behind the eye, or too far to the side of it.
+    """
+    if not shapes.pipeline.calls_for("outline"):
+        return strokes
+    return concatenated((strokes, shapes.pipeline.run("outline", _outline, shapes, placement, tolerance_mm, budget)))
+
+
+def _outline(shapes: LineSources, placement: Placement, tolerance_mm: float, budget: Budget) -> Paths:
+    from vectorplot.drawing.outlines import outlines
+
+    sources = _border_sources(shapes, budget)
+    view, every = sources.view, sources.lines(0.5 * tolerance_mm / placement.scale, budget)
+    if view.reaches_too_far(every.start, every.end, view.points):
+        raise InputError("outline: the scene reaches behind the eye, or too far to the side of it; step back")
+
+    def covered(places: Floats) -> Bools:
+        points = view.in_image_plane((places.T - placement.page_from_image[:2, 2:]) / placement.scale)
+        if view.eye is None:
+            points[2] = -BEHIND
+        else:
+            eye = view.eye[:, None]
+            points = eye + (points - eye) * ((BEHIND + np.abs(view.eye).max()) / view.focus)
+        return np.asarray(items_before(sources.scene, view, sources.faces, points).any(axis=1))
+
+    framed = sources.framed(every, None)
+    borders = PlacedLines(sources, framed, sources.seen(framed), placement).strokes()
+    return outlines(borders, covered, tolerance_mm, placement.page_from_world)
 
 
 # The visible lines of a scene on a picture that has its place already, for paintings, pixels and panoramas.
@@ -750,7 +819,8 @@ def lines_in_place(
     # Lines may reach too far where what the picture was fitted to does not.
     cut = not placement.whole or view.reaches_too_far(every.start, every.end)
     framed = shapes.framed(every, placement if cut else None)
-    return PlacedLines(shapes, framed, shapes.seen(framed), placement).strokes()
+    strokes = PlacedLines(shapes, framed, shapes.seen(framed), placement).strokes()
+    return with_outline(strokes, shapes, placement, tolerance_mm, allowed)
 
 
 # The exact visible lines of a scene, and its labels, in their places on a picture of its faces.

@@ -112,7 +112,7 @@ OPTIONS: dict[str, Option] = {
     "fit": _YES,
     "lines": _WORDS,
     "hidden": _word("none", "dashed", "solid", optional=True),
-    "curves": _word("bezier", "polyline"),
+    "curves": _word("bezier", "polyline", "arcs"),
     "text": _word(*TEXT_WORDS),
     "fills": _word("painted", "visible", "erasing"),
     "transparency": _word("blended", "sparse"),

@@ -42,7 +42,7 @@ from vectorplot.scene.scene import Scene
 from vectorplot.scene.view import View, without_coincident
 from vectorplot.shading.palettes import PALETTE_SIZE, shaded_colours
 from vectorplot.shading.shaded_faces import item_colours
-from vectorplot.words import LINE_WORDS, LineKind, check_word, line_kinds
+from vectorplot.words import ON_THINGS, LineKind, check_word, line_kinds
 
 # Blank polygons with the visible lines on them: hidden lines by erasing.
 
@@ -244,6 +244,8 @@ def paint(
     budget_of(budget)
     threads = threads_of(jobs)
     given, kinds = scene_of(scene), line_kinds(lines)
+    if fills == "erasing" and LineKind.OUTLINE in kinds:
+        raise InputError("lines: an outline does not go with fills that are erasing, whose lines are those of items")
     if fills == "erasing" and not kinds:
         given = with_default_lines(given)
     chosen = overlaid_pens(given.inks, style, pens, dashes)
@@ -274,7 +276,7 @@ def paint(
     # Lines belong to each item, polygons to what is seen.
     shown = scene if kinds or fills == "erasing" else without_coincident(scene)
 
-    drawn = kinds or line_kinds(LINE_WORDS if fills == "erasing" else ())
+    drawn = kinds or line_kinds(ON_THINGS if fills == "erasing" else ())
     casts, limits = shadows != "none" and bool(scene.lights), budget_of(budget)
     painter = FacePainter(
         pipeline,
@@ -312,7 +314,7 @@ def paint(
         seen, lighting = painter.seen(ordered, placement)
         ruler = LineOverlay(scene, seen.view, seen.projected, placement, crease_angle_deg, tolerance_mm, budget)
         if pipeline.calls_for("erasing"):
-            polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(LINE_WORDS), palette)
+            polygons = erased(pipeline, seen, scene, ruler, kinds or line_kinds(ON_THINGS), palette)
         else:
             painted = painter.coloured(seen, lighting)
             polygons = painted.fills

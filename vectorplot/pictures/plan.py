@@ -82,10 +82,9 @@ def plan_draw(
         Stage("look", "the scene in the camera's axes, in the unit box"),
         Stage("faces", "the faces in the image, and which side they show"),
     ]
-    if wanted - {LineKind.INTERSECTION, LineKind.PATTERN}:
-        stages.append(
-            Stage("edges", ", ".join(sorted(k.word for k in wanted - {LineKind.INTERSECTION, LineKind.PATTERN})))
-        )
+    of_edges = wanted - {LineKind.INTERSECTION, LineKind.PATTERN, LineKind.OUTLINE}
+    if of_edges:
+        stages.append(Stage("edges", ", ".join(sorted(kind.word for kind in of_edges))))
     if LineKind.INTERSECTION in wanted:
         stages.append(Stage("intersections", "items, or parts of an item, may pierce each other"))
     if LineKind.PATTERN in wanted and any(item.patterns for item in scene.items):
@@ -123,11 +122,18 @@ def plan_draw(
         stages.append(Stage("halo", f"lines end {halo_mm:g} mm beside what is in front of them"))
     stages.append(Stage("strokes", "lines on the page, those that lie on each other once"))
     stages += _label_stages(scene)
+    if LineKind.OUTLINE in wanted:
+        stages.append(Stage("outline", "closed paths around what things cover of the page together"))
     stages.append(Stage("layers", "what shares a pen"))
     if style == "plain":
         stages += _cue_stages(scene)
     stages.append(Stage("pen", "strokes joined, in an order that keeps the pen on the paper"))
     return tuple(stages)
+
+
+def plan_arcs(stages: Sequence[Stage]) -> tuple[Stage, ...]:
+    """The stages of draw, and last the one that takes polygons for the arcs that they stand for."""
+    return (*stages, Stage("arcs", "polygons that stand for circles and ellipses leave as arcs of these"))
 
 
 def plan_panorama() -> tuple[Stage, ...]:

@@ -31,20 +31,21 @@ def points_hidden_by(scene: Scene, view: View, faces: ProjectedFaces, points: Fl
 
     points: (3, n) in the view's coordinates, before the near plane; result: (n,) 0 for visible points.
     """
-    hides = _by_items(scene, view, faces, points)
+    hides = items_before(scene, view, faces, points)
     covered = np.flatnonzero(hides.any(axis=1))
     if len(covered):
         angle = ASKEW + np.arange(AROUND) * (2.0 * np.pi / AROUND)
         ring = AROUND_OF_EXTENT * np.stack([np.cos(angle), np.sin(angle), np.zeros(AROUND)])
         near = np.concatenate([ring, NEARBY], axis=1)
         around = (points[:, covered, None] + near[:, None]).reshape(3, -1)
-        beside = _by_items(scene, view, faces, around).reshape(len(covered), near.shape[1], -1)
+        beside = items_before(scene, view, faces, around).reshape(len(covered), near.shape[1], -1)
         hides[covered] &= beside.all(axis=1)
     return np.asarray(hides.sum(axis=1), dtype=np.intp)
 
 
-def _by_items(scene: Scene, view: View, faces: ProjectedFaces, points: Floats) -> Bools:
-    """(n, items) which items hide points; what ends exactly before a point in the image does."""
+def items_before(scene: Scene, view: View, faces: ProjectedFaces, points: Floats) -> Bools:
+    """(n, items) which items are before points (3,n) in the view's coordinates; what ends exactly before a point in the
+    image is."""
     items = len(scene.items)
     return _by_faces(view, faces, points, items) | _by_sheets(scene, view, points, items)
 

@@ -88,3 +88,11 @@ def test_same_drawing_same_bytes_and_names_that_the_format_forbids():
     (known,) = [some for some in read_back(drawing).layers if some.dxf.name.startswith("1 ")]
     assert known.dxf.plot == 0 and np.isin(list('<>/"|'), list(known.dxf.name)).sum() == 0
     assert ezdxf.options.write_fixed_meta_data_for_testing is False
+
+
+def test_straight_lines_of_smooth_surfaces_are_lines_and_closed_curves_closed_splines():
+    above = vp.draw(vp.read("data/torus.scene"), "top")
+    found = {entity.dxftype() for entity in read_back(above).modelspace()}
+    assert found == {"LWPOLYLINE", "CIRCLE"}
+    outline = read_back(vp.draw(vp.read("data/implicit.scene"), lines="outline")).modelspace()
+    assert [entity.dxftype() for entity in outline] == ["SPLINE"] * 4 and all(entity.closed for entity in outline)

@@ -64,7 +64,9 @@ if TYPE_CHECKING:
         show_default=False,
         help="Layers that plotters skip.  [default: none]",
     ),
-    click.option("--curves", type=of_option("curves"), default="bezier", help="How smooth curves leave."),
+    click.option(
+        "--curves", type=of_option("curves"), default="bezier", help="How curves and circles of meshes leave."
+    ),
     TOLERANCE,
     TITLE,
     FRAME,
