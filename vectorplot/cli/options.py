@@ -1008,5 +1008,6 @@ LAYERS = click.option(
     "--layers",
     type=layers,
     metavar="WORD,...",
-    help="What shares a layer: kind, object, colour, or several of these.  [default: kind, or what the style says]",
+    help="What shares a layer: kind, object, colour, or several of these; pen: all of a pen.  [default: kind, or what "
+    "the style says]",
 )

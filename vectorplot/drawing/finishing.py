@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from operator import itemgetter
 
@@ -149,6 +149,21 @@ FEW_POINTS = 2048
 """The strokes of few layers are joined at once too where they have no more points than so many in all."""
 
 
+Grouping = Callable[[Paths], Ints]
+"""Which strokes may be joined: those that get equal numbers (m,)."""
+
+
+def by_line(paths: Paths) -> Ints:
+    """(m,) equal for strokes of the same item, kind and count."""
+    return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
+
+
+def by_dashes(paths: Paths) -> Ints:
+    """(m,) equal for strokes that a pen draws alike, whatever they are lines of: through, or in the same dashes."""
+    behind = (paths.hidden_by > 0) | (paths.kind == int(LineKind.GHOST))
+    return np.where(np.isin(paths.kind, CHAINED), 2 + paths.kind, behind.astype(np.intp))
+
+
 def inked(
     layers: tuple[Layer, ...],
     hidden: str,
@@ -156,14 +171,34 @@ def inked(
     curve_tolerance_mm: float | None = None,
     longest_mm: float | None = None,
     thinned: bool = False,
+    group: Grouping = by_line,
 ) -> tuple[Layer, ...]:
     """Each layer's strokes joined, without collinear points, dashed as its pen says, hidden ones also if asked for, in
     the order of the pen, in parts where they are longer than longest_mm; smooth ones as curves within
-    curve_tolerance_mm, or as polylines where it is None. thinned: ends that converge stop early. Filled polygons
-    and texts stay."""
+    curve_tolerance_mm, or as polylines where it is None. thinned: ends that converge stop early; group: which strokes
+    are joined. Filled polygons and texts stay."""
     parts = [paths for layer in layers for paths in layer.strokes]
     pens = [layer.pen for layer in layers for _ in layer.strokes]
-    strokes = _pen_strokes(parts, pens, hidden, world, thinned)
+    strokes = _pen_strokes(parts, pens, hidden, world, thinned, group)
+    return _fitted(layers, strokes, world, curve_tolerance_mm, longest_mm)
+
+
+def put_in_order(
+    layers: tuple[Layer, ...], world: Floats, curve_tolerance_mm: float | None, longest_mm: float | None
+) -> tuple[Layer, ...]:
+    """Layers of strokes that are joined and dashed already in the order of the pen, then as in inked."""
+    strokes = list(mapped(pen_ordered, [paths for layer in layers for paths in layer.strokes]))
+    return _fitted(layers, strokes, world, curve_tolerance_mm, longest_mm)
+
+
+def _fitted(
+    layers: tuple[Layer, ...],
+    strokes: list[Paths],
+    world: Floats,
+    curve_tolerance_mm: float | None,
+    longest_mm: float | None,
+) -> tuple[Layer, ...]:
+    """The layers with these strokes, long ones in parts, smooth ones as curves."""
     if longest_mm is not None:
         strokes = [split_long(paths, longest_mm, world) for paths in strokes]
     drawn = iter(strokes if curve_tolerance_mm is None else (curved_strokes(s, curve_tolerance_mm) for s in strokes))
@@ -173,18 +208,18 @@ def inked(
     )
 
 
-def long_strokes(paths: Paths) -> Paths:
-    """Strokes of one item, kind and count that follow one another joined, without collinear points: those of one curve
-    first, then those of different curves, or of none, that meet end to end."""
+def long_strokes(paths: Paths, group: Grouping = by_line) -> Paths:
+    """Strokes of one group that follow one another joined, without collinear points: those of one curve first, then
+    those of different curves, or of none, that meet end to end."""
     if not len(paths):
         return paths
     known = paths.curve != NO_CURVE
     if known.any():
         curves = without_dots(chosen(paths, known), COINCIDENT_MM)
-        curves = in_rows(curves, going_on(curves, _group(curves), COINCIDENT_MM))
-        own = np.unique(np.stack([_group(curves), curves.curve]), axis=1, return_inverse=True)[1]
+        curves = in_rows(curves, going_on(curves, group(curves), COINCIDENT_MM))
+        own = np.unique(np.stack([group(curves), curves.curve]), axis=1, return_inverse=True)[1]
         paths = concatenated((joined(curves, own.ravel(), COINCIDENT_MM), chosen(paths, ~known)))
-    return without_collinear_points(joined(paths, _group(paths), COINCIDENT_MM), COLLINEAR_MM)
+    return without_collinear_points(joined(paths, group(paths), COINCIDENT_MM), COLLINEAR_MM)
 
 
 def chain_lines_dashed(paths: Paths, world: Floats, mm: float = 1.0) -> Paths:
@@ -208,25 +243,22 @@ def with_dashes(layers: Sequence[Layer], world: Floats) -> list[Layer]:
     ]
 
 
-def _group(paths: Paths) -> Ints:
-    """(m,) equal for strokes of the same item, kind and count."""
-    return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
-
-
-def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world: Floats, thinned: bool) -> list[Paths]:
+def _pen_strokes(
+    parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world: Floats, thinned: bool, group: Grouping
+) -> list[Paths]:
     """The strokes of each part, joined and in the order of the pen."""
-    alike = len({pen.dash_mm for pen in pens}) == 1 and not thinned
+    alike = len({pen.dash_mm for pen in pens}) == 1 and not thinned and group is by_line
     many = len(parts) > MANY_PARTS
     if not alike or (not many and sum(len(paths.points) for paths in parts) > FEW_POINTS):
         # The longest part begins first, so that the others are done beside it.
         first = sorted(range(len(parts)), key=lambda k: -len(parts[k]))
-        done = mapped(lambda k: pen_ordered(_drawn(parts[k], pens[k], hidden, world, thinned)), first)
+        done = mapped(lambda k: pen_ordered(_drawn(parts[k], pens[k], hidden, world, thinned, group)), first)
         return [paths for _, paths in sorted(zip(first, done, strict=True), key=itemgetter(0))]
     every = concatenated(tuple(parts))
     part = ragged.owner([len(paths) for paths in parts])
     low, high = int(every.item.min(initial=0)), int(every.item.max(initial=0)) + 1
     # Until they are in order, what is said of their items tells the parts of strokes too: no two parts are joined.
-    long = _drawn(replace(every, item=part * (high - low) + every.item - low), pens[0], hidden, world, thinned)
+    long = _drawn(replace(every, item=part * (high - low) + every.item - low), pens[0], hidden, world, thinned, group)
     part, item = np.divmod(long.item, high - low)
     order = np.argsort(part, kind="stable")
     long, part = chosen(replace(long, item=item + low), order), part[order]
@@ -234,9 +266,9 @@ def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world
     return own if many else [pen_ordered(paths) for paths in own]
 
 
-def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) -> Paths:
+def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool, group: Grouping) -> Paths:
     """The long strokes of a pen, with its dashes."""
-    long = long_strokes(paths)
+    long = long_strokes(paths, group)
     if thinned:
         long = trimmed_ends(long, pen.width_mm, world)
     if pen.dash_mm is not None:

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Literal
 
 from vectorplot.drawing.drawing import Drawing, Paths
-from vectorplot.drawing.pen_layers import layer_words, line_list, pen_scale
+from vectorplot.drawing.pen_layers import layer_words, layers_asked, line_list, pen_scale
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
 from vectorplot.geometry.budget import budget_of, threads_of
 from vectorplot.geometry.camera import Camera
@@ -160,7 +160,9 @@ def draw(
         How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
     layers : str, optional
         What shares a layer: kind, object or colour, that of the face where it has its own, or several of these with
-        commas between them; as the style says where None.
+        commas between them; as the style says where None. Or pen: all that a pen draws, hatching, letters and frame
+        among it, the pens those of the style's layers, or of words beside it, as in "colour,pen". Strokes of one pen
+        are joined wherever their ends meet.
     unplotted : str or iterable of str
         The names of layers that plotters skip; kinds, items and colours of which the picture shows nothing may be among
         them.
@@ -240,7 +242,7 @@ def draw(
     chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)
     hidden = chosen.hidden if hidden is None else hidden
-    layers = chosen.layers if layers is None else layers
+    layers = layers_asked(layers, chosen)
     layer_words(layers)
     allowed, threads = budget_of(budget), threads_of(jobs)
     others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(asked)}
@@ -295,7 +297,9 @@ def draw(
     if cue is not None and finish.plain:
         found = finish.cued(pipeline, found, view, cue, placement)
     inks = finish.inked(pipeline, found, placement)
-    pipeline.measured("pen", "mm", fit_error_mm, inks)
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
-    return beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)
+    drawing = beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)
+    drawing = finish.of_pens(pipeline, drawing)
+    pipeline.measured("pen", "mm", fit_error_mm, drawing.layers)
+    return drawing

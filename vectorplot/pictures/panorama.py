@@ -14,7 +14,7 @@ from vectorplot.drawing.drawing import NO_CURVE, Drawing, Layer, Paths
 from vectorplot.drawing.labels import NO_ITEM
 from vectorplot.drawing.layers import shown_items
 from vectorplot.drawing.letters import lettered
-from vectorplot.drawing.pen_layers import line_list, sorted_layers
+from vectorplot.drawing.pen_layers import layers_asked, line_list, sorted_layers
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
 from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError
@@ -121,7 +121,7 @@ def panorama(
     finish = OutputStyle(
         look=chosen.look,
         hidden="none",
-        layers=chosen.layers if layers is None else layers,
+        layers=layers_asked(layers, chosen),
         rules=(*chosen.rules, *own, *pen_rules(pens, dashes)),
         background=chosen.background if background is None else background,
         curved_mm=tolerance_mm if curves == "bezier" else None,
@@ -151,7 +151,8 @@ def panorama(
     named, shown = _names_and_colours(seamless), shown_items(seamless, strokes, np.append(eye, 1.0))
     found = pipeline.run("layers", sorted_layers, strokes, *named, finish.layers, finish.rules, (), shown)
     inks, letters = finish.inked(pipeline, found, placement), finish.letters(found)
-    return finish.drawing((*inks, Layer("bearings", letters, (marks,))), placement, seamless, letters)
+    drawing = finish.drawing((*inks, Layer("bearings", letters, (marks,))), placement, seamless, letters)
+    return finish.of_pens(pipeline, drawing)
 
 
 def _names_and_colours(scene: Scene) -> tuple[list[str], list[str]]:
