@@ -140,7 +140,7 @@ def test_texts_stand_on_the_layer_of_their_pen_and_colour_bars_on_their_own():
     assert len(layer.texts) == 1 and len(layer.strokes) == 1
     scene = replace(vp.Scene((CUBE,)), colouring=Colouring("z"))
     names = [layer.name for layer in vp.draw(scene, "iso", layers="pen", pens="0.3").layers]
-    assert names[-1] == "colour bar" and all(name.startswith("0.3 #") for name in names[:-1])
+    assert names[-1] == "colour bar" and len(names) == len(set(names))
 
 
 def test_each_step_of_depth_is_a_pen():
