@@ -104,6 +104,7 @@ def draw(
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
     longest_mm: float | None = None,
+    shortest_mm: float | None = None,
     off_by: float | str | None = None,
     within: float | str | None = None,
     budget: float = 1.0,
@@ -179,6 +180,9 @@ def draw(
         Letters of labels and titles are strokes of the pen; or texts, set in fonts by what reads the file.
     longest_mm : float, optional
         Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
+    shortest_mm : float, optional
+        Lines and hatching strokes that are shorter when they are joined are left out; where None specks: open ones
+        below 0.05 mm that go on in no other stroke. Dots of stipplings, dashes and letters stay, and with 0 all.
     off_by : float or str, optional
         The error that the picture is to keep, mm, or a text with its unit such as "0.01mm": tolerance_mm is
         chosen for it, and what was reached is measured.
@@ -269,6 +273,7 @@ def draw(
         text=text,
         thin_ends=thin_ends,
         scale_pens=scale_pens,
+        shortest_mm=shortest_mm,
     )
     planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look)
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned

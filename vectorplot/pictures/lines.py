@@ -14,7 +14,7 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.duplicates import with_shared_kinds, without_duplicates, without_smooth_duplicates
-from vectorplot.drawing.finishing import by_dashes, inked, put_in_order
+from vectorplot.drawing.finishing import by_dashes, by_line, inked, put_in_order
 from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_pen, shown_items
 from vectorplot.drawing.pen_layers import (
     layer_words,
@@ -43,7 +43,7 @@ from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.placement import Placement, box_corners, fitted_picture, mm_per_image
 from vectorplot.scene.scene import Scene, tell_of_empty_surface
 from vectorplot.scene.view import View, view_of
-from vectorplot.tolerances import COINCIDENT_MM, EXACT_MM, FINEST_CHORD_OF_EXTENT
+from vectorplot.tolerances import COINCIDENT_MM, EXACT_MM, FINEST_CHORD_OF_EXTENT, LONE_STROKE_MM
 from vectorplot.visibility.polyhedra.hidden_lines import (
     Segments,
     Visibility,
@@ -322,6 +322,7 @@ class OutputStyle:
     text: str = "strokes"
     thin_ends: bool = False
     scale_pens: bool = False
+    shortest_mm: float | None = None
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -368,10 +369,25 @@ class OutputStyle:
         """The layers with strokes that are joined, fitted with curves, and in the order of a pen; of layers by pen
         those of each pen in one, as polylines, for other strokes come to them yet: see of_pens."""
         world = placement.page_from_world
+        layers = self._long_enough(pipeline, layers)
         if self.by_pen:
-            layers = one_for_each_pen(looked_at_only(layers, self.unplotted))
             return pipeline.run("pen", inked, layers, self.hidden, world, None, None, self.thin_ends, by_dashes)
         return pipeline.run("pen", inked, layers, self.hidden, world, self.curved_mm, self.longest_mm, self.thin_ends)
+
+    def _long_enough(self, pipeline: Pipeline, layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
+        """The layers, of each pen one where that is asked for, without specks and strokes that are too short."""
+        from vectorplot.drawing.short_strokes import stroke_count, without_short, without_specks
+
+        kept = without_specks(layers) if self.shortest_mm is None else layers
+        if specks := stroke_count(layers) - stroke_count(kept):
+            pipeline.tell("specks", f"alone and shorter than {LONE_STROKE_MM:g} mm: left out", specks)
+        if self.by_pen:
+            kept = one_for_each_pen(looked_at_only(kept, self.unplotted))
+        if not self.shortest_mm:
+            return kept
+        kept, short = without_short(kept, self.shortest_mm, by_dashes if self.by_pen else by_line)
+        pipeline.tell("short strokes", f"shorter than {self.shortest_mm:g} mm: left out", short)
+        return kept
 
     def letters(self, layers: Sequence[Layer]) -> Pen:
         """The pen of letters on a drawing with such layers."""

@@ -63,6 +63,7 @@ def panorama(
     title: str = "",
     frame: bool = False,
     longest_mm: float | None = None,
+    shortest_mm: float | None = None,
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -80,7 +81,7 @@ def panorama(
         Items' own lines come first, as there.
     style, pens, dashes, background, layers, unplotted : see draw
         Of a style that shows hidden lines none of them are here.
-    curves, tolerance_mm, title, frame, longest_mm : see draw
+    curves, tolerance_mm, title, frame, longest_mm, shortest_mm : see draw
         Lines of smooth surfaces leave as curves, straight ones, which are none here, as polylines.
     budget, jobs, progress, explain : see draw
         Progress is told for each quarter of the round.
@@ -129,6 +130,7 @@ def panorama(
         title=title,
         frame=frame,
         unplotted=line_list(unplotted),
+        shortest_mm=shortest_mm,
     )
     threads = threads_of(jobs)
     round_about = place if isinstance(place, Panorama) else Panorama(tuple(place))

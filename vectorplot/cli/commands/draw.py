@@ -77,6 +77,13 @@ if TYPE_CHECKING:
         help="Longer strokes leave in parts.  [default: whole]",
     ),
     click.option(
+        "--shortest",
+        "shortest_mm",
+        type=of_option("shortest_mm"),
+        metavar="MM",
+        help="Shorter strokes are left out.  [default: those below 0.05 that are alone]",
+    ),
+    click.option(
         "--certificate",
         type=click.Path(dir_okay=False),
         metavar="FILE",
