@@ -12,7 +12,7 @@ from vectorplot.drawing.dashes import stroke_lengths
 from vectorplot.drawing.drawing import STROKES, Layer, Paths
 from vectorplot.drawing.finishing import Grouping, by_line, long_strokes
 from vectorplot.drawing.hatching import DOT_MM
-from vectorplot.drawing.strokes import chosen, clusters, connected
+from vectorplot.drawing.strokes import chosen, clusters, concatenated, connected
 from vectorplot.geometry.budget import mapped
 from vectorplot.tolerances import COINCIDENT_MM, LONE_STROKE_MM
 from vectorplot.words import LineKind
@@ -26,17 +26,14 @@ def without_specks(layers: Sequence[Layer]) -> tuple[Layer, ...]:
     another stroke amid its way.
     """
     parts = [paths for layer in layers for paths in layer.strokes]
-    lengths = [stroke_lengths(paths) for paths in parts]
-    short = [_may_be_specks(paths, length) for paths, length in zip(parts, lengths, strict=True)]
-    if not any(some.any() for some in short):
+    every = concatenated(tuple(parts))
+    length = stroke_lengths(every)
+    short = (length < LONE_STROKE_MM) & ~every.closed & (np.diff(every.offsets) > 0) & ~_dots(every, length)
+    if not short.any():
         return tuple(layers)
-    candidate = np.concatenate(short)
-    ends = np.concatenate([_ends(paths) for paths in parts])
-    closed = np.concatenate([paths.closed for paths in parts])
-    speck = np.zeros(len(candidate), dtype=np.bool_)
-    speck[candidate] = _alone(ends[candidate], ends[~candidate & ~closed], np.concatenate(lengths)[candidate])
-    bounds = np.cumsum([len(paths) for paths in parts])[:-1]
-    return _chosen(layers, parts, [~some for some in np.split(speck, bounds)])
+    ends, kept = _ends(every), np.ones(len(every), dtype=np.bool_)
+    kept[short] = ~_alone(ends[short], ends[~short & ~every.closed], length[short])
+    return _chosen(layers, parts, np.split(kept, np.cumsum([len(paths) for paths in parts])[:-1]))
 
 
 def without_short(
@@ -64,10 +61,6 @@ def _chosen(layers: Sequence[Layer], parts: Sequence[Paths], kept: Sequence[Bool
         replace(layer, marks=tuple(next(left) if isinstance(mark, STROKES) else mark for mark in layer.marks))
         for layer in layers
     )
-
-
-def _may_be_specks(paths: Paths, length: Floats) -> Bools:
-    return (length < LONE_STROKE_MM) & ~paths.closed & (np.diff(paths.offsets) > 0) & ~_dots(paths, length)
 
 
 def _dots(paths: Paths, length: Floats) -> Bools:
