@@ -4,6 +4,7 @@ from .hatching import hatched_fills
 from .letters import lettered, typeset
 from .painted_fills import placement_of_faces
 from .pen_order import travel_mm
+from .plotting import PlotEstimate, plot_estimate
 from .stroke_curves import curved_strokes
 from .strokes import split_long
 from .text_along import lettered_along, typeset_along
@@ -11,11 +12,13 @@ from .text_along import lettered_along, typeset_along
 __all__ = [
     "FillKind",
     "Fills",
+    "PlotEstimate",
     "curved_strokes",
     "hatched_fills",
     "lettered",
     "lettered_along",
     "placement_of_faces",
+    "plot_estimate",
     "split_long",
     "travel_mm",
     "typeset",

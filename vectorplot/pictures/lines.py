@@ -14,7 +14,15 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.duplicates import with_shared_kinds, without_duplicates, without_smooth_duplicates
-from vectorplot.drawing.finishing import by_dashes, by_line, inked, put_in_order
+from vectorplot.drawing.finishing import (
+    by_dashes,
+    by_line,
+    inked,
+    put_in_order,
+    stroke_count,
+    without_short,
+    without_specks,
+)
 from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_pen, shown_items
 from vectorplot.drawing.pen_layers import (
     layer_words,
@@ -376,8 +384,6 @@ class OutputStyle:
 
     def _long_enough(self, pipeline: Pipeline, layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
         """The layers, of each pen one where that is asked for, without specks and strokes that are too short."""
-        from vectorplot.drawing.short_strokes import stroke_count, without_short, without_specks
-
         kept = without_specks(layers) if self.shortest_mm is None else layers
         if specks := stroke_count(layers) - stroke_count(kept):
             pipeline.tell("specks", f"alone and shorter than {LONE_STROKE_MM:g} mm: left out", specks)

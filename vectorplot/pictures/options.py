@@ -131,7 +131,7 @@ OPTIONS: dict[str, Option] = {
     "depth_cue": Option("a DepthCue or a text such as 'width', 'shade,8' or 'none'", _is_a("DepthCue")),
     "halo_mm": _number("a halo of {:g} mm", 0.0),
     "hatch": Option("a Hatching such as vp.Hatching('tone'), or a Stippling", _is_a("Hatching", "Stippling", texts=())),
-    "layers": Option("a text such as 'kind', 'kind,colour' or 'pen'", _is(str)),
+    "layers": Option("a text such as 'kind' or 'kind,colour'", _is(str)),
     "unplotted": _WORDS,
     "tolerance_mm": _number("a tolerance of {:g} mm", LEAST_TOLERANCE_MM),
     "title": _TEXT,

@@ -7,10 +7,9 @@ from support.sample_paths import length_mm, polylines
 import vectorplot as vp
 from vectorplot.drawing.dashes import stroke_lengths
 from vectorplot.drawing.drawing import Fills, Layer, Pen
-from vectorplot.drawing.finishing import by_dashes
-from vectorplot.drawing.hatching import DOT_MM
-from vectorplot.drawing.short_strokes import stroke_count, without_short, without_specks
+from vectorplot.drawing.finishing import by_dashes, stroke_count, without_short, without_specks
 from vectorplot.errors import InputError
+from vectorplot.scene.hatching import DOT_MM
 from vectorplot.tolerances import LONE_STROKE_MM
 from vectorplot.words import LineKind
 
