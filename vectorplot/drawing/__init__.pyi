@@ -8,6 +8,7 @@ from .plotting import PlotEstimate, plot_estimate
 from .stroke_curves import curved_strokes
 from .strokes import split_long
 from .text_along import lettered_along, typeset_along
+from .tiles import tiled
 
 __all__ = [
     "FillKind",
@@ -20,6 +21,7 @@ __all__ = [
     "placement_of_faces",
     "plot_estimate",
     "split_long",
+    "tiled",
     "travel_mm",
     "typeset",
     "typeset_along",

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.option_values import of_option, place
+from vectorplot.cli.option_values import of_option, place, tiles
 from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
@@ -84,6 +84,12 @@ if TYPE_CHECKING:
         type=of_option("shortest_mm"),
         metavar="MM",
         help="Shorter strokes are left out.  [default: those below 0.05 that are alone]",
+    ),
+    click.option(
+        "--tiles",
+        type=tiles,
+        metavar="CxR",
+        help="Also the page in C x R parts, with registration marks, as OUT-ROW-COLUMN.",
     ),
     click.option(
         "--certificate",
