@@ -18,7 +18,7 @@ from vectorplot.cli.commands.draw import draw
 from vectorplot.drawing.dashes import stroke_lengths
 
 PAGE = (ROOT / "docs" / "for_plotters.md").read_text(encoding="utf-8")
-VPYPE = re.findall(r"^    (vpype .*)$", PAGE, re.MULTILINE)
+VPYPE = re.findall(r"^    (vpype (?:read|--config) .*)$", PAGE, re.MULTILINE)
 (DRAWN,) = re.findall(r"^vectorplot draw (.* --margin 30 .*-o house\.svg)$", PAGE, re.MULTILINE)
 
 UNIT_MM = 0.02488
