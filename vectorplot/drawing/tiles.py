@@ -95,15 +95,15 @@ def tile(
     cut = tuple(replace(layer, marks=tuple(_cut(drawing, layer, part))) for layer in drawing.layers)
     cut = put_in_order(cut, drawing.page_from_world, tolerance_mm if curved else None, None)
     moved = (replace(layer, marks=tuple(moved_mark(mark, 1.0, by) for mark in layer.marks)) for layer in cut)
-    world = np.eye(4)
-    world[:2, 3] = by
+    world = drawing.page_from_world.copy()
+    world[:2] += by[:, None] * world[3]
     pen = next((layer.pen for layer in drawing.layers if layer.plotted), Pen())
     sheet = replace(
         drawing,
         width_mm=right - left + 2.0 * margin,
         height_mm=top - low + 2.0 * margin,
         layers=tuple(moved),
-        page_from_world=world @ drawing.page_from_world,
+        page_from_world=world,
     )
     marks = page_strokes(_crosses(np.array([[margin, margin], [margin + right - left, margin + top - low]])))
     return replace(sheet, layers=(Layer("registration", pen, (marks,)), *sheet.layers))
