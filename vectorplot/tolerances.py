@@ -774,6 +774,10 @@ numbers keep."""
 CERTIFIED_MM = 1e-3
 """Certificates leave strips of this width open beside outlines: ten times what strokes may be off where they join."""
 
+LONE_STROKE_MM = 0.05
+"""Strokes that are shorter, and from whose ends none goes on, are specks: a third of the width of the finest pens for
+drawing, whose dots show no direction."""
+
 COLLINEAR_MM = 1e-4
 """A point that is no further from the straight line between its neighbours is left out. So a stroke moves by less than
 a millionth of a picture on a sheet of paper: what is drawn stays as visible as it was found to be."""

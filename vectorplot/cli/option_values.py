@@ -126,6 +126,17 @@ def length(text: str) -> float:
         raise click.BadParameter(str(error)) from None
 
 
+def tiles(text: str) -> tuple[int, int]:
+    """Columns and rows of CxR."""
+    from vectorplot.drawing.tiles import MOST_TILES
+
+    columns, _, rows = text.lower().partition("x")
+    found = [int(part) if part.isdecimal() else 0 for part in (columns, rows)]
+    if not all(1 <= number <= MOST_TILES for number in found):
+        raise click.BadParameter(f"{text!r} is not COLUMNSxROWS, such as 2x2, each from 1 to {MOST_TILES}")
+    return found[0], found[1]
+
+
 def page_size(text: str) -> tuple[float, float] | str:
     """Width and height in mm of a named page or of WIDTHxHEIGHT, perhaps landscape or portrait, or the word FIT."""
     from vectorplot.scene.page import FIT, sheet_size

@@ -41,7 +41,7 @@ from vectorplot.cli.option_values import (
 )
 from vectorplot.cli.picture import (
     SILENT,
-    Proof,
+    Companion,
     Report,
     Source,
     kept_promise,
@@ -672,7 +672,7 @@ OUT_OR_FOLDER = click.option(
     help="File to write; - for stdout; FOLDER/ for a picture of each INPUT.",
 )
 
-_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain", "strict", "certificate")
+_OF_THE_FILE = ("scene_file", "out", "format_", "exaggeration", "quiet", "explain", "strict", "certificate", "tiles")
 """Parameters that say what is read and written, and what is said of it."""
 
 
@@ -772,7 +772,7 @@ _UNPROVED = ("panorama", "halo_mm", "thin_ends")
 """Options with which a drawing shows less than its lines, or has no camera."""
 
 
-def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Proof:
+def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Companion:
     """The certificate that is asked for. Errors: bad usage for options with which there is none."""
     path = params["certificate"]
     for name in _UNPROVED:
@@ -794,7 +794,29 @@ def _proof(params: Mapping[str, Any], told: Told, source: Source) -> Proof:
             warnings.warn(text, InputWarning, stacklevel=2)
         return bytes(found)
 
-    return Proof(path, content)
+    return Companion("certificate", path, content)
+
+
+def _tiles(params: Mapping[str, Any], format_: str) -> list[Companion]:
+    """The sheets that a large page is cut into, a file each. Errors: bad usage for a picture that goes to stdout."""
+    columns, rows = params["tiles"]
+    out = Path(params["out"])
+    if params["out"] == "-":
+        raise click.UsageError("--tiles writes files beside OUT: OUT must be a file")
+
+    def content(row: int, column: int, scene: Scene, made: Drawing | Image) -> bytes:
+        from vectorplot.drawing.drawing import Drawing
+        from vectorplot.drawing.tiles import tile
+        from vectorplot.save import write
+
+        assert isinstance(made, Drawing)
+        return write(tile(made, columns, rows, row, column, tolerance_mm=params["tolerance_mm"]), format_)
+
+    return [
+        Companion("tiles", str(out.with_stem(f"{out.stem}-{row + 1}-{column + 1}")), partial(content, row, column))
+        for row in range(rows)
+        for column in range(columns)
+    ]
 
 
 def with_options(*options: Option) -> Callable[[Command], Command]:
@@ -832,7 +854,9 @@ def picture_verb(
 
             source = Source(params["scene_file"], params["exaggeration"], upright=told.camera.says_where())
             said = {"source": source, "format_": written, "picture": picture, "jobs": jobs, "overlaid": overlaid}
-            return said if params.get("certificate") is None else {**said, "proof": _proof(params, told, source)}
+            beside = [] if params.get("certificate") is None else [_proof(params, told, source)]
+            beside += [] if params.get("tiles") is None else _tiles(params, written)
+            return {**said, "beside": beside} if beside else said
 
         def content(params: Mapping[str, Any]) -> bytes:
             """What a file of pictures in a folder holds."""
@@ -863,8 +887,9 @@ def picture_verb(
         @wraps(verb)
         def command(**params: Any) -> None:
             if is_folder(params["out"]):
-                if params.get("certificate") is not None:
-                    raise click.UsageError("--certificate is of one picture: OUT must be a file")
+                for name in ("certificate", "tiles"):
+                    if params.get(name) is not None:
+                        raise click.UsageError(f"--{name} is of one picture: OUT must be a file")
                 make_pictures(verb.__name__, params, formats, asked)
                 return
             if WorkerOptions.of(params).given:
@@ -1008,5 +1033,6 @@ LAYERS = click.option(
     "--layers",
     type=layers,
     metavar="WORD,...",
-    help="What shares a layer: kind, object, colour, or several of these.  [default: kind, or what the style says]",
+    help="What shares a layer: kind, object, colour, or several of these; pen: all of a pen.  [default: kind, or what "
+    "the style says]",
 )

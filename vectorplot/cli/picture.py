@@ -213,9 +213,11 @@ class Source:
 
 
 @dataclass(frozen=True)
-class Proof:
-    """What proves a picture: its file, and what makes the content of that from the scene and the picture."""
+class Companion:
+    """A file beside a picture, such as what proves it: what it is, its name, and what makes its content from the scene
+    and the picture."""
 
+    what: str
     path: str
     content: Callable[[Scene, Drawing | Image], bytes]
 
@@ -230,28 +232,29 @@ def make_picture(
     explain: bool,
     jobs: int | None = None,
     overlaid: bool = False,
-    proof: Proof | None = None,
+    beside: Sequence[Companion] = (),
 ) -> None:
     """Read a scene, make a picture of it and write that; nothing is written unless all of it succeeds.
 
     quiet: no warnings, no progress bar; explain: print what each stage cost; jobs: threads to read on, as many as
-    processors where it is None; overlaid: texts are left to LaTeX, in a file beside OUT; proof: one more file.
+    processors where it is None; overlaid: texts are left to LaTeX, in a file beside OUT; beside: more files.
     """
     reports: list[StageReport] = []
     with reported_warnings(quiet=quiet):
         check_place(out)
-        if proof is not None:
-            check_place(proof.path)
+        for companion in beside:
+            check_place(companion.path)
         with progress_bar(quiet=quiet) as progress:
             report = Report(progress, reports.append if explain else None)
             contents = picture_contents(
-                source, Path(out).name, format_, picture, report, jobs, overlaid=overlaid, proof=proof
+                source, Path(out).name, format_, picture, report, jobs, overlaid=overlaid, beside=beside
             )
     # What is wrong with a picture is said before there is a file of it.
-    if proof is None:
-        write_out(out, *contents)
+    if beside:
+        own, others = contents[: -len(beside)], contents[-len(beside) :]
+        write_out(out, *own, beside=dict(zip((companion.path for companion in beside), others, strict=True)))
     else:
-        write_out(out, *contents[:-1], beside={proof.path: contents[-1]})
+        write_out(out, *contents)
     if explain:
         click.echo(table(reports), err=True)
 
@@ -300,26 +303,25 @@ def picture_contents(
     jobs: int | None = None,
     *,
     overlaid: bool = False,
-    proof: Proof | None = None,
+    beside: Sequence[Companion] = (),
 ) -> tuple[bytes, ...]:
-    """Read a scene and make a picture of it: the content of its file, where texts are overlaid of theirs, and that of a
-    proof, if there is one; name: that of the picture's file."""
+    """Read a scene and make a picture of it: the content of its file, where texts are overlaid of theirs, and those of
+    the files beside it; name: that of the picture's file."""
     from vectorplot.drawing.drawing import Drawing
     from vectorplot.geometry.budget import threads_of
     from vectorplot.pictures.pipeline import Pipeline, Stage
     from vectorplot.save import write, write_for_latex
 
     stages = [Stage("read", source.name), Stage("write", f"as {format_}")]
-    if proof is not None:
-        stages.insert(1, Stage("certificate", "a proof is asked for"))
+    stages[1:1] = [Stage(companion.what, "asked for, in a file beside the picture") for companion in beside]
     pipeline = Pipeline(stages, report.explain, None, threads_of(jobs))
     scene = pipeline.run("read", source.read)
     with located(scene):
         made = picture(scene, report)
-        proved = () if proof is None else (pipeline.run("certificate", proof.content, scene, made),)
+        more = [pipeline.run(companion.what, companion.content, scene, made) for companion in beside]
     if overlaid and isinstance(made, Drawing):
-        return (*pipeline.run("write", write_for_latex, made, format_, name), *proved)
-    return (pipeline.run("write", write, made, format_), *proved)
+        return (*pipeline.run("write", write_for_latex, made, format_, name), *more)
+    return (pipeline.run("write", write, made, format_), *more)
 
 
 def picture_made(

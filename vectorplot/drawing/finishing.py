@@ -1,14 +1,14 @@
-"""Strokes made ready for the pen: long strokes in a good order, chain lines, dashes, and trimmed ends."""
+"""Strokes made ready for the pen: long strokes in a good order, chain lines, dashes, trimmed ends, and no specks."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from operator import itemgetter
 
 import numpy as np
 
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.dashes import CHAIN_MM, dashed, parts_between, stroke_lengths
 from vectorplot.drawing.drawing import NO_CURVE, STROKES, Layer, Paths, Pen
 from vectorplot.drawing.pen_order import pen_ordered
@@ -16,7 +16,9 @@ from vectorplot.drawing.simplify import without_collinear_points
 from vectorplot.drawing.stroke_curves import curved_strokes
 from vectorplot.drawing.strokes import (
     chosen,
+    clusters,
     concatenated,
+    connected,
     going_on,
     in_rows,
     joined,
@@ -28,7 +30,8 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.budget import mapped
 from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.polylines import split, with_points
-from vectorplot.tolerances import COINCIDENT_MM, COLLINEAR_MM, ROUNDING
+from vectorplot.scene.hatching import DOT_MM
+from vectorplot.tolerances import COINCIDENT_MM, COLLINEAR_MM, LONE_STROKE_MM, ROUNDING
 from vectorplot.words import LineKind
 
 # Ends of strokes where many of them run into one point, as in the apex of a cone: there ink would make a blot.
@@ -149,6 +152,21 @@ FEW_POINTS = 2048
 """The strokes of few layers are joined at once too where they have no more points than so many in all."""
 
 
+Grouping = Callable[[Paths], Ints]
+"""Which strokes may be joined: those that get equal numbers (m,)."""
+
+
+def by_line(paths: Paths) -> Ints:
+    """(m,) equal for strokes of the same item, kind and count."""
+    return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
+
+
+def by_dashes(paths: Paths) -> Ints:
+    """(m,) equal for strokes that a pen draws alike, whatever they are lines of: through, or in the same dashes."""
+    behind = (paths.hidden_by > 0) | (paths.kind == int(LineKind.GHOST))
+    return np.where(np.isin(paths.kind, CHAINED), 2 + paths.kind, behind.astype(np.intp))
+
+
 def inked(
     layers: tuple[Layer, ...],
     hidden: str,
@@ -156,14 +174,34 @@ def inked(
     curve_tolerance_mm: float | None = None,
     longest_mm: float | None = None,
     thinned: bool = False,
+    group: Grouping = by_line,
 ) -> tuple[Layer, ...]:
     """Each layer's strokes joined, without collinear points, dashed as its pen says, hidden ones also if asked for, in
     the order of the pen, in parts where they are longer than longest_mm; smooth ones as curves within
-    curve_tolerance_mm, or as polylines where it is None. thinned: ends that converge stop early. Filled polygons
-    and texts stay."""
+    curve_tolerance_mm, or as polylines where it is None. thinned: ends that converge stop early; group: which strokes
+    are joined. Filled polygons and texts stay."""
     parts = [paths for layer in layers for paths in layer.strokes]
     pens = [layer.pen for layer in layers for _ in layer.strokes]
-    strokes = _pen_strokes(parts, pens, hidden, world, thinned)
+    strokes = _pen_strokes(parts, pens, hidden, world, thinned, group)
+    return _fitted(layers, strokes, world, curve_tolerance_mm, longest_mm)
+
+
+def put_in_order(
+    layers: tuple[Layer, ...], world: Floats, curve_tolerance_mm: float | None, longest_mm: float | None
+) -> tuple[Layer, ...]:
+    """Layers of strokes that are joined and dashed already in the order of the pen, then as in inked."""
+    strokes = list(mapped(pen_ordered, [paths for layer in layers for paths in layer.strokes]))
+    return _fitted(layers, strokes, world, curve_tolerance_mm, longest_mm)
+
+
+def _fitted(
+    layers: tuple[Layer, ...],
+    strokes: list[Paths],
+    world: Floats,
+    curve_tolerance_mm: float | None,
+    longest_mm: float | None,
+) -> tuple[Layer, ...]:
+    """The layers with these strokes, long ones in parts, smooth ones as curves."""
     if longest_mm is not None:
         strokes = [split_long(paths, longest_mm, world) for paths in strokes]
     drawn = iter(strokes if curve_tolerance_mm is None else (curved_strokes(s, curve_tolerance_mm) for s in strokes))
@@ -173,18 +211,18 @@ def inked(
     )
 
 
-def long_strokes(paths: Paths) -> Paths:
-    """Strokes of one item, kind and count that follow one another joined, without collinear points: those of one curve
-    first, then those of different curves, or of none, that meet end to end."""
+def long_strokes(paths: Paths, group: Grouping = by_line) -> Paths:
+    """Strokes of one group that follow one another joined, without collinear points: those of one curve first, then
+    those of different curves, or of none, that meet end to end."""
     if not len(paths):
         return paths
     known = paths.curve != NO_CURVE
     if known.any():
         curves = without_dots(chosen(paths, known), COINCIDENT_MM)
-        curves = in_rows(curves, going_on(curves, _group(curves), COINCIDENT_MM))
-        own = np.unique(np.stack([_group(curves), curves.curve]), axis=1, return_inverse=True)[1]
+        curves = in_rows(curves, going_on(curves, group(curves), COINCIDENT_MM))
+        own = np.unique(np.stack([group(curves), curves.curve]), axis=1, return_inverse=True)[1]
         paths = concatenated((joined(curves, own.ravel(), COINCIDENT_MM), chosen(paths, ~known)))
-    return without_collinear_points(joined(paths, _group(paths), COINCIDENT_MM), COLLINEAR_MM)
+    return without_collinear_points(joined(paths, group(paths), COINCIDENT_MM), COLLINEAR_MM)
 
 
 def chain_lines_dashed(paths: Paths, world: Floats, mm: float = 1.0) -> Paths:
@@ -208,25 +246,22 @@ def with_dashes(layers: Sequence[Layer], world: Floats) -> list[Layer]:
     ]
 
 
-def _group(paths: Paths) -> Ints:
-    """(m,) equal for strokes of the same item, kind and count."""
-    return (paths.item * len(LineKind) + paths.kind) * (int(paths.hidden_by.max(initial=0)) + 1) + paths.hidden_by
-
-
-def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world: Floats, thinned: bool) -> list[Paths]:
+def _pen_strokes(
+    parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world: Floats, thinned: bool, group: Grouping
+) -> list[Paths]:
     """The strokes of each part, joined and in the order of the pen."""
-    alike = len({pen.dash_mm for pen in pens}) == 1 and not thinned
+    alike = len({pen.dash_mm for pen in pens}) == 1 and not thinned and group is by_line
     many = len(parts) > MANY_PARTS
     if not alike or (not many and sum(len(paths.points) for paths in parts) > FEW_POINTS):
         # The longest part begins first, so that the others are done beside it.
         first = sorted(range(len(parts)), key=lambda k: -len(parts[k]))
-        done = mapped(lambda k: pen_ordered(_drawn(parts[k], pens[k], hidden, world, thinned)), first)
+        done = mapped(lambda k: pen_ordered(_drawn(parts[k], pens[k], hidden, world, thinned, group)), first)
         return [paths for _, paths in sorted(zip(first, done, strict=True), key=itemgetter(0))]
     every = concatenated(tuple(parts))
     part = ragged.owner([len(paths) for paths in parts])
     low, high = int(every.item.min(initial=0)), int(every.item.max(initial=0)) + 1
     # Until they are in order, what is said of their items tells the parts of strokes too: no two parts are joined.
-    long = _drawn(replace(every, item=part * (high - low) + every.item - low), pens[0], hidden, world, thinned)
+    long = _drawn(replace(every, item=part * (high - low) + every.item - low), pens[0], hidden, world, thinned, group)
     part, item = np.divmod(long.item, high - low)
     order = np.argsort(part, kind="stable")
     long, part = chosen(replace(long, item=item + low), order), part[order]
@@ -234,9 +269,9 @@ def _pen_strokes(parts: Sequence[Paths], pens: Sequence[Pen], hidden: str, world
     return own if many else [pen_ordered(paths) for paths in own]
 
 
-def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) -> Paths:
+def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool, group: Grouping) -> Paths:
     """The long strokes of a pen, with its dashes."""
-    long = long_strokes(paths)
+    long = long_strokes(paths, group)
     if thinned:
         long = trimmed_ends(long, pen.width_mm, world)
     if pen.dash_mm is not None:
@@ -249,3 +284,83 @@ def _drawn(paths: Paths, pen: Pen, hidden: str, world: Floats, thinned: bool) ->
     if chained.any():
         parts.append(chain_lines_dashed(chosen(long, chained), world))
     return concatenated(tuple(parts)) if len(parts) > 1 else long
+
+
+# Strokes too short for a pen: specks that nothing goes on from, and all below a length that is asked for.
+
+
+def without_specks(layers: Sequence[Layer]) -> tuple[Layer, ...]:
+    """The layers without specks: open strokes that are shorter than LONE_STROKE_MM together with all that they hang
+    together with, end to end, on whichever layers.
+
+    Edge cases: dots of stipplings are none, nor are closed strokes, which show something whole, nor what only touches
+    another stroke amid its way.
+    """
+    parts = [paths for layer in layers for paths in layer.strokes]
+    every = concatenated(tuple(parts))
+    length = stroke_lengths(every)
+    short = (length < LONE_STROKE_MM) & ~every.closed & (np.diff(every.offsets) > 0) & ~_dots(every, length)
+    if not short.any():
+        return tuple(layers)
+    ends, kept = _ends(every), np.ones(len(every), dtype=np.bool_)
+    kept[short] = ~_alone(ends[short], ends[~short & ~every.closed], length[short])
+    return _chosen(layers, parts, np.split(kept, np.cumsum([len(paths) for paths in parts])[:-1]))
+
+
+def without_short(
+    layers: Sequence[Layer], shortest_mm: float, group: Grouping = by_line
+) -> tuple[tuple[Layer, ...], int]:
+    """The layers with strokes joined, those shorter than shortest_mm left out, and how many these are.
+
+    group: see inked. Edge case: dots of stipplings stay.
+    """
+    parts = list(mapped(lambda paths: long_strokes(paths, group), [p for layer in layers for p in layer.strokes]))
+    lengths = [stroke_lengths(paths) for paths in parts]
+    kept = [(length >= shortest_mm) | _dots(paths, length) for paths, length in zip(parts, lengths, strict=True)]
+    return _chosen(layers, parts, kept), sum(int((~some).sum()) for some in kept)
+
+
+def stroke_count(layers: Sequence[Layer]) -> int:
+    """How many strokes there are."""
+    return sum(len(paths) for layer in layers for paths in layer.strokes)
+
+
+def _chosen(layers: Sequence[Layer], parts: Sequence[Paths], kept: Sequence[Bools]) -> tuple[Layer, ...]:
+    """The layers with those of these strokes, one mark after the other, that are kept."""
+    left = iter([chosen(paths, some) for paths, some in zip(parts, kept, strict=True)])
+    return tuple(
+        replace(layer, marks=tuple(next(left) if isinstance(mark, STROKES) else mark for mark in layer.marks))
+        for layer in layers
+    )
+
+
+def _dots(paths: Paths, length: Floats) -> Bools:
+    """(m,) which strokes are dots of stipplings."""
+    return np.asarray((paths.kind == int(LineKind.HATCH)) & (np.abs(length - DOT_MM) < COINCIDENT_MM))
+
+
+def _ends(paths: Paths) -> Floats:
+    """(m,2,2) the first and the last point of every stroke; zero of those without points."""
+    ends = np.zeros((len(paths), 2, 2))
+    filled = np.diff(paths.offsets) > 0
+    ends[filled, 0] = paths.points[paths.offsets[:-1][filled]]
+    ends[filled, 1] = paths.points[paths.offsets[1:][filled] - 1]
+    return ends
+
+
+def _alone(ends: Floats, others: Floats, length: Floats) -> Bools:
+    """(s,) which short strokes, by their ends (s,2,2), are specks: they meet no end of others (r,2,2), not even through
+    each other, and what hangs together is no longer than one."""
+    # Of the others few are near in x.
+    x = np.sort(ends[..., 0].ravel())
+    far = others[..., 0].ravel()
+    near = np.searchsorted(x, far - COINCIDENT_MM) < np.searchsorted(x, far + COINCIDENT_MM, side="right")
+    spots = np.concatenate([ends.reshape(-1, 2), others.reshape(-1, 2)[near]])
+    x, y = (axis - axis.min() for axis in spots.T)
+    place = clusters(x, y, np.zeros(len(spots), dtype=np.intp), COINCIDENT_MM)
+    of_ends = place[: 2 * len(ends)].reshape(-1, 2)
+    longer = of_ends[:, 0] != of_ends[:, 1]
+    whole = connected(len(spots), of_ends[longer].max(axis=1), of_ends[longer].min(axis=1))[place]
+    total = np.bincount(whole[: 2 * len(ends) : 2], length, len(spots))
+    total[whole[2 * len(ends) :]] = np.inf
+    return np.asarray(total[whole[: 2 * len(ends) : 2]] < LONE_STROKE_MM)

@@ -18,7 +18,7 @@ from vectorplot.geometry import ragged
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.budget import in_turn, may_stop, workers
 from vectorplot.geometry.vectors import cross, dot, norm
-from vectorplot.scene.hatching import Hatching, Stippling
+from vectorplot.scene.hatching import DOT_MM, Hatching, Stippling
 from vectorplot.tolerances import (
     COINCIDENT_MM,
     FLAT_SLOPE,
@@ -593,9 +593,6 @@ WHITE = 0.02
 
 ROUNDS = 12
 """So often dots move to the middles of their cells: from then on they move by hundredths of their distances."""
-
-DOT_MM = 0.02
-"""Dots are strokes of this length: a pen makes a round dot of one, and programs that drop empty strokes keep it."""
 
 FINEST_MM = 0.02
 """Places are no closer: dots are not, either."""

@@ -48,7 +48,7 @@ _HATCH = KIND_LAYER[LineKind.HATCH]
 CUT_HATCH = "cut hatch"
 """The layer of hatches of cuts where other faces are hatched too."""
 
-LAYER_WORDS = ("kind", "object", "colour")
+LAYER_WORDS = ("kind", "object", "colour", "pen")
 """What strokes that share a layer may have in common."""
 
 
@@ -61,6 +61,21 @@ def layer_words(layers: str) -> tuple[str, ...]:
     for word in words:
         check_word("layers", word, LAYER_WORDS)
     return words
+
+
+def words_of_pens(words: Sequence[str]) -> tuple[str, ...]:
+    """By which words lines get their pens: all but pen, which gathers the layers afterwards; by kind, if no other."""
+    return tuple(word for word in words if word != "pen") or ("kind",)
+
+
+def layers_asked(layers: str | None, style: Style) -> str:
+    """What shares a layer: what was asked for, else what the style says; of pen alone the pens of the style's layers.
+
+    Errors: InputError as in layer_words.
+    """
+    if layers is None:
+        return style.layers
+    return f"{style.layers},pen" if layer_words(layers) == ("pen",) else layers
 
 
 def line_list(words: str | Iterable[str]) -> tuple[str, ...]:
@@ -80,11 +95,12 @@ def sorted_layers(
 ) -> tuple[Layer, ...]:
     """The layers of strokes, hidden ones on their own. items, colours: of every item; layers: see layer_words; hatches:
     layers of hatching, last, or among the kinds; shown_item (m,): whose colour each stroke has, None for its own. A
-    layer whose strokes get different pens by the rules is divided, see in_pens.
+    layer whose strokes get different pens by the rules is divided, see in_pens; by pen: see one_for_each_pen, which
+    comes when all have theirs.
     Errors: InputError for rules for items that do not exist.
     """
     check_targets(rules, items)
-    words = layer_words(layers)
+    words = words_of_pens(layer_words(layers))
     shown_item = paths.item if shown_item is None else shown_item
     if words == ("kind",):
         return in_pens(_by_kind(paths, hatches), items, rules)
@@ -118,6 +134,11 @@ def not_plotted(layers: Sequence[Layer], unplotted: Sequence[str], others: Seque
     for name in unplotted:
         if name not in known:
             raise unknown("unplotted", name, tuple(dict.fromkeys(known)))
+    return looked_at_only(layers, unplotted)
+
+
+def looked_at_only(layers: Sequence[Layer], unplotted: Sequence[str]) -> tuple[Layer, ...]:
+    """The layers, of which those of these names, with all their steps of depth, are not plotted."""
     named = {layer.name for layer in layers if layer.name.rpartition(" depth ")[0] in unplotted}.union(unplotted)
     return tuple(replace(layer, plotted=False) if layer.name in named else layer for layer in layers)
 
@@ -188,6 +209,29 @@ def _parted(layer: Layer, items: Sequence[str], rules: RulesByTarget) -> tuple[L
 def _told(pen: Pen) -> str:
     dashed = " dashed" if pen.dash_mm else ""
     return f"{pen.width_mm:.3g} {pen.colour}{dashed}"
+
+
+def one_for_each_pen(layers: Sequence[Layer]) -> tuple[Layer, ...]:
+    """A layer for each pen, named after its width and colour, with all that it draws in these layers, texts behind the
+    strokes; in the order in which pens are first needed.
+
+    Edge cases: layers that are not plotted or have filled polygons stay as they are, empty ones are left out; pens of
+    other dashes are other pens, and those that agree in three digits of their widths one.
+    """
+    parts: dict[str, list[Layer]] = {}
+    for number, layer in enumerate(layers):
+        if layer.fills or not layer.plotted:
+            parts[f"{number}"] = [layer]
+        elif any(map(len, layer.marks)):
+            parts.setdefault(_told(layer.pen) + str(layer.pen.dash_mm or ""), []).append(layer)
+    return tuple(same[0] if same[0].fills or not same[0].plotted else _together(same) for same in parts.values())
+
+
+def _together(layers: Sequence[Layer]) -> Layer:
+    """One layer with the marks of all, which have strokes and texts of one pen."""
+    strokes = concatenated(tuple(paths for layer in layers for paths in layer.strokes))
+    texts = (text for layer in layers for text in layer.texts)
+    return Layer(_told(layers[0].pen), layers[0].pen, (strokes, *texts))
 
 
 # The pens of lines that lie over painted or shaded faces.

@@ -847,10 +847,15 @@ def travel_mm(paths: Paths) -> float:
     """
     if not isinstance(paths, Paths):
         raise InputError(f"travel_mm: expected the Paths of a layer, of its strokes, got a {type(paths).__name__}")
+    return float(gaps_mm(paths).sum())
+
+
+def gaps_mm(paths: Paths) -> Floats:
+    """How far the pen goes while it is up, from each stroke with points to the next one."""
     drawn = np.diff(paths.offsets) > 0
     first = paths.offsets[:-1][drawn]
     last = np.where(paths.closed[drawn], first, paths.offsets[1:][drawn] - 1)
-    return float(np.hypot(*(paths.points[first[1:]] - paths.points[last[:-1]]).T).sum())
+    return np.asarray(np.hypot(*(paths.points[first[1:]] - paths.points[last[:-1]]).T))
 
 
 def _from_the_corner(ends: Places, tour: Ints, bounds: Ints) -> Ints:

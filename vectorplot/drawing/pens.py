@@ -225,7 +225,7 @@ class Style:
     background : str, optional
         The colour of the paper; none is drawn where None.
     layers : str
-        What shares a layer.
+        What shares a layer, see `vp.draw`.
 
     Raises
     ------

@@ -8,7 +8,7 @@ from functools import partial
 from typing import Literal
 
 from vectorplot.drawing.drawing import Drawing, Paths
-from vectorplot.drawing.pen_layers import layer_words, line_list, pen_scale
+from vectorplot.drawing.pen_layers import layer_words, layers_asked, line_list, pen_scale
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
 from vectorplot.drawing.stroke_curves import rounding_error_mm, with_round_polygons
 from vectorplot.geometry.budget import budget_of, threads_of
@@ -106,6 +106,7 @@ def draw(
     frame: bool = False,
     text: Literal["strokes", "real"] = "strokes",
     longest_mm: float | None = None,
+    shortest_mm: float | None = None,
     off_by: float | str | None = None,
     within: float | str | None = None,
     budget: float = 1.0,
@@ -162,7 +163,9 @@ def draw(
         How visible faces are hatched, or stippled, where their items do not say it themselves; not at all where None.
     layers : str, optional
         What shares a layer: kind, object or colour, that of the face where it has its own, or several of these with
-        commas between them; as the style says where None.
+        commas between them; as the style says where None. Or pen: all that a pen draws, hatching, letters and frame
+        among it, the pens those of the style's layers, or of words beside it, as in "colour,pen". Strokes of one pen
+        are joined wherever their ends meet.
     unplotted : str or iterable of str
         The names of layers that plotters skip; kinds, items and colours of which the picture shows nothing may be among
         them.
@@ -180,6 +183,9 @@ def draw(
         Letters of labels and titles are strokes of the pen; or texts, set in fonts by what reads the file.
     longest_mm : float, optional
         Longer strokes leave in equal parts that are no longer, for plotters that stutter on them; 1 mm or more.
+    shortest_mm : float, optional
+        Lines and hatching strokes that are shorter when they are joined are left out; where None specks: open ones
+        below 0.05 mm that go on in no other stroke. Dots of stipplings, dashes and letters stay, and with 0 all.
     off_by : float or str, optional
         The error that the picture is to keep, mm, or a text with its unit such as "0.01mm": tolerance_mm is
         chosen for it, and what was reached is measured.
@@ -243,7 +249,7 @@ def draw(
     chosen, own = style_of_scene(given.inks, style)
     asked = pen_rules(pens, dashes)
     hidden = chosen.hidden if hidden is None else hidden
-    layers = chosen.layers if layers is None else layers
+    layers = layers_asked(layers, chosen)
     layer_words(layers)
     allowed, threads = budget_of(budget), threads_of(jobs)
     others = {"halo_mm": halo_mm > 0.0, "hatch": hatch is not None, "layers": layers != "kind", "pens": bool(asked)}
@@ -270,6 +276,7 @@ def draw(
         text=text,
         thin_ends=thin_ends,
         scale_pens=scale_pens,
+        shortest_mm=shortest_mm,
     )
     planned = plan_draw(seen, kinds, hidden, halo_mm, finish.look)
     planned = plan_hatching(seen, hatch, planned) if finish.plain else planned
@@ -300,10 +307,12 @@ def draw(
     if cue is not None and finish.plain:
         found = finish.cued(pipeline, found, view, cue, placement)
     inks = finish.inked(pipeline, found, placement)
-    pipeline.measured("pen", "mm", fit_error_mm, inks)
     if pipeline.calls_for("arcs"):
         inks = pipeline.run("arcs", with_round_polygons, inks, tolerance_mm)
         pipeline.measured("arcs", "mm", rounding_error_mm, inks)
     if labels is not None:
         inks, placement = finish.labelled(inks, placement, labels, letters, sheet)
-    return beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)
+    drawing = beside_bar(finish.drawing(inks, placement, seen, letters), bar, strip, finish.background, longest_mm)
+    drawing = finish.of_pens(pipeline, drawing)
+    pipeline.measured("pen", "mm", fit_error_mm, drawing.layers)
+    return drawing

@@ -14,9 +14,25 @@ from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.drawing.drawing import CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.duplicates import with_shared_kinds, without_duplicates, without_smooth_duplicates
-from vectorplot.drawing.finishing import inked
+from vectorplot.drawing.finishing import (
+    by_dashes,
+    by_line,
+    inked,
+    put_in_order,
+    stroke_count,
+    without_short,
+    without_specks,
+)
 from vectorplot.drawing.layers import BLACK, FRAME_PEN, ink, layers_of, letter_pen, shown_items
-from vectorplot.drawing.pen_layers import layer_words, not_plotted, pen_scale, sheet_layer, sorted_layers
+from vectorplot.drawing.pen_layers import (
+    layer_words,
+    looked_at_only,
+    not_plotted,
+    one_for_each_pen,
+    pen_scale,
+    sheet_layer,
+    sorted_layers,
+)
 from vectorplot.drawing.pens import PenRule, frame_pen, pen_of, rules_by_target, scaled_pen
 from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError, InputWarning
@@ -36,7 +52,7 @@ from vectorplot.scene.pens import DepthCue
 from vectorplot.scene.placement import Placement, box_corners, fitted_picture, mm_per_image
 from vectorplot.scene.scene import Scene, tell_of_empty_surface
 from vectorplot.scene.view import View, view_of
-from vectorplot.tolerances import COINCIDENT_MM, EXACT_MM, FINEST_CHORD_OF_EXTENT
+from vectorplot.tolerances import COINCIDENT_MM, EXACT_MM, FINEST_CHORD_OF_EXTENT, LONE_STROKE_MM
 from vectorplot.visibility.hidden_points import items_before
 from vectorplot.visibility.polyhedra.hidden_lines import (
     Segments,
@@ -311,6 +327,7 @@ class OutputStyle:
     text: str = "strokes"
     thin_ends: bool = False
     scale_pens: bool = False
+    shortest_mm: float | None = None
 
     def __post_init__(self) -> None:
         if self.background is not None:
@@ -354,9 +371,26 @@ class OutputStyle:
         return pipeline.run("depth cue", depth_cued, layers, view, cue, paper, placement.page_from_world)
 
     def inked(self, pipeline: Pipeline, layers: tuple[Layer, ...], placement: Placement) -> tuple[Layer, ...]:
-        """The layers with strokes that are joined, fitted with curves, and in the order of a pen."""
+        """The layers with strokes that are joined, fitted with curves, and in the order of a pen; of layers by pen
+        those of each pen in one, as polylines, for other strokes come to them yet: see of_pens."""
         world = placement.page_from_world
+        layers = self._long_enough(pipeline, layers)
+        if self.by_pen:
+            return pipeline.run("pen", inked, layers, self.hidden, world, None, None, self.thin_ends, by_dashes)
         return pipeline.run("pen", inked, layers, self.hidden, world, self.curved_mm, self.longest_mm, self.thin_ends)
+
+    def _long_enough(self, pipeline: Pipeline, layers: tuple[Layer, ...]) -> tuple[Layer, ...]:
+        """The layers, of each pen one where that is asked for, without specks and strokes that are too short."""
+        kept = without_specks(layers) if self.shortest_mm is None else layers
+        if specks := stroke_count(layers) - stroke_count(kept):
+            pipeline.tell("specks", f"alone and shorter than {LONE_STROKE_MM:g} mm: left out", specks)
+        if self.by_pen:
+            kept = one_for_each_pen(looked_at_only(kept, self.unplotted))
+        if not self.shortest_mm:
+            return kept
+        kept, short = without_short(kept, self.shortest_mm, by_dashes if self.by_pen else by_line)
+        pipeline.tell("short strokes", f"shorter than {self.shortest_mm:g} mm: left out", short)
+        return kept
 
     def letters(self, layers: Sequence[Layer]) -> Pen:
         """The pen of letters on a drawing with such layers."""
@@ -380,6 +414,22 @@ class OutputStyle:
             layers = (sheet_layer(self.background, page), *layers)
         layers = not_plotted(layers, self.unplotted, (*names, *(item.colour for item in scene.items)))
         return Drawing(page.width_mm, page.height_mm, layers, names, scene.title, placement.page_from_world)
+
+    @property
+    def by_pen(self) -> bool:
+        """Whether each pen has one layer."""
+        return "pen" in layer_words(self.layers)
+
+    def of_pens(self, pipeline: Pipeline, drawing: Drawing) -> Drawing:
+        """The drawing, of layers by pen with those of each pen in one, all that it draws in its order."""
+        if not self.by_pen:
+            return drawing
+        # Dashes are strokes by now: the same pen draws what is drawn through.
+        plain = [replace(layer, pen=replace(layer.pen, dash_mm=None)) for layer in drawing.layers]
+        layers, world = one_for_each_pen(plain), drawing.page_from_world
+        return replace(
+            drawing, layers=pipeline.run("pen", put_in_order, layers, world, self.curved_mm, self.longest_mm)
+        )
 
     @property
     def _pen_rules(self) -> tuple[PenRule, ...]:

@@ -136,6 +136,7 @@ OPTIONS: dict[str, Option] = {
     "tolerance_mm": _number("a tolerance of {:g} mm", LEAST_TOLERANCE_MM),
     "title": _TEXT,
     "frame": _YES,
+    "shortest_mm": _number("shortest strokes of {:g} mm", 0.0, optional=True),
     # Shorter parts of strokes would be dots.
     "longest_mm": _number("longest strokes of {:g} mm", 1.0, optional=True),
     "off_by": Option("a number, or a text such as '0.01mm'", lambda given: isinstance(given, str) or _is_number(given)),

@@ -14,7 +14,7 @@ from vectorplot.drawing.drawing import NO_CURVE, Drawing, Layer, Paths
 from vectorplot.drawing.labels import NO_ITEM
 from vectorplot.drawing.layers import shown_items
 from vectorplot.drawing.letters import lettered
-from vectorplot.drawing.pen_layers import line_list, sorted_layers
+from vectorplot.drawing.pen_layers import layers_asked, line_list, sorted_layers
 from vectorplot.drawing.pens import Pens, Style, pen_rules, style_of_scene
 from vectorplot.drawing.strokes import chosen, concatenated
 from vectorplot.errors import InputError
@@ -63,6 +63,7 @@ def panorama(
     title: str = "",
     frame: bool = False,
     longest_mm: float | None = None,
+    shortest_mm: float | None = None,
     budget: float = 1.0,
     jobs: int | None = None,
     progress: Callable[[str, float], None] | None = None,
@@ -80,7 +81,7 @@ def panorama(
         Items' own lines come first, as there.
     style, pens, dashes, background, layers, unplotted : see draw
         Of a style that shows hidden lines none of them are here.
-    curves, tolerance_mm, title, frame, longest_mm : see draw
+    curves, tolerance_mm, title, frame, longest_mm, shortest_mm : see draw
         Lines of smooth surfaces leave as curves, straight ones, which are none here, as polylines.
     budget, jobs, progress, explain : see draw
         Progress is told for each quarter of the round.
@@ -121,7 +122,7 @@ def panorama(
     finish = OutputStyle(
         look=chosen.look,
         hidden="none",
-        layers=chosen.layers if layers is None else layers,
+        layers=layers_asked(layers, chosen),
         rules=(*chosen.rules, *own, *pen_rules(pens, dashes)),
         background=chosen.background if background is None else background,
         curved_mm=tolerance_mm if curves == "bezier" else None,
@@ -129,6 +130,7 @@ def panorama(
         title=title,
         frame=frame,
         unplotted=line_list(unplotted),
+        shortest_mm=shortest_mm,
     )
     threads = threads_of(jobs)
     round_about = place if isinstance(place, Panorama) else Panorama(tuple(place))
@@ -151,7 +153,8 @@ def panorama(
     named, shown = _names_and_colours(seamless), shown_items(seamless, strokes, np.append(eye, 1.0))
     found = pipeline.run("layers", sorted_layers, strokes, *named, finish.layers, finish.rules, (), shown)
     inks, letters = finish.inked(pipeline, found, placement), finish.letters(found)
-    return finish.drawing((*inks, Layer("bearings", letters, (marks,))), placement, seamless, letters)
+    drawing = finish.drawing((*inks, Layer("bearings", letters, (marks,))), placement, seamless, letters)
+    return finish.of_pens(pipeline, drawing)
 
 
 def _names_and_colours(scene: Scene) -> tuple[list[str], list[str]]:

@@ -19,6 +19,9 @@ HATCHED_ALONG = ("page", "surface", "slope", "level", "curvature", "asymptotic",
 MOST_DOTS = 1_000_000
 """A pen that makes ten a second draws them for a day."""
 
+DOT_MM = 0.02
+"""Dots are strokes of this length: a pen makes a round dot of one, and programs that drop empty strokes keep it."""
+
 FINEST_MM = 0.01
 """No pen draws finer lines, or closer ones."""
 

@@ -1,14 +1,24 @@
-"""Layers keep their numbers, whatever else a picture shows."""
+"""Layers keep their numbers, whatever else a picture shows; or each pen has one."""
 
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 
+import numpy as np
 import pytest
+from support.sample_paths import polylines
 
 import vectorplot as vp
+from vectorplot.drawing.dashes import stroke_lengths
+from vectorplot.drawing.drawing import Layer, Pen
+from vectorplot.drawing.finishing import by_dashes, inked
 from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.pen_layers import one_for_each_pen
+from vectorplot.drawing.strokes import chosen
 from vectorplot.geometry import box
+from vectorplot.scene import Colouring
+from vectorplot.words import LineKind
 
 HILL = replace(
     vp.graph(lambda x, y: x * y, name="HILL"),
@@ -62,3 +72,82 @@ def test_a_hatching_with_a_width_of_its_own_keeps_it_but_for_pens_that_name_it(m
     layers = vp.draw(CUBE, "iso", hatch=own, frame=True, pens=f"0.3,frame=0.7{more}").layers
     pens = {layer.name: layer.pen.width_mm for layer in layers}
     assert (pens["hatch"], pens["frame"], pens["visible"]) == (width, 0.7, 0.3)
+
+
+# Layers by pen: one for each, with all that it draws.
+
+
+def pens_of(drawing):
+    return [(layer.pen.width_mm, layer.pen.colour) for layer in drawing.layers if layer.plotted]
+
+
+@pytest.mark.parametrize(
+    ("how", "pens"),
+    [
+        ({}, {(0.5, "#000000"), (0.25, "#000000"), (0.18, "#000000")}),
+        ({"pens": "0.3"}, {(0.3, "#000000")}),
+        ({"pens": "0.3", "layers": "colour,pen"}, {(0.3, "#c00000"), (0.3, "#1f4fa3"), (0.3, "#000000")}),
+        ({"style": "plotter"}, {(0.3, "#c00000"), (0.3, "#1f4fa3"), (0.3, "#000000")}),
+        ({"pens": "0.3", "curves": "polyline", "longest_mm": 20.0}, {(0.3, "#000000")}),
+    ],
+    ids=["kinds", "one", "colours", "style", "polylines"],
+)
+def test_each_pen_has_one_layer_with_hatching_letters_and_frame(how, pens):
+    red, blue = replace(CUBE, colour="red"), replace(CUBE, name="B", shape=CUBE.shape.moved(2, 0, 0), colour="blue")
+    scene = vp.Scene((red, blue), labels=(vp.Label("I", (1, 1, 1)),))
+    told = {"title": "I", "frame": True, "layers": "pen", **TONE, **how}
+    drawing = vp.draw(scene, "iso", **told)
+    assert len(pens_of(drawing)) == len(set(pens_of(drawing))) and set(pens_of(drawing)) == pens
+    assert [layer.name for layer in drawing.layers] == [f"{width:g} {colour}" for width, colour in pens_of(drawing)]
+    # What is drawn is the same as without.
+    as_kinds = vp.draw(scene, "iso", **{**told, "layers": "colour" if "#c00000" in str(pens) else "kind"})
+    assert drawn_mm(drawing) == pytest.approx(drawn_mm(as_kinds))
+    longest = max(stroke_lengths(paths).max() for layer in drawing.layers for paths in layer.strokes)
+    assert longest <= told.get("longest_mm", 1e3) * (1.0 + 1e-12)
+
+
+def drawn_mm(drawing):
+    return sum(float(stroke_lengths(paths).sum()) for layer in drawing.layers for paths in layer.strokes)
+
+
+def test_strokes_of_one_pen_are_joined_over_items_and_kinds():
+    corners = [(0.0, 0.0), (10.0, 0.0), (20.0, 5.0), (30.0, 5.0)]
+    kinds = [int(kind) for kind in (LineKind.CONTOUR, LineKind.CREASE, LineKind.HATCH)]
+    paths = polylines(*pairwise(corners), kind=kinds, item=[0, 1, 2])
+    layers = tuple(Layer(str(k), Pen(0.3), (chosen(paths, np.array([k])),)) for k in range(3))
+    apart = inked(layers, "none", np.eye(4))
+    assert [len(layer.strokes[0]) for layer in apart] == [1, 1, 1]
+    (one,) = inked(one_for_each_pen(layers), "none", np.eye(4), group=by_dashes)
+    assert (one.name, len(one.strokes[0]), len(one.strokes[0].points)) == ("0.3 #000000", 1, 4)
+
+
+def test_what_is_hidden_is_dashed_and_not_joined_to_what_is_seen():
+    paths = polylines([(0.0, 0.0), (10.0, 0.0)], [(10.0, 0.0), (20.0, 0.0)], hidden_by=[0, 1])
+    (layer,) = inked(one_for_each_pen([Layer("", Pen(), (paths,))]), "dashed", np.eye(4), group=by_dashes)
+    lengths = np.sort(stroke_lengths(layer.strokes[0]))
+    assert lengths[-1] == pytest.approx(10.0) and len(lengths) > 3 and lengths[:-1].max() < 3.0
+
+
+def test_layers_that_are_not_plotted_stay_beside_those_of_pens():
+    how = {"layers": "pen", "hidden": "solid", "pens": "0.3", "unplotted": "hidden", "background": "lightyellow"}
+    drawing = vp.draw(CUBE, "iso", **how)
+    told = [(layer.name, layer.plotted) for layer in drawing.layers]
+    assert told == [("background", False), ("0.3 #000000", True), ("hidden", False)]
+
+
+def test_texts_stand_on_the_layer_of_their_pen_and_colour_bars_on_their_own():
+    (layer,) = vp.draw(CUBE, "iso", layers="pen", pens="0.3", title="I", text="real").layers
+    assert len(layer.texts) == 1 and len(layer.strokes) == 1
+    scene = replace(vp.Scene((CUBE,)), colouring=Colouring("z"))
+    names = [layer.name for layer in vp.draw(scene, "iso", layers="pen", pens="0.3").layers]
+    assert names[-1] == "colour bar" and len(names) == len(set(names))
+
+
+def test_each_step_of_depth_is_a_pen():
+    drawing = vp.draw(CUBE, "iso", layers="pen", pens="0.3", depth_cue="width,3", frame=True)
+    assert len(pens_of(drawing)) == len(set(pens_of(drawing))) == 3
+
+
+def test_a_panorama_has_one_layer_for_each_pen_too():
+    around = vp.panorama(CUBE, vp.Panorama((5.0, 0.0, 0.5), strips=1), page="300x100", layers="pen", pens="0.3")
+    assert [layer.name for layer in around.layers] == ["0.3 #000000"]

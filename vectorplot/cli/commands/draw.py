@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from vectorplot.cli.option_values import of_option, place
+from vectorplot.cli.option_values import of_option, place, tiles
 from vectorplot.cli.options import (
     BACKGROUND,
     DEPTH_CUE,
@@ -28,6 +29,7 @@ from vectorplot.cli.options import (
 
 if TYPE_CHECKING:
     from vectorplot.drawing.drawing import Drawing
+    from vectorplot.pictures.pipeline import StageReport
     from vectorplot.scene.scene import Scene
 
 
@@ -79,6 +81,19 @@ if TYPE_CHECKING:
         help="Longer strokes leave in parts.  [default: whole]",
     ),
     click.option(
+        "--shortest",
+        "shortest_mm",
+        type=of_option("shortest_mm"),
+        metavar="MM",
+        help="Shorter strokes are left out.  [default: those below 0.05 that are alone]",
+    ),
+    click.option(
+        "--tiles",
+        type=tiles,
+        metavar="CxR",
+        help="Also the page in C x R parts, with registration marks, as OUT-ROW-COLUMN.",
+    ),
+    click.option(
         "--certificate",
         type=click.Path(dir_okay=False),
         metavar="FILE",
@@ -97,10 +112,28 @@ def draw(scene: Scene, **told: Any) -> Drawing:
     standing, strips = rest.pop("panorama"), rest.pop("strips")
     if standing is not None:
         hatched = rest.pop("hatch") is not None
-        return _all_round(scene, standing, strips, hatched, rest)
-    if strips is not None:
+        drawing = _all_round(scene, standing, strips, hatched, rest)
+    elif strips is not None:
         raise click.UsageError("--strips goes with --panorama")
-    return draw_scene(scene, **rest)
+    else:
+        drawing = draw_scene(scene, **rest)
+    if rest["explain"] is not None:
+        for report in _plotting(drawing):
+            rest["explain"](report)
+    return drawing
+
+
+def _plotting(drawing: Drawing) -> Iterator[StageReport]:
+    """How far the pens of a plotter go for a drawing, how often they are lifted, and how long that takes."""
+    from vectorplot.drawing.plotting import DOWN_MM_PER_S, LIFT_S, UP_MM_PER_S, plot_estimate
+    from vectorplot.pictures.pipeline import StageReport, peak_mb
+
+    found, peak = plot_estimate(drawing), peak_mb()
+    seconds = f"seconds at {DOWN_MM_PER_S:g} mm/s, in the air {UP_MM_PER_S:g}, {LIFT_S:g} s to lift and set down"
+    yield StageReport("pen down", "mm that a plotter draws", 0.0, round(found.down_mm), peak)
+    yield StageReport("pen up", "mm in the air between strokes", 0.0, round(found.up_mm), peak)
+    yield StageReport("lifts", "how often the pen goes up", 0.0, found.lifts, peak)
+    yield StageReport("plotting", seconds, 0.0, round(60.0 * found.minutes()), peak)
 
 
 def keywords(told: dict[str, Any]) -> dict[str, Any]:
