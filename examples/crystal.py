@@ -16,22 +16,24 @@ from vectorplot.drawing import FillKind
 from vectorplot.geometry import box
 from vectorplot.surfaces import Sphere, rod
 
+SIZE = (3, 3, 2)
+
 LAMPS = (vp.Light((9, -7, 12)), vp.Light((-4, -6, 9), intensity=0.35))
 
 
 def main(folder: Path) -> None:
     plate = box((4.4, 4.4, 0.2), placement=(1, 0, 0, -1.2, 0, 1, 0, -1.2, 0, 0, 1, -0.6))
     items = [vp.Item("PLATE", plate, "lightgray")]
-    for place in product(range(3), repeat=3):
+    for place in product(*map(range, SIZE)):
         sodium = sum(place) % 2 == 0
         name = "".join(map(str, place))
         items.append(vp.Item(f"ATOM{name}", Sphere(0.24 if sodium else 0.36, place), "blue" if sodium else "green"))
-        for axis in np.flatnonzero(np.array(place) < 2).tolist():
+        for axis in np.flatnonzero(np.array(place) < np.array(SIZE) - 1).tolist():
             end = tuple(number + (k == axis) for k, number in enumerate(place))
             items.append(vp.Item(f"BOND{name}{'xyz'[axis]}", rod(place, end, 0.07), "gray"))
     scene = vp.Scene(tuple(items), LAMPS, title="Rock salt")
-    camera = vp.Camera((8, -10, 6), (1, 1, 0.7), fov_deg=26)
-    drawing = vp.paint(scene, camera, width="120mm", lines="contour,crease", pens={"contour": "0.25", "crease": "0.15"})
+    camera = vp.Camera((8, -10, 6), (1, 1, 0.3), fov_deg=26)
+    drawing = vp.paint(scene, camera, width="80mm", lines="contour,crease", pens={"contour": "0.25", "crease": "0.15"})
     vp.save(drawing, folder / "crystal.svg")
 
     fills = drawing.layers[0].marks[0]

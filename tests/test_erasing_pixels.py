@@ -56,7 +56,9 @@ def erased(scene: Scene, camera: Camera) -> Floats:
 
 def exact(scene: Scene, camera: Camera) -> Floats:
     """The picture of all lines with exact hidden lines, drawn with one pen."""
-    drawing = vp.draw(scene, camera, page=PAGE, fit=False, lines=LINE_WORDS, curves="polyline", tolerance_mm=ROUGH)
+    # An outline is no line of a thing, and is not erased.
+    lines = [word for word in LINE_WORDS if word != "outline"]
+    drawing = vp.draw(scene, camera, page=PAGE, fit=False, lines=lines, curves="polyline", tolerance_mm=ROUGH)
     return ink(replace(drawing, layers=tuple(Layer(layer.name, PEN, layer.marks) for layer in drawing.layers)))
 
 

@@ -133,9 +133,10 @@ def exported(stub: Path) -> set[str]:
     return {(room / (module.replace(".", "/") + ".py")).as_posix() for module in modules}
 
 
-# Backends are found by the suffix of a file's name, commands by theirs, and by nothing else.
+# Backends are found by the suffix of a file's name, commands by theirs, the plugin by its entry point.
 STARTS = {
     "__main__.py",
+    "cli/vpype_plugin.py",
     *(f"backends/{module}.py" for module, _ in _BACKENDS.values()),
     *(f"cli/commands/{module}.py" for module in COMMANDS.values()),
 }

@@ -41,7 +41,8 @@ def seen_through_a_slit(width: float) -> float:
     """How much of a line is seen through a slit between two plates, in parts of the width of the slit."""
     left, right = plate((-1, -1), (-0.5 * width, 1), 1.0), plate((0.5 * width, -1), (1, 1), 1.0)
     scene = scene_of(LEFT=left, RIGHT=right, BACK=plate((-0.9, -0.9), (0.9, 0.0), 0.0))
-    lines = drawn(vp.draw(scene, vp.Camera((0, 0, 10), parallel=True, up=(0, 1, 0)))).of(2).visible
+    from_above = vp.Camera((0, 0, 10), parallel=True, up=(0, 1, 0))
+    lines = drawn(vp.draw(scene, from_above, shortest_mm=0.0)).of(2).visible
     return lines.where((np.abs(lines.world[:, :, 1]) < 1e-12).all(axis=1)).length
 
 

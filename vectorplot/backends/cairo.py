@@ -32,7 +32,7 @@ from vectorplot.backends.raster import painted
 from vectorplot.backends.shaded_triangles import Underlaps, grown, underlaps
 from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.fills import SEAM_MM, Fills
-from vectorplot.drawing.sheets import moved_mark
+from vectorplot.drawing.sheets import Mark, moved_mark
 from vectorplot.errors import InputError, not_installed
 from vectorplot.geometry import ragged
 from vectorplot.shading.image import DPI, Bytes, averaged, with_meaning
@@ -593,11 +593,16 @@ def _shaded_layers(drawing: Drawing) -> int:
     """How many of the first layers consist of opaque polygons, shaded ones among them; 0 where there are none."""
     found, count = False, 0
     for layer in drawing.layers:
-        if not layer.marks or not all(isinstance(mark, Fills) and (mark.opacity >= 1.0).all() for mark in layer.marks):
+        if not layer.marks or not all(map(_is_opaque, layer.marks)):
             break
         count += 1
         found |= any(shaded(mark.colours, mark.offsets).any() for mark in layer.marks if isinstance(mark, Fills))
     return count if found else 0
+
+
+def _is_opaque(mark: Mark) -> bool:
+    """Whether a mark is opaque polygons, with no lines among them."""
+    return isinstance(mark, Fills) and bool((mark.opacity >= 1.0).all() and (np.diff(mark.offsets) > 2).all())
 
 
 def _painted(pixels: Bytes, drawing: Drawing, count: int, scale: float) -> Bytes:

@@ -53,7 +53,6 @@ from vectorplot.scene.placement import Placement, box_corners, fitted_picture, m
 from vectorplot.scene.scene import Scene, tell_of_empty_surface
 from vectorplot.scene.view import View, view_of
 from vectorplot.tolerances import COINCIDENT_MM, EXACT_MM, FINEST_CHORD_OF_EXTENT, LONE_STROKE_MM
-from vectorplot.visibility.hidden_points import items_before
 from vectorplot.visibility.polyhedra.hidden_lines import (
     Segments,
     Visibility,
@@ -772,6 +771,7 @@ def with_outline(
 
 def _outline(shapes: LineSources, placement: Placement, tolerance_mm: float, budget: Budget) -> Paths:
     from vectorplot.drawing.outlines import outlines
+    from vectorplot.visibility.hidden_points import items_before
 
     sources = _border_sources(shapes, budget)
     view, every = sources.view, sources.lines(0.5 * tolerance_mm / placement.scale, budget)
