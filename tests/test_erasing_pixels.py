@@ -21,7 +21,7 @@ from vectorplot.drawing.fills import FillKind
 from vectorplot.geometry.camera import Camera
 from vectorplot.scene.placement import default_camera
 from vectorplot.scene.scene import Scene
-from vectorplot.words import LINE_WORDS
+from vectorplot.words import ON_THINGS
 
 PAGE, PEN, DPI = vp.Page(120.0, 90.0, 5.0), Pen(0.3), 100.0
 ROUGH = 0.1
@@ -56,9 +56,7 @@ def erased(scene: Scene, camera: Camera) -> Floats:
 
 def exact(scene: Scene, camera: Camera) -> Floats:
     """The picture of all lines with exact hidden lines, drawn with one pen."""
-    # An outline is no line of a thing, and is not erased.
-    lines = [word for word in LINE_WORDS if word != "outline"]
-    drawing = vp.draw(scene, camera, page=PAGE, fit=False, lines=lines, curves="polyline", tolerance_mm=ROUGH)
+    drawing = vp.draw(scene, camera, page=PAGE, fit=False, lines=ON_THINGS, curves="polyline", tolerance_mm=ROUGH)
     return ink(replace(drawing, layers=tuple(Layer(layer.name, PEN, layer.marks) for layer in drawing.layers)))
 
 
