@@ -260,7 +260,8 @@ assert mesh.face_count > 1_000_000
 scene = vp.Scene((vp.Item("GRAPH", mesh),))
 camera = vp.Camera((2.5, -3.1, 1.2), (0, 0, 0))
 before = peak_mb()
-drawing = vp.draw(scene, camera, hidden="solid")
+# On one thread: what several hold at once depends on when each of them is served.
+drawing = vp.draw(scene, camera, hidden="solid", jobs=1)
 peak = peak_mb()
 lines = drawn(drawing)
 random = np.random.default_rng(1)
@@ -288,8 +289,7 @@ def test_a_million_triangles_stay_below_a_ceiling_and_agree_with_rays() -> None:
     result = subprocess.run([sys.executable, "-c", MILLION, str(here)], capture_output=True, text=True, timeout=60)
     assert result.returncode == 0, result.stderr
     peak, grown, sure, wrong, hidden = map(float, result.stdout.split())
-    # What threads hold at once depends on when each of them is served: 390 and, once, 447 were seen.
-    assert peak < 700 and grown < 500, "megabytes"
+    assert peak < 600 and grown < 400, "megabytes"
     assert wrong == 0 and sure > 30 and 5 < hidden < sure - 5
 
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from support.body_colours import Seen, seen_at
+from support.body_colours import Seen, assert_shown, seen_at
 from support.top_fills import fills_of, top_at
 
 import vectorplot as vp
@@ -66,17 +66,11 @@ def looked_at(scene, camera, count=4000, **options) -> tuple[Drawing, np.ndarray
 def assert_right(scene, camera, *, steps, rarely, **options):
     """The right body everywhere but beside outlines, in the right shade: 99 of 100 places within so many of 255 steps,
     and all but what lies beside the borders of shadows within others."""
-    drawing, places, seen = looked_at(scene, camera, **options)
-    turns = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
-    around = BESIDE_MM * np.stack([np.cos(turns), np.sin(turns)], axis=1)
-    for k in np.flatnonzero(seen.item != seen.painted_item):
-        assert seen.painted_item[k] in seen_at(scene, camera, drawing, places[k] + around).item
-    both = np.flatnonzero((seen.item == seen.painted_item) & (seen.item >= 0))
-    off = np.abs(seen.true - seen.painted).max(axis=1)[both]
-    assert np.quantile(off, 0.99) <= steps
-    for k in both[off > rarely]:
-        near = seen_at(scene, camera, drawing, places[k] + around).true
-        assert np.abs(near - seen.painted[k]).max(axis=1).min() <= rarely
+    drawing, places, _ = looked_at(scene, camera, **options)
+    every = np.ones(len(scene.items), dtype=bool)
+    assert_shown(
+        scene, camera, drawing, places, beside_mm=BESIDE_MM, shaded=every, share=0.99, steps=steps, rarely=rarely
+    )
     return drawing
 
 

@@ -8,7 +8,7 @@ import numpy as np
 
 import vectorplot as vp
 from support.top_fills import colours_at, fills_of, top_at
-from vectorplot.arrays import Floats, Ints
+from vectorplot.arrays import Bools, Floats, Ints
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.geometry import ragged
 from vectorplot.geometry.projections import Projection, projection_of
@@ -158,3 +158,31 @@ def seen_at(scene: vp.Scene, camera: vp.Camera, drawing: Drawing, places: Floats
     painted[covered] = colours_at(fills, top[covered], places[covered])
     item = np.where(covered, fills.item[np.maximum(top, 0)], -1)
     return Seen(true, sight.item, painted, item)
+
+
+def assert_shown(
+    scene: vp.Scene,
+    camera: vp.Camera,
+    drawing: Drawing,
+    places: Floats,
+    *,
+    beside_mm: float,
+    shaded: Bools,
+    share: float,
+    steps: float,
+    rarely: float,
+) -> None:
+    """The right item at places (n,2) of the page, but nearer than beside_mm to outlines, in the right shade: a share of
+    the places on items that are shaded (i,) within so many of 255 steps, and all but what lies beside the borders of
+    shadows within others."""
+    seen = seen_at(scene, camera, drawing, places)
+    turns = np.linspace(0.0, 2.0 * np.pi, 24, endpoint=False)
+    around = beside_mm * np.stack([np.cos(turns), np.sin(turns)], axis=1)
+    for k in np.flatnonzero(seen.item != seen.painted_item):
+        assert seen.painted_item[k] in seen_at(scene, camera, drawing, places[k] + around).item
+    both = np.flatnonzero((seen.item == seen.painted_item) & (seen.item >= 0))
+    off = np.abs(seen.true - seen.painted).max(axis=1)[both]
+    assert np.quantile(off[shaded[seen.item[both]]], share) <= steps
+    for k in both[off > rarely]:
+        near = seen_at(scene, camera, drawing, places[k] + around).true
+        assert np.abs(near - seen.painted[k]).max(axis=1).min() <= rarely

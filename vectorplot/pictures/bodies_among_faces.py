@@ -33,6 +33,7 @@ from vectorplot.pictures.banded_bodies import (
     millimetres,
     whole_bodies,
 )
+from vectorplot.pictures.facet_errors import outline_error
 from vectorplot.pictures.fills import FacePainter, VisiblePolygons, background, off_surfaces
 from vectorplot.pictures.pipeline import Pipeline
 from vectorplot.scene.item import Item
@@ -45,7 +46,7 @@ from vectorplot.visibility.painter.body_order import order_among_bodies
 from vectorplot.visibility.painter.image_faces import view_points
 from vectorplot.visibility.polyhedra.occluders import solid_items
 from vectorplot.visibility.projected_faces import ProjectedFaces
-from vectorplot.visibility.quadrics.clearances import Silhouettes, balls_around, silhouettes
+from vectorplot.visibility.quadrics.clearances import Silhouettes, balls_around, is_within, silhouettes
 
 FINER = 0.3
 """Of what the tolerance allows, silhouettes of bodies may be off: shadows are larger than what throws them."""
@@ -185,8 +186,8 @@ def painted_bodies(
     painter: FacePainter, shown: Scene, beside: Callable[[View], Floats]
 ) -> tuple[View, Placement, Fills] | None:
     """The scene with bodies as wholes among polygons, back to front: its view, its place on the page, and the
-    polygons; None where bodies cannot be painted as wholes, see whole_bodies, where they pierce other things, or where
-    these throw shadows on them and are no convex solids.
+    polygons; None where bodies cannot be painted as wholes, see whole_bodies, where they pierce other things or have a
+    lamp inside, or where things that are no convex solids throw shadows on them.
 
     shown: what of the scene is painted; beside: the places (n,3) in the world that are to be on the page as well.
     """
@@ -203,19 +204,26 @@ def painted_bodies(
         return whole.view, placement, Fills.joined(*background(painter.scene, placement.page), bands.fills)
     ordered = painter.ordered(whole.rest)
     placement = whole.placement(painter.sheet, painter.fit, beside(whole.view), ordered.faces)
+    pipeline.measured("facets", "mm", outline_error, ordered.facets, ordered.view, placement)
     seen, lighting = painter.seen(ordered, placement)
-    places = _places(whole, seen, lighting.plane)
+    united = lighting.plane
+    places = _places(whole, seen, united)
+    if places is None:
+        # What lies in one plane may be before and behind a body, as the faces around a hole are.
+        united = np.arange(seen.view.face_count)
+        places = _places(whole, seen, united)
     lights = seen.scene.lights if casts else ()
     shades = None if places is None else shades_of_faces(whole, seen.view, seen.projected, lights)
-    if places is None or shades is None:
-        _tell_undone(pipeline, "they pierce other things, or are in their shadows")
+    lit_within = any(is_within(whole.solids, light) for light in view_lights(seen.view, lights)) if lights else False
+    if places is None or shades is None or lit_within:
+        _tell_undone(pipeline, "they pierce other things, are in their shadows, or have a lamp inside")
         return None
     of_faces, of_bodies = places
 
     def cast(seen: VisiblePolygons) -> Decals:
         return shadows_of_bodies(whole, seen, painter.scene.items, tolerance_mm, painter.budget)
 
-    painted = painter.coloured(seen, lighting, cast)
+    painted = painter.coloured(seen, lighting, cast, united)
     # What lies on a face comes right after it; paper comes first.
     leader = np.maximum.accumulate(np.where(painted.after >= 0, np.arange(len(painted.after)), -1))
     place = np.where(leader >= 0, of_faces[painted.after[leader]], -1)
@@ -242,11 +250,11 @@ def _banded(
     return bands
 
 
-def _places(whole: WholeBodies, seen: VisiblePolygons, plane: Ints) -> tuple[Ints, Ints] | None:
+def _places(whole: WholeBodies, seen: VisiblePolygons, united: Ints) -> tuple[Ints, Ints] | None:
     """The places (n,) of the polygons that are seen, and (m,) of bodies, in one order back to front; None where there
-    is none. plane (f,): the planes of the faces of the view, by numbers."""
+    is none. united (f,): faces of the view with one number keep together where they follow each other."""
     faces = seen.faces
     points = view_points(seen.view, faces.points)
     planes = FacePlanes.of(seen.view).planes[:, faces.source]
     tolerance = seen.view.tolerance
-    return order_among_bodies(whole.ordered, whole.boxes, faces, points, planes, plane[faces.source], tolerance)
+    return order_among_bodies(whole.ordered, whole.boxes, faces, points, planes, united[faces.source], tolerance)

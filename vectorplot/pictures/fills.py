@@ -293,10 +293,12 @@ def coloured(
     tolerance_mm: float,
     budget: Budget,
     cast: Callable[[VisiblePolygons], Decals] | None = None,
+    united: Ints | None = None,
 ) -> Overlay:
     """The polygons of the picture, as of finer, in their colours, with all that lies on them and is seen in them;
     after: the polygon whose steps of shade they are, -1 for what lies on such, is seen in them, or is paper; cast:
-    their shadows, where more throws some than these polygons."""
+    their shadows, where more throws some than these polygons; united (f,): faces of the view with one number may become
+    one polygon where they follow each other (None: those of one plane)."""
     shades = pipeline.run("shades", shades_of_faces, seen, lighting).total
     pipeline.measured("shades", "of 255", shade_error_steps, seen, lighting)
     seen, shades, whole = posterized(seen, lighting, shades)
@@ -304,7 +306,7 @@ def coloured(
     decals, lighting = _decals(pipeline, seen, lighting, aura, tolerance_mm, budget, cast)
     laid = _laid(seen, lighting, decals)
     overlays = _overlays(pipeline, seen, lighting, decals, aura, tolerance_mm, budget)
-    painted = pipeline.run("fills", _fills, pipeline, seen, lighting, shades, laid, overlays, page)
+    painted = pipeline.run("fills", _fills, pipeline, seen, lighting, shades, laid, overlays, page, united)
     # A face comes before all that lies on it.
     is_face = (painted.after >= 0) & (np.diff(painted.after, prepend=-1) != 0)
     return replace(painted, after=np.where(is_face, np.append(whole, -1)[painted.after], -1))
@@ -417,6 +419,7 @@ def _fills(
     laid: tuple[Overlay, ...],
     overlays: tuple[Overlay, ...],
     page: Page,
+    united: Ints | None,
 ) -> Overlay:
     """The polygons of the picture on the page, with what lies on them and what is painted between them."""
     view, faces = seen.view, seen.faces
@@ -450,7 +453,8 @@ def _fills(
     if not pipeline.calls_for("visible fills"):
         from vectorplot.drawing.fill_visibility import flattened
 
-        world, plane = seen.placement.page_from_world, lighting.plane[faces.source]
+        plane = (lighting.plane if united is None else united)[faces.source]
+        world = seen.placement.page_from_world
         with_decals = flattened(fills, laid, world, plane)
     every, below = stacked([with_decals, *overlays]), background(seen.scene, page)
     return Overlay(Fills.joined(*below, every.fills), np.concatenate([np.full(len(below), -1), every.after]))
@@ -704,8 +708,12 @@ class FacePainter:
         return seen, lighting
 
     def coloured(
-        self, seen: VisiblePolygons, lighting: Lighting, cast: Callable[[VisiblePolygons], Decals] | None = None
+        self,
+        seen: VisiblePolygons,
+        lighting: Lighting,
+        cast: Callable[[VisiblePolygons], Decals] | None = None,
+        united: Ints | None = None,
     ) -> Overlay:
         """As of coloured."""
         page = seen.placement.page
-        return coloured(self.pipeline, seen, lighting, page, self.aura_mm, self.tolerance_mm, self.budget, cast)
+        return coloured(self.pipeline, seen, lighting, page, self.aura_mm, self.tolerance_mm, self.budget, cast, united)

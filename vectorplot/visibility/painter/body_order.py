@@ -311,47 +311,45 @@ def order_among_bodies(
 
     box (4,m) of bodies as in body_order; faces: polygons in the painter's order, points (3,c) their corners in the
     view, planes (4,n) of unit normals and constants there; plane (n,): those in a row with the same number are in one
-    plane, and keep together. Polygons that overlap stay in their order. Of a body and the polygons of a plane the one
-    on the eye's side of the plane is in front, if the body lies on one side of it, give or take TOUCHING tolerances;
+    plane, and keep together. Polygons that overlap stay in their order. Of a body and a polygon the one on the eye's
+    side of the plane of the polygon is in front, if the body lies on one side of it, give or take TOUCHING tolerances;
     otherwise that on the eye's side of a plane between them.
     Edge cases: None where there is no such plane, and where things lie on one another in circles.
     """
     new = np.append(True, plane[1:] != plane[:-1])[: len(plane)]
-    first = np.flatnonzero(new)
-    run = np.cumsum(new) - 1
+    run, runs = np.cumsum(new) - 1, int(new.sum())
     before, after, known = overlapping_pairs(faces, np.arange(len(faces)), tolerance)
     if len(known) < len(faces):
         return None
     own = ordered.order
-    extremes = [f.reduceat(row, first) for row, f in zip(faces.box[:4], (np.minimum, np.maximum) * 2, strict=True)]
-    pairs = [np.stack(pair) for pair in boxes_over(np.stack(extremes), box[:, own], tolerance)]
+    pairs = [np.stack(pair) for pair in boxes_over(faces.box[:4], box[:, own], tolerance)]
     face, body = np.concatenate([np.zeros((2, 0), dtype=np.intp), *pairs], axis=1)
     body = own[body]
-    hulls = _Hulls(points, faces.offsets[np.append(first, len(plane))])
-    found = _hides_bodies(ordered.bodies, body, hulls, face, planes[:, first], TOUCHING * tolerance)
+    hulls = _Hulls(points, faces.offsets)
+    found = _hides_bodies(ordered.bodies, body, hulls, face, planes, TOUCHING * tolerance)
     if found is None:
         return None
     apart, in_front = found
-    thing = np.stack([face, len(first) + body])[:, ~apart]
+    thing = np.stack([run[face], runs + body])[:, ~apart]
     demands = [
         run[np.stack([before, after])],
         np.where(in_front[~apart], thing[::-1], thing),
-        len(first) + ordered.demands,
+        runs + ordered.demands,
     ]
     before, after = np.concatenate(demands, axis=1)
-    count = len(first) + len(ordered.bodies)
+    count = runs + len(ordered.bodies)
     mikado = topological_order(count, before[before != after], after[before != after])
     if len(mikado.cycle):
         return None
     rank = np.empty(count, dtype=np.intp)
     rank[mikado.order] = np.arange(count)
-    return rank[run], rank[len(first) :]
+    return rank[run], rank[runs:]
 
 
 def _hides_bodies(
     bodies: QuadricBodies, body: Ints, hulls: _Hulls, face: Ints, planes: Floats, touching: float
 ) -> tuple[Bools, Bools] | None:
-    """Of pairs (m,) of bodies and flat things: whether their images are apart, and whether the flat one is in front;
+    """Of pairs (m,) of bodies and polygons: whether their images are apart, and whether the polygon is in front;
     None where one pierces the other."""
     apart = _images_apart(bodies.eye, (bodies, body), (hulls, face))
     in_front = np.zeros(len(body), dtype=np.bool_)

@@ -145,6 +145,17 @@ def balls_around(bodies: QuadricBodies) -> tuple[Floats, Floats]:
     return bodies.middle, np.where(bodies.is_ball, around, np.hypot(wide, 0.5 * bodies.sizes[2]))
 
 
+def is_within(bodies: QuadricBodies, light: Light) -> bool:
+    """Whether a lamp, in the coordinates of bodies, is inside one of them."""
+    if light.parallel:
+        return False
+    place = np.array(light.position)[:, None]
+    s = _local(place - bodies.centre, bodies.inverse, np.arange(len(bodies)))
+    between = (s[2] > bodies.ends[0]) & (s[2] < bodies.ends[1])
+    in_frustum = between & (np.hypot(s[0], s[1]) < bodies.radii[0] + bodies.growth * s[2])
+    return bool(np.where(bodies.is_ball, dot(s, s) < 1.0, in_frustum).any())
+
+
 # Flat things that throw the shadows of bodies.
 
 FEWEST, MOST = 12, 720
@@ -164,7 +175,8 @@ def silhouettes(bodies: QuadricBodies, light: Light, allowed: Floats) -> Silhoue
     """What throws the shadows of bodies, in the coordinates of the light, on what is outside of them: the section of a
     ball with the polar plane of the light; of a frustum both ends, and what is between the two rulings in this plane.
 
-    allowed (n,): how far circles may be off. Edge cases: nothing for bodies with the light inside.
+    allowed (n,): how far circles may be off. Edge cases: what has the light inside keeps none from anything, see
+    is_within.
     """
     place = np.array(light.position)[:, None]
     way = np.broadcast_to(place, bodies.centre.shape) if light.parallel else place - bodies.centre
