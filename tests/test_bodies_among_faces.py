@@ -136,6 +136,7 @@ def test_a_ball_in_the_hole_of_a_plate():
     faces = [[[a + i, b + i, d + j, c + j] for i, j in zip(number, after, strict=True)] for a, b, c, d in quads]
     faces[0] = [face[::-1] for face in faces[0]]
     faces[2] = [face[::-1] for face in faces[2]]
+    every = [face for side in faces for face in side]
     plate = vp.Item("PLATE", vp.Mesh.from_polygons(np.concatenate(rings), every), "orange")
     assert_seen(vp.Scene((plate, vp.Item("BALL", Sphere(0.7, (0, 0, 0.15)), "red"))), CAMERAS["central"])
 

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 import shapely
-from support.body_colours import Seen, assert_shown, seen_at
+from support.body_colours import assert_shown
 from support.top_fills import fills_of, top_at
 
 import vectorplot as vp
@@ -53,20 +53,20 @@ def molecule(seed, count=24):
     return scene_of(*balls, *rods)
 
 
-def looked_at(scene, camera, count=4000, **options) -> tuple[Drawing, np.ndarray, Seen]:
-    """A picture in bands, places on it, and what is seen and painted there."""
+def looked_at(scene, camera, count=4000, **options) -> tuple[Drawing, np.ndarray]:
+    """A picture in bands, and places on it."""
     drawing = vp.paint(scene, camera, **options)
     fills = fills_of(drawing)
     assert (fills.kind == FillKind.BAND).all()
     low, high = fills.points.min(axis=0), fills.points.max(axis=0)
     places = low + np.random.default_rng(1).random((count, 2)) * (high - low)
-    return drawing, places, seen_at(scene, camera, drawing, places)
+    return drawing, places
 
 
 def assert_right(scene, camera, *, steps, rarely, **options):
     """The right body everywhere but beside outlines, in the right shade: 99 of 100 places within so many of 255 steps,
     and all but what lies beside the borders of shadows within others."""
-    drawing, places, _ = looked_at(scene, camera, **options)
+    drawing, places = looked_at(scene, camera, **options)
     every = np.ones(len(scene.items), dtype=bool)
     assert_shown(
         scene, camera, drawing, places, beside_mm=BESIDE_MM, shaded=every, share=0.99, steps=steps, rarely=rarely
