@@ -23,7 +23,7 @@ from .scene.annotations import angle, arrow, axes, centre_line, centre_mark, dia
 from .scene.exploded import exploded
 from .scene.hatching import Hatching, Stippling
 from .scene.item import Item, Pattern
-from .scene.labels import Along, AtVertex, Label, OnCurve, OnPage
+from .scene.labels import Along, AtVertex, Label, Measures, OnCurve, OnPage
 from .scene.light import Light
 from .scene.material import Material
 from .scene.page import Page
@@ -53,6 +53,7 @@ __all__ = [
     "Light",
     "LineKind",
     "Material",
+    "Measures",
     "Mesh",
     "OnCurve",
     "OnPage",

@@ -33,6 +33,7 @@ from vectorplot.io.scene_statements import (
     read_ink,
     read_label,
     read_light,
+    read_measures,
     read_page,
 )
 from vectorplot.io.scene_words import ANNOTATION_WORDS, SCENE_WORDS, Words
@@ -234,6 +235,9 @@ class _Reader(ItemReader):
             self.pens.append((self.at + 1, pen_target(source, self.at)))
             inks, self.at = read_ink(source, self.at, now.inks, self.files)
             self.settings = replace(now, inks=inks)
+        elif word == "measures":
+            measures, self.at = read_measures(source, self.at)
+            self.settings = replace(now, measures=measures)
         elif word == "explode":
             explosion, self.at = read_explosion(source, self.at)
             self.settings = replace(now, explosion=explosion)

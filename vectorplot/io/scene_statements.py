@@ -23,7 +23,18 @@ from vectorplot.scene.annotations import (
     radius,
 )
 from vectorplot.scene.cuts import AWAY, AXES, Cut, Explosion
-from vectorplot.scene.labels import HIDDEN, MARKS, PLACES, Along, AtVertex, Label, OnCurve, OnPage, capital_height
+from vectorplot.scene.labels import (
+    HIDDEN,
+    MARKS,
+    PLACES,
+    Along,
+    AtVertex,
+    Label,
+    Measures,
+    OnCurve,
+    OnPage,
+    capital_height,
+)
 from vectorplot.scene.light import Exposure, Light, check_exposure
 from vectorplot.scene.page import FIT, LENGTH, Page, length_mm, sheet_size
 from vectorplot.scene.pens import CUES, FINEST_MM, LONGEST_MM, PEN_KINDS, WIDEST_MM, DepthCue, PenOverrides
@@ -174,7 +185,7 @@ Anchor = tuple[float, float, float] | AtVertex | OnCurve | Along | OnPage
 
 _LABEL_CHOICES = {"place": PLACES, "hidden": HIDDEN, "mark": MARKS}
 _LABEL_ANCHORS = ("at", "vertex", "on", "along", "page")
-_LABEL_WORDS = (*_LABEL_ANCHORS, "size", *_LABEL_CHOICES)
+_LABEL_WORDS = (*_LABEL_ANCHORS, "size", "measured", *_LABEL_CHOICES)
 
 
 def read_label(words: Words, at: int) -> tuple[Label, int]:
@@ -204,6 +215,8 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
             except InputError as error:
                 words.fail(at, owner + error.cause)
             at += 1
+        elif word == "measured":
+            given[word], at = words.string(at), at + 1
         else:
             if words.words[at] not in _LABEL_CHOICES[word]:
                 known = ", ".join(_LABEL_CHOICES[word])
@@ -215,6 +228,26 @@ def read_label(words: Words, at: int) -> tuple[Label, int]:
         words.fail(at, f"{owner}expected {', '.join(_LABEL_ANCHORS)}, got {words.shown(at)}")
     try:
         return Label(text, anchor, name, **given), at
+    except InputError as error:
+        words.fail(start, error.cause)
+
+
+_MEASURE_FLAGS = ("zeros", "comma")
+
+
+def read_measures(words: Words, at: int) -> tuple[Measures, int]:
+    """How the words from ``measures`` on write measures, and the word behind them."""
+    start, at, given = at, at + 1, dict[str, Any]()
+    while (word := words.words[at]) in (*_MEASURE_FLAGS, "decimals"):
+        if word in given:
+            words.fail(at, f"measures: a second '{word}'")
+        given[word] = words.whole(at + 1, "measures: ", word) if word == "decimals" else True
+        at += 2 if word == "decimals" else 1
+    _check_spelling(words, start, at, ("decimals", *_MEASURE_FLAGS))
+    if not given:
+        words.fail(at, f"measures: expected decimals, zeros or comma, got {words.shown(at)}")
+    try:
+        return Measures(**given), at
     except InputError as error:
         words.fail(start, error.cause)
 

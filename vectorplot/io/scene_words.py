@@ -69,7 +69,7 @@ SCENE_WORDS = (
         "exposure",
         "depth_cue",
     ),
-    *("style", "pen", "dash", "explode"),
+    *("style", "pen", "dash", "explode", "measures"),
     *("include", "assembly", "end"),
     *(word for word in ANNOTATION_WORDS if word not in SLOT_TOO),
 )

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -18,7 +18,17 @@ from vectorplot.geometry.elementary import arctan2
 from vectorplot.geometry.mesh import Mesh
 from vectorplot.geometry.vectors import cross, norm, normalize
 from vectorplot.scene.item import Item
-from vectorplot.scene.labels import DEFAULT_SIZE_MM, Along, AtVertex, BesidePoint, Label, OnCurve, OnPage
+from vectorplot.scene.labels import (
+    DEFAULT_SIZE_MM,
+    MEASURE,
+    Along,
+    AtVertex,
+    BesidePoint,
+    Label,
+    Measures,
+    OnCurve,
+    OnPage,
+)
 from vectorplot.scene.scene import Scene
 
 # Arrows and axes: curves in space, hidden like any others, and labels at them.
@@ -195,7 +205,8 @@ def dimension(
     offset : (3,) array_like of float
         From these points to the dimension line.
     text : str, optional
-        What it says: the distance of the points where nothing is given.
+        What it says, with <> for the measure, as in "<> H7" or "4x <> ±0.1": the distance of the points where nothing
+        is given.
     size_mm : float
         Of the letters.
     gap, beyond : float, optional
@@ -232,7 +243,7 @@ def dimension(
     behind = BEYOND if beyond is None else beyond / reach
     if not (0.0 <= before < 1.0 and 0.0 <= behind < np.inf):
         raise InputError("dimension: expected a gap before the dimension line, and a length of 0 or more beyond it")
-    said = f"{long:g}" if text is None else text
+    said, measured = _said(text, MEASURE, long)
     lines = [
         Line.through(one + before * off, one + (1.0 + behind) * off),
         Line.through(other + before * off, other + (1.0 + behind) * off),
@@ -241,7 +252,7 @@ def dimension(
     names = [f"extension {said} 1", f"extension {said} 2", f"dimension {said}"]
     group = f"dimension {said} {_place(one)} {_place(other)} {_place(off)}"
     items = tuple(thin_line(name, line, group) for name, line in zip(names, lines, strict=True))
-    return Scene(items, labels=_measured(items[2].name, said, size_mm))
+    return Scene(items, labels=_measured(items[2].name, said, measured, size_mm))
 
 
 def angle(
@@ -264,7 +275,7 @@ def angle(
     radius : float
         Of the arc, in world units.
     text : str, optional
-        What it says: the angle in degrees where nothing is given.
+        What it says, with <> for the angle in degrees and its sign: that alone where nothing is given.
     size_mm : float
         Of the letters.
 
@@ -292,10 +303,12 @@ def angle(
         raise InputError("angle: two sides that are not in one line, and a positive radius are needed")
     begins = _angle_on(Circle(middle, radius, axis), middle, first)
     arc = Circle(middle, radius, axis, begins, begins + float(arctan2(sine, cosine)))
-    said = f"{np.degrees(arctan2(sine, cosine)):.4g}°" if text is None else text
+    degrees = Measures().angle(float(np.degrees(arctan2(sine, cosine))))
+    measured = f"{MEASURE}°" if text is None else text.replace(MEASURE, f"{MEASURE}°")
+    said = measured.replace(MEASURE, degrees)
     item = thin_line(f"angle {said}", arc)
     # Letters along an arc that is hardly larger than they are would fall over each other.
-    label = Label(said, OnCurve(item.name, 0.5), item.name, size_mm)
+    label = Label(said, OnCurve(item.name, 0.5), item.name, size_mm, measured=measured if MEASURE in measured else "")
     return Scene((item,), labels=(*_heads(item.name, size_mm), label))
 
 
@@ -307,7 +320,7 @@ def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size
     centre, point : (3,) array_like of float
         In the world.
     text : str, optional
-        What it says: R and the radius where nothing is given.
+        What it says, with <> for R and the radius: these alone where nothing is given.
     size_mm : float
         Of the letters.
 
@@ -328,10 +341,10 @@ def radius(centre: ArrayLike, point: ArrayLike, text: str | None = None, *, size
     'R5'
     """
     middle, outer = vector("radius: centre", centre), vector("radius: a point", point)
-    said = f"R{_distance('radius', middle, outer):g}" if text is None else text
+    said, measured = _said(text, f"R{MEASURE}", _distance("radius", middle, outer))
     item = thin_line(f"radius {said}", Line.through(middle, outer))
     head = Label("", OnCurve(item.name), f"{item.name} end", size_mm, mark="arrow")
-    return Scene((item,), labels=(head, Label(said, Along(item.name), item.name, size_mm, "above")))
+    return Scene((item,), labels=(head, Label(said, Along(item.name), item.name, size_mm, "above", measured=measured)))
 
 
 def diameter(
@@ -346,7 +359,7 @@ def diameter(
     point : (3,) array_like of float
         One of its ends, on the circle.
     text : str, optional
-        What it says: ø and the diameter where nothing is given.
+        What it says, with <> for ø and the diameter, as in "<> H7": these alone where nothing is given.
     size_mm : float
         Of the letters.
 
@@ -367,9 +380,9 @@ def diameter(
     'ø10'
     """
     middle, outer = vector("diameter: centre", centre), vector("diameter: a point", point)
-    said = f"ø{2.0 * _distance('diameter', middle, outer):g}" if text is None else text
+    said, measured = _said(text, f"ø{MEASURE}", 2.0 * _distance("diameter", middle, outer))
     item = thin_line(f"diameter {said}", Line.through(2.0 * middle - outer, outer))
-    return Scene((item,), labels=_measured(item.name, said, size_mm))
+    return Scene((item,), labels=_measured(item.name, said, measured, size_mm))
 
 
 def leader(point: ArrayLike, elbow: ArrayLike, text: str, *, size_mm: float = DEFAULT_SIZE_MM) -> Scene:
@@ -488,9 +501,28 @@ def centre_mark(
     return Scene(tuple(Item(name, one.items[0].shape, "black", lines=("centre",), group=group) for name, one in marks))
 
 
-def _measured(name: str, said: str, size_mm: float) -> tuple[Label, ...]:
+def _measured(name: str, said: str, measured: str, size_mm: float) -> tuple[Label, ...]:
     """Arrowheads at both ends of a curve, and a text along it."""
-    return (*_heads(name, size_mm), Label(said, Along(name), name, size_mm, "above"))
+    return (*_heads(name, size_mm), Label(said, Along(name), name, size_mm, "above", measured=measured))
+
+
+def _said(text: str | None, usual: str, long: float) -> tuple[str, str]:
+    """What a dimension says of a length, and the same with <> for the measure; the latter is nothing for texts without
+    one. usual: the measure with its sign, which <> stands for in a text."""
+    measured = usual if text is None else text.replace(MEASURE, usual)
+    return measured.replace(MEASURE, Measures().length(long)), measured if MEASURE in measured else ""
+
+
+def measured_label(label: Label, items: Mapping[str, Item], measures: Measures) -> Label:
+    """The label with the measure that it tells of, as measures write it: of a line its length, of an arc its angle."""
+    shape = items[label.at.item].shape if isinstance(label.at, Along | OnCurve) and label.at.item in items else None
+    if not label.measured or not is_curve(shape):
+        return label
+    if isinstance(shape, Circle):
+        text = measures.angle(float(np.degrees(abs(shape.end - shape.start))))
+    else:
+        text = measures.length(float(norm(np.diff(shape.points(np.array([shape.start, shape.end])), axis=0)[0])))
+    return replace(label, text=label.measured.replace(MEASURE, text))
 
 
 def _heads(name: str, size_mm: float) -> tuple[Label, ...]:
@@ -544,12 +576,14 @@ def label_anchors(scene: Scene) -> LabelAnchors:
     no curve or no polyhedron.
     """
     items = {item.name: item for item in reversed(scene.items)}
+    measures = Measures() if scene.measures is None else scene.measures
+    labels = tuple(measured_label(label, items, measures) for label in scene.labels)
     courses = tuple(
-        _trace(label, label.at, items) if isinstance(label.at, (Along, OnCurve)) else None for label in scene.labels
+        _trace(label, label.at, items) if isinstance(label.at, (Along, OnCurve)) else None for label in labels
     )
-    found = zip(scene.labels, courses, strict=True)
+    found = zip(labels, courses, strict=True)
     points = [_point(label, items) if course is None else _part(label, course) for label, course in found]
-    return LabelAnchors(scene.labels, np.array(points, dtype=np.float64).reshape(-1, 3), courses)
+    return LabelAnchors(labels, np.array(points, dtype=np.float64).reshape(-1, 3), courses)
 
 
 def _point(label: Label, items: dict[str, Item]) -> Floats:
