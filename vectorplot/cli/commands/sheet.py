@@ -68,8 +68,26 @@ def _name_of_mesh(path: str) -> str:
     ),
     click.option("--page", default="A3", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm."),
     LANDSCAPE,
-    click.option("--section", multiple=True, metavar="AXIS=PLACE", help="A section view, as y=12; repeat it for more."),
+    click.option(
+        "--section",
+        multiple=True,
+        metavar="AXIS=PLACE",
+        help="A section view, as y=12, 'half y=12', 'y=12 | x=20 | y=30' or 'aligned z at 0,0 from 180 to 60'; "
+        "repeat it for more.",
+    ),
     CUT_SPACING,
+    click.option(
+        "--detail",
+        multiple=True,
+        metavar="VIEW:X,Y,Z,R[,A:B]",
+        help="What is in a circle of a view, larger and apart; repeat it for more.",
+    ),
+    click.option(
+        "--breakout",
+        multiple=True,
+        metavar="VIEW:X,Y,Z,R",
+        help="A local section through a point, in a circle of a view; repeat it for more.",
+    ),
     click.option("--dimensions", is_flag=True, help="How long the part is along x, y and z."),
     click.option("--centre-lines", is_flag=True, help="Of bores, shafts and other round edges of meshes."),
     click.option("--frame", is_flag=True, help="A border with centring marks and zones."),

@@ -1,0 +1,286 @@
+"""Dimensions, centre lines and other annotations of a part on a technical sheet: which view shows them, and where."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import cached_property
+
+import numpy as np
+
+from vectorplot.arrays import Floats, Ints
+from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.labels import NO_ITEM
+from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.camera import Camera
+from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.vectors import dot
+from vectorplot.scene.annotations import (
+    CROSS,
+    annotation_points,
+    centre_line,
+    centre_mark,
+    dimension,
+    is_annotation,
+    leader_tips,
+)
+from vectorplot.scene.item import Item
+from vectorplot.scene.labels import Along, AtVertex, Label, OnCurve
+from vectorplot.scene.scene import Scene
+from vectorplot.tolerances import ROUND_OF_RADIUS, ZERO_OF_EXTENT
+
+# The round edges of polyhedra, such as the rims of bores and of shafts, and the centre lines they call for.
+
+FEWEST_SIDES = 12
+"""A ring of fewer sides is a polygon, not a circle."""
+
+BEYOND = 0.05
+"""How far centre lines go on beyond what is round, as a part of the extent of the whole part."""
+
+
+@dataclass(frozen=True)
+class RoundEdge:
+    """An edge that is a circle but for the chords of its mesh: across one of the axes (0, 1, 2)."""
+
+    centre: tuple[float, float, float]
+    radius: float
+    axis: int
+
+
+def round_edges(mesh: Mesh, crease_angle_deg: float) -> tuple[RoundEdge, ...]:
+    """The rings of sharp edges of a mesh that are circles across a coordinate axis.
+
+    Edge cases: rings that other sharp edges meet are none, nor are those of fewer than twelve sides.
+    """
+    ends = _sharp_edges(mesh, crease_angle_deg)
+    if not len(ends):
+        return ()
+    from scipy.sparse import coo_array
+    from scipy.sparse.csgraph import connected_components
+
+    vertices, number = np.unique(ends, return_inverse=True)
+    number = number.reshape(-1, 2)
+    count = len(vertices)
+    joined = coo_array((np.ones(len(ends)), (number[:, 0], number[:, 1])), shape=(count, count))
+    rings, ring = connected_components(joined, directed=False)
+    size = np.bincount(ring, minlength=rings)
+    single = np.bincount(ring, np.bincount(number.ravel(), minlength=count) == 2, rings) == size
+    points = mesh.vertices[vertices]
+    totals = np.stack([np.bincount(ring, column, rings) for column in points.T], axis=1)
+    centre = totals / size[:, None]
+    away = points - centre[ring]
+    order = np.argsort(ring, kind="stable")
+    first = np.concatenate([[0], np.cumsum(size)[:-1]])
+    reach = np.maximum.reduceat(np.abs(away[order]), first)
+    found = []
+    for axis in range(3):
+        across = np.delete(away, axis, axis=1)
+        far = np.hypot(*across.T)
+        high, low = np.maximum.reduceat(far[order], first), np.minimum.reduceat(far[order], first)
+        zero = ROUND_OF_RADIUS * high
+        for k in np.flatnonzero(single & (size >= FEWEST_SIDES) & (reach[:, axis] <= zero) & (high - low <= zero)):
+            x, y, z = centre[k].tolist()
+            found.append(RoundEdge((x, y, z), float(high[k]), axis))
+    return tuple(found)
+
+
+def centre_lines_of(edges: Sequence[RoundEdge], extent: float) -> tuple[Scene, ...]:
+    """The axis of every set of round edges in one line, and the centre mark of the largest of them.
+
+    extent: of the part.
+    """
+    near = ROUND_OF_RADIUS * extent
+    lines: dict[tuple[int, ...], list[RoundEdge]] = {}
+    for edge in edges:
+        across = [round(place / near) for number, place in enumerate(edge.centre) if number != edge.axis]
+        lines.setdefault((edge.axis, *across), []).append(edge)
+    found = []
+    for same in lines.values():
+        largest = max(same, key=lambda edge: edge.radius)
+        along = np.eye(3)[largest.axis]
+        heights = [edge.centre[largest.axis] for edge in same]
+        foot = np.array(largest.centre) * (1.0 - along)
+        low, high = min(heights) - BEYOND * extent, max(heights) + BEYOND * extent
+        found.append(centre_line(foot + low * along, foot + high * along))
+        beyond = min(BEYOND * extent, CROSS * largest.radius)
+        found.append(centre_mark(largest.centre, largest.radius, along, beyond=beyond))
+    return tuple(found)
+
+
+def _sharp_edges(mesh: Mesh, angle_deg: float) -> Ints:
+    """(k,2) the ends of edges between two faces that meet at a larger angle."""
+    ends = np.sort(np.stack([mesh.corners, mesh.corners[mesh.next_corner]], axis=1), axis=1)
+    key = ends[:, 0] * np.intp(len(mesh.vertices)) + ends[:, 1]
+    order = np.argsort(key, kind="stable")
+    same = key[order][1:] == key[order][:-1]
+    one, other = order[:-1][same], order[1:][same]
+    normals: Floats = mesh.face_normals
+    cosine = dot(normals[mesh.corner_face[one]], normals[mesh.corner_face[other]])
+    sharp: Ints = ends[one[cosine < np.cos(np.radians(angle_deg))]]
+    return sharp
+
+
+# Dimensions and centre lines of a part: which view each belongs to, and those of its whole extent.
+
+OFFSET_MM, DIMENSION_GAP_MM, LINE_BEYOND_MM = 10.0, 1.0, 2.0
+"""From the part to a dimension line, to the extension lines, and from the dimension line to their ends."""
+
+TEXT_MM = 6.0
+"""What letters beside a dimension line need."""
+
+SHOWN_IN = (("front", "top", "bottom", "back"), ("left", "right", "top", "bottom"), ("front", "left", "right", "back"))
+"""The views that show the extent along x, y and z, the best first."""
+
+
+@dataclass(frozen=True, eq=False)
+class Annotation:
+    """Lines that belong together, with their labels."""
+
+    scene: Scene
+
+    @cached_property
+    def points(self) -> Floats:
+        """(n,3) places on its lines."""
+        return annotation_points(self.scene)
+
+    @property
+    def is_centre(self) -> bool:
+        """Whether it is centre lines."""
+        return all(item.lines == ("centre",) for item in self.scene.items)
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self.scene.items[-1].name
+
+    @property
+    def is_leader(self) -> bool:
+        """Whether it is a leader, which measures nothing."""
+        return bool(leader_tips(self.scene))
+
+    def length_in(self, camera: Camera) -> float:
+        """How far it reaches across a view."""
+        return float(np.hypot(*np.ptp(matmul(self.points, camera.axes[:2].T), axis=0)))
+
+    @property
+    def may_be_of_circle(self) -> bool:
+        """Whether it may be a radius or a diameter: it is one line, and no leader and no centre line."""
+        return len(self.scene.items) == 1 and not self.is_centre and not self.is_leader
+
+    def axes_among(self, edges: Sequence[RoundEdge]) -> set[int]:
+        """The axes of those round edges of which it is a radius or a diameter, wherever along their axis."""
+        ends = self.points[[0, -1]]
+        found = set()
+        for edge in edges if self.may_be_of_circle else ():
+            away = np.delete(ends - edge.centre, edge.axis, axis=1)
+            zero = ROUND_OF_RADIUS * edge.radius
+            begins, middle = (float(np.hypot(*point)) for point in (away[0], 0.5 * away.sum(axis=0)))
+            level = abs(float(np.diff(ends[:, edge.axis])[0])) <= zero
+            if level and abs(float(np.hypot(*away[1])) - edge.radius) <= zero and min(begins, middle) <= zero:
+                found.add(edge.axis)
+        return found
+
+    def before(self, camera: Camera, bounds: Floats) -> Scene:
+        """It where nothing within bounds (2,3) hides it from a view, at the same place in its picture."""
+        back = camera.axes[2]
+        nearest = float(matmul(bounds.mean(axis=0), back) + matmul(0.5 * np.ptp(bounds, axis=0), np.abs(back)))
+        way = max(nearest - float((matmul(self.points, back)).min()), 0.0) * back
+        return self.scene.moved(*way.tolist()) if way.any() else self.scene
+
+    def is_square_to(self, camera: Camera, extent: float) -> bool:
+        """Whether a view shows all of it in its true shape, and not as a point."""
+        seen = matmul(self.points, camera.axes.T)
+        zero = ZERO_OF_EXTENT * extent
+        return bool(np.ptp(seen[:, 2]) <= zero and np.ptp(seen[:, :2], axis=0).max() > zero)
+
+
+def written_on(drawing: Drawing) -> Floats:
+    """(b,2,2) the boxes of the letters of a drawing, and of arrowheads: smallest and largest coordinates."""
+    found = [np.zeros((0, 2, 2))]
+    for paths in (paths for layer in drawing.layers if layer.name == "label" for paths in layer.strokes):
+        first = paths.offsets[:-1][np.diff(paths.offsets) > 0]
+        if len(first):
+            ends = [extreme.reduceat(paths.points, first, axis=0) for extreme in (np.minimum, np.maximum)]
+            found.append(np.stack(ends, axis=1)[paths.item[np.diff(paths.offsets) > 0] == NO_ITEM])
+    return np.concatenate(found)
+
+
+def without_annotations(scene: Scene) -> tuple[Scene, tuple[Annotation, ...]]:
+    """A part, and its annotations, those of one group together."""
+    groups: dict[str, list[Item]] = {}
+    for item in filter(is_annotation, scene.items):
+        groups.setdefault(item.group or item.name, []).append(item)
+    owner = {item.name: name for name, items in groups.items() for item in items}
+    labels: dict[str, list[Label]] = {name: [] for name in groups}
+    rest: list[Label] = []
+    for label in scene.labels:
+        named = label.at.item if isinstance(label.at, AtVertex | OnCurve | Along) else ""
+        (labels[owner[named]] if named in owner else rest).append(label)
+    found = tuple(Annotation(Scene(tuple(items), labels=tuple(labels[name]))) for name, items in groups.items())
+    part = replace(scene, items=tuple(item for item in scene.items if not is_annotation(item)), labels=tuple(rest))
+    return part, found
+
+
+def views_of(
+    annotations: Sequence[Annotation], cameras: Sequence[Camera], extent: float, edges: Sequence[RoundEdge]
+) -> list[list[Annotation]]:
+    """The annotations of each view: dimensions in the first one that they are square to, radii and diameters of round
+    edges in one that shows their circle, if there is any; centre lines in every one; leaders that are square to none
+    where they look longest."""
+    found: list[list[Annotation]] = [[] for _ in cameras]
+    for one in annotations:
+        square = [number for number, camera in enumerate(cameras) if one.is_square_to(camera, extent)]
+        if one.is_leader and not square and cameras:
+            square = [max(range(len(cameras)), key=lambda number: one.length_in(cameras[number]))]
+        round_ = one.axes_among(edges)
+        square.sort(key=lambda number: not any(abs(cameras[number].axes[2, axis]) == 1.0 for axis in round_))
+        for number in square if one.is_centre else square[:1]:
+            found[number].append(one)
+    return found
+
+
+@dataclass(frozen=True)
+class OverallDimension:
+    """The dimension of the whole part along an axis (0, 1, 2), in a view of that name."""
+
+    axis: int
+    view: str
+
+    def is_level(self, camera: Camera) -> bool:
+        """Whether it runs across the view, and not upwards in it."""
+        return bool(abs(camera.axes[0, self.axis]) > abs(camera.axes[1, self.axis]))
+
+    def room_mm(self, camera: Camera) -> Floats:
+        """(2,2) what it needs around the part: below it, or at its left."""
+        room = np.zeros((2, 2))
+        room[0, 1 if self.is_level(camera) else 0] = OFFSET_MM + TEXT_MM
+        return room
+
+    def annotation(self, camera: Camera, bounds: Floats, factor: float, world: Floats) -> Annotation:
+        """It, where a unit of the world is so many mm on paper, beside bounds (2,3), and beyond all else that reaches
+        so far, world (2,2), from the middle of these."""
+        right, up, back = camera.axes
+        middle, half = bounds.mean(axis=0), 0.5 * np.ptp(bounds, axis=0)
+        low, high = (middle + sign * half[self.axis] * np.eye(3)[self.axis] for sign in (-1.0, 1.0))
+        # Before the part, so that it does not lie in the dimension's way.
+        nearest = float(matmul(np.abs(back), half)) * back
+        level = self.is_level(camera)
+        beside = -(float(matmul(np.abs(up), half)) * up if level else float(matmul(np.abs(right), half)) * right)
+        ends = [point + nearest + beside for point in (low, high)]
+        along = right if level else up
+        start, end = sorted(ends, key=lambda point: float(matmul(point, along)))
+        outwards = up if level else right
+        others = float(world[0, 1 if level else 0]) - float(matmul(np.abs(outwards), half))
+        off = -outwards * (max(others, 0.0) + OFFSET_MM / factor)
+        gap, beyond = DIMENSION_GAP_MM / factor, LINE_BEYOND_MM / factor
+        return Annotation(dimension(start, end, off, gap=gap, beyond=beyond))
+
+
+def overall_dimensions(names: Sequence[str], bounds: Floats) -> tuple[OverallDimension, ...]:
+    """The dimensions of the whole part, each in one of the views that are named; none along what has no extent."""
+    found = []
+    for axis, views in enumerate(SHOWN_IN):
+        view = next((name for name in views if name in names), None)
+        if view is not None and float(np.ptp(bounds[:, axis])) > 0.0:
+            found.append(OverallDimension(axis, view))
+    return tuple(found)
