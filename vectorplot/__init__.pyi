@@ -19,7 +19,23 @@ from .pictures.technical_sheet import technical_sheet, turntable
 from .read import read
 from .save import save, save_for_latex
 from .save_frames import save_frames
-from .scene.annotations import angle, arrow, axes, centre_line, centre_mark, diameter, dimension, leader, radius
+from .scene.annotations import (
+    angle,
+    arrow,
+    axes,
+    baseline_dimension,
+    centre_line,
+    centre_mark,
+    chain_dimension,
+    chamfer,
+    diameter,
+    dimension,
+    leader,
+    ordinate_dimension,
+    radius,
+    thread,
+    threaded_hole,
+)
 from .scene.exploded import exploded
 from .scene.hatching import Hatching, Stippling
 from .scene.item import Item, Pattern
@@ -74,8 +90,11 @@ __all__ = [
     "animate",
     "arrow",
     "axes",
+    "baseline_dimension",
     "centre_line",
     "centre_mark",
+    "chain_dimension",
+    "chamfer",
     "contact_sheet",
     "cut",
     "diameter",
@@ -84,6 +103,7 @@ __all__ = [
     "exploded",
     "graph",
     "leader",
+    "ordinate_dimension",
     "paint",
     "panorama",
     "radius",
@@ -96,6 +116,8 @@ __all__ = [
     "show",
     "surface",
     "technical_sheet",
+    "thread",
+    "threaded_hole",
     "tube",
     "turntable",
     "zero_manifold_of_f_uv",

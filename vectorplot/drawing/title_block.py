@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -99,6 +100,10 @@ def _along(axis: int, points: list[tuple[float, float]]) -> Floats:
 # Scales of technical drawings: lengths on paper to lengths of the thing.
 
 
+ISO_STEPS, ASME_STEPS = (1, 2, 5), (1, 2, 4, 8)
+"""The figures of standard scales, which are taken times powers of ten, by ISO 5455 and in the use of ASME Y14."""
+
+
 @dataclass(frozen=True)
 class DrawingScale:
     """How many mm on paper show how many units of the world, as in 1:2.
@@ -131,21 +136,17 @@ class DrawingScale:
         return cls(paper, world)
 
     @classmethod
-    def largest_standard(cls, factor: float) -> DrawingScale:
+    def largest_standard(cls, factor: float, steps: Sequence[int] = ISO_STEPS) -> DrawingScale:
         """The largest standard scale with a factor no larger than one that is finite and positive.
 
-        Source: ISO 5455, table 1 and clause 5: 1, 2 and 5 times powers of ten, beyond the table too.
+        steps: the figures of standard scales, which are taken times powers of ten.
+        Source: ISO 5455, table 1 and clause 5, beyond the table too.
         """
         power = math.floor(math.log10(factor))
-        steps = [(digit, exponent) for exponent in (power - 1, power, power + 1) for digit in (1, 2, 5)]
-        scales = [_standard(digit, exponent) for digit, exponent in steps]
+        tens = [10.0 ** abs(exponent) for exponent in range(-abs(power) - 1, abs(power) + 2)]
+        scales = [cls(step * ten, 1.0) for ten in tens for step in steps]
+        scales += [cls(1.0, scale.paper) for scale in scales]
         return max((scale for scale in scales if scale.factor <= factor), key=lambda scale: scale.factor)
-
-
-def _standard(digit: int, exponent: int) -> DrawingScale:
-    if exponent >= 0:
-        return DrawingScale(digit * 10.0**exponent, 1.0)
-    return DrawingScale(1.0, 10.0**-exponent / digit)
 
 
 def _figures(number: float) -> str:

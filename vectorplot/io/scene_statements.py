@@ -15,12 +15,18 @@ from vectorplot.scene.annotations import (
     angle,
     arrow,
     axes,
+    baseline_dimension,
     centre_line,
     centre_mark,
+    chain_dimension,
+    chamfer,
     diameter,
     dimension,
     leader,
+    ordinate_dimension,
     radius,
+    thread,
+    threaded_hole,
 )
 from vectorplot.scene.cuts import AWAY, AXES, Cut, Explosion
 from vectorplot.scene.labels import (
@@ -401,9 +407,10 @@ def read_exposure(words: Words, at: int) -> tuple[Exposure, int]:
 
 @dataclass(frozen=True)
 class _Field:
-    """What stands behind a word: three numbers, one, three strings or a size; as: the keyword it becomes."""
+    """What stands behind a word: three numbers, points with commas between them, one number, three strings or a size;
+    key: the keyword it becomes."""
 
-    kind: Literal["point", "number", "names", "size"]
+    kind: Literal["point", "points", "number", "names", "size"]
     key: str
     needed: bool = True
 
@@ -422,6 +429,9 @@ def _point(key: str, needed: bool = True) -> _Field:
 
 
 _SIZE = {"size": _Field("size", "size_mm", False)}
+_LINES = {"gap": _Field("number", "gap", False), "beyond": _Field("number", "beyond", False), **_SIZE}
+_ROW = {"at": _Field("points", "points"), "offset": _point("offset"), **_LINES}
+_THREAD = {"from": _point("start"), "to": _point("end"), "radius": _Field("number", "radius")}
 _ROUND = {"at": _point("centre"), "to": _point("point"), **_SIZE}
 
 ANNOTATIONS: Mapping[str, _Annotation] = {
@@ -442,11 +452,15 @@ ANNOTATIONS: Mapping[str, _Annotation] = {
             "from": _point("start"),
             "to": _point("end"),
             "offset": _point("offset"),
-            "gap": _Field("number", "gap", False),
-            "beyond": _Field("number", "beyond", False),
-            **_SIZE,
+            **_LINES,
         },
     ),
+    "chain_dimension": _Annotation(chain_dimension, _ROW, "none"),
+    "baseline_dimension": _Annotation(baseline_dimension, {**_ROW, "step": _Field("number", "step", False)}, "none"),
+    "ordinate_dimension": _Annotation(ordinate_dimension, {**_ROW, "apart": _Field("number", "apart", False)}, "none"),
+    "chamfer": _Annotation(chamfer, {"from": _point("start"), "to": _point("end"), "at": _point("elbow"), **_SIZE}),
+    "thread": _Annotation(thread, _THREAD, "none"),
+    "threaded_hole": _Annotation(threaded_hole, _THREAD, "none"),
     "radius": _Annotation(radius, _ROUND),
     "diameter": _Annotation(diameter, _ROUND),
     "angle": _Annotation(
@@ -524,6 +538,14 @@ def _value(words: Words, at: int, owner: str, word: str, field: _Field) -> tuple
     """What stands behind a word, and the word behind it."""
     if field.kind == "point":
         return words.numbers(at, 3, owner, word)
+    if field.kind == "points":
+        points = []
+        while True:
+            point, at = words.numbers(at, 3, owner, word)
+            points.append(point)
+            if words.words[at] != ",":
+                return points, at
+            at += 1
     if field.kind == "number":
         return words.number(at, owner, word), at + 1
     if field.kind == "size":

@@ -9,23 +9,27 @@ from functools import cached_property
 import numpy as np
 
 from vectorplot.arrays import Floats, Ints
+from vectorplot.curves.curve import is_curve
+from vectorplot.curves.families import Line
 from vectorplot.drawing.drawing import Drawing
 from vectorplot.drawing.labels import NO_ITEM
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
-from vectorplot.geometry.vectors import dot
+from vectorplot.geometry.vectors import dot, norm, normalize
 from vectorplot.scene.annotations import (
     CROSS,
+    JOG,
     annotation_points,
     centre_line,
     centre_mark,
     dimension,
     is_annotation,
     leader_tips,
+    spread,
 )
 from vectorplot.scene.item import Item
-from vectorplot.scene.labels import Along, AtVertex, Label, OnCurve
+from vectorplot.scene.labels import MEASURE, Along, AtVertex, Label, OnCurve
 from vectorplot.scene.scene import Scene
 from vectorplot.tolerances import ROUND_OF_RADIUS, ZERO_OF_EXTENT
 
@@ -158,6 +162,32 @@ class Annotation:
         """Whether it is a leader, which measures nothing."""
         return bool(leader_tips(self.scene))
 
+    @property
+    def is_thread(self) -> bool:
+        """Whether it is the thin lines of a thread, or its arc."""
+        return self.name.startswith(("thread line", "thread arc", "threaded hole line", "threaded hole arc"))
+
+    @property
+    def is_mark(self) -> bool:
+        """Whether it is the cross in a circle."""
+        return self.is_centre and len(self.scene) > 1
+
+    @property
+    def is_in_every_view(self) -> bool:
+        """Whether every view shows it that it is square to."""
+        return self.is_centre or self.is_thread
+
+    @property
+    def is_linear(self) -> bool:
+        """Whether it is two extension lines and a dimension line."""
+        kinds = [item.name.split()[0] for item in self.scene.items]
+        return kinds == ["extension", "extension", "dimension"]
+
+    @property
+    def is_ordinate(self) -> bool:
+        """Whether it is a running dimension."""
+        return self.scene.items[0].name.startswith("ordinate ")
+
     def length_in(self, camera: Camera) -> float:
         """How far it reaches across a view."""
         return float(np.hypot(*np.ptp(matmul(self.points, camera.axes[:2].T), axis=0)))
@@ -182,6 +212,8 @@ class Annotation:
 
     def before(self, camera: Camera, bounds: Floats) -> Scene:
         """It where nothing within bounds (2,3) hides it from a view, at the same place in its picture."""
+        if self.name.startswith("threaded hole"):
+            return self.scene
         back = camera.axes[2]
         nearest = float(matmul(bounds.mean(axis=0), back) + matmul(0.5 * np.ptp(bounds, axis=0), np.abs(back)))
         way = max(nearest - float((matmul(self.points, back)).min()), 0.0) * back
@@ -234,9 +266,144 @@ def views_of(
             square = [max(range(len(cameras)), key=lambda number: one.length_in(cameras[number]))]
         round_ = one.axes_among(edges)
         square.sort(key=lambda number: not any(abs(cameras[number].axes[2, axis]) == 1.0 for axis in round_))
-        for number in square if one.is_centre else square[:1]:
+        for number in square if one.is_in_every_view else square[:1]:
             found[number].append(one)
     return found
+
+
+# Dimensions that keep clear of each other in a view.
+#
+# Source: ISO 129-1 (dimension lines are no closer than letters need), ASME Y14.5 (unidirectional dimensions).
+
+TIER_MM = 8.0
+"""From one dimension line to the next, where both run side by side."""
+
+ORDINATE_APART_MM, ORDINATE_MM = 6.0, 14.0
+"""How far the measures of a running dimension are from each other, and how long the lines beside them are."""
+
+
+def clear_of_each_other(notes: Sequence[Annotation], camera: Camera, factor: float) -> list[Annotation]:
+    """The annotations of a view, where dimension lines that would be on each other, or closer than their letters are
+    high, are moved outwards, the longer ones farther; measures of running dimensions stand apart.
+
+    factor: mm on paper for a unit of the world.
+    """
+    found = list(notes)
+    linear = [number for number, one in enumerate(found) if one.is_linear]
+    lines = {number: _dimension_line(found[number], camera) for number in linear}
+    placed: list[tuple[Floats, Floats, float, float, float]] = []
+    for number in sorted(linear, key=lambda number: lines[number].long):
+        line = lines[number]
+        place, step = line.place, TIER_MM / factor
+        beside = sorted(
+            other
+            for along, out, low, high, other in placed
+            if abs(float(matmul(along, line.along))) > PARALLEL
+            and float(matmul(out, line.out)) > PARALLEL
+            and min(high, line.high) - max(low, line.low) > OVERLAP_MM / factor
+        )
+        for other in beside:
+            if abs(place - other) < step * CLOSE:
+                place = other + step
+        placed.append((line.along, line.out, line.low, line.high, place))
+        if place != line.place:
+            found[number] = _moved_outwards(found[number], camera, (place - line.place) * line.out)
+    return [_ordinates_apart(one, factor) if one.is_ordinate else one for one in found]
+
+
+PARALLEL = 0.999
+"""Dimension lines with a larger cosine run side by side."""
+
+OVERLAP_MM = 0.5
+"""Dimension lines that are side by side for less are in one row."""
+
+CLOSE = 0.95
+"""Lines that are closer than so much of a step are moved."""
+
+
+@dataclass(frozen=True, eq=False)
+class _DimensionLine:
+    """A dimension line in a view: its direction and that of its extension lines (2,), from where to where it goes along
+    the one, and where it is along the other, in the world."""
+
+    along: Floats
+    out: Floats
+    low: float
+    high: float
+    place: float
+
+    @property
+    def long(self) -> float:
+        """How long it is."""
+        return self.high - self.low
+
+
+def _dimension_line(one: Annotation, camera: Camera) -> _DimensionLine:
+    flat = camera.axes[:2]
+    (begin, _), (start, end) = (_ends(one.scene.items[k]) for k in (0, 2))
+    first, last, foot = (matmul(flat, point) for point in (start, end, begin))
+    along = (last - first) / float(np.hypot(*(last - first)))
+    # Extension lines are across the line, or slant; it moves along them as they go across.
+    across = np.array([-along[1], along[0]])
+    out = across if float(matmul(first - foot, across)) >= 0.0 else -across
+    if (along < 0.0).all() or along[int(np.argmax(np.abs(along)))] < 0.0:
+        along = -along
+    low, high = sorted((float(matmul(first, along)), float(matmul(last, along))))
+    return _DimensionLine(along, out, low, high, float(matmul(first, out)))
+
+
+def _ends(item: Item) -> Floats:
+    """(2,3) the ends of a line."""
+    assert is_curve(item.shape)
+    return item.shape.points(np.array([item.shape.start, item.shape.end]))
+
+
+def _moved_outwards(one: Annotation, camera: Camera, step: Floats) -> Annotation:
+    """A dimension with its line farther from the part by a step (2,) in a view, to which its extension lines reach."""
+    way = matmul(step, camera.axes[:2])
+    items = []
+    for number, item in enumerate(one.scene.items):
+        begin, end = _ends(item)
+        items.append(replace(item, shape=Line.through(begin + (way if number == 2 else 0.0), end + way)))
+    return Annotation(replace(one.scene, items=tuple(items)))
+
+
+def _ordinates_apart(one: Annotation, factor: float) -> Annotation:
+    """A running dimension whose measures stand as far apart as their letters need."""
+    items = {item.name: item for item in one.scene.items}
+    leads = [name for name in items if name.endswith(" lead")]
+    feet = np.array([_ends(items[name])[0] for name in leads])
+    along = normalize(feet[-1] - feet[0])
+    out = normalize(np.diff(_ends(items[leads[0].removesuffix("lead") + "extension"]), axis=0)[0])
+    places = matmul(feet - feet[0], along)
+    moved = spread(places, ORDINATE_APART_MM / factor) - places
+    for name, foot, aside in zip(leads, feet, moved.tolist(), strict=True):
+        bend = foot + JOG * ORDINATE_MM / factor * out + aside * along
+        end = bend + (1.0 - JOG) * ORDINATE_MM / factor * out
+        measure = name.removesuffix("lead") + "measure"
+        items[name] = replace(items[name], shape=Line.through(foot, bend))
+        items[measure] = replace(items[measure], shape=Line.through(bend, end))
+    return Annotation(replace(one.scene, items=tuple(items.values())))
+
+
+def level_measures(scene: Scene, factor: float) -> Scene:
+    """Annotations whose measures are level and interrupt their lines, as far as these are long enough.
+
+    factor: mm on paper for a unit of the world.
+    """
+    items = {item.name: item for item in scene.items}
+    labels = []
+    for label in scene.labels:
+        if isinstance(label.at, Along) and MEASURE in label.measured:
+            long = factor * float(norm(np.diff(_ends(items[label.at.item]), axis=0)[0]))
+            if long > LEVEL_ROOM * label.size_mm * max(len(label.text), 2):
+                label = replace(label, at=OnCurve(label.at.item, label.at.part), place="centre")
+        labels.append(label)
+    return replace(scene, labels=tuple(labels))
+
+
+LEVEL_ROOM = 1.6
+"""How long a line is, at the least, whose measure interrupts it, in heights of a letter for each of its letters."""
 
 
 @dataclass(frozen=True)

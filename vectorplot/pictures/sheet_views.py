@@ -139,7 +139,7 @@ class Arrangement:
         return most
 
 
-def arranged_in(views: Sequence[SheetView], space: Floats, first_angle: bool) -> Arrangement:
+def arranged_in(views: Sequence[SheetView], space: Floats, first_angle: bool, scales: StandardScales) -> Arrangement:
     """The views in a space: main views in line with each other, the others one after another where the standard scale
     that fits is the largest."""
     cells: dict[str, Cell] = cells_of([view.name for view in views], first_angle)
@@ -152,20 +152,39 @@ def arranged_in(views: Sequence[SheetView], space: Floats, first_angle: bool) ->
     for view in (view for view in views if view.name not in cells):
         placed.append(view)
         wanted = wanted_cells(view.name, view.like, cells)
-        best = max(wanted, key=lambda cell: _worth(tried(placed, {**cells, view.name: cell})))
+        best = max(wanted, key=lambda cell: _worth(tried(placed, {**cells, view.name: cell}), scales))
         cells[view.name] = best
     order = {view.name: number for number, view in enumerate(views)}
     return tried(sorted(placed, key=lambda view: order[view.name]), cells)
 
 
-def _worth(arranged: Arrangement) -> float:
-    """The largest standard scale at which views have room; none where there is no room."""
+@dataclass(frozen=True)
+class StandardScales:
+    """The scales that a sheet may have: the figures of standard ones, and the one that is asked for, if any."""
+
+    steps: Sequence[int]
+    asked: DrawingScale | None
+
+    def best(self, room: float) -> DrawingScale:
+        """The scale asked for, or the largest standard one with a factor no larger than one that is positive."""
+        if self.asked is not None:
+            return self.asked
+        return DrawingScale.largest_standard(room, self.steps) if math.isfinite(room) else DrawingScale(1.0, 1.0)
+
+
+def _worth(arranged: Arrangement, scales: StandardScales) -> float:
+    """The scale at which views have room; none where there is no room."""
     room = arranged.largest_factor()
-    return DrawingScale.largest_standard(room).factor if 0.0 < room < math.inf else room
+    return min(room, scales.best(room).factor) if room > 0.0 else room
 
 
 def roomiest(
-    page: Page | str, views: Sequence[SheetView], frame: bool, first_angle: bool, taken: Floats
+    page: Page | str,
+    views: Sequence[SheetView],
+    frame: bool,
+    first_angle: bool,
+    taken: Floats,
+    scales: StandardScales,
 ) -> tuple[Page, Arrangement]:
     """The sheet, and the views on it; a named one lies as gives them more room.
 
@@ -177,28 +196,29 @@ def roomiest(
     tried = []
     for paper in papers:
         (left, low), (right, top) = drawing_space(paper, frame).tolist()
-        spaces = [np.array([(left, low + taken[1]), (right, top)]), np.array([(left, low), (right - taken[0], top)])]
-        tried += [(paper, arranged_in(views, space, first_angle)) for space in spaces[: 2 if taken.any() else 1]]
+        spaces = [np.array([(left, low + taken[1]), (right, top)])]
+        if 0.0 < taken[0] < right - left:
+            spaces.append(np.array([(left, low), (right - taken[0], top)]))
+        tried += [(paper, arranged_in(views, space, first_angle, scales)) for space in spaces]
     # Rather above the block than beside it, if that costs nothing.
-    paper, arranged = max(tried, key=lambda pair: _worth(pair[1]))
+    paper, arranged = max(tried, key=lambda pair: _worth(pair[1], scales))
     if not arranged.largest_factor() > 0.0:
         above = " above the title block" if taken.any() else ""
         raise InputError(f"page {paper.width_mm:g}x{paper.height_mm:g} mm: no room for {len(views)} views{above}")
     return paper, arranged
 
 
-def fitting_scale(asked: DrawingScale | None, arranged: Arrangement, paper: Page) -> DrawingScale:
+def fitting_scale(scales: StandardScales, arranged: Arrangement, paper: Page) -> DrawingScale:
     """The scale asked for, or the largest standard one that fits. Errors: InputError for one that is too large."""
     room = arranged.largest_factor()
-    if asked is None:
-        return DrawingScale.largest_standard(room) if math.isfinite(room) else DrawingScale(1.0, 1.0)
-    if asked.factor > room:
-        largest = DrawingScale.largest_standard(room)
+    chosen = scales.best(room)
+    if chosen.factor > room:
+        largest = DrawingScale.largest_standard(room, scales.steps)
         raise InputError(
-            f"scale {asked}: too large for {len(arranged.views)} views on {paper.width_mm:g}x{paper.height_mm:g} mm; "
+            f"scale {chosen}: too large for {len(arranged.views)} views on {paper.width_mm:g}x{paper.height_mm:g} mm; "
             f"the largest standard scale that fits is {largest}"
         )
-    return asked
+    return chosen
 
 
 # Section views on a sheet: where they cut, and the line in another view that says so.
@@ -592,7 +612,8 @@ class ViewCircle:
         """(k,2) the same, as if drawn by hand."""
         turn = 2.0 * np.pi * np.arange(RING_SIDES) / RING_SIDES
         waves = np.sum([height * np.sin(often * turn + begin) for often, height, begin in WAVES], axis=0)
-        return middle + (radius * (1.0 + waves))[:, None] * np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        ways = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+        return np.asarray(middle + (radius * (1.0 + waves))[:, None] * ways)
 
     def layers(self, middle: Floats, radius: float, written: Floats) -> tuple[Layer, ...]:
         """The circle of a detail in its view, and its letter where it is on none of the boxes (b,2,2) of letters."""

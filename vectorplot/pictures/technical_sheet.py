@@ -18,7 +18,15 @@ from vectorplot.drawing.dashes import CHAIN_MM, dashed
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
 from vectorplot.drawing.sheets import Sheet, page_strokes
 from vectorplot.drawing.strokes import clipped, inside_ring, outside_ring
-from vectorplot.drawing.title_block import BLOCK_MM, DrawingScale, TitleBlock, drawing_space, frame_layers
+from vectorplot.drawing.title_block import (
+    ASME_STEPS,
+    BLOCK_MM,
+    ISO_STEPS,
+    DrawingScale,
+    TitleBlock,
+    drawing_space,
+    frame_layers,
+)
 from vectorplot.effects.cuts import InSpace, cut, cut_scene
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.algebra import matmul
@@ -34,6 +42,8 @@ from vectorplot.pictures.sheet_annotations import (
     OverallDimension,
     RoundEdge,
     centre_lines_of,
+    clear_of_each_other,
+    level_measures,
     overall_dimensions,
     round_edges,
     views_of,
@@ -45,8 +55,10 @@ from vectorplot.pictures.sheet_views import (
     LETTERS,
     ROOM_MM,
     THIN,
+    Arrangement,
     SheetSection,
     SheetView,
+    StandardScales,
     ViewCircle,
     Zone,
     fitting_scale,
@@ -56,6 +68,7 @@ from vectorplot.pictures.sheet_views import (
 )
 from vectorplot.scene.annotations import annotation_points, only_annotations
 from vectorplot.scene.exploded import shown_apart
+from vectorplot.scene.labels import Measures
 from vectorplot.scene.page import MM_PER_INCH, Page
 from vectorplot.scene.placement import camera_of, page_of
 from vectorplot.scene.scene import Scene, together
@@ -78,6 +91,12 @@ MM_PER = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": MM_PER_INCH}
 BORDER_MM = 20.0
 """What the page of a view has around the view, so that letters beside it are not cut off."""
 
+USUAL_MM = 200.0
+"""How large a part is on paper before its scale is known."""
+
+SCALES_TRIED = 3
+"""How often a scale is chosen anew for dimensions that need more room in it."""
+
 SEAM_MM = 4.0
 """How far the centre line of a half section goes on beyond the part."""
 
@@ -99,6 +118,7 @@ class _Part:
     edges: tuple[RoundEdge, ...]
     details: tuple[ViewCircle, ...]
     breakouts: tuple[ViewCircle, ...]
+    level: bool
 
     @property
     def bounds(self) -> Floats:
@@ -109,22 +129,25 @@ class _Part:
         """(3,) of the part."""
         return np.asarray(self.bounds.mean(axis=0))
 
-    def notes(self) -> dict[str, list[Annotation]]:
-        """The annotations of each view, and centre lines of each section; a pictorial view has none."""
+    def notes(self, factor: float) -> dict[str, list[Annotation]]:
+        """The annotations of each view, clear of each other where a unit of the world is so many mm on paper, and
+        centre lines of each section; a pictorial view has none."""
         flat = [(name, camera) for name, camera in zip(self.names, self.cameras, strict=True) if name != "iso"]
         extent = float(np.ptp(self.bounds, axis=0).max())
         found = views_of(self.annotations, [camera for _, camera in flat], extent, self.edges)
-        notes = {name: own for (name, _), own in zip(flat, found, strict=True)}
+        notes = {
+            name: clear_of_each_other(own, camera, factor) for (name, camera), own in zip(flat, found, strict=True)
+        }
         notes |= {section.letter: self.centre_lines_in(section, extent) for section in self.sections}
         return {name: [] for name in self.names} | notes
 
     def centre_lines_in(self, section: SheetSection, extent: float) -> list[Annotation]:
         """The centre lines that a section shows: those in its planes, and the marks of circles along it."""
         camera = camera_of(section.like, self.scene)
-        square = [one for one in self.annotations if one.is_centre and one.is_square_to(camera, extent)]
+        square = [one for one in self.annotations if one.is_in_every_view and one.is_square_to(camera, extent)]
         off = [float(section.offset_near(one.points).max()) for one in square]
         zero = SAME_PLANE_OF_EXTENT * extent
-        return [one for one, far in zip(square, off, strict=True) if len(one.scene) > 1 or far <= zero]
+        return [one for one, far in zip(square, off, strict=True) if one.is_mark or far <= zero]
 
     def reach(self, camera: Camera, scenes: Iterable[Scene]) -> Floats:
         """(2,2) how far scenes reach from the middle of the part across a view, in the world."""
@@ -136,9 +159,9 @@ class _Part:
             found.append([wide - away, wide + away])
         return np.asarray(np.max(found, axis=0))
 
-    def views(self) -> tuple[SheetView, ...]:
-        """How far each view reaches, and what is around it."""
-        notes = self.notes()
+    def views(self, factor: float) -> tuple[SheetView, ...]:
+        """How far each view reaches, and what is around it, with annotations as at a factor of the scale."""
+        notes = self.notes(factor)
         found = []
         for name, camera in zip(self.names, self.cameras, strict=True):
             rooms = [one.line_room_mm(camera) for one in self.sections if one.told_in(self.names) == name]
@@ -372,8 +395,13 @@ def technical_sheet(
     up: Point | None = None,
     scale: str = "fit",
     unit: str = "mm",
-    projection: Literal["first", "third"] = "first",
-    page: Page | str = "A3",
+    standard: Literal["iso", "asme"] = "iso",
+    measured_in: str | None = None,
+    decimals: int | None = None,
+    zeros: bool | None = None,
+    comma: bool | None = None,
+    projection: Literal["first", "third"] | None = None,
+    page: Page | str | None = None,
     section: str | Iterable[str] = (),
     cut_spacing_mm: float | None = None,
     detail: str | Iterable[str] = (),
@@ -408,18 +436,33 @@ def technical_sheet(
         Lengths on paper to lengths of the part, such as 1:2; fit: the largest of ISO 5455 that fits.
     unit : {"mm", "cm", "m", "in"}
         What a unit of the world is; measures, sections and the scale are in mm whatever it is.
-    projection : {"first", "third"}
+    standard : {"iso", "asme"}
+        What is usual where nothing else is said: first angle, A3, scales of ISO 5455, measures above their lines; or
+        third angle, tabloid, scales of 1, 2, 4 and 8, level measures that interrupt their lines, and in inches zeros
+        at the end of decimals and none before the point.
+    measured_in : {"mm", "cm", "m", "in"}, optional
+        The unit that measures are written in, all of them; where None mm.
+    decimals, zeros, comma : int, bool and bool, optional
+        How they are written, see Measures; where None as the scene says, or as is usual.
+    projection : {"first", "third"}, optional
         First or third angle: whether a view stands opposite to the side it is seen from, as in Europe, or on that
         side, as in America.
-    page : Page or str
+    page : Page or str, optional
         Or its name or size, such as "A3" or "200x150"; one that is named lies on the side that gives the views more
         room.
     section : str or iterable of str
         Planes such as y=12, each of which gives a view of the part without what lies before the plane, like the main
         view of that direction: A-A, B-B, and so on. Cut faces are hatched; in a view that sees the plane edge-on a line
-        with arrows shows where it is.
+        with arrows shows where it is. "half y=12" cuts what is at the right in its view, "y=12 | x=20 | y=30" goes on
+        in another plane at a step, and "aligned z at 0,0 from 180 to 60" has two planes through an axis parallel to z,
+        at these angles, of which both are shown in full.
     cut_spacing_mm : float, optional
         From stroke to stroke of these hatches, 0.1 or more; where None about 2.4, on narrow faces half as much.
+    detail : str or iterable of str
+        Circles in views, such as "front:20,0,8,6": a view or a section, a point and a radius. What is inside is shown
+        apart, larger, at the next standard scale or at one of its own, as in "A:20,0,8,6,5:1".
+    breakout : str or iterable of str
+        The same, for local sections: inside of the circle the part is cut through the point, across the view.
     dimensions : bool
         How long the whole part is along x, y and z, each in one view.
     centre_lines : bool
@@ -445,7 +488,8 @@ def technical_sheet(
     Raises
     ------
     InputError
-        See draw; for views that are unknown, twice or none; for sections that are none, or beside the part; for a
+        See draw; for views that are unknown, twice or none; for sections that are none, or beside the part; for details
+        and local sections that are none, or of no view; for a
         scale that is too large for the page, with the largest that fits; for a page without room, and a title without
         room in its block; for an unknown unit.
 
@@ -472,13 +516,20 @@ def technical_sheet(
     (297.0, 210.0, 'Corner, 1:1')
     """
     names = _view_names(views)
+    check_word("standard", standard, STANDARDS)
+    usual = STANDARDS[standard]
+    projection = projection or usual.projection
     check_word("projection", projection, ("first", "third"))
+    page = page or usual.page
     check_word("unit", unit, MM_PER)
+    written_unit = measured_in or "mm"
+    check_word("measured_in", written_unit, MM_PER)
     asked = None if scale == "fit" else DrawingScale.of(scale)
     given = shown_apart(scene_of(scene))
     given = given if unit == "mm" else given.scaled(MM_PER[unit])
     # Sheets have pens of their own.
     given = replace(given if up is None else stood_up(given, up), inks=None)
+    given = replace(given, measures=_measures(given.measures, usual, written_unit, decimals, zeros, comma))
     solid, annotations = without_annotations(given)
     edges: tuple[RoundEdge, ...] = ()
     if centre_lines or any(one.may_be_of_circle for one in annotations):
@@ -497,10 +548,14 @@ def technical_sheet(
     details = tuple(ViewCircle.of(text, "detail", circled, one) for text, one in zip(texts, letters, strict=False))
     opened = [breakout] if isinstance(breakout, str) else list(breakout)
     breakouts = tuple(ViewCircle.of(text, "breakout", [name for name in names if name != "iso"]) for text in opened)
-    part = _Part(solid, annotations, names, cameras, overall, sections, edges, details, breakouts)
+    part = _Part(solid, annotations, names, cameras, overall, sections, edges, details, breakouts, usual.level)
     taken = np.array(BLOCK_MM if block else (0.0, 0.0))
-    paper, arranged = roomiest(page, part.views(), frame, projection == "first", taken)
-    chosen = fitting_scale(asked, arranged, paper)
+    given_page, first = page, projection == "first"
+
+    def room(views: Sequence[SheetView], allowed: StandardScales) -> tuple[Page, Arrangement]:
+        return roomiest(given_page, views, frame, first, taken, allowed)
+
+    paper, arranged, chosen = _arranged(part, StandardScales(usual.steps, asked), room)
     factor = chosen.factor
     name = page.strip().split()[0].upper() if isinstance(page, str) else f"{paper.width_mm:g}x{paper.height_mm:g}"
     said = given.title if title is None else title
@@ -509,7 +564,7 @@ def technical_sheet(
     written_in = words.layers_titled_if_possible if title is None else words.layers
     layers = written_in(drawing_space(paper, frame)) if block else ()
     done = Sheet(paper, f"{said}, {chosen}" if said else str(chosen))
-    notes = part.notes()
+    notes = part.notes(factor)
     _tell_left_out(annotations, notes.values())
     options = {"crease_angle_deg": crease_angle_deg, "progress": progress, "explain": explain}
     drawer = _Views(part, factor, cut_spacing_mm, options)
@@ -527,6 +582,7 @@ def technical_sheet(
             for one in part.overall
             if one.view == view.name
         ]
+        added = [level_measures(one, factor) for one in added] if part.level else added
         drawn = drawer.drawing(view, added)
         corner = (x - 0.5 * drawn.width_mm, y - 0.5 * drawn.height_mm)
         written[view.name] = written_on(drawn) + corner
@@ -534,6 +590,25 @@ def technical_sheet(
     around = _around(part, placed, factor, written)
     borders = (*(frame_layers(paper) if frame else ()), *layers)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
+
+
+def _arranged(
+    part: _Part,
+    scales: StandardScales,
+    room: Callable[[Sequence[SheetView], StandardScales], tuple[Page, Arrangement]],
+) -> tuple[Page, Arrangement, DrawingScale]:
+    """The paper, the views on it and their scale. Dimensions that make room for each other take the more of it the
+    smaller the scale is: so it may be smaller than without them."""
+    extent = float(np.ptp(part.bounds, axis=0).max())
+    factor = USUAL_MM / extent if extent > 0.0 else 1.0
+    for _ in range(SCALES_TRIED):
+        paper, arranged = room(part.views(factor), scales)
+        chosen = fitting_scale(scales, arranged, paper)
+        if chosen.factor == factor:
+            return paper, arranged, chosen
+        factor = chosen.factor
+    paper, arranged = room(part.views(factor), replace(scales, asked=chosen))
+    return paper, arranged, fitting_scale(replace(scales, asked=chosen), arranged, paper)
 
 
 def _around(
@@ -563,10 +638,47 @@ def _around(
     return tuple(found)
 
 
+@dataclass(frozen=True)
+class _Standard:
+    """What is usual on sheets of a standard; level: measures are level and interrupt their lines."""
+
+    projection: Literal["first", "third"]
+    page: str
+    steps: tuple[int, ...]
+    level: bool
+
+
+STANDARDS = {
+    "iso": _Standard("first", "A3", ISO_STEPS, False),
+    "asme": _Standard("third", "tabloid", ASME_STEPS, True),
+}
+
+
+def _measures(
+    given: Measures | None,
+    usual: _Standard,
+    unit: str,
+    decimals: int | None,
+    zeros: bool | None,
+    comma: bool | None,
+) -> Measures:
+    """How measures are written: as it is asked for, else as the scene says, else as is usual."""
+    own = Measures() if given is None else given
+    inches = usual.level and unit == "in"
+    return replace(
+        own,
+        decimals=own.decimals if decimals is None else decimals,
+        zeros=(own.zeros or inches) if zeros is None else zeros,
+        comma=own.comma if comma is None else comma,
+        per_unit=1.0 / MM_PER[unit],
+        leading=not inches,
+    )
+
+
 def _tell_left_out(annotations: Iterable[Annotation], notes: Iterable[Iterable[Annotation]]) -> None:
     """An InputWarning that names the annotations, but for centre lines, which are in no view."""
-    shown = {id(one) for view in notes for one in view}
-    names = [one.name for one in annotations if not one.is_centre and id(one) not in shown]
+    shown = {one.name for view in notes for one in view}
+    names = [one.name for one in annotations if not one.is_in_every_view and one.name not in shown]
     if names:
         warnings.warn(f"square to no view and not shown: {', '.join(names)}", InputWarning, stacklevel=3)
 

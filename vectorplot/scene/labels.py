@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from decimal import ROUND_HALF_UP, Decimal
@@ -11,7 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from vectorplot.errors import InputError
-from vectorplot.geometry.algebra import matmul
+from vectorplot.geometry.algebra import determinant, matmul
+from vectorplot.geometry.elementary import cbrt
 from vectorplot.scene.page import MM_PER_POINT
 from vectorplot.words import check_word
 
@@ -183,7 +185,8 @@ class Label:
         or a tick across it.
     measured : str
         What it says instead, with <> for the measure of the curve that it names, as Measures of the scene write it:
-        the length of a line, the degrees of an arc. Nothing where the text is not a measure.
+        the length of a line, or the degrees of an arc where ° follows; and <12.5> for a length in the world, as in
+        "<> ±<0.1>". Nothing where the text is no measure.
 
     Raises
     ------
@@ -242,7 +245,8 @@ class Label:
         Returns
         -------
         Label
-            What names a vertex, a curve or a place of the page stays as it is.
+            What names a vertex, a curve or a place of the page stays as it is. Lengths in a text of measures are larger
+            by the cube root of what volumes are larger by.
 
         Raises
         ------
@@ -255,6 +259,10 @@ class Label:
         >>> vp.Label("P", (1, 0, 0)).transformed([(2, 0, 0, 0), (0, 2, 0, 0), (0, 0, 2, 5), (0, 0, 0, 1)]).at
         (2.0, 0.0, 5.0)
         """
+        if self.measured:
+            larger = float(cbrt(abs(determinant(np.asarray(matrix, dtype=np.float64)[:3, :3]))))
+            told = IN_WORLD.sub(lambda found: f"<{larger * float(found[1])!r}>", self.measured)
+            return replace(replace(self, measured="").transformed(matrix), measured=told)
         if not isinstance(self.at, tuple):
             return self
         x, y, z = (matmul(np.asarray(matrix, dtype=np.float64)[:3], (*self.at, 1.0))).tolist()
@@ -265,6 +273,9 @@ class Label:
 
 MEASURE = "<>"
 """What stands for the measure in the text of a dimension."""
+
+IN_WORLD = re.compile(r"<([0-9.]+(?:e[-+]?[0-9]+)?)>")
+"""A length in the world in such a text."""
 
 MOST_DECIMALS = 9
 """No measure has more decimals."""

@@ -58,15 +58,32 @@ def _name_of_mesh(path: str) -> str:
         "--unit",
         type=click.Choice(["mm", "cm", "m", "in"]),
         default="mm",
-        help="What a unit of the part is; the sheet is in mm whatever it is.",
+        help="What a unit of the part is; sections, details and the scale are in mm whatever it is.",
     ),
+    click.option(
+        "--standard",
+        type=click.Choice(["iso", "asme"]),
+        default="iso",
+        help="What is usual: first angle, A3, measures above lines; or third angle, tabloid, level measures.",
+    ),
+    click.option(
+        "--measured-in", type=click.Choice(["mm", "cm", "m", "in"]), help="The unit of all measures.  [default: mm]"
+    ),
+    click.option(
+        "--decimals", type=click.IntRange(0, 9), metavar="N", help="Of measures.  [default: as many as six digits need]"
+    ),
+    click.option(
+        "--zeros/--no-zeros", default=None, help="Zeros at the end of decimals, as 12.50.  [default: in ASME inches]"
+    ),
+    click.option("--comma/--point", default=None, help="What stands before decimals.  [default: a point]"),
     click.option(
         "--projection",
         type=click.Choice(["first", "third"]),
-        default="first",
-        help="Views opposite to the side they are seen from, or on it.",
+        help="Views opposite to the side they are seen from, or on it.  [default: first, of asme third]",
     ),
-    click.option("--page", default="A3", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm."),
+    click.option(
+        "--page", metavar="SIZE", help="A0 to A6, letter, ... or WIDTHxHEIGHT in mm.  [default: A3, of asme tabloid]"
+    ),
     LANDSCAPE,
     click.option(
         "--section",
@@ -118,7 +135,8 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     from vectorplot.scene.page import Page
 
     if told.pop("landscape"):
-        told["page"] = f"{told['page'].split(' ')[0]} landscape"
+        usual = "tabloid" if told["standard"] == "asme" else "A3"
+        told["page"] = f"{(told['page'] or usual).split(' ')[0]} landscape"
     asked, upright = told.pop("sheet"), told["up"] is not None
     told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
 
