@@ -12,6 +12,8 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.drawing.drawing import NO_CURVE, CurvedStrokes, Drawing, Layer, Paths, Pen
 from vectorplot.drawing.fills import Fills
+from vectorplot.drawing.layers import PENS
+from vectorplot.drawing.letters import Lettering
 from vectorplot.drawing.texts import Texts
 from vectorplot.errors import InputError
 from vectorplot.geometry import ragged
@@ -282,3 +284,10 @@ def page_strokes(lines: Sequence[Floats], rings: Sequence[Floats] = ()) -> Paths
 def rectangle(left: float, low: float, right: float, top: float) -> Floats:
     """(4,2) its corners, counter-clockwise."""
     return np.array([(left, low), (right, low), (right, top), (left, top)])
+
+
+def letter_layer(letterings: Sequence[Lettering], lines: Sequence[Floats] = ()) -> Layer:
+    """The layer of letters on the page, in strokes or in a font, and of thin lines that belong to them."""
+    strokes = [text.strokes[k] for text in letterings for k in range(len(text.strokes))]
+    marks: tuple[Mark, ...] = (page_strokes([*lines, *strokes]), Texts.joined([text.texts for text in letterings]))
+    return Layer("label", PENS["label"], tuple(mark for mark in marks if len(mark)))

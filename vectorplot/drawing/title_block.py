@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 import math
+import os
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
 from vectorplot.arrays import Floats
 from vectorplot.drawing.dashes import CHAIN_MM, dashed
 from vectorplot.drawing.drawing import Layer, Pen
-from vectorplot.drawing.layers import PENS
-from vectorplot.drawing.letters import Lettering, lettered
-from vectorplot.drawing.sheets import page_strokes, rectangle
+from vectorplot.drawing.letters import Lettering
+from vectorplot.drawing.pens import read_toml
+from vectorplot.drawing.sheets import letter_layer, page_strokes, rectangle
 from vectorplot.errors import InputError
 from vectorplot.scene.page import Page
 
@@ -51,8 +53,8 @@ def drawing_space(page: Page, framed: bool) -> Floats:
     return np.array([(left, margin), (page.width_mm - margin, page.height_mm - margin)])
 
 
-def frame_layers(page: Page) -> tuple[Layer, ...]:
-    """Layers with the border, its marks and its zones: frame, rules and label.
+def frame_layers(page: Page, plain: Plain) -> tuple[Layer, ...]:
+    """Layers with the border, its marks and its zones: frame, rules and label; plain: what sets letters.
 
     Errors: InputError for a margin too narrow for the zones.
     """
@@ -75,13 +77,12 @@ def frame_layers(page: Page) -> tuple[Layer, ...]:
             for number, at in enumerate(between):
                 name = str(number + 1) if axis == 0 else LETTERS[(len(between) - 1 - number) % len(LETTERS)]
                 ((x, y),) = _along(axis, [(at, line + 0.5 * side * BAND_MM)]).tolist()
-                text = lettered(name, (x, y), size_mm=LETTERS_MM, align="centre", level="middle")
-                letters += [text.strokes[k] for k in range(len(text.strokes))]
+                letters.append(plain(name, (x, y), size_mm=LETTERS_MM, align="centre", level="middle"))
     outer = rectangle(left - BAND_MM, low - BAND_MM, right + BAND_MM, top + BAND_MM)
     return (
         Layer("rules", RULES, (page_strokes(rules, [outer]),)),
         Layer("frame", FRAME, (page_strokes(marks, [rectangle(left, low, right, top)]),)),
-        Layer("label", PENS["label"], (page_strokes(letters),)),
+        letter_layer(letters),
     )
 
 
@@ -153,30 +154,24 @@ def _figures(number: float) -> str:
     return str(int(number)) if number.is_integer() else repr(number)
 
 
-# The title block of a technical drawing.
+# The title block of a technical drawing, and the list of parts on it.
 #
-# Source: ISO 7200 (fields), ISO 5456-2 (the symbols of the projection methods).
+# Source: ISO 7200 (fields), ISO 5456-2 (the symbols of the projection methods), ISO 7573 (lists of parts).
 
-BLOCK_MM = (150.0, 30.0)
-"""Width and height of a title block; it is narrower where there is less room."""
+BLOCK_WIDTH_MM = 150.0
+"""The width of a title block, if its template says no other; it is narrower where there is less room."""
 
-ROWS_MM = (9.0, 9.0, 12.0)
-"""The heights of its rows, from below."""
-
-SYMBOL = 0.2
-"""What part of the width the symbol of the projection method has, at the right of the two lower rows."""
+FIELDS_MM, FIELDS_IN_ROW = 9.0, 3
+"""The height of rows of free fields, and how many are in one."""
 
 CAPTIONS_MM = 1.8
 """The height of the capitals of the names of fields, the smallest of ISO 3098."""
 
-BLOCK_LETTERS_MM = (3.5, 3.5, 5.0)
-"""The height of capitals in each row."""
-
 INSET_MM = 2.0
 """From the sides of a cell to its letters."""
 
-FEET_MM = (1.5, 1.5, 2.2)
-"""From the bottoms of the cells of each row to their letters."""
+FOOT = 0.6
+"""From the bottom of a cell to its letters, as a part of the height that letters and caption leave."""
 
 CAPTION_MM = 1.2
 """From the top of a cell to its name."""
@@ -186,78 +181,233 @@ SYMBOL_MM = 7.0
 
 THIN = Pen(0.25)
 
+Plain = Callable[..., Lettering]
+"""What sets a text, as drawing.lettered and drawing.typeset do."""
+
+
+@dataclass(frozen=True)
+class BlockCell:
+    """A cell of a title block: its name, what stands in it, with words in braces for what is known, such as {title},
+    and how wide it is beside the others of its row."""
+
+    name: str
+    text: str
+    share: float = 1.0
+
+
+@dataclass(frozen=True)
+class BlockRow:
+    """A row of a title block: its height, that of the capitals in it, and its cells."""
+
+    height_mm: float
+    letters_mm: float
+    cells: tuple[BlockCell, ...]
+
+
+@dataclass(frozen=True)
+class BlockTemplate:
+    """How a title block is divided: its width, its rows from the top, and what part of the width of the lowest rows,
+    so many, the symbol of the projection method has at their right."""
+
+    width_mm: float
+    rows: tuple[BlockRow, ...]
+    symbol: float
+    symbol_rows: int
+
+
+BLOCK = BlockTemplate(
+    BLOCK_WIDTH_MM,
+    (
+        BlockRow(12.0, 5.0, (BlockCell("TITLE", "{title}"),)),
+        BlockRow(9.0, 3.5, (BlockCell("DRAWN BY", "{author}", 64.0), BlockCell("DATE", "{date}", 36.0))),
+        BlockRow(
+            9.0,
+            3.5,
+            (
+                BlockCell("SCALE", "{scale}"),
+                BlockCell("UNIT", "{unit}"),
+                BlockCell("SIZE", "{size}"),
+                BlockCell("SHEET", "{sheet}"),
+            ),
+        ),
+    ),
+    0.2,
+    2,
+)
+"""The usual block."""
+
+KNOWN = ("title", "author", "date", "sheet", "scale", "unit", "size")
+"""What templates may name besides free fields."""
+
+
+def read_template(path: str | os.PathLike[str]) -> BlockTemplate:
+    """The template in a TOML file: width, symbol, symbol_rows, and tables row with height, letters and cells, each of
+    these with name, text and share.
+
+    Errors: InputError with file and cause.
+    """
+    said, _ = read_toml(path, "title block")
+    file = os.fspath(path)
+    try:
+        rows = tuple(_row(row) for row in said["row"])
+        template = BlockTemplate(
+            float(said.get("width", BLOCK_WIDTH_MM)),
+            rows,
+            float(said.get("symbol", BLOCK.symbol)),
+            int(said.get("symbol_rows", min(BLOCK.symbol_rows, len(rows)))),
+        )
+    except (KeyError, TypeError, ValueError, AttributeError) as error:
+        what = f"there is no {error}" if isinstance(error, KeyError) else str(error)
+        usual = 'expected tables [[row]] with height and cells = [{name = "TITLE", text = "{title}"}]'
+        raise InputError(f"title block: {what}; {usual}", file=file) from None
+    good = [min(row.height_mm, row.letters_mm, *(cell.share for cell in row.cells)) > 0.0 for row in rows]
+    sizes = template.width_mm > 0.0 and 0.0 <= template.symbol < 1.0 and 0 <= template.symbol_rows <= len(rows)
+    if not (rows and all(good) and all(row.cells for row in rows) and sizes):
+        raise InputError("title block: expected rows with cells, and positive heights, letters, shares", file=file)
+    return template
+
+
+def _row(said: Mapping[str, Any]) -> BlockRow:
+    cells = tuple(
+        BlockCell(str(cell["name"]), str(cell.get("text", "")), float(cell.get("share", 1.0))) for cell in said["cells"]
+    )
+    return BlockRow(float(said["height"]), float(said.get("letters", 3.5)), cells)
+
 
 @dataclass(frozen=True)
 class TitleBlock:
     """What a title block says.
 
-    title, author, date, sheet: as given; scale, size: of the drawing and of its paper; angle: the projection method,
-    which is said by its symbol.
+    words: what is known, by the names of KNOWN; fields: free ones, which stand where the template names them, or in
+    rows of their own on top; angle: the projection method, which is said by its symbol; parts: the rows of the list of
+    parts, from the first, each with number, quantity and name.
     """
 
-    title: str
-    author: str
-    date: str
-    sheet: str
-    scale: str
-    size: str
+    words: Mapping[str, str]
     angle: str
+    fields: Mapping[str, str] = field(default_factory=dict)
+    template: BlockTemplate = BLOCK
+    parts: tuple[tuple[str, str, str], ...] = ()
 
-    def layers(self, space: Floats) -> tuple[Layer, ...]:
+    @property
+    def rows(self) -> tuple[BlockRow, ...]:
+        """All rows from the top, those of free fields first."""
+        named = "".join(cell.text for row in self.template.rows for cell in row.cells).lower()
+        free = [name for name in self.fields if f"{{{name.lower()}}}" not in named]
+        groups = [free[k : k + FIELDS_IN_ROW] for k in range(0, len(free), FIELDS_IN_ROW)]
+        added = [
+            BlockRow(FIELDS_MM, 3.5, tuple(BlockCell(name.upper(), f"{{{name.lower()}}}") for name in group))
+            for group in groups
+        ]
+        return (*added, *self.template.rows)
+
+    @property
+    def size_mm(self) -> tuple[float, float]:
+        """Its width and height, with the list of parts."""
+        parts = PART_ROW_MM * (len(self.parts) + 1) if self.parts else 0.0
+        return self.template.width_mm, sum(row.height_mm for row in self.rows) + parts
+
+    def layers(self, space: Floats, plain: Plain) -> tuple[Layer, ...]:
         """Layers with the block in the lower right corner of the drawing space (2,2): frame, rules, thin and label.
 
+        plain: what sets letters.
         Errors: InputError for a character without strokes, and for words that have no room.
         """
         right, low = float(space[1, 0]), float(space[0, 1])
-        left = max(right - BLOCK_MM[0], float(space[0, 0]))
-        rows = (low + np.cumsum([0.0, *ROWS_MM])).tolist()
-        symbol = right - SYMBOL * (right - left)
-        third, two = (symbol - left) / 3.0, 0.64 * (symbol - left)
-        cells = [
-            *(("SCALE", self.scale, 0, left, left + third), ("SIZE", self.size, 0, left + third, left + 2.0 * third)),
-            ("SHEET", self.sheet, 0, left + 2.0 * third, symbol),
-            *(("DRAWN BY", self.author, 1, left, left + two), ("DATE", self.date, 1, left + two, symbol)),
-            ("TITLE", self.title, 2, left, right),
-        ]
-        rules = [_line(left, y, end, y) for y, end in ((rows[1], symbol), (rows[2], right))]
-        rules += [_line(x, rows[row], x, rows[row + 1]) for _, _, row, x, _ in cells if x > left]
-        rules.append(_line(symbol, rows[0], symbol, rows[2]))
-        letters = []
-        for caption, text, row, begin, end in cells:
-            name = lettered(caption, (begin + INSET_MM, rows[row + 1] - CAPTION_MM - CAPTIONS_MM), size_mm=CAPTIONS_MM)
-            letters += [name, _written(text, begin, end, rows[row] + FEET_MM[row], BLOCK_LETTERS_MM[row])]
-        strokes = [text.strokes[k] for text in letters for k in range(len(text.strokes))]
-        outlines, circles, chains = _symbol(0.5 * (symbol + right), 0.5 * (rows[0] + rows[2]), self.angle == "first")
+        left = max(right - self.template.width_mm, float(space[0, 0]))
+        symbol = right - self.template.symbol * (right - left)
+        known = {**self.words, **{name.lower(): text for name, text in self.fields.items()}}
+        rules, letters, y = [], [], low
+        below = list(reversed(self.rows))
+        for number, row in enumerate(below):
+            end = symbol if number < self.template.symbol_rows else right
+            top, x, whole = y + row.height_mm, left, sum(cell.share for cell in row.cells)
+            foot = y + FOOT * max(row.height_mm - CAPTION_MM - CAPTIONS_MM - row.letters_mm, 0.0)
+            for cell in row.cells:
+                until = x + (end - left) * cell.share / whole
+                if x > left:
+                    rules.append(_line(x, y, x, top))
+                caption = (x + INSET_MM, top - CAPTION_MM - CAPTIONS_MM)
+                letters.append(plain(cell.name, caption, size_mm=CAPTIONS_MM))
+                letters.append(_written(_filled(cell.text, known), x, until, foot, row.letters_mm, plain))
+                x = until
+            if number + 1 < len(below):
+                rules.append(_line(left, top, symbol if number + 1 < self.template.symbol_rows else right, top))
+            y = top
+        edge = low + sum(row.height_mm for row in below[: self.template.symbol_rows])
+        chains: list[Floats] = []
+        rings: list[Floats] = []
+        if edge > low and self.template.symbol > 0.0:
+            rules.append(_line(symbol, low, symbol, edge))
+            middle = (0.5 * (symbol + right), 0.5 * (low + edge))
+            outlines, circles, chains = _symbol(*middle, self.angle == "first")
+            rings = [*outlines, *circles]
+        boxes = [rectangle(left, low, right, y)]
+        if self.parts:
+            top, more, listed = _parts_list(self.parts, left, right, y, plain)
+            boxes, rules, letters = [*boxes, rectangle(left, y, right, top)], [*rules, *more], [*letters, *listed]
         return (
-            Layer("rules", RULES, (page_strokes(rules), page_strokes([], [*outlines, *circles]))),
-            Layer("frame", FRAME, (page_strokes([], [rectangle(left, low, right, rows[3])]),)),
+            Layer("rules", RULES, (page_strokes(rules), page_strokes([], rings))),
+            Layer("frame", FRAME, (page_strokes([], boxes),)),
             Layer("thin", THIN, (dashed(page_strokes(chains), *CHAIN_MM[:2], dot_mm=CHAIN_MM[2]),)),
-            Layer("label", PENS["label"], (page_strokes(strokes),)),
+            letter_layer(letters),
         )
 
-    def layers_titled_if_possible(self, space: Floats) -> tuple[Layer, ...]:
+    def layers_titled_if_possible(self, space: Floats, plain: Plain) -> tuple[Layer, ...]:
         """The same, without the title where that cannot be written there."""
         try:
-            return self.layers(space)
+            return self.layers(space, plain)
         except InputError:
-            return replace(self, title="").layers(space)
+            return replace(self, words={**self.words, "title": ""}).layers(space, plain)
+
+
+def _filled(text: str, known: Mapping[str, str]) -> str:
+    """A text with what is known in place of words in braces; nothing in place of what is not."""
+    return re.sub(r"\{([^{}]*)\}", lambda found: known.get(found[1].strip().lower(), ""), text)
+
+
+PART_ROW_MM, PART_LETTERS_MM = 7.0, 3.5
+"""The height of the rows of a list of parts, and of the capitals in it."""
+
+PART_SHARES = (0.12, 0.12, 0.76)
+"""How wide its columns are: numbers, quantities, names."""
+
+
+def _parts_list(
+    parts: Sequence[tuple[str, str, str]], left: float, right: float, low: float, plain: Plain
+) -> tuple[float, list[Floats], list[Lettering]]:
+    """The top of a list of parts that grows upwards from its head, its rules and its letters."""
+    rows = [("ITEM", "QTY", "NAME"), *parts]
+    top = low + PART_ROW_MM * len(rows)
+    ends = (left + (right - left) * np.cumsum([0.0, *PART_SHARES])).tolist()
+    rules = [_line(left, y, right, y) for y in (low + PART_ROW_MM * np.arange(1, len(rows))).tolist()]
+    rules += [_line(x, low, x, top) for x in ends[1:-1]]
+    letters = []
+    for number, row in enumerate(rows):
+        size = PART_LETTERS_MM if number else CAPTIONS_MM + 0.7
+        foot = low + PART_ROW_MM * number + 0.5 * (PART_ROW_MM - size)
+        letters += [
+            _written(text, begin, end, foot, size, plain)
+            for text, begin, end in zip(row, ends[:-1], ends[1:], strict=True)
+        ]
+    return top, rules, letters
 
 
 def _line(x: float, y: float, to_x: float, to_y: float) -> Floats:
     return np.array([(x, y), (to_x, to_y)])
 
 
-def _written(text: str, left: float, right: float, foot: float, size: float) -> Lettering:
+def _written(text: str, left: float, right: float, foot: float, size: float, plain: Plain) -> Lettering:
     """A text at the left of a cell, in letters of a size, or of a smaller one that fits."""
     room = right - left - 2.0 * INSET_MM
     try:
-        width = float(np.ptp(lettered(text, size_mm=size).bounds, axis=0)[0])
+        width = float(np.ptp(plain(text, size_mm=size).bounds, axis=0)[0])
     except InputError as error:
         raise InputError(f"title block: {error.cause}") from None
     fitting = size if width <= room else size * room / width
     if fitting < CAPTIONS_MM:
         raise InputError(f"title block: no room for {text!r}")
-    return lettered(text, (left + INSET_MM, foot), size_mm=fitting)
+    return plain(text, (left + INSET_MM, foot), size_mm=fitting)
 
 
 def _symbol(x: float, y: float, first: bool) -> tuple[list[Floats], list[Floats], list[Floats]]:

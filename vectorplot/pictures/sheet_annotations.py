@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
@@ -11,8 +12,10 @@ import numpy as np
 from vectorplot.arrays import Floats, Ints
 from vectorplot.curves.curve import is_curve
 from vectorplot.curves.families import Line
-from vectorplot.drawing.drawing import Drawing
+from vectorplot.drawing.drawing import Drawing, Layer, Pen
 from vectorplot.drawing.labels import NO_ITEM
+from vectorplot.drawing.sheets import letter_layer, page_strokes
+from vectorplot.drawing.title_block import Plain
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
@@ -234,7 +237,138 @@ def written_on(drawing: Drawing) -> Floats:
         if len(first):
             ends = [extreme.reduceat(paths.points, first, axis=0) for extreme in (np.minimum, np.maximum)]
             found.append(np.stack(ends, axis=1)[paths.item[np.diff(paths.offsets) > 0] == NO_ITEM])
+    for texts in (texts for layer in drawing.layers if layer.name == "label" for texts in layer.texts):
+        turn = np.radians(texts.turn_deg)
+        along, up = (np.stack([np.cos(way), np.sin(way)], axis=1) for way in (turn, turn + 0.5 * np.pi))
+        begin = texts.points - (texts.anchor * texts.room_mm)[:, None] * along
+        corners = begin[:, None] + np.stack(
+            [0.0 * along, texts.room_mm[:, None] * along, texts.size_mm[:, None] * up], axis=1
+        )
+        found.append(np.stack([corners.min(axis=1), corners.max(axis=1)], axis=1))
     return np.concatenate(found)
+
+
+# Parts of an assembly: their balloons, and the rows of their list.
+#
+# Source: ISO 6433 (item references), ISO 7573 (lists of parts).
+
+BALLOON_MM, BALLOON_LETTERS_MM = 5.0, 3.5
+"""The radius of a balloon, and the height of capitals in it."""
+
+BALLOONS_APART_MM, BALLOONS_OFF_MM = 13.0, 11.0
+"""From one balloon to the next, and from the view to their middles."""
+
+BALLOONS_ROOM_MM = BALLOONS_OFF_MM + BALLOON_MM
+"""What balloons need at the left and the right of a view."""
+
+
+@dataclass(frozen=True)
+class AssemblyPart:
+    """A part of an assembly: its name, and the names of the items of each time that it is there."""
+
+    name: str
+    pieces: tuple[tuple[str, ...], ...]
+
+    @property
+    def items(self) -> frozenset[str]:
+        """The names of all its items."""
+        return frozenset(name for piece in self.pieces for name in piece)
+
+
+def parts_of(scene: Scene) -> tuple[AssemblyPart, ...]:
+    """The parts of a scene, in its order: items of one group are one part; those of one shape whose names differ by a
+    number at their end are the same part. Curves are none, if there are bodies."""
+    bodies = [item for item in scene.items if not is_curve(item.shape)] or list(scene.items)
+    pieces: dict[str, list[Item]] = {}
+    for item in bodies:
+        pieces.setdefault(item.group or item.name, []).append(item)
+    alike: dict[tuple[str, ...], list[str]] = {}
+    for name, items in pieces.items():
+        stem = NUMBERED.sub("", name) or name
+        alike.setdefault((stem, *map(_shape_text, items)), []).append(name)
+    return tuple(
+        AssemblyPart(key[0] if len(names) > 1 else names[0], tuple(tuple(i.name for i in pieces[n]) for n in names))
+        for key, names in alike.items()
+    )
+
+
+NUMBERED = re.compile(r"[ _.-]*\d+$")
+"""A number at the end of a name."""
+
+
+def _shape_text(item: Item) -> str:
+    """What two items have in common that may be the same part."""
+    if isinstance(item.shape, Mesh):
+        return f"{len(item.shape.vertices)} {item.shape.face_count}"
+    return type(item.shape).__name__
+
+
+def balloon_layers(
+    parts: Sequence[AssemblyPart], drawing: Drawing, reach: Floats, middle: tuple[float, float], plain: Plain
+) -> tuple[Layer, ...]:
+    """The balloons of those parts that a view shows, at its left and right, each with a line to an edge of its part.
+
+    drawing: of the view on the sheet; reach (2,2): how far the view reaches from the middle of the part, which is at a
+    place on the sheet; no line crosses another. plain: what sets letters.
+    """
+    anchors = [(number, _anchor(part, drawing, np.array(middle))) for number, part in enumerate(parts, start=1)]
+    shown = [(number, anchor) for number, anchor in anchors if anchor is not None]
+    if not shown:
+        return ()
+    from scipy.optimize import linear_sum_assignment
+
+    places = np.array([anchor for _, anchor in shown])
+    rows = max(-(-len(shown) // 2), int(float(reach[:, 1].sum()) / BALLOONS_APART_MM) + 1)
+    heights = middle[1] + 0.5 * (reach[1, 1] - reach[0, 1]) + BALLOONS_APART_MM * (np.arange(rows) - 0.5 * (rows - 1))
+    sides = (middle[0] - reach[0, 0] - BALLOONS_OFF_MM, middle[0] + reach[1, 0] + BALLOONS_OFF_MM)
+    slots = np.array([(x, y) for x in sides for y in heights.tolist()])
+    away = np.sqrt(((places[:, None] - slots) ** 2).sum(axis=2))
+    # The shortest lines together cross nowhere.
+    _, chosen = linear_sum_assignment(away)
+    lines, heads, rings, letters = [], [], [], []
+    for (number, anchor), slot in zip(shown, slots[chosen], strict=True):
+        way = normalize(anchor - slot)
+        wing = np.array([-way[1], way[0]])
+        lines.append(np.array([slot + BALLOON_MM * way, anchor]))
+        back = anchor - ARROWHEAD_MM[0] * way
+        heads.append(np.array([anchor, back + ARROWHEAD_MM[1] * wing, back - ARROWHEAD_MM[1] * wing, anchor]))
+        turn = 2.0 * np.pi * np.arange(64) / 64
+        rings.append(slot + BALLOON_MM * np.stack([np.cos(turn), np.sin(turn)], axis=1))
+        x, y = slot.tolist()
+        letters.append(plain(str(number), (x, y), size_mm=BALLOON_LETTERS_MM, align="centre", level="middle"))
+    return (Layer("thin", THIN, (page_strokes(lines, rings),)), letter_layer(letters, heads))
+
+
+ARROWHEAD_MM = (2.8, 0.5)
+"""The length of arrowheads, and half of their width."""
+
+THIN = Pen(0.25)
+
+
+def _anchor(part: AssemblyPart, drawing: Drawing, middle: Floats) -> Floats | None:
+    """(2,) where a view shows an edge of a part: amid the longest visible one, of those that are as long farthest from
+    the middle of the view."""
+    own = {number for number, name in enumerate(drawing.items) if name in part.items}
+    best: tuple[float, float] | None = None
+    found: Floats | None = None
+    for paths in (paths for layer in drawing.layers if layer.name in BODY_LAYERS for paths in layer.strokes):
+        some = np.flatnonzero(np.isin(paths.item, list(own)) & (paths.hidden_by == 0) & (np.diff(paths.offsets) > 1))
+        if not len(some):
+            continue
+        for k in some.tolist():
+            points = paths.points[paths.offsets[k] : paths.offsets[k + 1]]
+            steps = np.hypot(*np.diff(points, axis=0).T)
+            long = np.concatenate([[0.0], np.cumsum(steps)])
+            at = 0.5 * long[-1]
+            place = np.array([np.interp(at, long, column) for column in points.T])
+            worth = (round(float(long[-1]), 3), float(np.hypot(*(place - middle))))
+            if best is None or worth > best:
+                best, found = worth, place
+    return found
+
+
+BODY_LAYERS = ("contour", "boundary", "crease", "intersection", "cut")
+"""The layers of edges of bodies."""
 
 
 def without_annotations(scene: Scene) -> tuple[Scene, tuple[Annotation, ...]]:

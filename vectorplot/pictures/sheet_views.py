@@ -13,11 +13,10 @@ from vectorplot.arrays import Floats
 from vectorplot.drawing.dashes import CHAIN_MM, dashed
 from vectorplot.drawing.drawing import Layer, Pen
 from vectorplot.drawing.labels import HALO_MM
-from vectorplot.drawing.layers import PENS
-from vectorplot.drawing.letters import lettered
-from vectorplot.drawing.sheets import page_strokes
-from vectorplot.drawing.text_along import grown, outside_boxes
-from vectorplot.drawing.title_block import DrawingScale, drawing_space
+from vectorplot.drawing.letters import Lettering
+from vectorplot.drawing.sheets import letter_layer, page_strokes
+from vectorplot.drawing.text_along import grown, inside_box, near_boxes, outside_boxes
+from vectorplot.drawing.title_block import DrawingScale, Plain, drawing_space
 from vectorplot.errors import InputError
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
@@ -371,6 +370,7 @@ class SheetSection:
         factor: float,
         room: Floats,
         written: Floats,
+        plain: Plain,
     ) -> tuple[Layer, ...]:
         """Layers with its line, arrows and letters in a view that sees its plane edge-on.
 
@@ -399,7 +399,7 @@ class SheetSection:
                 arrow = matmul(flat, one.way)
                 back, wing = end - HEAD_MM * arrow, HEAD_MM * SLOPE * np.array([-arrow[1], arrow[0]])
                 heads.append(np.array([end - ARROW_MM * arrow, end, back + wing, back - wing, end]))
-                letters += letters_at(self.letter, end - (ARROW_MM + 0.8 * LETTERS_MM) * arrow)
+                letters.append(letters_at(self.letter, end - (ARROW_MM + 0.8 * LETTERS_MM) * arrow, plain))
         course = np.array([inner[0], *bends, inner[1]])
         line = dashed(page_strokes([course]), *CHAIN_MM[:2], dot_mm=CHAIN_MM[2])
         wide = [np.array(pair) for pair in zip(inner, ends, strict=True)]
@@ -408,19 +408,18 @@ class SheetSection:
         return (
             Layer("cutting line", THIN, (outside_boxes(line, grown(boxes, HALO_MM), np.eye(4)),)),
             Layer("cutting ends", WIDE, (page_strokes(wide),)),
-            Layer("label", PENS["label"], (page_strokes([*heads, *letters]),)),
+            letter_layer(letters, heads),
         )
 
-    def name_layer(self, top: tuple[float, float], written: Floats) -> Layer:
+    def name_layer(self, top: tuple[float, float], written: Floats, plain: Plain) -> Layer:
         """A layer with its name, above the middle of the top of its view, and of the boxes (b,2,2) of letters there."""
-        return named_layer(f"{self.letter}-{self.letter}", top, written)
+        return named_layer(f"{self.letter}-{self.letter}", top, written, plain)
 
 
-def named_layer(text: str, top: tuple[float, float], written: Floats) -> Layer:
+def named_layer(text: str, top: tuple[float, float], written: Floats, plain: Plain) -> Layer:
     """A layer with the name of a view, above the middle of its top, and of the boxes (b,2,2) of letters there."""
     under = written[(np.abs(written[:, :, 0] - top[0]) < CLEAR_MM).any(axis=1), 1, 1]
-    strokes = letters_at(text, np.array([top[0], under.max(initial=top[1]) + 0.4 * ROOM_MM]))
-    return Layer("label", PENS["label"], (page_strokes(strokes),))
+    return letter_layer([letters_at(text, np.array([top[0], under.max(initial=top[1]) + 0.4 * ROOM_MM]), plain)])
 
 
 def _leaves(place: Floats, way: Floats, reach: Floats) -> float:
@@ -539,11 +538,10 @@ def _plane(part: str, text: str, bounds: Floats) -> tuple[int, float]:
     return axis, offset
 
 
-def letters_at(text: str, middle: Floats) -> list[Floats]:
-    """The strokes of the name of a view, about a point."""
+def letters_at(text: str, middle: Floats, plain: Plain) -> Lettering:
+    """The name of a view about a point; plain: what sets letters."""
     x, y = middle.tolist()
-    lettering = lettered(text, (x, y), size_mm=LETTERS_MM, align="centre", level="middle")
-    return [lettering.strokes[k] for k in range(len(lettering.strokes))]
+    return plain(text, (x, y), size_mm=LETTERS_MM, align="centre", level="middle")
 
 
 # Details and local sections: circles in views, magnified apart, or cut open.
@@ -615,16 +613,17 @@ class ViewCircle:
         ways = np.stack([np.cos(turn), np.sin(turn)], axis=1)
         return np.asarray(middle + (radius * (1.0 + waves))[:, None] * ways)
 
-    def layers(self, middle: Floats, radius: float, written: Floats) -> tuple[Layer, ...]:
-        """The circle of a detail in its view, and its letter where it is on none of the boxes (b,2,2) of letters."""
+    def layers(self, middle: Floats, radius: float, lines: Floats, plain: Plain) -> tuple[Layer, ...]:
+        """The circle of a detail in its view, and its letter where it is on the least of lines (s,2,2) on the page."""
         ways = np.radians([45.0, 135.0, 315.0, 225.0, 0.0, 90.0, 180.0, 270.0])
-        far = radius + 0.9 * LETTERS_MM
-        places = middle + far * np.stack([np.cos(ways), np.sin(ways)], axis=1)
-        half = 0.6 * LETTERS_MM
-        apart = (written[:, 0] < places[:, None] + half) & (written[:, 1] > places[:, None] - half)
-        met = np.asarray(apart.all(axis=2)).any(axis=1)
-        text = letters_at(self.letter, places[int(np.argmin(met))])
+        places = middle + (radius + 0.9 * LETTERS_MM) * np.stack([np.cos(ways), np.sin(ways)], axis=1)
+        half = 0.7 * LETTERS_MM
+        boxes = places[:, None] + half * np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+        line, box = near_boxes(lines[:, 0], lines[:, 1], boxes)
+        low, high = inside_box(lines[line, 0], lines[line, 1], boxes[box])
+        within = np.maximum(high - low, 0.0) * np.hypot(*(lines[line, 1] - lines[line, 0]).T)
+        best = int(np.argmin(np.bincount(box, within, minlength=len(boxes))))
         return (
             Layer("thin", THIN, (page_strokes([], [self.ring(middle, radius)]),)),
-            Layer("label", PENS["label"], (page_strokes(text),)),
+            letter_layer([letters_at(self.letter, places[best], plain)]),
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
@@ -16,35 +17,43 @@ from vectorplot.batch.running import results
 from vectorplot.batch.tasks import Submits
 from vectorplot.drawing.dashes import CHAIN_MM, dashed
 from vectorplot.drawing.drawing import Drawing, Layer, Paths
+from vectorplot.drawing.labels import LETTERS as LETTERS_OF
 from vectorplot.drawing.sheets import Sheet, page_strokes
 from vectorplot.drawing.strokes import clipped, inside_ring, outside_ring
 from vectorplot.drawing.title_block import (
     ASME_STEPS,
-    BLOCK_MM,
+    BLOCK,
     ISO_STEPS,
     DrawingScale,
+    Plain,
     TitleBlock,
     drawing_space,
     frame_layers,
+    read_template,
 )
 from vectorplot.effects.cuts import InSpace, cut, cut_scene
 from vectorplot.errors import InputError, InputWarning
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import VIEWS, Camera, Point
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import segments
 from vectorplot.io.anything import scene_of
 from vectorplot.io.mesh_file import stood_up
 from vectorplot.pictures.draw import draw
 from vectorplot.pictures.pipeline import StageReport, stoppable
 from vectorplot.pictures.sheet_annotations import (
+    BALLOONS_ROOM_MM,
     TEXT_MM,
     Annotation,
+    AssemblyPart,
     OverallDimension,
     RoundEdge,
+    balloon_layers,
     centre_lines_of,
     clear_of_each_other,
     level_measures,
     overall_dimensions,
+    parts_of,
     round_edges,
     views_of,
     without_annotations,
@@ -73,7 +82,7 @@ from vectorplot.scene.page import MM_PER_INCH, Page
 from vectorplot.scene.placement import camera_of, page_of
 from vectorplot.scene.scene import Scene, together
 from vectorplot.tolerances import SAME_PLANE_OF_EXTENT
-from vectorplot.words import check_word, unknown
+from vectorplot.words import TEXT_WORDS, check_word, unknown
 
 # The verb technical_sheet: main views of a part, side by side on one sheet, at one exact scale.
 
@@ -119,6 +128,12 @@ class _Part:
     details: tuple[ViewCircle, ...]
     breakouts: tuple[ViewCircle, ...]
     level: bool
+    parts: tuple[AssemblyPart, ...]
+
+    @property
+    def balloons_in(self) -> str:
+        """The view that has the balloons of parts: the pictorial one, or else the first."""
+        return "iso" if "iso" in self.names else self.names[0]
 
     @property
     def bounds(self) -> Floats:
@@ -166,6 +181,8 @@ class _Part:
         for name, camera in zip(self.names, self.cameras, strict=True):
             rooms = [one.line_room_mm(camera) for one in self.sections if one.told_in(self.names) == name]
             world = self.reach(camera, [self.scene])
+            if self.parts and name == self.balloons_in:
+                rooms.append(np.tile([BALLOONS_ROOM_MM, 0.0], (2, 1)))
             found.append(self._view(name, camera, "", world, notes[name], rooms))
         above = [np.array([(0.0, 0.0), (0.0, ROOM_MM)])]
         for section in self.sections:
@@ -414,6 +431,11 @@ def technical_sheet(
     author: str = "",
     date: str = "",
     sheet: str = "1",
+    fields: Mapping[str, str] | None = None,
+    block_template: str | os.PathLike[str] | None = None,
+    balloons: bool = False,
+    parts_list: bool = False,
+    text: Literal["strokes", "real"] = "strokes",
     crease_angle_deg: float = 25.0,
     progress: Callable[[str, float], None] | None = None,
     explain: Callable[[StageReport], None] | None = None,
@@ -475,6 +497,17 @@ def technical_sheet(
         Letters in the title block; where None those of the scene, if they have room and strokes there.
     author, date, sheet : str
         Letters in the title block.
+    fields : mapping of str to str, optional
+        Free fields of the title block, by their names: each where the template names it, else in a row on top.
+    block_template : path, optional
+        A TOML file that says which rows and cells the title block has; where None one after ISO 7200.
+    balloons : bool
+        The pictorial view, or else the first one, has the numbers of parts around it, with lines to their edges.
+    parts_list : bool
+        A list of these parts stands on the title block, with how many there are of each: items of one group are one
+        part, those whose names differ by a number at the end and that have one shape are the same.
+    text : {"strokes", "real"}
+        See draw.
     crease_angle_deg : float
         See draw.
     progress, explain : callable, optional
@@ -517,6 +550,7 @@ def technical_sheet(
     """
     names = _view_names(views)
     check_word("standard", standard, STANDARDS)
+    check_word("text", text, TEXT_WORDS)
     usual = STANDARDS[standard]
     projection = projection or usual.projection
     check_word("projection", projection, ("first", "third"))
@@ -548,28 +582,47 @@ def technical_sheet(
     details = tuple(ViewCircle.of(text, "detail", circled, one) for text, one in zip(texts, letters, strict=False))
     opened = [breakout] if isinstance(breakout, str) else list(breakout)
     breakouts = tuple(ViewCircle.of(text, "breakout", [name for name in names if name != "iso"]) for text in opened)
-    part = _Part(solid, annotations, names, cameras, overall, sections, edges, details, breakouts, usual.level)
-    taken = np.array(BLOCK_MM if block else (0.0, 0.0))
+    listed = parts_of(solid) if balloons or parts_list else ()
+    part = _Part(
+        solid,
+        annotations,
+        names,
+        cameras,
+        overall,
+        sections,
+        edges,
+        details,
+        breakouts,
+        usual.level,
+        listed if balloons else (),
+    )
     given_page, first = page, projection == "first"
+    size = page.strip().split()[0].upper() if isinstance(page, str) else f"{page.width_mm:g}x{page.height_mm:g}"
+    said = given.title if title is None else title
+    known = {"title": said, "author": author, "date": date, "sheet": sheet, "unit": written_unit, "size": size}
+    template = BLOCK if block_template is None else read_template(block_template)
+    rows = [(str(k), str(len(one.pieces)), one.name) for k, one in enumerate(listed, start=1)] if parts_list else []
+    words = TitleBlock(known, projection, dict(fields or {}), template, tuple(rows))
+    taken = np.array(words.size_mm if block else (0.0, 0.0))
 
     def room(views: Sequence[SheetView], allowed: StandardScales) -> tuple[Page, Arrangement]:
         return roomiest(given_page, views, frame, first, taken, allowed)
 
     paper, arranged, chosen = _arranged(part, StandardScales(usual.steps, asked), room)
     factor = chosen.factor
-    name = page.strip().split()[0].upper() if isinstance(page, str) else f"{paper.width_mm:g}x{paper.height_mm:g}"
-    said = given.title if title is None else title
-    words = TitleBlock(said, author, date, sheet, str(chosen), name, projection)
+    words = replace(words, words={**known, "scale": str(chosen)})
+    plain = LETTERS_OF[text].plain
     # A title that nobody asked for here may be too long, or in letters without strokes.
     written_in = words.layers_titled_if_possible if title is None else words.layers
-    layers = written_in(drawing_space(paper, frame)) if block else ()
+    layers = written_in(drawing_space(paper, frame), plain) if block else ()
     done = Sheet(paper, f"{said}, {chosen}" if said else str(chosen))
     notes = part.notes(factor)
     _tell_left_out(annotations, notes.values())
-    options = {"crease_angle_deg": crease_angle_deg, "progress": progress, "explain": explain}
+    options = {"crease_angle_deg": crease_angle_deg, "text": text, "progress": progress, "explain": explain}
     drawer = _Views(part, factor, cut_spacing_mm, options)
     placed = {view.name: (view, place) for view, place in zip(arranged.views, arranged.middles(factor), strict=True)}
     written: dict[str, Floats] = {}
+    around: list[Layer] = []
     for one in details:
         centres = [note.before(placed[one.letter][0].camera, part.bounds) for note in notes[one.view] if note.is_centre]
         drawn = drawer.detail(one, centres)
@@ -587,8 +640,11 @@ def technical_sheet(
         corner = (x - 0.5 * drawn.width_mm, y - 0.5 * drawn.height_mm)
         written[view.name] = written_on(drawn) + corner
         done = done.place(drawn, *corner)
-    around = _around(part, placed, factor, written)
-    borders = (*(frame_layers(paper) if frame else ()), *layers)
+        if balloons and view.name == part.balloons_in:
+            moved = Sheet(paper).place(drawn, *corner).drawing()
+            around += balloon_layers(listed, moved, view.reach_mm(factor) - [BALLOONS_ROOM_MM, 0.0], (x, y), plain)
+    around += _around(part, placed, factor, written, done.drawing(), plain)
+    borders = (*(frame_layers(paper, plain) if frame else ()), *layers)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
 
 
@@ -616,25 +672,31 @@ def _around(
     placed: Mapping[str, tuple[SheetView, tuple[float, float]]],
     factor: float,
     written: Mapping[str, Floats],
+    drawn: Drawing,
+    plain: Plain,
 ) -> tuple[Layer, ...]:
     """The lines of sections and the circles of details in other views, and the names of both; written: the boxes
-    (b,2,2) of letters in each view."""
+    (b,2,2) of letters in each view; drawn: all views; plain: what sets letters."""
     found: list[Layer] = []
+    strokes = [paths for layer in drawn.layers for paths in layer.strokes]
+    lines = np.concatenate([np.zeros((0, 2, 2)), *(paths.points[segments(paths)] for paths in strokes)])
     for section in part.sections:
         view, (x, y) = placed[section.letter]
-        found.append(section.name_layer((x, y + factor * float(view.world[1, 1])), written[view.name]))
+        found.append(section.name_layer((x, y + factor * float(view.world[1, 1])), written[view.name], plain))
         name = section.told_in(part.names)
         if name is not None:
             other, place = placed[name]
             room = part.overall_room_mm(name, other.camera)
-            found += section.line_layers(other.camera, view.camera, part.bounds, place, factor, room, written[name])
+            found += section.line_layers(
+                other.camera, view.camera, part.bounds, place, factor, room, written[name], plain
+            )
     for one in part.details:
         x, y = placed[one.letter][1]
         top = y + one.factor(factor) * one.radius
-        found.append(named_layer(f"{one.letter} ({one.scale_text(factor)})", (x, top), np.zeros((0, 2, 2))))
+        found.append(named_layer(f"{one.letter} ({one.scale_text(factor)})", (x, top), np.zeros((0, 2, 2)), plain))
         view, place = placed[one.view]
         middle = np.array(place) + part.on_page(view.camera, one.centre, factor)
-        found += one.layers(middle, factor * one.radius, written[one.view])
+        found += one.layers(middle, factor * one.radius, lines, plain)
     return tuple(found)
 
 

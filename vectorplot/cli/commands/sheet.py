@@ -18,7 +18,9 @@ from vectorplot.cli.options import (
     LANDSCAPE,
     OUT,
     QUIET,
+    TEXT,
     VIEW_WORDS,
+    check_overlaid,
     crease_angle_option,
     drawing_format,
     format_option,
@@ -37,6 +39,14 @@ def _name_of_mesh(path: str) -> str:
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     return Path(path).stem if Path(path).suffix.lower() in MESH_SUFFIXES else ""
+
+
+def _field(text: str) -> tuple[str, str]:
+    """NAME=TEXT."""
+    name, sign, said = text.partition("=")
+    if not sign or not name.strip():
+        raise click.BadParameter(f"{text!r}: expected NAME=TEXT, such as MATERIAL=S235")
+    return name.strip(), said
 
 
 @click.command(short_help="Draw main views of a part on one sheet.", context_settings={"show_default": True})
@@ -119,6 +129,18 @@ def _name_of_mesh(path: str) -> str:
     click.option("--author", default="", metavar="TEXT", show_default=False, help="Who has drawn it."),
     click.option("--date", default="", metavar="TEXT", show_default=False, help="As it is to be written."),
     click.option("--sheet", metavar="TEXT", help="The number of the sheet, such as 1/2.  [default: 1, or 1/2 of two]"),
+    click.option(
+        "--field",
+        "fields",
+        type=_field,
+        multiple=True,
+        metavar="NAME=TEXT",
+        help="A free field of the title block, as MATERIAL=S235; repeat it for more.",
+    ),
+    click.option("--block-template", metavar="FILE", help="A TOML file with the rows and cells of the title block."),
+    click.option("--balloons", is_flag=True, help="Numbers of parts around the iso view, or the first one."),
+    click.option("--parts-list", is_flag=True, help="A list of the parts on the title block."),
+    TEXT,
     crease_angle_option("Sharper edges are creases."),
     EXPLAIN,
     QUIET,
@@ -138,7 +160,7 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
         usual = "tabloid" if told["standard"] == "asme" else "A3"
         told["page"] = f"{(told['page'] or usual).split(' ')[0]} landscape"
     asked, upright = told.pop("sheet"), told["up"] is not None
-    told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None}
+    told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None, "fields": dict(told["fields"])}
 
     def page(number: int, scene: Scene, report: Report) -> Drawing:
         usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
@@ -149,9 +171,23 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
         return made
 
     written = drawing_format(out, format_)
+    overlaid = told["text"] == "latex"
+    if overlaid:
+        told["text"] = "real"
+        check_overlaid(out, written)
     if len(scene_file) > 1:
         if written != "pdf":
             raise click.UsageError("several INPUTs become the pages of a PDF: OUT must end in .pdf")
+        if overlaid:
+            raise click.UsageError("--text latex is of one sheet")
         make_pages([Source((one,), upright=upright) for one in scene_file], out, page, quiet=quiet, explain=explain)
         return
-    make_picture(Source(scene_file, upright=upright), out, written, partial(page, 0), quiet=quiet, explain=explain)
+    make_picture(
+        Source(scene_file, upright=upright),
+        out,
+        written,
+        partial(page, 0),
+        quiet=quiet,
+        explain=explain,
+        overlaid=overlaid,
+    )
