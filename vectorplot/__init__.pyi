@@ -15,6 +15,7 @@ from .pictures.film import Film, animate
 from .pictures.paint import paint
 from .pictures.panorama import panorama
 from .pictures.render import render
+from .pictures.sheet_annotations import part_scenes
 from .pictures.technical_sheet import technical_sheet, turntable
 from .read import read
 from .save import save, save_for_latex
@@ -106,6 +107,7 @@ __all__ = [
     "ordinate_dimension",
     "paint",
     "panorama",
+    "part_scenes",
     "radius",
     "read",
     "read_animation",

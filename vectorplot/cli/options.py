@@ -79,8 +79,15 @@ def cut_text(text: str) -> str:
     return text
 
 
-def _explosion(text: str) -> tuple[Point] | tuple[Point, float]:
-    """AXIS or AXIS,FACTOR; an axis is x, y, z, or X,Y,Z."""
+Apart = tuple["Point"] | tuple["Point", float] | tuple[str, "Point"]
+"""How parts are moved apart: along an axis, with a factor; or a part by its name, and how far."""
+
+
+def _explosion(text: str) -> Apart:
+    """AXIS or AXIS,FACTOR; an axis is x, y, z, or X,Y,Z. Or NAME=X,Y,Z."""
+    if "=" in text:
+        name, _, step = text.rpartition("=")
+        return name.strip(), point(step)
     if text.count(",") in (0, 2):
         return (direction(text),)
     axis, _, factor = text.rpartition(",")
@@ -95,6 +102,15 @@ CUT_SPACING = click.option(
     type=at_least(0.1),
     metavar="MM",
     help="From stroke to stroke of hatches of cut faces, on the page.  [default: 2.4, on narrow faces 1.2]",
+)
+
+EXPLODE = click.option(
+    "--explode",
+    type=_explosion,
+    multiple=True,
+    metavar="AXIS[,FACTOR]",
+    show_default=False,
+    help="Parts moved apart along x, y, z or X,Y,Z; z,1.5 is z. Or a part, NAME=X,Y,Z; repeat it for more.",
 )
 
 CUT_OPTIONS = (
@@ -115,13 +131,23 @@ CUT_OPTIONS = (
     click.option("--cut-colour", metavar="COLOUR", help="Of cut faces.  [default: that of their bodies]"),
     CUT_SPACING,
     click.option("--cut-angle", type=number, default=45.0, metavar="DEG", help="Of these strokes, from what is level."),
-    click.option(
-        "--explode",
-        type=_explosion,
-        metavar="AXIS[,FACTOR]",
-        help="Parts moved apart along x, y, z or X,Y,Z; z,1.5 is z.",
-    ),
+    EXPLODE,
 )
+
+
+def moved_apart(scene: Scene, asked: Sequence[Apart]) -> Scene:
+    """The scene with its parts moved apart as asked for, else as it says itself. Bad usage for an axis among moves."""
+    from vectorplot.scene.exploded import exploded, shown_apart
+
+    if not asked:
+        return shown_apart(scene)
+    moves = {one[0]: one[1] for one in asked if len(one) == 2 and isinstance(one[0], str)}
+    if moves and len(moves) == len(asked):
+        return exploded(scene, moves)
+    if len(asked) > 1:
+        raise click.UsageError("--explode: expected one axis, or NAME=X,Y,Z of several parts, each once")
+    (one,) = asked
+    return exploded(scene, one[0], *(float(x) for x in one[1:] if not isinstance(x, tuple)))
 
 
 @dataclass(frozen=True)
@@ -133,7 +159,7 @@ class CutOptions:
     cut_colour: str | None = None
     cut_spacing: float | None = None
     cut_angle: float = 45.0
-    explode: tuple[Point] | tuple[Point, float] | None = None
+    explode: tuple[Apart, ...] = ()
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> CutOptions:
@@ -143,9 +169,8 @@ class CutOptions:
     def of_scene(self, scene: Scene) -> Scene:
         """The scene with these cuts. Errors: InputError for unknown colours."""
         from vectorplot.scene.cuts import Cut
-        from vectorplot.scene.exploded import exploded, shown_apart
 
-        scene = shown_apart(scene) if self.explode is None else exploded(scene, *self.explode)
+        scene = moved_apart(scene, self.explode)
         spelled = partial(Cut.of, away=self.cut_away, colour=self.cut_colour)
         hatched = partial(spelled, spacing_mm=self.cut_spacing, angle_deg=self.cut_angle)
         cuts = tuple(hatched(text) for text in self.cut)

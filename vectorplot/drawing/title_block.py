@@ -53,8 +53,10 @@ def drawing_space(page: Page, framed: bool) -> Floats:
     return np.array([(left, margin), (page.width_mm - margin, page.height_mm - margin)])
 
 
-def frame_layers(page: Page, plain: Plain) -> tuple[Layer, ...]:
-    """Layers with the border, its marks and its zones: frame, rules and label; plain: what sets letters.
+def frame_layers(page: Page, plain: Plain, block_mm: tuple[float, float]) -> tuple[Layer, ...]:
+    """Layers with the border, its marks and its zones: frame, rules and label.
+
+    plain: what sets letters; block_mm: the size of what is in the lower right corner, into which no mark reaches.
 
     Errors: InputError for a margin too narrow for the zones.
     """
@@ -64,8 +66,14 @@ def frame_layers(page: Page, plain: Plain) -> tuple[Layer, ...]:
     if not (left < right and low < top):
         raise InputError(f"page {page.width_mm:g}x{page.height_mm:g} mm: no room for a frame")
     middle = (0.5 * page.width_mm, 0.5 * page.height_mm)
-    marks = [np.array([(middle[0], y - BAND_MM), (middle[0], y + BAND_MM)]) for y in (low, top)] + [
-        np.array([(x - BAND_MM, middle[1]), (x + BAND_MM, middle[1])]) for x in (left, right)
+    wide, high = block_mm
+    below = low if middle[0] > right - wide and high > 0.0 else low + BAND_MM
+    beside = right if middle[1] < low + high and wide > 0.0 else right - BAND_MM
+    marks = [
+        np.array([(middle[0], low - BAND_MM), (middle[0], below)]),
+        np.array([(middle[0], top - BAND_MM), (middle[0], top + BAND_MM)]),
+        np.array([(left - BAND_MM, middle[1]), (left + BAND_MM, middle[1])]),
+        np.array([(beside, middle[1]), (right + BAND_MM, middle[1])]),
     ]
     rules, letters = [], []
     for axis, (begin, end) in enumerate(((left, right), (low, top))):

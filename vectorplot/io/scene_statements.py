@@ -589,9 +589,18 @@ def pen_target(words: Words, at: int) -> str:
     return "" if words.words[at] == "style" else _target(words, at + 1, words.words[at])[0]
 
 
-def read_explosion(words: Words, at: int) -> tuple[Explosion, int]:
-    """How the words from ``explode`` on move parts apart, and the word behind them."""
+def read_explosion(words: Words, at: int, now: Explosion | None) -> tuple[Explosion, int]:
+    """How the words from ``explode`` on move parts apart, and the word behind them; now: what was said of it before."""
     start, axis = at, words.words[at + 1]
+    moves = () if now is None else now.moves
+    if axis.startswith('"'):
+        name = words.string(at + 1)
+        if now is not None and (not moves or name in dict(moves)):
+            words.fail(at, f"a second 'explode'{f' of {name}' if moves else ''}")
+        step, at = words.numbers(at + 2, 3, "explode: ", "the move")
+        return Explosion(moves=(*moves, (name, (step[0], step[1], step[2])))), at
+    if now is not None:
+        words.fail(at, "a second 'explode'")
     way: str | tuple[float, float, float] = axis
     if words.is_number(at + 1):
         (x, y, z), at = words.numbers(at + 1, 3, "explode: ", "the axis")

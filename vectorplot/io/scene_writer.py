@@ -380,7 +380,9 @@ def write_scene(scene: Scene) -> str:
     blocks.extend(map(_label, scene.labels))
     blocks.extend(_cut(cut) for cut in scene.cuts if cut.items != ())
     if scene.explosion is not None:
-        blocks.append(f"explode {_numbers(scene.explosion.way)} {scene.explosion.factor:.17g}")
+        said = scene.explosion
+        blocks.extend(f"explode {dumps(name)} {_numbers(step)}" for name, step in said.moves)
+        blocks.extend([] if said.moves else [f"explode {_numbers(said.way)} {said.factor:.17g}"])
     if scene.measures is not None and (told := _measures(scene.measures)):
         blocks.append(f"measures {told}")
     if scene.inks is not None:

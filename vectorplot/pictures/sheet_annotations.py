@@ -19,6 +19,7 @@ from vectorplot.drawing.title_block import Plain
 from vectorplot.geometry.algebra import matmul
 from vectorplot.geometry.camera import Camera
 from vectorplot.geometry.mesh import Mesh
+from vectorplot.geometry.polylines import segments
 from vectorplot.geometry.vectors import dot, norm, normalize
 from vectorplot.scene.annotations import (
     CROSS,
@@ -292,6 +293,41 @@ def parts_of(scene: Scene) -> tuple[AssemblyPart, ...]:
     )
 
 
+def part_scenes(scene: Scene) -> tuple[Scene, ...]:
+    """A scene of each part of an assembly, for a sheet of its own.
+
+    Parameters
+    ----------
+    scene : Scene
+        Its items are the parts: those of one group are one part, and those of one shape whose names differ by a number
+        at their end are the same part.
+
+    Returns
+    -------
+    tuple of Scene
+        In the order of the list of parts; each has the name of its part as its title, and stands where the first of
+        these parts stands.
+
+    Notes
+    -----
+    Curves are no parts, if there are bodies.
+
+    Examples
+    --------
+    >>> import vectorplot as vp
+    >>> from vectorplot.geometry import box
+    >>> legs = tuple(vp.Item(f"leg {k}", box((1, 1, 9)).moved(k, 0, 0)) for k in (1, 5))
+    >>> table = vp.Scene((*legs, vp.Item("top", box((9, 4, 1)).moved(0, 0, 9))))
+    >>> [(one.title, len(one)) for one in vp.part_scenes(table)]
+    [('leg', 1), ('top', 1)]
+    """
+    items = {item.name: item for item in scene.items}
+    return tuple(
+        replace(scene, items=tuple(items[name] for name in part.pieces[0]), title=part.name, labels=(), explosion=None)
+        for part in parts_of(scene)
+    )
+
+
 NUMBERED = re.compile(r"[ _.-]*\d+$")
 """A number at the end of a name."""
 
@@ -299,7 +335,9 @@ NUMBERED = re.compile(r"[ _.-]*\d+$")
 def _shape_text(item: Item) -> str:
     """What two items have in common that may be the same part."""
     if isinstance(item.shape, Mesh):
-        return f"{len(item.shape.vertices)} {item.shape.face_count}"
+        mesh = item.shape
+        sides = mesh.vertices[mesh.corners] - mesh.vertices[mesh.corners[mesh.next_corner]]
+        return f"{len(mesh.vertices)} {mesh.face_count} {float(norm(sides).sum()):.5g}"
     return type(item.shape).__name__
 
 
@@ -346,26 +384,39 @@ THIN = Pen(0.25)
 
 
 def _anchor(part: AssemblyPart, drawing: Drawing, middle: Floats) -> Floats | None:
-    """(2,) where a view shows an edge of a part: amid the longest visible one, of those that are as long farthest from
-    the middle of the view."""
-    own = {number for number, name in enumerate(drawing.items) if name in part.items}
-    best: tuple[float, float] | None = None
-    found: Floats | None = None
+    """(2,) where a view shows an edge of a part: amid a visible one that is farthest at the left or the right of the
+    middle of the view, of those that are not much shorter than the longest."""
+    own = [number for number, name in enumerate(drawing.items) if name in part.items]
+    longs, places = [np.zeros(0)], [np.zeros((0, 2))]
     for paths in (paths for layer in drawing.layers if layer.name in BODY_LAYERS for paths in layer.strokes):
-        some = np.flatnonzero(np.isin(paths.item, list(own)) & (paths.hidden_by == 0) & (np.diff(paths.offsets) > 1))
+        some = np.flatnonzero(np.isin(paths.item, own) & (paths.hidden_by == 0) & (np.diff(paths.offsets) > 1))
         if not len(some):
             continue
-        for k in some.tolist():
-            points = paths.points[paths.offsets[k] : paths.offsets[k + 1]]
-            steps = np.hypot(*np.diff(points, axis=0).T)
-            long = np.concatenate([[0.0], np.cumsum(steps)])
-            at = 0.5 * long[-1]
-            place = np.array([np.interp(at, long, column) for column in points.T])
-            worth = (round(float(long[-1]), 3), float(np.hypot(*(place - middle))))
-            if best is None or worth > best:
-                best, found = worth, place
-    return found
+        ends = segments(paths)
+        steps = np.hypot(*np.diff(paths.points[ends], axis=1)[:, 0].T)
+        whose = np.searchsorted(paths.offsets, ends[:, 0], side="right") - 1
+        long = np.bincount(whose, steps, minlength=len(paths))
+        passed = np.cumsum(steps) - np.concatenate([[0.0], np.cumsum(long)])[whose]
+        # The segment that has the middle of its stroke.
+        amid = (passed >= 0.5 * long[whose]) & (passed - steps < 0.5 * long[whose])
+        first = np.full(len(paths), -1)
+        first[whose[amid]] = np.flatnonzero(amid)
+        some = some[first[some] >= 0]
+        at = first[some]
+        part_of = (0.5 * long[some] - (passed[at] - steps[at])) / steps[at]
+        begin, end = paths.points[ends[at]].transpose(1, 0, 2)
+        longs.append(long[some])
+        places.append(begin + part_of[:, None] * (end - begin))
+    every, found = np.concatenate(longs), np.concatenate(places)
+    if not len(every):
+        return None
+    good = every >= LONG_ENOUGH * every.max()
+    best = int(np.argmax(np.where(good, np.abs(found[:, 0] - middle[0]), -1.0)))
+    return np.asarray(found[best])
 
+
+LONG_ENOUGH = 0.4
+"""An edge has a balloon if it is so long, as a part of the longest."""
 
 BODY_LAYERS = ("contour", "boundary", "crease", "intersection", "cut")
 """The layers of edges of bodies."""

@@ -644,7 +644,7 @@ def technical_sheet(
             moved = Sheet(paper).place(drawn, *corner).drawing()
             around += balloon_layers(listed, moved, view.reach_mm(factor) - [BALLOONS_ROOM_MM, 0.0], (x, y), plain)
     around += _around(part, placed, factor, written, done.drawing(), plain)
-    borders = (*(frame_layers(paper, plain) if frame else ()), *layers)
+    borders = (*(frame_layers(paper, plain, (taken[0], taken[1])) if frame else ()), *layers)
     return done.place(Drawing(paper.width_mm, paper.height_mm, (*around, *borders), ()), 0.0, 0.0).drawing()
 
 

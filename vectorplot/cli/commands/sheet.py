@@ -14,6 +14,7 @@ from vectorplot.cli.options import (
     CUT_SPACING,
     DRAWING_FORMATS,
     EXPLAIN,
+    EXPLODE,
     INPUT,
     LANDSCAPE,
     OUT,
@@ -24,9 +25,10 @@ from vectorplot.cli.options import (
     crease_angle_option,
     drawing_format,
     format_option,
+    moved_apart,
     with_options,
 )
-from vectorplot.cli.picture import Source, make_pages, make_picture, warn_of_nothing
+from vectorplot.cli.picture import ReadSource, Source, make_pages, make_picture, reported_warnings, warn_of_nothing
 
 if TYPE_CHECKING:
     from vectorplot.cli.picture import Report
@@ -39,6 +41,10 @@ def _name_of_mesh(path: str) -> str:
     from vectorplot.io.read_mesh import MESH_SUFFIXES
 
     return Path(path).stem if Path(path).suffix.lower() in MESH_SUFFIXES else ""
+
+
+_OF_ASSEMBLY = {"title": None, "section": (), "detail": (), "breakout": (), "balloons": False, "parts_list": False}
+"""What the sheets of parts have not, as that of the whole has."""
 
 
 def _field(text: str) -> tuple[str, str]:
@@ -140,6 +146,8 @@ def _field(text: str) -> tuple[str, str]:
     click.option("--block-template", metavar="FILE", help="A TOML file with the rows and cells of the title block."),
     click.option("--balloons", is_flag=True, help="Numbers of parts around the iso view, or the first one."),
     click.option("--parts-list", is_flag=True, help="A list of the parts on the title block."),
+    click.option("--each-part", is_flag=True, help="Then a sheet of each part, all as the pages of one PDF."),
+    EXPLODE,
     TEXT,
     crease_angle_option("Sharper edges are creases."),
     EXPLAIN,
@@ -150,9 +158,10 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     write OUT (svg, ps, eps, pdf, png, tex, dxf, json).
 
     A named page lies on the side that gives the views more room. Several INPUTs become a sheet each, the pages of one
-    PDF.
+    PDF; so do the parts of one with --each-part.
     """
     from vectorplot.pictures.nothing_seen import why_nothing
+    from vectorplot.pictures.sheet_annotations import part_scenes
     from vectorplot.pictures.technical_sheet import technical_sheet
     from vectorplot.scene.page import Page
 
@@ -162,12 +171,24 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     asked, upright = told.pop("sheet"), told["up"] is not None
     told |= {"cut_spacing_mm": told.pop("cut_spacing"), "title": told["title"] or None, "fields": dict(told["fields"])}
 
+    apart, each_part = told.pop("explode"), told.pop("each_part")
+    sources = [Source((one,), upright=upright) for one in scene_file]
+    if each_part:
+        if len(sources) > 1:
+            raise click.UsageError("--each-part is of one INPUT")
+        with reported_warnings(quiet=quiet):
+            whole = sources[0].read()
+        sources = [ReadSource(scene_file, scene=one) for one in (whole, *part_scenes(whole))]
+
     def page(number: int, scene: Scene, report: Report) -> Drawing:
-        usual = "1" if len(scene_file) == 1 else f"{number + 1}/{len(scene_file)}"
+        usual = "1" if len(sources) == 1 else f"{number + 1}/{len(sources)}"
         said = usual if asked is None else asked
-        named = replace(scene, title=scene.title or _name_of_mesh(scene_file[number]))
-        made = technical_sheet(named, **told, sheet=said, progress=report.progress, explain=report.explain)
-        warn_of_nothing(Source((scene_file[number],)), made, lambda: why_nothing(scene, None, Page()))
+        of_part = each_part and number > 0
+        options = {**told, **_OF_ASSEMBLY} if of_part else told
+        shown = scene if of_part else moved_apart(scene, apart)
+        named = replace(shown, title=scene.title or _name_of_mesh(sources[number].paths[0]))
+        made = technical_sheet(named, **options, sheet=said, progress=report.progress, explain=report.explain)
+        warn_of_nothing(sources[number], made, lambda: why_nothing(scene, None, Page()))
         return made
 
     written = drawing_format(out, format_)
@@ -175,15 +196,16 @@ def sheet(scene_file: tuple[str, ...], out: str, format_: str | None, quiet: boo
     if overlaid:
         told["text"] = "real"
         check_overlaid(out, written)
-    if len(scene_file) > 1:
+    if len(sources) > 1:
         if written != "pdf":
-            raise click.UsageError("several INPUTs become the pages of a PDF: OUT must end in .pdf")
+            several = "the sheets of parts" if each_part else "several INPUTs"
+            raise click.UsageError(f"{several} become the pages of a PDF: OUT must end in .pdf")
         if overlaid:
             raise click.UsageError("--text latex is of one sheet")
-        make_pages([Source((one,), upright=upright) for one in scene_file], out, page, quiet=quiet, explain=explain)
+        make_pages(sources, out, page, quiet=quiet, explain=explain)
         return
     make_picture(
-        Source(scene_file, upright=upright),
+        sources[0],
         out,
         written,
         partial(page, 0),
