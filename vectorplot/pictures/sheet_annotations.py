@@ -384,35 +384,21 @@ THIN = Pen(0.25)
 
 
 def _anchor(part: AssemblyPart, drawing: Drawing, middle: Floats) -> Floats | None:
-    """(2,) where a view shows an edge of a part: amid a visible one that is farthest at the left or the right of the
-    middle of the view, of those that are not much shorter than the longest."""
+    """(2,) where a view shows an edge of a part: amid a visible piece of it that is farthest at the left or the right
+    of the middle of the view, of those that are not much shorter than the longest."""
     own = [number for number, name in enumerate(drawing.items) if name in part.items]
-    longs, places = [np.zeros(0)], [np.zeros((0, 2))]
+    found = [np.zeros((0, 2, 2))]
     for paths in (paths for layer in drawing.layers if layer.name in BODY_LAYERS for paths in layer.strokes):
-        some = np.flatnonzero(np.isin(paths.item, own) & (paths.hidden_by == 0) & (np.diff(paths.offsets) > 1))
-        if not len(some):
-            continue
         ends = segments(paths)
-        steps = np.hypot(*np.diff(paths.points[ends], axis=1)[:, 0].T)
         whose = np.searchsorted(paths.offsets, ends[:, 0], side="right") - 1
-        long = np.bincount(whose, steps, minlength=len(paths))
-        passed = np.cumsum(steps) - np.concatenate([[0.0], np.cumsum(long)])[whose]
-        # The segment that has the middle of its stroke.
-        amid = (passed >= 0.5 * long[whose]) & (passed - steps < 0.5 * long[whose])
-        first = np.full(len(paths), -1)
-        first[whose[amid]] = np.flatnonzero(amid)
-        some = some[first[some] >= 0]
-        at = first[some]
-        part_of = (0.5 * long[some] - (passed[at] - steps[at])) / steps[at]
-        begin, end = paths.points[ends[at]].transpose(1, 0, 2)
-        longs.append(long[some])
-        places.append(begin + part_of[:, None] * (end - begin))
-    every, found = np.concatenate(longs), np.concatenate(places)
-    if not len(every):
+        found.append(paths.points[ends[np.isin(paths.item[whose], own) & (paths.hidden_by[whose] == 0)]])
+    lines = np.concatenate(found)
+    if not len(lines):
         return None
-    good = every >= LONG_ENOUGH * every.max()
-    best = int(np.argmax(np.where(good, np.abs(found[:, 0] - middle[0]), -1.0)))
-    return np.asarray(found[best])
+    long = np.hypot(*(lines[:, 1] - lines[:, 0]).T)
+    places = lines.mean(axis=1)
+    far = np.where(long >= LONG_ENOUGH * long.max(), np.abs(places[:, 0] - middle[0]), -1.0)
+    return np.asarray(places[int(np.argmax(far))])
 
 
 LONG_ENOUGH = 0.4
