@@ -177,6 +177,41 @@ class CutOptions:
         return replace(scene, cuts=scene.cuts + cuts) if cuts else scene
 
 
+# Options of dimensions: how measures are written.
+
+MEASURE_OPTIONS = (
+    click.option(
+        "--decimals",
+        type=click.IntRange(0, 9),
+        metavar="N",
+        help="Of the measures of dimensions.  [default: as many as six digits need]",
+    ),
+    click.option("--zeros/--no-zeros", default=None, help="Zeros at the end of their decimals, as 12.50."),
+    click.option("--comma/--point", default=None, help="What stands before their decimals.  [default: a point]"),
+)
+
+
+@dataclass(frozen=True)
+class MeasureOptions:
+    """How the user wants measures written; None where nothing was said."""
+
+    decimals: int | None = None
+    zeros: bool | None = None
+    comma: bool | None = None
+
+    @classmethod
+    def of(cls, options: Mapping[str, Any]) -> MeasureOptions:
+        """What a command with MEASURE_OPTIONS was told."""
+        return cls(**{field.name: options[field.name] for field in fields(cls)})
+
+    def of_scene(self, scene: Scene) -> Scene:
+        """The scene with measures like that, as far as anything was said."""
+        from vectorplot.scene.labels import Measures
+
+        said = {name: value for name, value in vars(self).items() if value is not None}
+        return replace(scene, measures=replace(scene.measures or Measures(), **said)) if said else scene
+
+
 # Options for all that is shown: plane sections, level lines, isophotes, colours, materials.
 
 
@@ -733,7 +768,7 @@ def shadows_option(verb: str, meaning: str) -> Option:
 @dataclass(frozen=True)
 class Told:
     """What the user told a verb: camera, page (None: pictures of pixels have none), lines on all that is shown, cuts
-    through it, and all else.
+    through it, how measures are written, and all else.
 
     rest: values by the keywords of the function of the package that has the verb's name.
     """
@@ -742,18 +777,20 @@ class Told:
     page: PageOptions | None
     added: LineOptions
     cuts: CutOptions
+    measures: MeasureOptions
     rest: Mapping[str, Any]
 
     @classmethod
     def of(cls, options: Mapping[str, Any]) -> Told:
         """What the options of a command say. Bad usage for options that contradict each other."""
-        groups = (CameraOptions, PageOptions, LineOptions, CutOptions, WorkerOptions)
+        groups = (CameraOptions, PageOptions, LineOptions, CutOptions, MeasureOptions, WorkerOptions)
         taken = {field.name for group in groups for field in fields(group)}
         return cls(
             CameraOptions.of(options),
             PageOptions.of(options) if "page" in options else None,
             LineOptions.of(options),
             CutOptions.of(options),
+            MeasureOptions.of(options) if "decimals" in options else MeasureOptions(),
             {name: value for name, value in options.items() if name not in taken},
         )
 
@@ -766,7 +803,7 @@ class Told:
     def with_lines(self, scene: Scene) -> tuple[Scene, dict[str, Any]]:
         """A scene with the lines and the cuts that the user asked for, and the keywords of the verb's function, which
         draws them."""
-        cut = self.cuts.of_scene(self.added.with_materials(scene))
+        cut = self.measures.of_scene(self.cuts.of_scene(self.added.with_materials(scene)))
         keywords = self.keywords(cut)
         lined, kinds = self.added.in_scene(cut)
         if keywords.get("lines") is not None:
@@ -902,6 +939,7 @@ def picture_verb(
             *options,
             *LINE_OPTIONS,
             *CUT_OPTIONS,
+            *MEASURE_OPTIONS,
             *PROMISES,
             BUDGET,
             JOBS,

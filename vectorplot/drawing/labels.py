@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import takewhile
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
@@ -389,7 +389,24 @@ def _stroked_along(text: str, *where: Any, **how: Any) -> Lettering:
     return lettered_along(without_formulas_in_strokes(text), *where, **how)
 
 
-LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset, typeset_along)}
+def _typeset_along(
+    text: str, path: Floats, *, size_mm: float, level: Literal["base", "middle", "top"], at: float, off_mm: float
+) -> Lettering:
+    """Letters of a font along a course: one text where it is straight, as readers find it."""
+    way = path[-1] - path[0]
+    long = float(np.hypot(*way))
+    away = path - path[0]
+    if not long > 0.0 or np.abs(away[:, 0] * way[1] - away[:, 1] * way[0]).max() > COINCIDENT_MM * long:
+        return typeset_along(text, path, size_mm=size_mm, level=level, at=at, off_mm=off_mm)
+    x, y = (way / long).tolist()
+    if reads_backwards(x, y):
+        x, y = -x, -y
+    middle = path[0] + at * way + off_mm * np.array([-y, x])
+    turn = float(np.degrees(arctan2(y, x)))
+    return typeset(text, tuple(middle.tolist()), size_mm=size_mm, align="centre", level=level, rotation_deg=turn)
+
+
+LETTERS = {"strokes": Letters(_stroked, _stroked_along), "real": Letters(typeset, _typeset_along)}
 """What letters are: strokes of a pen, or those of the fonts of whatever reads the file."""
 
 

@@ -421,7 +421,7 @@ def technical_sheet(
     page: Page | str | None = None,
     section: str | Iterable[str] = (),
     cut_spacing_mm: float | None = None,
-    detail: str | Iterable[str] = (),
+    detail_view: str | Iterable[str] = (),
     breakout: str | Iterable[str] = (),
     dimensions: bool = False,
     centre_lines: bool = False,
@@ -480,7 +480,7 @@ def technical_sheet(
         at these angles, of which both are shown in full.
     cut_spacing_mm : float, optional
         From stroke to stroke of these hatches, 0.1 or more; where None about 2.4, on narrow faces half as much.
-    detail : str or iterable of str
+    detail_view : str or iterable of str
         Circles in views, such as "front:20,0,8,6": a view or a section, a point and a radius. What is inside is shown
         apart, larger, at the next standard scale or at one of its own, as in "A:20,0,8,6,5:1".
     breakout : str or iterable of str
@@ -575,7 +575,7 @@ def technical_sheet(
     overall = overall_dimensions(names, solid.bounds) if dimensions else ()
     sections = sections_of(section, names, solid.bounds)
     circled = (*names, *(one.letter for one in sections))
-    texts = [detail] if isinstance(detail, str) else list(detail)
+    texts = [detail_view] if isinstance(detail_view, str) else list(detail_view)
     letters = LETTERS[len(sections) :]
     if len(texts) > len(letters):
         raise InputError(f"{len(sections)} sections and {len(texts)} details: expected at most {len(LETTERS)}")

@@ -325,9 +325,9 @@ class Measures:
 
     def __post_init__(self) -> None:
         if self.decimals is not None and not 0 <= self.decimals <= MOST_DECIMALS:
-            raise InputError(f"measures of {self.decimals} decimals: expected 0 to {MOST_DECIMALS}")
+            raise InputError(f"measures: {self.decimals} decimals: expected 0 to {MOST_DECIMALS}")
         if not 0.0 < self.per_unit < math.inf:
-            raise InputError(f"measures in {self.per_unit:g} of a unit: expected a number that is finite and positive")
+            raise InputError(f"measures: {self.per_unit:g} to a unit: expected a number that is finite and positive")
 
     def length(self, world: float) -> str:
         """The text of a length in the world.

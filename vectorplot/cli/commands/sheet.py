@@ -17,6 +17,7 @@ from vectorplot.cli.options import (
     EXPLODE,
     INPUT,
     LANDSCAPE,
+    MEASURE_OPTIONS,
     OUT,
     QUIET,
     TEXT,
@@ -43,7 +44,7 @@ def _name_of_mesh(path: str) -> str:
     return Path(path).stem if Path(path).suffix.lower() in MESH_SUFFIXES else ""
 
 
-_OF_ASSEMBLY = {"title": None, "section": (), "detail": (), "breakout": (), "balloons": False, "parts_list": False}
+_OF_ASSEMBLY = {"title": None, "section": (), "detail_view": (), "breakout": (), "balloons": False, "parts_list": False}
 """What the sheets of parts have not, as that of the whole has."""
 
 
@@ -85,13 +86,7 @@ def _field(text: str) -> tuple[str, str]:
     click.option(
         "--measured-in", type=click.Choice(["mm", "cm", "m", "in"]), help="The unit of all measures.  [default: mm]"
     ),
-    click.option(
-        "--decimals", type=click.IntRange(0, 9), metavar="N", help="Of measures.  [default: as many as six digits need]"
-    ),
-    click.option(
-        "--zeros/--no-zeros", default=None, help="Zeros at the end of decimals, as 12.50.  [default: in ASME inches]"
-    ),
-    click.option("--comma/--point", default=None, help="What stands before decimals.  [default: a point]"),
+    *MEASURE_OPTIONS,
     click.option(
         "--projection",
         type=click.Choice(["first", "third"]),
@@ -110,7 +105,7 @@ def _field(text: str) -> tuple[str, str]:
     ),
     CUT_SPACING,
     click.option(
-        "--detail",
+        "--detail-view",
         multiple=True,
         metavar="VIEW:X,Y,Z,R[,A:B]",
         help="What is in a circle of a view, larger and apart; repeat it for more.",
