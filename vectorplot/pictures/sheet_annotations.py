@@ -270,11 +270,6 @@ class AssemblyPart:
     name: str
     pieces: tuple[tuple[str, ...], ...]
 
-    @property
-    def items(self) -> frozenset[str]:
-        """The names of all its items."""
-        return frozenset(name for piece in self.pieces for name in piece)
-
 
 def parts_of(scene: Scene) -> tuple[AssemblyPart, ...]:
     """The parts of a scene, in its order: items of one group are one part; those of one shape whose names differ by a
@@ -384,15 +379,10 @@ THIN = Pen(0.25)
 
 
 def _anchor(part: AssemblyPart, drawing: Drawing, middle: Floats) -> Floats | None:
-    """(2,) where a view shows an edge of a part: amid a visible piece of it that is farthest at the left or the right
-    of the middle of the view, of those that are not much shorter than the longest."""
-    own = [number for number, name in enumerate(drawing.items) if name in part.items]
-    found = [np.zeros((0, 2, 2))]
-    for paths in (paths for layer in drawing.layers if layer.name in BODY_LAYERS for paths in layer.strokes):
-        ends = segments(paths)
-        whose = np.searchsorted(paths.offsets, ends[:, 0], side="right") - 1
-        found.append(paths.points[ends[np.isin(paths.item[whose], own) & (paths.hidden_by[whose] == 0)]])
-    lines = np.concatenate(found)
+    """(2,) where a view shows an edge of a part: of the piece of which most is seen, amid a line that is farthest at
+    the left or the right of the middle of the view, of those that are not much shorter than the longest."""
+    pieces = [_edges(piece, drawing) for piece in part.pieces]
+    lines = max(pieces, key=lambda some: float(np.hypot(*(some[:, 1] - some[:, 0]).T).sum()))
     if not len(lines):
         return None
     long = np.hypot(*(lines[:, 1] - lines[:, 0]).T)
@@ -401,7 +391,18 @@ def _anchor(part: AssemblyPart, drawing: Drawing, middle: Floats) -> Floats | No
     return np.asarray(places[int(np.argmax(far))])
 
 
-LONG_ENOUGH = 0.4
+def _edges(names: Sequence[str], drawing: Drawing) -> Floats:
+    """(k,2,2) the visible edges of some items in a drawing."""
+    own = [number for number, name in enumerate(drawing.items) if name in names]
+    found = [np.zeros((0, 2, 2))]
+    for paths in (paths for layer in drawing.layers if layer.name in BODY_LAYERS for paths in layer.strokes):
+        ends = segments(paths)
+        whose = np.searchsorted(paths.offsets, ends[:, 0], side="right") - 1
+        found.append(paths.points[ends[np.isin(paths.item[whose], own) & (paths.hidden_by[whose] == 0)]])
+    return np.concatenate(found)
+
+
+LONG_ENOUGH = 0.7
 """An edge has a balloon if it is so long, as a part of the longest."""
 
 BODY_LAYERS = ("contour", "boundary", "crease", "intersection", "cut")

@@ -296,6 +296,11 @@ class SheetSection:
         """The axis about which the part is turned in an aligned section."""
         return 3 - self.axis - self.across
 
+    @property
+    def is_half(self) -> bool:
+        """Whether some of it is seen from outside."""
+        return any(zone.offset is None for zone in self.zones)
+
     def condition(self, zone: Zone) -> str:
         """The plane of the cut in words, whose side of the eye is taken away."""
         return f"{'xyz'[self.axis]} = {zone.offset!r}"

@@ -188,7 +188,8 @@ class _Part:
         for section in self.sections:
             camera = camera_of(section.like, self.scene)
             world = self.reach(camera, [section.shown(self.scene, zone) for zone in section.zones])
-            found.append(self._view(section.letter, camera, section.like, world, notes[section.letter], above))
+            beyond = [np.array([(0.0, 0.0), (0.0, ROOM_MM + SEAM_MM * section.is_half)])]
+            found.append(self._view(section.letter, camera, section.like, world, notes[section.letter], beyond))
         for one in self.details:
             scale = 0.0 if one.scale is None else one.scale.factor
             world = np.full((2, 2), LARGER * one.radius * (one.scale is None))
@@ -343,7 +344,7 @@ class _Views:
 
     def _seam(self, section: SheetSection, view: SheetView, notes: Sequence[Scene], page: Page) -> list[Drawing]:
         """The centre line between the halves of a half section, unless its view has one there."""
-        if all(zone.offset is not None for zone in section.zones):
+        if not section.is_half:
             return []
         place = self.part.middle.copy()
         place[section.across] = section.zones[0].high
@@ -682,7 +683,8 @@ def _around(
     lines = np.concatenate([np.zeros((0, 2, 2)), *(paths.points[segments(paths)] for paths in strokes)])
     for section in part.sections:
         view, (x, y) = placed[section.letter]
-        found.append(section.name_layer((x, y + factor * float(view.world[1, 1])), written[view.name], plain))
+        top = y + factor * float(view.world[1, 1]) + (SEAM_MM if section.is_half else 0.0)
+        found.append(section.name_layer((x, top), written[view.name], plain))
         name = section.told_in(part.names)
         if name is not None:
             other, place = placed[name]
