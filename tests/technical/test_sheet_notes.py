@@ -20,6 +20,7 @@ def words_of(sheet):
     return [string for one in sheet.layers for real in one.texts for string in real.strings]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("factor", [1.0, 0.5])
 def test_dimension_lines_that_would_be_on_each_other_stand_side_by_side(factor):
     """Three of them at one height: the shortest stays, the others are 8 mm farther each, and those in a chain stay."""
@@ -38,6 +39,7 @@ def test_dimension_lines_that_would_be_on_each_other_stand_side_by_side(factor):
     assert above[0] == pytest.approx(above[1])
 
 
+@pytest.mark.slow
 def test_letters_of_a_narrow_chain_are_on_no_others():
     points = [(x, 0, 10) for x in (0, 2, 4, 11, 13, 20, 40)]
     chain = vp.chain_dimension(points, (0, 0, 9), gap=1)
@@ -49,6 +51,7 @@ def test_letters_of_a_narrow_chain_are_on_no_others():
     assert len(boxes) == 6 and not meet.any()
 
 
+@pytest.mark.slow
 def test_measures_of_a_running_dimension_have_room_for_letters():
     points = [(x, 0, 0) for x in (0, 1, 2, 30)]
     sheet = vp.technical_sheet([BRICK, vp.ordinate_dimension(points, (0, 0, -5))], views="front", scale="1:1")
@@ -56,6 +59,7 @@ def test_measures_of_a_running_dimension_have_room_for_letters():
     assert np.diff(ends).min() == pytest.approx(6.0)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("told", "wanted"),
     [
@@ -73,6 +77,7 @@ def test_all_measures_of_a_sheet_are_in_one_unit(told, wanted):
     assert wanted <= set(words_of(sheet))
 
 
+@pytest.mark.slow
 def test_standards_have_their_projection_page_and_scales():
     iso, asme = (vp.technical_sheet(BRICK.scaled(3.0), views="front,top", standard=one) for one in ("iso", "asme"))
     assert (iso.width_mm, asme.width_mm) == (420.0, pytest.approx(431.8))
@@ -87,6 +92,7 @@ def test_standards_have_their_projection_page_and_scales():
         vp.technical_sheet(BRICK, standard="din")
 
 
+@pytest.mark.slow
 def test_threads_are_thin_lines_along_them_and_three_quarters_of_a_circle():
     text = "B box 40 20 10 threaded_hole from 20 10 10 to 20 10 0 radius 4 thread from 0 5 5 to 9 5 5 radius 2"
     sheet = vp.technical_sheet(parse_scene(text), views="front,top,left", section="y=10", scale="1:1")
@@ -117,6 +123,7 @@ def test_parts_are_counted_by_their_names_and_groups():
     assert [part.name for part in parts_of(other)] == ["leg", "top", "screw", "leg_3"]
 
 
+@pytest.mark.slow
 def test_balloons_have_lines_that_end_on_their_parts_and_cross_nowhere():
     sheet = vp.technical_sheet(assembly(), balloons=True, parts_list=True, text="real")
     words = words_of(sheet)
@@ -137,7 +144,8 @@ def test_free_fields_have_rows_of_their_own_or_stand_where_the_template_says(tmp
     path.write_text(
         "width = 120\nsymbol = 0.25\nsymbol_rows = 1\n[[row]]\nheight = 10\nletters = 4\n"
         'cells = [{name = "Part", text = "{title} of {material}"}]\n'
-        '[[row]]\nheight = 8\ncells = [{name = "M", text = "{scale} {unit}", share = 2}, {name = "D", text = "{who}"}]\n'
+        "[[row]]\nheight = 8\n"
+        'cells = [{name = "M", text = "{scale} {unit}", share = 2}, {name = "D", text = "{who}"}]\n'
     )
     fields = {"Material": "S235", "Finish": "zinc"}
     usual = vp.technical_sheet(BRICK, title="Brick", fields=fields, text="real", views="front")
@@ -166,6 +174,7 @@ def test_templates_that_are_none(text, cause, tmp_path):
         vp.technical_sheet(BRICK, block_template=path)
 
 
+@pytest.mark.slow
 def test_letters_of_sheets_are_real_where_asked_for(tmp_path):
     sheet = vp.technical_sheet(BRICK, views="front", section="y=10", frame=True, title="Brick", text="real")
     assert {"A-A", "A", "Brick", "SCALE", "1"} <= set(words_of(sheet))

@@ -28,6 +28,7 @@ def hatched(sheet):
     return np.column_stack([x[np.append(0, ends + 1)], x[np.append(ends, len(x) - 1)]])
 
 
+@pytest.mark.slow
 def test_an_offset_section_goes_through_both_holes():
     one = vp.technical_sheet(plate(), views="front,top", section="y=6", scale="1:1")
     both = vp.technical_sheet(plate(), views="front,top", section="y=6 | x=20 | y=14", scale="1:1")
@@ -42,6 +43,7 @@ def test_an_offset_section_goes_through_both_holes():
     assert len(strokes_of(both, "cutting ends")) == 4
 
 
+@pytest.mark.slow
 def test_a_half_section_is_hatched_at_the_right_alone_and_has_its_axis():
     sheet = vp.technical_sheet(BRICK, views="front,top", section="half y=10", scale="1:1")
     points = np.concatenate([part for _, part in strokes_of(sheet, "hatch")])
@@ -57,6 +59,7 @@ def test_a_half_section_is_hatched_at_the_right_alone_and_has_its_axis():
     assert len(arrows) == 3
 
 
+@pytest.mark.slow
 def test_an_aligned_section_shows_both_arms_in_full():
     """A bar of 20 to the left of an axis, one of 30 at 60 degrees from it: side by side they are 50 long."""
     left = vp.Item("left", box((20, 4, 6)).moved(-20, -2, 0))
@@ -96,6 +99,7 @@ def test_sections_that_cannot_be(section, cause):
         vp.technical_sheet(BRICK, section=section)
 
 
+@pytest.mark.slow
 def test_a_detail_is_so_much_larger_and_inside_of_its_circle():
     sheet = vp.technical_sheet(BRICK, views="front", detail_view="front:40,0,10,4,5:1", scale="1:1")
     rings = sorted(
@@ -111,12 +115,22 @@ def test_a_detail_is_so_much_larger_and_inside_of_its_circle():
     assert small.mean(axis=0) == pytest.approx(outlines(sheet)[0][1], abs=1e-6)
 
 
+@pytest.mark.slow
 def test_a_detail_without_a_scale_has_the_next_standard_one():
     texts = vp.technical_sheet(BRICK, views="front", detail_view="front:40,0,10,4", scale="1:2", text="real")
     words = {string for one in texts.layers for real in one.texts for string in real.strings}
     assert {"A", "A (1:1)", "1:2"} <= words
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize(("x", "cut"), [(30, True), (10, False)])
+def test_a_detail_of_a_half_section_is_of_the_half_that_it_is_in(x, cut):
+    told = {"views": "front,top", "section": "half y=10", "scale": "1:1"}
+    plain, sheet = (vp.technical_sheet(BRICK, **told, **more) for more in ({}, {"detail_view": f"A:{x},0,10,3"}))
+    assert (len(strokes_of(sheet, "hatch")) > len(strokes_of(plain, "hatch"))) is cut
+
+
+@pytest.mark.slow
 def test_a_local_section_is_hatched_in_its_border_alone():
     """Hidden lines of a bore end where it is cut open."""
     bore = regular_polygon(24, 3, centre=(20, 10, 0))
@@ -135,6 +149,7 @@ def test_a_local_section_is_hatched_in_its_border_alone():
     assert border and all((part >= front[0] - 1e-6).all() and (part <= front[1] + 1e-6).all() for part in border)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("told", "cause"),
     [
@@ -151,6 +166,7 @@ def test_circles_that_cannot_be(told, cause):
         vp.technical_sheet(BRICK, views="front", section="y=10", **told)
 
 
+@pytest.mark.slow
 def test_views_stand_where_the_scale_is_the_largest():
     """A long part with a section: below its view it is twice as large as beside it."""
     bar = vp.Item("bar", box((150, 20, 20)))

@@ -313,6 +313,10 @@ class SheetSection:
         turned = scene.moved(-x, -y, -z).turned("xyz"[self.turn_axis], zone.turn_deg)
         return turned.moved(x, y, z)
 
+    def zone_at(self, point: Sequence[float]) -> Zone:
+        """The zone that shows a point of the part, as it is turned there."""
+        return next(zone for zone in self.zones if point[self.across] <= zone.high)
+
     def told_in(self, names: Sequence[str]) -> str | None:
         """The view that shows where it is, of those that are named."""
         simple = len(self.zones) == 1

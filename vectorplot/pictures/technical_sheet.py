@@ -292,7 +292,9 @@ class _Views:
         scene = replace(self.part.scene, labels=())
         section = next((section for section in self.part.sections if section.letter == one.view), None)
         if section is not None:
-            scene = self._cut(scene, section.condition(section.zones[0]), camera)
+            zone = section.zone_at(one.centre)
+            scene = section.shown(scene, zone)
+            scene = scene if zone.offset is None else larger._cut(scene, section.condition(zone), camera)
         hidden: Hidden = "none" if section is not None or one.view == "iso" else "dashed"
         drawn = larger._drawn(scene, moved, page, notes, hidden, curves="polyline")
         ring = one.ring(np.full(2, radius + 0.5), radius)
