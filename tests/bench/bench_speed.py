@@ -39,7 +39,10 @@ LIMITS = {
 def test_growth_cost_and_memory(series) -> None:
     growth, points, memory, size = LIMITS[series.name]
     found, point = measured(series), point_cost()
-    print(f"\n{series.name}: growth {found.exponent:.2f}, {found.points(point):.1f} points, {found.memory_mb:.0f} MB", end="")
+    print(
+        f"\n{series.name}: growth {found.exponent:.2f}, {found.points(point):.1f} points, {found.memory_mb:.0f} MB",
+        end="",
+    )
     print(f", file {found.file_mb:.2f} MB")
     assert found.exponent < growth
     assert found.points(point) < points
