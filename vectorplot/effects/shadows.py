@@ -331,7 +331,7 @@ def cast_within(
         system = light_system(view, light)
         facing = system.facing(planes, view.tolerance)
         lit = seen[facing[seen] * projected.facing[seen] > 0]
-        bodies = lit_bodies(view, planes, system, facing, items & ~solids, off)
+        bodies = lit_bodies(view, planes, system, facing, items & ~solids, off, lit)
         bright = Receivers.of(view, lit)
         outlined, open_items, open_receivers = _of_outlines(view, system, bodies, bright, number)
         alone = items.copy()
